@@ -1,0 +1,46 @@
+# ALE-SLAM. `make help` lists the targets.
+#
+# Sources are found by their folder; a new file needs no line here (tools/make/rules.mk says how).
+
+BUILD ?= build
+CC = gcc
+CXX = g++
+AR = ar
+PYTHON = /usr/bin/python3
+OPT ?= -O2
+SANITIZE ?=
+WARNINGS = -Wall -Wextra -Wconversion -Wshadow -Werror
+V ?= 0
+
+.DEFAULT_GOAL = all
+include tools/make/rules.mk
+include tools/make/tests.mk
+
+.PHONY: help deps deps-test all run install clean
+help: ## list the targets
+	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | sort | expand -t 14
+
+all: programs lcm-types ## build everything into build/ (programs in build/bin/)
+
+deps: ## install what the build needs (Debian packages); silent when nothing is missing
+	@tools/make/deps.sh tools/make/packages-build.txt
+
+deps-test: deps
+	@tools/make/deps.sh tools/make/packages-test.txt
+
+run: deps ## the whole chain: simulator, firmware, console; LOG=path plays a recording, SPEED=x faster
+	@$(MAKE) --no-print-directory -s programs
+	@$(PYTHON) tools/make/run.py --build $(BUILD) $(if $(LOG),--log $(LOG)) $(if $(SPEED),--speed $(SPEED))
+
+PREFIX ?= /usr/local
+install: all ## install programs, library, header and types under $(DESTDIR)$(PREFIX)
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib $(DESTDIR)$(PREFIX)/share/ale-slam $(DESTDIR)$(PREFIX)/share/java
+	install -m 755 $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin
+	install -m 644 $(BUILD)/libale.a $(DESTDIR)$(PREFIX)/lib
+	for h in $(wildcard lib/base/*.h lib/extract/extract.h lib/track/pipeline.h lib/track/odometry_sample.h); do \
+	    install -D -m 644 $$h $(DESTDIR)$(PREFIX)/include/ale/$${h#lib/} || exit 1; done
+	install -m 644 $(wildcard lib/messages/*.lcm) $(DESTDIR)$(PREFIX)/share/ale-slam
+	install -m 644 $(BUILD)/ale-lcmtypes.jar $(DESTDIR)$(PREFIX)/share/java
+
+clean: ## remove build/
+	rm -rf $(BUILD)

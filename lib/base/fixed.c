@@ -1,0 +1,113 @@
+#include "base/fixed.h"
+
+#include <stdbool.h>
+
+typedef struct {
+    uint64_t high;
+    uint64_t low;
+} wide_t;
+
+static uint64_t magnitude(int64_t v)
+{
+    return v < 0 ? (uint64_t)0 - (uint64_t)v : (uint64_t)v;
+}
+
+static int64_t signed_saturated(uint64_t magnitude_of, bool negative)
+{
+    if (magnitude_of > (uint64_t)INT64_MAX) {
+        return negative ? INT64_MIN : INT64_MAX;
+    }
+    return negative ? -(int64_t)magnitude_of : (int64_t)magnitude_of;
+}
+
+static wide_t wide_multiply(uint64_t a, uint64_t b)
+{
+    const uint64_t a_low = a & UINT32_MAX;
+    const uint64_t a_high = a >> 32;
+    const uint64_t b_low = b & UINT32_MAX;
+    const uint64_t b_high = b >> 32;
+    const uint64_t low = a_low * b_low;
+    const uint64_t mid = a_high * b_low + (low >> 32);
+    const uint64_t mid2 = a_low * b_high + (mid & UINT32_MAX);
+    const wide_t product = {a_high * b_high + (mid >> 32) + (mid2 >> 32), (mid2 << 32) | (low & UINT32_MAX)};
+    return product;
+}
+
+static wide_t wide_add(wide_t a, uint64_t high, uint64_t low)
+{
+    const uint64_t sum_low = a.low + low;
+    const wide_t sum = {a.high + high + (sum_low < low ? 1u : 0u), sum_low};
+    return sum;
+}
+
+unsigned ale_bit_length(uint64_t v)
+{
+    unsigned length = 0;
+    for (unsigned step = 32; step > 0; step /= 2) {
+        if (v >> step) {
+            v >>= step;
+            length += step;
+        }
+    }
+    return length + (unsigned)v;
+}
+
+uint32_t ale_isqrt(uint64_t v)
+{
+    uint64_t root = 0;
+    uint64_t bit = (uint64_t)1 << 62;
+    while (bit > v) {
+        bit >>= 2;
+    }
+    while (bit != 0) {
+        if (v >= root + bit) {
+            v -= root + bit;
+            root = (root >> 1) + bit;
+        } else {
+            root >>= 1;
+        }
+        bit >>= 2;
+    }
+    return (uint32_t)root;
+}
+
+int64_t ale_mul_shift(int64_t a, int64_t b, unsigned shift)
+{
+    const bool negative = (a < 0) != (b < 0);
+    wide_t p = wide_multiply(magnitude(a), magnitude(b));
+    if (shift == 0) {
+        return signed_saturated(p.high != 0 ? UINT64_MAX : p.low, negative);
+    }
+    const unsigned half_bit = shift - 1;
+    p = half_bit < 64 ? wide_add(p, 0, (uint64_t)1 << half_bit)
+                      : wide_add(p, (uint64_t)1 << (half_bit - 64), 0);
+    if (shift >= 64) {
+        return signed_saturated(p.high >> (shift - 64), negative);
+    }
+    if (p.high >> shift) {
+        return signed_saturated(UINT64_MAX, negative);
+    }
+    return signed_saturated((p.high << (64 - shift)) | (p.low >> shift), negative);
+}
+
+int64_t ale_mul_div(int64_t a, int64_t b, int64_t c)
+{
+    const uint64_t divisor = magnitude(c);
+    const bool negative = ((a < 0) != (b < 0)) != (c < 0);
+    const wide_t p = wide_add(wide_multiply(magnitude(a), magnitude(b)), 0, divisor / 2);
+    if (p.high >= divisor) {
+        return signed_saturated(UINT64_MAX, negative);
+    }
+    uint64_t remainder = p.high;
+    uint64_t quotient = 0;
+    for (int bit = 63; bit >= 0; bit--) {
+        const bool carry = (remainder >> 63) != 0;
+        remainder = (remainder << 1) | ((p.low >> bit) & 1u);
+        quotient <<= 1;
+        if (carry || remainder >= divisor) {
+            remainder -= divisor;
+            quotient |= 1u;
+        }
+    }
+    return signed_saturated(quotient, negative);
+}

@@ -1,0 +1,62 @@
+/* Integer arithmetic of the core: rounding, roots, and one portable wide multiply.
+ *
+ * All rounding in the project is symmetric (half away from zero) and happens here, so that a mirrored
+ * scan gives the mirrored result and every machine gives the same bytes. No function has a loop whose
+ * length depends on data beyond the width of its type. Undefined inputs are named; nothing traps.
+ * Thread-safe: pure functions. Twin: tests/reference uses double; bounds are in tests/lib/base. */
+#ifndef ALE_BASE_FIXED_H
+#define ALE_BASE_FIXED_H
+
+#include <stdint.h>
+
+/* v / 2^shift, rounded half away from zero. shift 0..62; |v| + 2^(shift-1) must fit int64. */
+static inline int64_t ale_round_shift(int64_t v, unsigned shift)
+{
+    if (shift == 0) {
+        return v;
+    }
+    const int64_t half = (int64_t)1 << (shift - 1);
+    return v >= 0 ? (v + half) >> shift : -((-v + half) >> shift);
+}
+
+/* num / den, rounded half away from zero. den > 0; |num| + den/2 must fit int64. */
+static inline int64_t ale_round_div(int64_t num, int64_t den)
+{
+    return num >= 0 ? (num + den / 2) / den : -((-num + den / 2) / den);
+}
+
+static inline int64_t ale_abs64(int64_t v)
+{
+    return v < 0 ? -v : v;
+}
+
+static inline int64_t ale_min64(int64_t a, int64_t b)
+{
+    return a < b ? a : b;
+}
+
+static inline int64_t ale_max64(int64_t a, int64_t b)
+{
+    return a > b ? a : b;
+}
+
+static inline int64_t ale_clamp64(int64_t v, int64_t low, int64_t high)
+{
+    return v < low ? low : (v > high ? high : v);
+}
+
+/* Number of the highest set bit plus one; 0 for 0. Constant time. */
+unsigned ale_bit_length(uint64_t v);
+
+/* floor(sqrt(v)); 32 steps at most. */
+uint32_t ale_isqrt(uint64_t v);
+
+/* a * b / 2^shift with a 128-bit product, rounded half away from zero and saturated to int64.
+ * shift 0..126. Made of 32-bit limbs: __int128 does not exist on 32-bit targets. */
+int64_t ale_mul_shift(int64_t a, int64_t b, unsigned shift);
+
+/* a * b / c with a 128-bit product, rounded half away from zero, saturated to int64. c != 0.
+ * 128 shift-and-subtract steps at most: for set-up and per-feature work, not for per-beam work. */
+int64_t ale_mul_div(int64_t a, int64_t b, int64_t c);
+
+#endif

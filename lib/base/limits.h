@@ -1,0 +1,20 @@
+/* Capacities of the core: every loop of the estimate task is bounded by one of these.
+ * What does not fit is counted and reported by the stage that met it. */
+#ifndef ALE_BASE_LIMITS_H
+#define ALE_BASE_LIMITS_H
+
+/* Largest scan that is accepted: a 270 degree scanner at 0.25 degrees a beam. The URG-04LX has 682. */
+#define ALE_MAX_BEAMS 1081
+
+/* Lines, curves and corners of one scan. A zigzag of eight-beam walls over 1081 beams has 135 lines. */
+#define ALE_MAX_LINES 136
+#define ALE_MAX_CURVES 32
+#define ALE_MAX_CORNERS ALE_MAX_LINES
+
+/* Sectors of the scan that are never used (the robot's own body). */
+#define ALE_MAX_BLIND_SECTORS 8
+
+/* Farthest range that the number formats are proved for (see geometry: Q4 millimetres in 64-bit moments). */
+#define ALE_MAX_RANGE_UM 80000000
+
+#endif

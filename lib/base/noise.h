@@ -1,0 +1,42 @@
+/* Sensor noise model, paper section II, (1) to (7), with what the real URG-04LX adds to it.
+ *
+ * A range d at bearing phi has an own error of each beam, independent from beam to beam,
+ *     s_own^2 = own_um^2 + (own_ppm * d)^2,
+ * an error that neighbouring beams share (most of the data sheet's 1 %; the paper names bias in section II
+ * and then models none), correlated over about shared_beams beams,
+ *     s_shared^2 = shared_um^2 + (shared_ppm * d)^2,
+ * and a bias from surface to surface (colour, gloss), surface_um. The bearing errs by bearing_nrad. */
+#ifndef ALE_BASE_NOISE_H
+#define ALE_BASE_NOISE_H
+
+#include <stdint.h>
+
+typedef struct {
+    int32_t own_um;
+    int32_t own_ppm;
+    int32_t shared_um;
+    int32_t shared_ppm;
+    int32_t shared_beams;
+    int32_t surface_um;
+    int32_t bearing_nrad;
+} ale_noise_t;
+
+/* The URG-04LX as measured on recordings (see tools/README.md, ale-calibrate). */
+ale_noise_t ale_noise_default(void);
+
+/* Variance of a range's own error, um^2. */
+int64_t ale_noise_own_var_um2(const ale_noise_t *noise, int32_t range_um);
+
+/* Variance of a range's error that its neighbours share, um^2. */
+int64_t ale_noise_shared_var_um2(const ale_noise_t *noise, int32_t range_um);
+
+/* Covariance (7) of a measured point, own error and bearing error: xx, xy, yy in um^2. */
+void ale_noise_point_cov(const ale_noise_t *noise, int32_t range_um, uint32_t bearing_bam,
+                         int64_t cov_um2[3]);
+
+/* Expected variance along the normal of a wall with normal direction alpha: (26) in normal form,
+ * s_own^2 cos^2(phi - alpha) + d^2 s_phi^2 sin^2(phi - alpha)   (the paper's cross term is twice too big). */
+int64_t ale_noise_normal_var_um2(const ale_noise_t *noise, int32_t range_um, uint32_t bearing_bam,
+                                 uint32_t alpha_bam);
+
+#endif

@@ -1,0 +1,39 @@
+#include "base/pose.h"
+
+#include "base/fixed.h"
+#include "base/trig.h"
+
+ale_point_t ale_rotate(ale_point_t p, uint32_t angle_bam)
+{
+    const int64_t c = ale_cos_q30(angle_bam);
+    const int64_t s = ale_sin_q30(angle_bam);
+    const ale_point_t r = {(int32_t)ale_round_shift(c * p.x_um - s * p.y_um, 30),
+                           (int32_t)ale_round_shift(s * p.x_um + c * p.y_um, 30)};
+    return r;
+}
+
+ale_point_t ale_pose_apply(ale_pose_t pose, ale_point_t p)
+{
+    const ale_point_t r = ale_rotate(p, pose.theta_bam);
+    const ale_point_t q = {pose.x_um + r.x_um, pose.y_um + r.y_um};
+    return q;
+}
+
+ale_pose_t ale_pose_compose(ale_pose_t a, ale_pose_t b)
+{
+    const ale_point_t p = ale_pose_apply(a, (ale_point_t){b.x_um, b.y_um});
+    return (ale_pose_t){p.x_um, p.y_um, a.theta_bam + b.theta_bam};
+}
+
+ale_pose_t ale_pose_inverse(ale_pose_t a)
+{
+    const ale_point_t p = ale_rotate((ale_point_t){-a.x_um, -a.y_um}, 0u - a.theta_bam);
+    return (ale_pose_t){p.x_um, p.y_um, 0u - a.theta_bam};
+}
+
+ale_pose_t ale_pose_between(ale_pose_t a, ale_pose_t b)
+{
+    const ale_point_t d = {b.x_um - a.x_um, b.y_um - a.y_um};
+    const ale_point_t p = ale_rotate(d, 0u - a.theta_bam);
+    return (ale_pose_t){p.x_um, p.y_um, b.theta_bam - a.theta_bam};
+}

@@ -1,0 +1,35 @@
+/* Poses and points of the plane: x forward, y left, heading counter-clockwise.
+ *
+ * A pose maps a point of its own frame to the frame it is given in:  p' = R(theta) p + (x, y), with
+ * R = [cos -sin; sin cos] (the paper's (29) prints the transpose). Micrometres and BAM.
+ * Pure functions, constant time; positions must stay within +-2147 m (not checked). */
+#ifndef ALE_BASE_POSE_H
+#define ALE_BASE_POSE_H
+
+#include <stdint.h>
+
+typedef struct {
+    int32_t x_um;
+    int32_t y_um;
+} ale_point_t;
+
+typedef struct {
+    int32_t x_um;
+    int32_t y_um;
+    uint32_t theta_bam;
+} ale_pose_t;
+
+ale_point_t ale_rotate(ale_point_t p, uint32_t angle_bam);
+
+/* The point p of the pose's frame, in the frame the pose is given in. */
+ale_point_t ale_pose_apply(ale_pose_t pose, ale_point_t p);
+
+/* The pose b, given in the frame of a, in the frame a is given in. */
+ale_pose_t ale_pose_compose(ale_pose_t a, ale_pose_t b);
+
+ale_pose_t ale_pose_inverse(ale_pose_t a);
+
+/* The pose b as seen from a (both given in one frame): compose(inverse(a), b) with one rounding. */
+ale_pose_t ale_pose_between(ale_pose_t a, ale_pose_t b);
+
+#endif

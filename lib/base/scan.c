@@ -1,0 +1,56 @@
+#include "base/scan.h"
+
+#include "base/fixed.h"
+
+enum { URG_FIRST_RANGE_MM = 20, URG_NOT_A_STEP = 19 };
+
+int32_t ale_scan_beam_offset_us(const ale_scan_t *scan, int32_t beam)
+{
+    return (int32_t)ale_round_div((int64_t)(beam - scan->stamp_beam) * scan->beam_time_ns, 1000);
+}
+
+void ale_scan_mask(ale_scan_t *scan, const ale_sector_t *sectors, uint32_t count)
+{
+    for (uint32_t s = 0; s < count; s++) {
+        const uint32_t width_bam = sectors[s].to_bam - sectors[s].from_bam;
+        for (int32_t k = 0; k < scan->beams; k++) {
+            if (ale_scan_bearing(scan, k) - sectors[s].from_bam <= width_bam) {
+                scan->flag[k] = ALE_BEAM_BLIND;
+                scan->range_um[k] = 0;
+            }
+        }
+    }
+}
+
+static ale_beam_flag_t urg_code_meaning(int32_t code)
+{
+    switch (code) {
+    case 0:
+    case 6:
+        return ALE_BEAM_NO_RETURN;
+    case URG_NOT_A_STEP:
+        return ALE_BEAM_BLIND;
+    default:
+        return ALE_BEAM_UNKNOWN;
+    }
+}
+
+void ale_scan_set_urg(ale_scan_t *scan, uint16_t beam, int32_t value_mm)
+{
+    if (value_mm >= URG_FIRST_RANGE_MM) {
+        ale_scan_set_range(scan, beam, value_mm * 1000);
+        return;
+    }
+    scan->code[beam] = (uint8_t)(value_mm < 0 ? 0 : value_mm);
+    scan->range_um[beam] = 0;
+    scan->flag[beam] = (uint8_t)urg_code_meaning(value_mm < 0 ? 0 : value_mm);
+}
+
+void ale_scan_set_range(ale_scan_t *scan, uint16_t beam, int32_t range_um)
+{
+    const bool nothing = range_um <= 0 || range_um >= scan->range_max_um;
+    const bool near = !nothing && range_um < scan->range_min_um;
+    scan->code[beam] = 0;
+    scan->range_um[beam] = nothing || near ? 0 : range_um;
+    scan->flag[beam] = nothing ? ALE_BEAM_NO_RETURN : (near ? ALE_BEAM_TOO_NEAR : ALE_BEAM_VALID);
+}

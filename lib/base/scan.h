@@ -1,0 +1,66 @@
+/* One scan of a 2D laser scanner: ranges, what each beam is worth, geometry and time.
+ *
+ *   bearing of beam k = first_bearing_bam + k * step_bam      (counter-clockwise positive; step may be
+ *                                                              negative: a scanner mounted upside down)
+ *   time of beam k    = stamp_us + (k - stamp_beam) * beam_time_ns / 1000
+ *
+ * stamp_beam may lie outside 0..beams-1: the URG-04LX stamps its step 0, 44 steps before the first beam.
+ * beam_time_ns 0 means that the whole scan was taken at its stamp. */
+#ifndef ALE_BASE_SCAN_H
+#define ALE_BASE_SCAN_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/limits.h"
+
+/* What a beam is worth. Only ALE_BEAM_VALID has a range. */
+typedef enum {
+    ALE_BEAM_VALID = 0,
+    ALE_BEAM_NO_RETURN = 1, /* nothing in reach (or nothing that reflects): free with low confidence */
+    ALE_BEAM_UNKNOWN = 2,   /* weak, disturbed or dazzled: says nothing */
+    ALE_BEAM_BLIND = 3,     /* the robot's own body, or not part of the field of view */
+    ALE_BEAM_OUTLIER = 4,   /* set by the extractor: a stray point or a mixed pixel */
+    ALE_BEAM_TOO_NEAR = 5   /* below the sensor's minimum distance */
+} ale_beam_flag_t;
+
+typedef struct {
+    int64_t stamp_us;
+    int32_t stamp_beam;
+    int32_t beam_time_ns;
+    uint32_t first_bearing_bam;
+    int32_t step_bam;
+    int32_t range_min_um; /* nearest and farthest distance the sensor can measure */
+    int32_t range_max_um;
+    uint16_t beams; /* 0..ALE_MAX_BEAMS */
+    int32_t range_um[ALE_MAX_BEAMS];
+    uint8_t flag[ALE_MAX_BEAMS]; /* ale_beam_flag_t */
+    uint8_t code[ALE_MAX_BEAMS]; /* the device's raw error code where it gave one, else 0 */
+} ale_scan_t;
+
+static inline uint32_t ale_scan_bearing(const ale_scan_t *scan, int32_t beam)
+{
+    return scan->first_bearing_bam + (uint32_t)beam * (uint32_t)scan->step_bam;
+}
+
+/* Time of a beam relative to the stamp, in microseconds, rounded. */
+int32_t ale_scan_beam_offset_us(const ale_scan_t *scan, int32_t beam);
+
+/* A sector of bearings (sensor frame) that is never used: from..to counter-clockwise. */
+typedef struct {
+    uint32_t from_bam;
+    uint32_t to_bam;
+} ale_sector_t;
+
+/* Flags every beam whose bearing lies in one of the sectors as ALE_BEAM_BLIND. O(beams * count). */
+void ale_scan_mask(ale_scan_t *scan, const ale_sector_t *sectors, uint32_t count);
+
+/* The meaning of a range value in mm of the URG-04LX, error codes below 20 included (SCIP 2.0 table for
+ * this model): sets range, flag and code of one beam. Values from 20 to range_min are TOO_NEAR, beyond
+ * range_max NO_RETURN. */
+void ale_scan_set_urg(ale_scan_t *scan, uint16_t beam, int32_t value_mm);
+
+/* A range of any other sensor: 0, negative and from range_max on: NO_RETURN; below range_min: TOO_NEAR. */
+void ale_scan_set_range(ale_scan_t *scan, uint16_t beam, int32_t range_um);
+
+#endif

@@ -1,0 +1,117 @@
+/* The story of one scan, from ranges and odometry to pose, features and map; the paper's section IV.
+ *
+ *   ale_pipeline_init(p, &config);
+ *   ale_pipeline_odometry(p, &sample);          (whenever one arrives; optional)
+ *   ale_pipeline_scan(p, &scan, &estimate);     (every scan, in order)
+ *   ale_pipeline_dropped(p, stamp_us, &estimate);  (a scan that was lost: answered by prediction)
+ *
+ * One owner: the estimate task, or ale-replay. No allocation, no lock, no clock, no floating point;
+ * every loop bounded by a capacity. The same calls give the same bytes on every machine. */
+#ifndef ALE_TRACK_PIPELINE_H
+#define ALE_TRACK_PIPELINE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/limits.h"
+#include "base/pose.h"
+#include "base/scan.h"
+#include "base/stage.h"
+#include "extract/extract.h"
+#include "track/odometry_sample.h"
+
+#define ALE_MAP_MAX_LINES 2048
+#define ALE_MAP_MAX_CORNERS 1024
+
+typedef struct {
+    ale_extract_config_t extract;
+    ale_pose_t sensor; /* mounting: pose of the laser in the robot's frame */
+    bool use_odometry;
+    int32_t odometry_scale_ppm;   /* one sigma of the distance's scale error */
+    int32_t odometry_turn_urad_m; /* one sigma of the heading error for a metre driven */
+    int32_t odometry_turn_ppm;    /* one sigma of the heading error in parts of the turn */
+    int32_t odometry_lag_us;      /* prior: odometry younger than scans by this much; refined on line */
+    int32_t max_speed_mm_s;       /* what the robot can do: no step of the smooth pose exceeds it */
+    int32_t max_turn_mrad_s;
+    uint32_t blind_count;
+    ale_sector_t blind[ALE_MAX_BLIND_SECTORS];
+} ale_pipeline_config_t;
+
+ale_pipeline_config_t ale_pipeline_default_config(void);
+
+typedef enum { ALE_STATE_LOST = 0, ALE_STATE_WEAK = 1, ALE_STATE_GOOD = 2 } ale_state_t;
+
+/* What is published for every scan, also for a dropped one. Robot's frame of reference at stamp_us. */
+typedef struct {
+    int64_t stamp_us;
+    uint32_t scan;           /* number of the scan, from 0, dropped ones counted */
+    ale_pose_t smooth;       /* continuous: no step exceeds what the robot can do */
+    ale_pose_t map;          /* takes corrections and relocations */
+    int64_t cov[9];          /* of the map pose, row by row: um^2, um*nrad, nrad^2 */
+    int64_t information[6];  /* what the scan alone determines, robot frame: xx xy xt yy yt tt; 1/mm^2, 1/(mm
+                                mrad),  1/mrad^2, all times 2^20 */
+    int32_t velocity_x_um_s; /* robot's frame */
+    int32_t velocity_y_um_s;
+    int32_t velocity_theta_urad_s;
+    int32_t lag_us; /* odometry lag as estimated so far */
+    uint16_t matched_lines;
+    uint16_t matched_corners;
+    uint8_t state;  /* ale_state_t */
+    bool predicted; /* no scan stood behind this pose */
+    bool map_changed;
+} ale_estimate_t;
+
+/* A wall of the map, map frame, seen from the side its normal points away from the wall into the room. */
+typedef struct {
+    uint32_t id;       /* stays with the wall while it lives */
+    ale_point_t start; /* counter-clockwise as seen from the room: start is to the right */
+    ale_point_t end;
+    int64_t var_alpha_nrad2;
+    int64_t cov_alpha_rho;
+    int64_t var_rho_um2;
+    uint32_t seen; /* scans that support it */
+} ale_map_line_t;
+
+typedef struct {
+    ale_point_t p;
+    int64_t cov_um2[3];
+    uint32_t angle_bam;
+    uint32_t bisector_bam;
+    uint32_t seen;
+    uint8_t kind; /* ale_corner_kind_t */
+} ale_map_corner_t;
+
+typedef struct {
+    uint32_t version; /* grows with every change */
+    uint16_t line_count;
+    uint16_t corner_count;
+    uint32_t refused; /* features that found no room */
+    ale_map_line_t line[ALE_MAP_MAX_LINES];
+    ale_map_corner_t corner[ALE_MAP_MAX_CORNERS];
+} ale_map_t;
+
+typedef struct ale_pipeline ale_pipeline_t;
+
+uint32_t ale_pipeline_size(void);
+
+/* 0, or -1 when a value of the configuration is out of range (then nothing is changed). */
+int ale_pipeline_init(ale_pipeline_t *pipeline, const ale_pipeline_config_t *config);
+void ale_pipeline_set_hook(ale_pipeline_t *pipeline, const ale_stage_hook_t *hook);
+
+/* Forgets map and pose; keeps the configuration. The next scan is the origin. */
+void ale_pipeline_reset(ale_pipeline_t *pipeline);
+
+void ale_pipeline_odometry(ale_pipeline_t *pipeline, const ale_odometry_t *sample);
+void ale_pipeline_scan(ale_pipeline_t *pipeline, const ale_scan_t *scan, ale_estimate_t *out);
+void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estimate_t *out);
+
+/* Features of the scan last handed over: sensor frame at the scan's stamp, straightened. */
+const ale_features_t *ale_pipeline_features(const ale_pipeline_t *pipeline);
+
+/* The map as it stands: walls and corners worth showing. Copies at most sizeof(ale_map_t). */
+void ale_pipeline_copy_map(const ale_pipeline_t *pipeline, ale_map_t *out);
+
+/* Starts from a known map; the pose is where the robot is in it, known = false: lost until found. */
+void ale_pipeline_load_map(ale_pipeline_t *pipeline, const ale_map_t *map, ale_pose_t pose, bool known);
+
+#endif

@@ -1,0 +1,134 @@
+# How sources become programs.
+#
+#   lib/*/*.c            -> libale.a            the real-time core, integers only
+#   lib/graph/*.cpp      -> libale_graph.a      the mapper
+#   drivers/*/*.c        -> libale_drivers.a    with the generated LCM types
+#   firmware/**/*.c      -> libale_firmware.a   all but main.c; main.c -> ale-slamd
+#   tools/export/*.cpp   -> linked to every tool
+#   tools/NAME/*.c, .cpp -> ale-NAME            page/ beside them is embedded
+#
+# Dependencies point down only: the include paths of each floor name only what lies below it.
+
+Q = $(if $(filter 0,$(V)),@)
+say = $(if $(filter 0,$(V)),@echo "  $(1)	$(2)")
+
+SANITIZER_FLAGS = $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-omit-frame-pointer -fno-sanitize-recover=all)
+COMMON_FLAGS = -g $(OPT) $(WARNINGS) $(SANITIZER_FLAGS) -MMD -MP
+C_FLAGS = -std=c11 -D_GNU_SOURCE $(COMMON_FLAGS) $(CFLAGS)
+CXX_FLAGS = -std=c++17 $(COMMON_FLAGS) $(CXXFLAGS)
+LINK_FLAGS = $(SANITIZER_FLAGS) -pthread -Wl,--as-needed $(LDFLAGS)
+LIBRARIES = -llcm -lserialport -linih -lwebsockets -lpng -lz -lm
+SYSTEM_INCLUDES = -isystem $(BUILD)/lcmtypes -isystem /usr/include/eigen3
+
+OBJ = $(BUILD)/obj
+objects = $(patsubst %,$(OBJ)/%.o,$(1))
+
+# Generated LCM types: C with the prefix lcmtypes_ (ale_pose_t is the core's own), C++, Python, Java.
+LCM_FILES = $(wildcard lib/messages/*.lcm)
+LCM_NAMES = $(foreach f,$(LCM_FILES),$(addprefix lcmtypes_$(basename $(notdir $(f)))_,$(shell sed -n 's/^struct \([a-z0-9_]*\).*/\1/p' $(f))))
+LCM_OBJECTS = $(patsubst %,$(OBJ)/lcmtypes/%.o,$(LCM_NAMES))
+LCM_STAMP = $(BUILD)/lcmtypes/stamp
+
+$(LCM_STAMP): $(LCM_FILES)
+	$(call say,lcm-gen,$(LCM_FILES))
+	$(Q)rm -rf $(@D) $(BUILD)/python/ale $(BUILD)/java && mkdir -p $(@D) $(BUILD)/python $(BUILD)/java
+	$(Q)lcm-gen -c --c-cpath $(@D) --c-hpath $(@D) --package-prefix lcmtypes $(LCM_FILES)
+	$(Q)lcm-gen -x --cpp-hpath $(@D) --cpp-std c++11 $(LCM_FILES)
+	$(Q)lcm-gen -p --ppath $(BUILD)/python $(LCM_FILES)
+	$(Q)lcm-gen -j --jpath $(BUILD)/java $(LCM_FILES)
+	$(Q)touch $@
+
+$(BUILD)/lcmtypes/%.c: $(LCM_STAMP) ;
+
+$(OBJ)/lcmtypes/%.o: $(BUILD)/lcmtypes/%.c
+	@mkdir -p $(@D)
+	$(Q)$(CC) -std=gnu11 -g $(OPT) $(SANITIZER_FLAGS) -w -c $< -o $@
+
+LCM_JAR = $(BUILD)/ale-lcmtypes.jar
+$(LCM_JAR): $(LCM_STAMP)
+	$(call say,jar,$@)
+	$(Q)mkdir -p $(BUILD)/java/classes
+	$(Q)javac -nowarn -cp /usr/share/java/lcm.jar -d $(BUILD)/java/classes $$(find $(BUILD)/java -name '*.java')
+	$(Q)jar cf $@ -C $(BUILD)/java/classes .
+
+.PHONY: lcm-types
+lcm-types: $(LCM_JAR) ## the LCM types for lcm-spy (build/ale-lcmtypes.jar) and Python (build/python)
+
+# Floors of the house: each sees itself and what lies below.
+LIB_SOURCES = $(wildcard lib/*/*.c)
+GRAPH_SOURCES = $(wildcard lib/graph/*.cpp)
+DRIVER_SOURCES = $(wildcard drivers/*/*.c)
+FIRMWARE_SOURCES = $(filter-out firmware/main.c,$(wildcard firmware/*.c firmware/*/*.c))
+EXPORT_SOURCES = $(wildcard tools/export/*.c tools/export/*.cpp)
+
+LIB_INCLUDES = -Ilib
+DRIVER_INCLUDES = -Ilib -Idrivers $(SYSTEM_INCLUDES)
+FIRMWARE_INCLUDES = -Ilib -Idrivers -Ifirmware $(SYSTEM_INCLUDES)
+TOOL_INCLUDES = -Ilib -Idrivers -Ifirmware -Itools $(SYSTEM_INCLUDES)
+TEST_INCLUDES = $(TOOL_INCLUDES) -Itests
+
+$(OBJ)/lib/%.o: INCLUDES = $(LIB_INCLUDES)
+$(OBJ)/lib/graph/%.o: INCLUDES = $(LIB_INCLUDES) -isystem /usr/include/eigen3
+$(OBJ)/drivers/%.o: INCLUDES = $(DRIVER_INCLUDES)
+$(OBJ)/firmware/%.o: INCLUDES = $(FIRMWARE_INCLUDES)
+$(OBJ)/tools/%.o: INCLUDES = $(TOOL_INCLUDES)
+$(OBJ)/tests/%.o: INCLUDES = $(TEST_INCLUDES)
+
+$(OBJ)/%.c.o: %.c | $(LCM_STAMP)
+	$(call say,cc,$<)
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(C_FLAGS) $(INCLUDES) -c $< -o $@
+
+$(OBJ)/%.cpp.o: %.cpp | $(LCM_STAMP)
+	$(call say,c++,$<)
+	@mkdir -p $(@D)
+	$(Q)$(CXX) $(CXX_FLAGS) $(INCLUDES) -c $< -o $@
+
+define archive
+	$(call say,ar,$@)
+	@mkdir -p $(@D)
+	$(Q)rm -f $@ && $(AR) rcs $@ $^
+endef
+
+$(BUILD)/libale.a: $(call objects,$(LIB_SOURCES))
+	$(archive)
+$(BUILD)/libale_graph.a: $(call objects,$(GRAPH_SOURCES))
+	$(archive)
+$(BUILD)/libale_drivers.a: $(call objects,$(DRIVER_SOURCES)) $(LCM_OBJECTS)
+	$(archive)
+$(BUILD)/libale_firmware.a: $(call objects,$(FIRMWARE_SOURCES))
+	$(archive)
+$(BUILD)/libale_export.a: $(call objects,$(EXPORT_SOURCES))
+	$(archive)
+
+ARCHIVES = $(addprefix $(BUILD)/,libale_export.a libale_firmware.a libale_drivers.a $(if $(GRAPH_SOURCES),libale_graph.a) libale.a)
+FIRMWARE_ARCHIVES = $(filter-out %export.a,$(ARCHIVES))
+
+define link
+	$(call say,link,$@)
+	@mkdir -p $(@D)
+	$(Q)$(CXX) $(LINK_FLAGS) $(filter %.o,$^) $(filter %.a,$^) $(LIBRARIES) $(1) -o $@
+endef
+
+# Programs: one folder each.
+TOOL_FOLDERS = $(filter-out export make,$(notdir $(patsubst %/,%,$(sort $(dir $(wildcard tools/*/*.c tools/*/*.cpp))))))
+PROGRAMS = $(addprefix $(BUILD)/bin/ale-,$(if $(wildcard firmware/main.c),slamd) $(filter-out bench examples,$(TOOL_FOLDERS)))
+
+.PHONY: programs
+programs: $(PROGRAMS)
+
+$(BUILD)/bin/ale-slamd: $(OBJ)/firmware/main.c.o $(FIRMWARE_ARCHIVES)
+	$(call link)
+
+define program
+$(BUILD)/bin/ale-$(1): $$(call objects,$$(wildcard tools/$(1)/*.c tools/$(1)/*.cpp)) $$(if $$(wildcard tools/$(1)/page/*),$$(OBJ)/tools/$(1)/page.o) $$(ARCHIVES)
+	$$(call link)
+$$(OBJ)/tools/$(1)/page.cpp: $$(wildcard tools/$(1)/page/*) tools/make/embed.py
+	@mkdir -p $$(@D)
+	$$(Q)$$(PYTHON) tools/make/embed.py $$@ $$(wildcard tools/$(1)/page/*)
+$$(OBJ)/tools/$(1)/page.o: $$(OBJ)/tools/$(1)/page.cpp
+	$$(Q)$$(CXX) $$(CXX_FLAGS) $$(TOOL_INCLUDES) -c $$< -o $$@
+endef
+$(foreach tool,$(TOOL_FOLDERS),$(eval $(call program,$(tool))))
+
+-include $(shell find $(OBJ) -name '*.d' 2>/dev/null)

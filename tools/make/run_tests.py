@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""Runs tests of one kind and adds up what they say.
+
+    run_tests.py unit PROGRAM...          GoogleTest programs, two at a time
+    run_tests.py system PYTHON [ARG...]   pytest over tests/
+    run_tests.py fuzz --seconds N PROGRAM...
+    run_tests.py command NAME CMD...      one command that passes or fails
+    run_tests.py sum                      the closing line over all that ran since `run_tests.py begin`
+
+Every kind appends its counts to build/test-results.txt; `sum` prints `N passed, N failed, N skipped`
+and fails when anything did.
+"""
+import argparse
+import concurrent.futures
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+import xml.etree.ElementTree as ElementTree
+
+BUILD = pathlib.Path(os.environ.get("ALE_BUILD", "build"))
+RESULTS = BUILD / "test-results.txt"
+
+
+def record(kind, passed, failed, skipped):
+    BUILD.mkdir(parents=True, exist_ok=True)
+    with RESULTS.open("a", encoding="utf-8") as results:
+        results.write(f"{kind} {passed} {failed} {skipped}\n")
+    return 1 if failed else 0
+
+
+def counts(report):
+    """passed, failed, skipped of a JUnit or GoogleTest XML report."""
+    passed = failed = skipped = 0
+    for case in ElementTree.parse(report).iter("testcase"):
+        if case.find("failure") is not None or case.find("error") is not None:
+            failed += 1
+        elif case.find("skipped") is not None or case.get("status") == "notrun":
+            skipped += 1
+        else:
+            passed += 1
+    return passed, failed, skipped
+
+
+def run_unit_program(program):
+    """One GoogleTest program: its name, counts, seconds, and its output when it failed."""
+    started = time.monotonic()
+    with tempfile.TemporaryDirectory() as folder:
+        report = pathlib.Path(folder) / "report.xml"
+        done = subprocess.run([program, f"--gtest_output=xml:{report}", "--gtest_brief=1"], check=False,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                              timeout=1200)
+        passed, failed, skipped = counts(report) if report.exists() else (0, 0, 0)
+    if done.returncode != 0 and failed == 0:
+        failed = 1
+    output = done.stdout.decode(errors="replace") if failed else ""
+    return program, passed, failed, skipped, time.monotonic() - started, output
+
+
+def unit(programs):
+    total = [0, 0, 0]
+    with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+        for program, passed, failed, skipped, seconds, output in pool.map(run_unit_program, programs):
+            name = program.split("/tests/", 1)[-1]
+            mark = "FAILED" if failed else "ok"
+            print(f"  {mark:6} {name:44} {passed:4} passed {skipped:3} skipped {seconds:6.1f} s", flush=True)
+            if failed:
+                print(output, f"\n  again: {program}", flush=True)
+            for k, n in enumerate((passed, failed, skipped)):
+                total[k] += n
+    return record("unit", *total)
+
+
+def system(python, arguments):
+    BUILD.mkdir(parents=True, exist_ok=True)
+    report = BUILD / "pytest.xml"
+    report.unlink(missing_ok=True)
+    path = os.pathsep.join([str(BUILD / "python"), os.environ.get("PYTHONPATH", "")]).rstrip(os.pathsep)
+    done = subprocess.run([python, "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--junitxml={report}",
+                           *(arguments or ["tests"])] + (["tests"] if arguments else []),
+                          env={**os.environ, "PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1"}, check=False)
+    passed, failed, skipped = counts(report) if report.exists() else (0, 1, 0)
+    if done.returncode not in (0, 5) and failed == 0:
+        failed = 1
+    return record("system", passed, failed, skipped)
+
+
+def fuzz(programs, seconds):
+    failed = 0
+    for program in programs:
+        corpus = BUILD / "fuzz" / "corpus" / pathlib.Path(program).name
+        corpus.mkdir(parents=True, exist_ok=True)
+        seeds = pathlib.Path("tests/fuzz/seeds") / pathlib.Path(program).name
+        done = subprocess.run([program, str(corpus), *([str(seeds)] if seeds.is_dir() else []),
+                               f"-max_total_time={seconds}", "-timeout=10", "-rss_limit_mb=4096",
+                               "-print_final_stats=1", f"-artifact_prefix={BUILD}/fuzz/"],
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        text = done.stdout.decode(errors="replace")
+        runs = [line.split()[-1] for line in text.splitlines() if "number_of_executed_units" in line]
+        print(f"  {'FAILED' if done.returncode else 'ok':6} {pathlib.Path(program).name:40} "
+              f"{runs[0] if runs else '?'} inputs in {seconds} s", flush=True)
+        if done.returncode:
+            print(text[-4000:])
+            failed += 1
+    return record("fuzz", len(programs) - failed, failed, 0)
+
+
+def command(name, words):
+    started = time.monotonic()
+    done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    print(f"  {'FAILED' if done.returncode else 'ok':6} {name:44} {time.monotonic() - started:6.1f} s", flush=True)
+    if done.returncode:
+        print(done.stdout.decode(errors="replace")[-6000:], flush=True)
+    return record(name.replace(" ", "-"), int(done.returncode == 0), int(done.returncode != 0), 0)
+
+
+def summary():
+    total = [0, 0, 0]
+    for line in RESULTS.read_text(encoding="utf-8").splitlines():
+        for k, n in enumerate(line.split()[1:]):
+            total[k] += int(n)
+    print(f"{total[0]} passed, {total[1]} failed, {total[2]} skipped")
+    return 1 if total[1] or not total[0] else 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    kinds = parser.add_subparsers(dest="kind", required=True)
+    kinds.add_parser("begin")
+    kinds.add_parser("sum")
+    kinds.add_parser("unit").add_argument("programs", nargs="+")
+    one = kinds.add_parser("system")
+    one.add_argument("python")
+    one.add_argument("arguments", nargs=argparse.REMAINDER)
+    one = kinds.add_parser("fuzz")
+    one.add_argument("--seconds", type=int, default=600)
+    one.add_argument("programs", nargs="+")
+    one = kinds.add_parser("command")
+    one.add_argument("name")
+    one.add_argument("words", nargs=argparse.REMAINDER)
+    args = parser.parse_args()
+    if args.kind == "begin":
+        RESULTS.unlink(missing_ok=True)
+        return 0
+    if args.kind == "sum":
+        return summary()
+    if args.kind == "unit":
+        return unit(args.programs)
+    if args.kind == "system":
+        return system(args.python, args.arguments)
+    if args.kind == "fuzz":
+        return fuzz(args.programs, args.seconds)
+    return command(args.name, args.words)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

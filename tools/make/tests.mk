@@ -1,0 +1,64 @@
+# Tests. Each tests/**/test_*.cpp is one GoogleTest program; every other tests/**/*.cpp is linked to all of them.
+#
+#   make unit [T=part/of/path]     unit and property tests
+#   make system [T=word]           tests of the real programs (pytest)
+
+TEST_SOURCES = $(shell find tests -name 'test_*.cpp' | sort)
+TEST_SHARED_SOURCES = $(shell find tests -name '*.cpp' ! -name 'test_*' ! -name 'fuzz_*' ! -path 'tests/planted/*' | sort)
+TEST_PROGRAMS = $(patsubst tests/%.cpp,$(BUILD)/tests/%,$(TEST_SOURCES))
+SELECTED_TESTS = $(if $(T),$(foreach p,$(TEST_PROGRAMS),$(if $(findstring $(T),$(p)),$(p))),$(TEST_PROGRAMS))
+T ?=
+
+SHARED_DATA = $(abspath ../shared)
+export ALE_SHARED = $(if $(wildcard $(SHARED_DATA)/data),$(SHARED_DATA))
+export ALE_BUILD = $(abspath $(BUILD))
+
+# Tools whose parts are tested: everything of tools/NAME but its main.
+TOOL_PARTS = $(foreach t,$(TOOL_FOLDERS),$(filter-out %/main.c %/main.cpp,$(wildcard tools/$(t)/*.c tools/$(t)/*.cpp)))
+$(BUILD)/libale_tool_parts.a: $(call objects,$(TOOL_PARTS))
+	$(archive)
+$(BUILD)/libale_test_shared.a: $(call objects,$(TEST_SHARED_SOURCES))
+	$(archive)
+
+.PRECIOUS: $(OBJ)/tests/%.cpp.o
+$(BUILD)/tests/%: $(OBJ)/tests/%.cpp.o $(if $(TEST_SHARED_SOURCES),$(BUILD)/libale_test_shared.a) $(if $(strip $(TOOL_PARTS)),$(BUILD)/libale_tool_parts.a) $(ARCHIVES)
+	$(call link,-lgtest_main -lgtest)
+
+.PHONY: unit unit-programs system venv
+unit-programs: $(SELECTED_TESTS)
+unit: unit-programs ## unit and property tests (T=part of a path selects)
+	@$(PYTHON) tools/make/run_tests.py unit $(SELECTED_TESTS)
+
+VENV = $(BUILD)/venv
+$(VENV)/ready: tests/requirements.txt
+	@$(PYTHON) -m venv --system-site-packages $(VENV)
+	@$(VENV)/bin/pip install -q --disable-pip-version-check -r $<
+	@touch $@
+venv: $(VENV)/ready
+
+system: programs lcm-types venv ## tests of the real programs over pseudo terminals and LCM (T=word selects)
+	@$(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(if $(T),-k $(T))
+
+# Coverage-guided fuzzing with clang's libFuzzer, one program a harness.
+FUZZ_SECONDS ?= 600
+FUZZ_BUILD = $(BUILD)/fuzz
+FUZZ_SOURCES = $(wildcard tests/fuzz/fuzz_*.cpp)
+FUZZ_PROGRAMS = $(patsubst tests/fuzz/%.cpp,$(FUZZ_BUILD)/bin/%,$(FUZZ_SOURCES))
+FUZZ_FLAGS = -g -O1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
+FUZZ_C = $(filter lib/% drivers/%,$(LIB_SOURCES) $(DRIVER_SOURCES))
+
+$(FUZZ_BUILD)/obj/%.c.o: %.c | $(LCM_STAMP)
+	@mkdir -p $(@D)
+	$(Q)clang -std=c11 -D_GNU_SOURCE $(FUZZ_FLAGS) -MMD -MP $(DRIVER_INCLUDES) -c $< -o $@
+$(FUZZ_BUILD)/libale.a: $(patsubst %,$(FUZZ_BUILD)/obj/%.o,$(FUZZ_C)) $(LCM_OBJECTS)
+	$(archive)
+$(FUZZ_BUILD)/bin/%: tests/fuzz/%.cpp $(FUZZ_BUILD)/libale.a
+	$(call say,fuzzer,$@)
+	@mkdir -p $(@D)
+	$(Q)clang++ -std=c++17 $(FUZZ_FLAGS) -fsanitize=fuzzer $(DRIVER_INCLUDES) -Itests $^ $(filter-out -lwebsockets -lpng,$(LIBRARIES)) -o $@
+
+.PHONY: fuzz-programs fuzz
+fuzz-programs: $(FUZZ_PROGRAMS)
+fuzz: deps-test ## long run of the fuzzers (FUZZ_SECONDS=600 each)
+	@$(MAKE) --no-print-directory -s fuzz-programs
+	@$(PYTHON) tools/make/run_tests.py fuzz --seconds $(FUZZ_SECONDS) $(FUZZ_PROGRAMS)
