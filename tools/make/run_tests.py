@@ -7,7 +7,7 @@
     run_tests.py command NAME CMD...      one command that passes or fails
     run_tests.py sum                      the closing line over all that ran since `run_tests.py begin`
 
-Every kind appends its counts to build/test-results.txt; `sum` prints `N passed, N failed, N skipped`
+Every kind appends its counts to one file ($ALE_RESULTS, else build/test-results.txt); `sum` prints `N passed, N failed, N skipped`
 and fails when anything did.
 """
 import argparse
@@ -21,11 +21,11 @@ import time
 import xml.etree.ElementTree as ElementTree
 
 BUILD = pathlib.Path(os.environ.get("ALE_BUILD", "build"))
-RESULTS = BUILD / "test-results.txt"
+RESULTS = pathlib.Path(os.environ.get("ALE_RESULTS", BUILD / "test-results.txt"))
 
 
 def record(kind, passed, failed, skipped):
-    BUILD.mkdir(parents=True, exist_ok=True)
+    RESULTS.parent.mkdir(parents=True, exist_ok=True)
     with RESULTS.open("a", encoding="utf-8") as results:
         results.write(f"{kind} {passed} {failed} {skipped}\n")
     return 1 if failed else 0

@@ -62,3 +62,43 @@ fuzz-programs: $(FUZZ_PROGRAMS)
 fuzz: deps-test ## long run of the fuzzers (FUZZ_SECONDS=600 each)
 	@$(MAKE) --no-print-directory -s fuzz-programs
 	@$(PYTHON) tools/make/run_tests.py fuzz --seconds $(FUZZ_SECONDS) $(FUZZ_PROGRAMS)
+
+# The same bytes from every compiler and level: ale-replay built again and its results compared.
+.PHONY: same-bytes lint lint-tidy
+SAME_BYTES_BUILDS ?= gcc:-O0 clang:-O3
+same-bytes: programs
+	@$(PYTHON) tools/make/same_bytes.py --build $(BUILD) $(SAME_BYTES_BUILDS)
+
+C_FAMILY = $(shell git ls-files --cached --others --exclude-standard '*.c' '*.h' '*.cpp' '*.hpp')
+lint: ## clang-format, cppcheck and clang-tidy
+	@$(PYTHON) tools/make/run_tests.py command clang-format clang-format --dry-run -Werror $(C_FAMILY)
+	@$(PYTHON) tools/make/run_tests.py command cppcheck tools/make/cppcheck.sh $(BUILD)
+	@$(PYTHON) tools/make/run_tests.py command clang-tidy tools/make/tidy.sh $(BUILD) $(LIB_SOURCES) $(DRIVER_SOURCES) $(FIRMWARE_SOURCES) $(wildcard firmware/main.c) $(filter %.c %.cpp,$(wildcard tools/*/*.c tools/*/*.cpp))
+
+# The whole of it, as continuous integration runs it. Each part counts its tests; the sum is the last line.
+SHORT_FUZZ_SECONDS ?= 10
+export ALE_RESULTS ?= $(ALE_BUILD)/test-results.txt
+SUB = $(MAKE) --no-print-directory -s
+.PHONY: test test-all
+test: deps-test ## all tests on this machine; the last line counts them
+	@$(PYTHON) tools/make/run_tests.py begin
+	@$(SUB) -j2 all unit-programs venv
+	@echo "== unit and property tests, address and undefined-behaviour sanitizers"
+	@$(SUB) -j2 BUILD=$(BUILD)/asan SANITIZE=address,undefined OPT=-O1 unit-programs
+	-@$(SUB) BUILD=$(BUILD)/asan SANITIZE=address,undefined OPT=-O1 unit
+	@echo "== thread sanitizer"
+	@$(SUB) -j2 BUILD=$(BUILD)/tsan SANITIZE=thread OPT=-O1 T=firmware unit-programs programs
+	-@$(SUB) BUILD=$(BUILD)/tsan SANITIZE=thread OPT=-O1 T=firmware unit
+	@echo "== the real programs over pseudo terminals and LCM"
+	-@$(SUB) system
+	@echo "== fuzzers"
+	@$(SUB) -j2 fuzz-programs
+	-@$(PYTHON) tools/make/run_tests.py fuzz --seconds $(SHORT_FUZZ_SECONDS) $(FUZZ_PROGRAMS)
+	@echo "== the same bytes from other compilers"
+	-@$(PYTHON) tools/make/run_tests.py command "same bytes" $(SUB) same-bytes
+	@echo "== lint"
+	-@$(SUB) lint
+	@$(PYTHON) tools/make/run_tests.py sum
+
+test-all: test ## make test, and every compiler and level for the same bytes
+	@$(SUB) same-bytes SAME_BYTES_BUILDS="gcc:-O0 gcc:-O3 clang:-O0 clang:-O3"
