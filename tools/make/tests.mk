@@ -100,5 +100,8 @@ test: deps-test ## all tests on this machine; the last line counts them
 	-@$(SUB) lint
 	@$(PYTHON) tools/make/run_tests.py sum
 
-test-all: test ## make test, and every compiler and level for the same bytes
-	@$(SUB) same-bytes SAME_BYTES_BUILDS="gcc:-O0 gcc:-O3 clang:-O0 clang:-O3"
+# After `make test` in the same build folder (AFTER_TEST=1) only the rest runs, and the sum is of both.
+test-all: ## make test, and the same bytes from every compiler and level
+	$(if $(AFTER_TEST),,@$(SUB) test)
+	-@$(PYTHON) tools/make/run_tests.py command "same bytes, all" $(SUB) same-bytes SAME_BYTES_BUILDS="gcc:-O0 gcc:-O3 clang:-O0 clang:-O3"
+	@$(PYTHON) tools/make/run_tests.py sum
