@@ -110,9 +110,9 @@ define link
 	$(Q)$(CXX) $(LINK_FLAGS) $(filter %.o,$^) $(filter %.a,$^) $(LIBRARIES) $(1) -o $@
 endef
 
-# Programs: one folder each.
-TOOL_FOLDERS = $(filter-out export make,$(notdir $(patsubst %/,%,$(sort $(dir $(wildcard tools/*/*.c tools/*/*.cpp))))))
-PROGRAMS = $(addprefix $(BUILD)/bin/ale-,$(if $(wildcard firmware/main.c),slamd) $(filter-out bench examples,$(TOOL_FOLDERS)))
+# Programs: one folder each; bench, examples, figures and python have rules of their own (tools/NAME/NAME.mk).
+TOOL_FOLDERS = $(filter-out export make bench examples figures python worlds,$(notdir $(patsubst %/,%,$(sort $(dir $(wildcard tools/*/*.c tools/*/*.cpp))))))
+PROGRAMS = $(addprefix $(BUILD)/bin/ale-,$(if $(wildcard firmware/main.c),slamd) $(TOOL_FOLDERS))
 
 .PHONY: programs
 programs: $(PROGRAMS)
