@@ -1,0 +1,87 @@
+#include "config_keys.h"
+
+#include "config.h"
+
+#define FIELD(member) offsetof(ale_config_t, member), sizeof(((ale_config_t *)0)->member)
+#define TEXT(member) ALE_KEY_TEXT, FIELD(member), 0, 0, 0
+#define BOOL(member) ALE_KEY_BOOL, FIELD(member), 0, 0, 0
+#define NUMBER(member, digits, min, max) ALE_KEY_NUMBER, FIELD(member), digits, min, max
+#define ODD(member, min, max) ALE_KEY_ODD, FIELD(member), 0, min, max
+#define ANGLE(member) ALE_KEY_ANGLE, FIELD(member), 9, -3141592653, 3141592653
+#define SECTORS ALE_KEY_SECTORS, FIELD(pipeline.blind), 0, 0, 0
+
+const ale_config_key_t ale_config_keys[] = {
+    {"sensor", "port", TEXT(port),
+     "Serial device of the scanner, best a stable name under /dev/serial/by-id.\n"
+     "Empty: every serial port is asked for the scanner with the serial number below."},
+    {"sensor", "serial", TEXT(serial), "Serial number that the scanner must have. Empty: any."},
+    {"sensor", "baud", NUMBER(baud, 0, 0, 1000000), "Rate of an RS-232 port in bit/s. 0: found by trying."},
+    {"sensor", "x", NUMBER(pipeline.sensor.x_um, 6, -10000000, 10000000),
+     "Mounting: where the scanner sits in the robot's frame, metres forward ..."},
+    {"sensor", "y", NUMBER(pipeline.sensor.y_um, 6, -10000000, 10000000), "... metres to the left ..."},
+    {"sensor", "theta", ANGLE(pipeline.sensor.theta_bam),
+     "... and which way it looks, radians counter-clockwise."},
+    {"sensor", "reversed", BOOL(reversed), "Mounted upside down: its beams run clockwise."},
+    {"sensor", "blind", SECTORS,
+     "Sectors that see the robot itself, scanner's degrees counter-clockwise from:to, separated by commas:\n"
+     "-120:-100, 100:120. At most 8."},
+    {"sensor", "first_step", NUMBER(first_step, 0, 0, 4095), "First and last step to read."},
+    {"sensor", "last_step", NUMBER(last_step, 0, 0, 4095), "Both 0: all that the scanner offers."},
+
+    {"noise", "own_um", NUMBER(pipeline.extract.noise.own_um, 0, 0, 1000000),
+     "Noise of the scanner, one sigma, as ale-calibrate fits it: error of each beam alone, micrometres"},
+    {"noise", "own_ppm", NUMBER(pipeline.extract.noise.own_ppm, 0, 0, 100000),
+     "and parts of a million of the range,"},
+    {"noise", "shared_um", NUMBER(pipeline.extract.noise.shared_um, 0, 0, 1000000),
+     "error that neighbouring beams share, micrometres"},
+    {"noise", "shared_ppm", NUMBER(pipeline.extract.noise.shared_ppm, 0, 0, 100000),
+     "and parts of a million of the range,"},
+    {"noise", "shared_beams", NUMBER(pipeline.extract.noise.shared_beams, 0, 1, 1000),
+     "over about so many beams,"},
+    {"noise", "surface_um", NUMBER(pipeline.extract.noise.surface_um, 0, 0, 1000000),
+     "bias from surface to surface, micrometres,"},
+    {"noise", "bearing_nrad", NUMBER(pipeline.extract.noise.bearing_nrad, 0, 0, 100000000),
+     "error of a beam's bearing, nanoradians."},
+
+    {"extract", "min_points", NUMBER(pipeline.extract.min_points, 0, 3, 1081), "Fewest beams of a line."},
+    {"extract", "min_length", NUMBER(pipeline.extract.min_length_um, 6, 0, 100000000),
+     "Shortest line, metres."},
+    {"extract", "smooth_span", ODD(pipeline.extract.smooth_span, 3, 99),
+     "Beams of the smoothing window, odd."},
+    {"extract", "robust_passes", NUMBER(pipeline.extract.robust_passes, 0, 0, 10),
+     "Most passes of robust weighting."},
+
+    {"odometry", "use", BOOL(pipeline.use_odometry), "Use wheel odometry from ALE_ODOMETRY when it comes."},
+    {"odometry", "lag_us", NUMBER(pipeline.odometry_lag_us, 0, -1000000, 1000000),
+     "Odometry is younger than the scans by so many microseconds: a first guess, refined while running."},
+    {"odometry", "scale", NUMBER(pipeline.odometry_scale_ppm, 6, 0, 1000000),
+     "One sigma: error of a distance as a part of it,"},
+    {"odometry", "turn_per_metre", NUMBER(pipeline.odometry_turn_urad_m, 6, 0, 1000000),
+     "heading error for a metre driven, radians,"},
+    {"odometry", "turn_scale", NUMBER(pipeline.odometry_turn_ppm, 6, 0, 1000000),
+     "error of a turn as a part of it."},
+
+    {"robot", "max_speed", NUMBER(pipeline.max_speed_mm_s, 3, 10, 20000),
+     "The fastest the robot can drive, m/s: the smooth pose makes no step beyond it ..."},
+    {"robot", "max_turn", NUMBER(pipeline.max_turn_mrad_s, 3, 10, 20000), "... and turn, rad/s."},
+
+    {"lcm", "url", TEXT(lcm_url),
+     "Where messages go. Empty: the environment's LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0,\n"
+     "which stays on this computer; ttl=1 reaches the local network."},
+    {"lcm", "publish_scan", BOOL(publish_scan), "Send every scan's ranges as ALE_SCAN."},
+    {"lcm", "publish_bot_core", BOOL(publish_bot_core),
+     "Send scan and pose also as bot_core messages (ALE_BOT_LIDAR, ALE_BOT_POSE) for viewers that know "
+     "those."},
+
+    {"realtime", "priority", NUMBER(priority, 0, 0, 97),
+     "Real-time priority of the estimate task; its helpers run just below. 0: an ordinary program."},
+    {"realtime", "cpu", NUMBER(cpu, 0, -1, 1023), "Processor of the estimate task. -1: any."},
+    {"realtime", "lock_memory", BOOL(lock_memory), "Keep all memory from being paged out."},
+
+    {"map", "file", TEXT(map), "Map to start from. Empty: none, the first scan is the origin."},
+};
+
+const size_t ale_config_key_count = sizeof ale_config_keys / sizeof ale_config_keys[0];
+
+_Static_assert(sizeof ale_config_keys / sizeof ale_config_keys[0] <= ALE_CONFIG_MAX_KEYS,
+               "the reader marks the keys it has seen in one table");
