@@ -1,0 +1,15 @@
+/* Where one line ends and the next begins: paper III.B and III.D. */
+#ifndef ALE_EXTRACT_BREAKPOINT_H
+#define ALE_EXTRACT_BREAKPOINT_H
+
+#include "extract/workspace.h"
+
+/* Binary search, from point `from` towards `to` (either direction), for the last point of the line that
+ * begins at `from`. Returns it, or from when not even the shortest run is a line. O(log n) fits. */
+int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to);
+
+/* The break between two neighbouring runs by the best joint fit: the last point of the first of them.
+ * Points between a.last and b.first are given to either. A pattern search: O(log n) fits. */
+int32_t ale_break_place(const ale_extractor_t *e, ale_run_t a, ale_run_t b, int32_t direction);
+
+#endif

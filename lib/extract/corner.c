@@ -1,0 +1,105 @@
+#include "extract/corner.h"
+
+#include "base/fixed.h"
+#include "base/trig.h"
+
+enum { MAX_GAP_BEAMS = 5, MAX_REACH_UM = 150000 };
+static const int64_t min_sine_q30 = 277905233; /* sin 15 degrees */
+
+typedef struct {
+    int64_t c;
+    int64_t s;
+} direction_t;
+
+static direction_t normal_of(const ale_line_t *line)
+{
+    const direction_t d = {ale_cos_q30(line->alpha_bam), ale_sin_q30(line->alpha_bam)};
+    return d;
+}
+
+static int64_t squared_distance(ale_point_t a, ale_point_t b)
+{
+    const int64_t dx = (int64_t)a.x_um - b.x_um;
+    const int64_t dy = (int64_t)a.y_um - b.y_um;
+    return dx * dx + dy * dy;
+}
+
+/* Direction from p along the line towards its point far. */
+static uint32_t wall_direction(const ale_line_t *line, direction_t n, ale_point_t p, ale_point_t far)
+{
+    const int64_t along = ((int64_t)far.y_um - p.y_um) * n.c - ((int64_t)far.x_um - p.x_um) * n.s;
+    return line->alpha_bam + (along >= 0 ? ALE_BAM_QUARTER_TURN : 0u - ALE_BAM_QUARTER_TURN);
+}
+
+/* Variance of the line's position along its normal, at p. */
+static int64_t var_at_um2(const ale_line_t *line, direction_t n, ale_point_t p)
+{
+    const int64_t along = ale_round_shift((int64_t)p.y_um * n.c - (int64_t)p.x_um * n.s, 30);
+    const int64_t turn = ale_mul_div(line->var_alpha_nrad2, along, 1000000000) - 2 * line->cov_alpha_rho;
+    return ale_max64(line->var_rho_um2 + ale_mul_div(turn, along, 1000000000), 0);
+}
+
+static void set_shape(ale_corner_t *corner, uint32_t wall_a, uint32_t wall_b)
+{
+    const int32_t opening = ale_bam_diff(wall_b, wall_a);
+    const uint32_t between = wall_a + (uint32_t)(opening / 2);
+    const int64_t outward =
+        (int64_t)corner->p.x_um * ale_cos_q30(between) + (int64_t)corner->p.y_um * ale_sin_q30(between);
+    corner->angle_bam = opening < 0 ? 0u - (uint32_t)opening : (uint32_t)opening;
+    corner->kind = outward > 0 ? ALE_CORNER_CONVEX : ALE_CORNER_CONCAVE;
+    corner->bisector_bam = outward > 0 ? between + ALE_BAM_HALF_TURN : between;
+}
+
+static void set_covariance(ale_corner_t *corner, const ale_line_t *a, const ale_line_t *b, direction_t na,
+                           direction_t nb, int64_t det)
+{
+    const int64_t ua = var_at_um2(a, na, corner->p);
+    const int64_t ub = var_at_um2(b, nb, corner->p);
+    const int64_t det2_q30 = ale_max64(ale_round_shift(det * det, 30), 1);
+    corner->cov_um2[0] =
+        ale_mul_div(ale_mul_shift(ua, nb.s * nb.s, 30) + ale_mul_shift(ub, na.s * na.s, 30), 1, det2_q30);
+    corner->cov_um2[1] =
+        -ale_mul_div(ale_mul_shift(ua, nb.s * nb.c, 30) + ale_mul_shift(ub, na.s * na.c, 30), 1, det2_q30);
+    corner->cov_um2[2] =
+        ale_mul_div(ale_mul_shift(ua, nb.c * nb.c, 30) + ale_mul_shift(ub, na.c * na.c, 30), 1, det2_q30);
+}
+
+static bool corner_of(const ale_line_t *a, const ale_line_t *b, ale_corner_t *corner)
+{
+    const direction_t na = normal_of(a);
+    const direction_t nb = normal_of(b);
+    const int64_t det = ale_round_shift(na.c * nb.s - na.s * nb.c, 30);
+    if (ale_abs64(det) < min_sine_q30) {
+        return false;
+    }
+    const int64_t sign = det < 0 ? -1 : 1;
+    const int64_t x = sign * (a->rho_um * nb.s - b->rho_um * na.s);
+    const int64_t y = sign * (b->rho_um * na.c - a->rho_um * nb.c);
+    corner->p.x_um = (int32_t)ale_clamp64(ale_round_div(x, sign * det), INT32_MIN / 2, INT32_MAX / 2);
+    corner->p.y_um = (int32_t)ale_clamp64(ale_round_div(y, sign * det), INT32_MIN / 2, INT32_MAX / 2);
+    const int64_t reach2 = (int64_t)MAX_REACH_UM * MAX_REACH_UM;
+    if (squared_distance(corner->p, a->end) > reach2 || squared_distance(corner->p, b->start) > reach2) {
+        return false;
+    }
+    set_shape(corner, wall_direction(a, na, corner->p, a->start), wall_direction(b, nb, corner->p, b->end));
+    set_covariance(corner, a, b, na, nb, det);
+    return true;
+}
+
+void ale_corner_find(ale_features_t *out)
+{
+    out->corner_count = 0;
+    for (uint16_t k = 0; k + 1 < out->line_count; k++) {
+        ale_line_t *a = &out->line[k];
+        ale_line_t *b = &out->line[k + 1];
+        ale_corner_t *corner = &out->corner[out->corner_count];
+        if (b->first - a->last > MAX_GAP_BEAMS || !corner_of(a, b, corner)) {
+            continue;
+        }
+        corner->first_line = k;
+        corner->second_line = (uint16_t)(k + 1);
+        a->last_end = ALE_END_EDGE;
+        b->first_end = ALE_END_EDGE;
+        out->corner_count++;
+    }
+}

@@ -1,0 +1,73 @@
+#include "extract/line_fit.h"
+
+#include "base/fixed.h"
+#include "base/trig.h"
+
+/* A Q8 variance in mm^2 as um^2. */
+static int64_t um2_of_q8(int64_t v_q8)
+{
+    return ale_round_div(v_q8 * 15625, 4);
+}
+
+static int64_t dot_q30(int64_t x, int64_t y, int64_t ux_q30, int64_t uy_q30)
+{
+    return ale_round_shift(x * ux_q30 + y * uy_q30, 30);
+}
+
+/* Where the beam of a point meets the line; the point's own foot where beam and line are almost parallel. */
+static ale_point_t end_on_line(const ale_extractor_t *e, int32_t i, const ale_line_t *line, int64_t c_q30,
+                               int64_t s_q30)
+{
+    const int64_t x_um = ale_round_shift((int64_t)e->x_q4[i] * 1000, ALE_POINT_SHIFT);
+    const int64_t y_um = ale_round_shift((int64_t)e->y_q4[i] * 1000, ALE_POINT_SHIFT);
+    const int64_t along_normal = dot_q30(x_um, y_um, c_q30, s_q30);
+    if (ale_abs64(line->rho_um - along_normal) * 8 < along_normal) {
+        const ale_point_t p = {(int32_t)ale_round_div(x_um * line->rho_um, along_normal),
+                               (int32_t)ale_round_div(y_um * line->rho_um, along_normal)};
+        return p;
+    }
+    const int64_t off = line->rho_um - along_normal;
+    const ale_point_t foot = {(int32_t)(x_um + ale_round_shift(off * c_q30, 30)),
+                              (int32_t)(y_um + ale_round_shift(off * s_q30, 30))};
+    return foot;
+}
+
+static void set_covariance(const ale_extractor_t *e, const ale_spread_t *m, ale_line_t *line,
+                           int64_t mean_along_um)
+{
+    const int64_t repeats = ale_min64(line->points, 2 * e->config.noise.shared_beams);
+    const int64_t var_q8 = m->fit.var_q8 + m->fit.shared_q8 * repeats;
+    const int64_t var_um2 = um2_of_q8(var_q8);
+    const int64_t along2_q8 = ale_max64(m->along2_q8, 1);
+    line->var_alpha_nrad2 = ale_mul_div(var_q8, 1000000000000000000, along2_q8);
+    line->cov_alpha_rho = ale_mul_div(line->var_alpha_nrad2, mean_along_um, 1000000000);
+    line->var_rho_um2 = var_um2 / line->points + ale_mul_div(line->cov_alpha_rho, mean_along_um, 1000000000);
+}
+
+void ale_line_fit(const ale_extractor_t *e, ale_run_t run, ale_line_t *line)
+{
+    const ale_spread_t m = ale_moments_spread(e, run.first, run.last);
+    const int32_t double_angle = (int32_t)ale_atan2_bam(2 * m.b, m.a - m.c);
+    uint32_t alpha = (uint32_t)(double_angle / 2) + ALE_BAM_QUARTER_TURN;
+    int64_t c = ale_cos_q30(alpha);
+    int64_t s = ale_sin_q30(alpha);
+    int64_t rho = dot_q30(m.mean_x_um, m.mean_y_um, c, s);
+    if (rho < 0) {
+        rho = -rho;
+        c = -c;
+        s = -s;
+        alpha += ALE_BAM_HALF_TURN;
+    }
+    line->first = e->beam[run.first];
+    line->last = e->beam[run.last];
+    line->points = (uint16_t)m.fit.n;
+    line->alpha_bam = alpha;
+    line->rho_um = (int32_t)rho;
+    line->start = end_on_line(e, run.first, line, c, s);
+    line->end = end_on_line(e, run.last, line, c, s);
+    const int64_t mse_q8 = m.fit.sse_q8 / ale_max64(m.fit.n - 2, 1);
+    line->rmse_um = (int32_t)ale_isqrt((uint64_t)um2_of_q8(mse_q8));
+    set_covariance(e, &m, line, dot_q30(m.mean_x_um, m.mean_y_um, -s, c));
+    line->var_start_um2 = um2_of_q8(m.fit.var_q8);
+    line->var_end_um2 = line->var_start_um2;
+}

@@ -1,0 +1,10 @@
+/* The final fit of a line on the raw points, in normal form by total least squares, with its covariance. */
+#ifndef ALE_EXTRACT_LINE_FIT_H
+#define ALE_EXTRACT_LINE_FIT_H
+
+#include "extract/moments.h"
+
+/* Fits the points of the run. Everything of *line but the kinds of its ends is set. */
+void ale_line_fit(const ale_extractor_t *e, ale_run_t run, ale_line_t *line);
+
+#endif

@@ -1,0 +1,119 @@
+#include "extract/moments.h"
+
+#include "base/fixed.h"
+
+enum {
+    SCATTER_BITS = 30, /* centred moments are scaled to this many bits: their products fit int64 */
+    VAR_FLOOR_Q8 = 16  /* (0.25 mm)^2: no range is known better than its quantum of 1 mm */
+};
+
+static int64_t relative_own_var_q36(const ale_scan_noise_t *noise, int64_t range_um)
+{
+    const int64_t range_mm = ale_max64(range_um / 1000, 1);
+    return noise->own_mm2_q36 / (range_mm * range_mm) + noise->own_relative_q36;
+}
+
+void ale_moments_build(ale_extractor_t *e)
+{
+    ale_moments_t total = {0};
+    for (int32_t i = 0; i < e->count; i++) {
+        e->sum[i] = total;
+        const int64_t x = e->x_q4[i];
+        const int64_t y = e->y_q4[i];
+        total.x += x;
+        total.y += y;
+        total.xx += x * x;
+        total.yy += y * y;
+        total.xy += x * y;
+        total.noise_q36 += relative_own_var_q36(&e->noise, e->range_um[i]);
+    }
+    e->sum[e->count] = total;
+}
+
+typedef struct {
+    int64_t a; /* scaled scatter matrix [a b; b c] */
+    int64_t b;
+    int64_t c;
+    int64_t lambda; /* its small eigenvalue */
+    unsigned shift;
+} scatter_t;
+
+static scatter_t scatter_of(int64_t n, const ale_moments_t *s)
+{
+    const int64_t a = n * s->xx - s->x * s->x;
+    const int64_t b = n * s->xy - s->x * s->y;
+    const int64_t c = n * s->yy - s->y * s->y;
+    const unsigned bits = ale_bit_length((uint64_t)(a + c));
+    const unsigned shift = bits > SCATTER_BITS ? bits - SCATTER_BITS : 0;
+    scatter_t m = {a >> shift, ale_round_shift(b, shift), c >> shift, 0, shift};
+    const int64_t det = ale_max64(m.a * m.c - m.b * m.b, 0);
+    const int64_t trace = m.a + m.c;
+    if (trace > 0) {
+        m.lambda = det / ale_max64(trace - det / trace, 1);
+    }
+    return m;
+}
+
+/* Squared distance of the line from the sensor, mm^2: (mean' N mean), N = n n' from the scatter. */
+static int64_t squared_rho_mm2(const scatter_t *m, int64_t mean_x_mm, int64_t mean_y_mm)
+{
+    const int64_t spread = (m->a + m->c - 2 * m->lambda) >> 2;
+    if (spread <= 0) {
+        return mean_x_mm * mean_x_mm + mean_y_mm * mean_y_mm;
+    }
+    const int64_t nxx = (m->c - m->lambda) >> 2;
+    const int64_t nyy = (m->a - m->lambda) >> 2;
+    const int64_t nxy = m->b / 4;
+    const int64_t sum =
+        nxx * mean_x_mm * mean_x_mm + nyy * mean_y_mm * mean_y_mm - 2 * nxy * mean_x_mm * mean_y_mm;
+    return ale_max64(sum, 0) / spread;
+}
+
+static ale_moments_t sums_of(const ale_extractor_t *e, int32_t first, int32_t last)
+{
+    const ale_moments_t *p = &e->sum[first];
+    const ale_moments_t *q = &e->sum[last + 1];
+    const ale_moments_t s = {q->x - p->x,   q->y - p->y,   q->xx - p->xx,
+                             q->yy - p->yy, q->xy - p->xy, q->noise_q36 - p->noise_q36};
+    return s;
+}
+
+static ale_fit_t fit_of(const ale_scan_noise_t *noise, int64_t n, const ale_moments_t *s, const scatter_t *m)
+{
+    const int64_t rho2 = squared_rho_mm2(m, s->x / (n << ALE_POINT_SHIFT), s->y / (n << ALE_POINT_SHIFT));
+    const int64_t range2 = ((s->xx + s->yy) >> (2 * ALE_POINT_SHIFT)) / n;
+    const int64_t own = rho2 * (s->noise_q36 / n) + ale_max64(range2 - rho2, 0) * noise->bearing_rad2_q36;
+    const int64_t shared = rho2 * (noise->shared_mm2_q36 / ale_max64(range2, 1) + noise->shared_relative_q36);
+    const ale_fit_t fit = {
+        .n = (int32_t)n,
+        .sse_q8 = (m->lambda << m->shift) / n,
+        .var_q8 = ale_max64(own >> 28, VAR_FLOOR_Q8),
+        .shared_q8 = shared >> 28,
+    };
+    return fit;
+}
+
+ale_fit_t ale_moments_fit(const ale_extractor_t *e, int32_t first, int32_t last)
+{
+    const int64_t n = last + 1 - first;
+    const ale_moments_t s = sums_of(e, first, last);
+    const scatter_t m = scatter_of(n, &s);
+    return fit_of(&e->noise, n, &s, &m);
+}
+
+ale_spread_t ale_moments_spread(const ale_extractor_t *e, int32_t first, int32_t last)
+{
+    const int64_t n = last + 1 - first;
+    const ale_moments_t s = sums_of(e, first, last);
+    const scatter_t m = scatter_of(n, &s);
+    const ale_spread_t spread = {
+        .fit = fit_of(&e->noise, n, &s, &m),
+        .a = m.a,
+        .b = m.b,
+        .c = m.c,
+        .along2_q8 = ((m.a + m.c - m.lambda) << m.shift) / n,
+        .mean_x_um = ale_round_div(s.x * 1000, n << ALE_POINT_SHIFT),
+        .mean_y_um = ale_round_div(s.y * 1000, n << ALE_POINT_SHIFT),
+    };
+    return spread;
+}

@@ -1,0 +1,41 @@
+/* Running sums over the points, and what they say about a run in constant time: paper (11) to (19) in
+ * normal form, with the expected error (26) along the normal. */
+#ifndef ALE_EXTRACT_MOMENTS_H
+#define ALE_EXTRACT_MOMENTS_H
+
+#include "extract/workspace.h"
+
+/* A total-least-squares line through a run, as far as decisions need it. */
+typedef struct {
+    int32_t n;
+    int64_t sse_q8;    /* squared residuals along the normal, mm^2 Q8 */
+    int64_t var_q8;    /* variance of one point along the normal that the own noise explains, mm^2 Q8; >= 1 */
+    int64_t shared_q8; /* the same of the error that neighbours share */
+} ale_fit_t;
+
+/* Fills e->sum from e->x_q4, y_q4, range_um and e->noise. O(points). */
+void ale_moments_build(ale_extractor_t *e);
+
+/* Fit over the points first..last, first <= last. Constant time. */
+ale_fit_t ale_moments_fit(const ale_extractor_t *e, int32_t first, int32_t last);
+
+/* The same with what the final line needs. */
+typedef struct {
+    ale_fit_t fit;
+    int64_t a; /* scatter matrix [a b; b c] in any unit */
+    int64_t b;
+    int64_t c;
+    int64_t along2_q8; /* squared distances from the mean along the line, mm^2 Q8 */
+    int64_t mean_x_um;
+    int64_t mean_y_um;
+} ale_spread_t;
+
+ale_spread_t ale_moments_spread(const ale_extractor_t *e, int32_t first, int32_t last);
+
+/* Squared residuals in units of the own variance, Q8. */
+static inline int64_t ale_fit_chi_q8(const ale_fit_t *fit)
+{
+    return (fit->sse_q8 << 8) / fit->var_q8;
+}
+
+#endif

@@ -1,0 +1,63 @@
+#include "extract/points.h"
+
+#include "base/fixed.h"
+#include "base/trig.h"
+
+static void cache_directions(ale_extractor_t *e, const ale_scan_t *scan)
+{
+    if (e->direction_beams == scan->beams && e->direction_first_bam == scan->first_bearing_bam &&
+        e->direction_step_bam == scan->step_bam) {
+        return;
+    }
+    for (int32_t k = 0; k < scan->beams; k++) {
+        e->cos_q30[k] = ale_cos_q30(ale_scan_bearing(scan, k));
+        e->sin_q30[k] = ale_sin_q30(ale_scan_bearing(scan, k));
+    }
+    e->direction_beams = scan->beams;
+    e->direction_first_bam = scan->first_bearing_bam;
+    e->direction_step_bam = scan->step_bam;
+}
+
+void ale_points_list(ale_extractor_t *e, const ale_scan_t *scan)
+{
+    int32_t n = 0;
+    for (int32_t k = 0; k < scan->beams; k++) {
+        const int32_t range_um = scan->range_um[k];
+        if (scan->flag[k] == ALE_BEAM_VALID && range_um >= ALE_MIN_RANGE_UM && range_um <= ALE_MAX_RANGE_UM) {
+            e->beam[n] = (uint16_t)k;
+            e->range_um[n] = range_um;
+            e->inverse_q44[n] = (int32_t)(((int64_t)1 << 44) / range_um);
+            n++;
+        }
+    }
+    e->count = (uint16_t)n;
+    e->outliers = 0;
+}
+
+void ale_points_place(ale_extractor_t *e, const ale_scan_t *scan, const uint32_t *bearing_bam)
+{
+    cache_directions(e, scan);
+    for (int32_t i = 0; i < e->count; i++) {
+        const uint16_t k = e->beam[i];
+        const int64_t c = bearing_bam ? ale_cos_q30(bearing_bam[k]) : e->cos_q30[k];
+        const int64_t s = bearing_bam ? ale_sin_q30(bearing_bam[k]) : e->sin_q30[k];
+        const int64_t range_mm_q12 = ale_round_div((int64_t)e->range_um[i] * 4096, 1000);
+        e->x_q4[i] = (int32_t)ale_round_shift(range_mm_q12 * c, 38);
+        e->y_q4[i] = (int32_t)ale_round_shift(range_mm_q12 * s, 38);
+    }
+}
+
+void ale_points_drop(ale_extractor_t *e, const bool *drop)
+{
+    int32_t n = 0;
+    for (int32_t i = 0; i < e->count; i++) {
+        if (!drop[i]) {
+            e->beam[n] = e->beam[i];
+            e->range_um[n] = e->range_um[i];
+            e->inverse_q44[n] = e->inverse_q44[i];
+            n++;
+        }
+    }
+    e->outliers = (uint16_t)(e->count - n);
+    e->count = (uint16_t)n;
+}

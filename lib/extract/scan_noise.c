@@ -1,0 +1,161 @@
+#include "extract/scan_noise.h"
+
+#include <string.h>
+
+#include "base/fixed.h"
+#include "base/trig.h"
+
+enum {
+    OCTAVE_BASE = 14, /* 2^14 um is just below the shortest range */
+    OCTAVES = 14,
+    MIN_SAMPLES = 24, /* fewer second differences of one octave are not used */
+    BINS_PER_OCTAVE_SHIFT = 2
+};
+static const int64_t micro_q36 = 68719; /* 2^36 / 10^6 */
+
+/* Logarithmic bin of a value, four to the octave. */
+static uint32_t log_bin(uint64_t v)
+{
+    if (v < 4) {
+        return (uint32_t)v;
+    }
+    const unsigned bits = ale_bit_length(v);
+    return ((bits - 2) << BINS_PER_OCTAVE_SHIFT) + (uint32_t)((v >> (bits - 3)) & 3u);
+}
+
+/* Lower end of a bin. */
+static int64_t bin_value(uint32_t bin)
+{
+    if (bin < 4) {
+        return bin;
+    }
+    const unsigned bits = (bin >> BINS_PER_OCTAVE_SHIFT) + 2;
+    return (int64_t)(4u + (bin & 3u)) << (bits - 3);
+}
+
+/* Median of a histogram, linear within its bin. */
+static int64_t histogram_median(const uint16_t *bins, int32_t samples)
+{
+    int32_t below = 0;
+    for (uint32_t b = 0; b < ALE_NOISE_BINS - 1; b++) {
+        if (2 * (below + bins[b]) >= samples && bins[b] > 0) {
+            const int64_t width = bin_value(b + 1) - bin_value(b);
+            return bin_value(b) + width * (samples - 2 * below) / (2 * bins[b]);
+        }
+        below += bins[b];
+    }
+    return bin_value(ALE_NOISE_BINS - 1);
+}
+
+typedef struct {
+    int64_t samples;
+    int64_t range_um; /* mean */
+    int64_t sigma_um;
+} octave_t;
+
+/* Second difference of 1/r about point i, as a range, um. */
+static int64_t second_difference_um(const ale_extractor_t *e, int32_t i, int64_t curvature_q30)
+{
+    const int64_t q = e->inverse_q44[i];
+    const int64_t d =
+        e->inverse_q44[i - 1] + e->inverse_q44[i + 1] - 2 * q + ale_round_shift(q * curvature_q30, 30);
+    return ale_abs64(d) * e->range_um[i] / q;
+}
+
+static int32_t collect(ale_extractor_t *e, int64_t curvature_q30, octave_t octave[OCTAVES])
+{
+    memset(e->histogram, 0, sizeof e->histogram);
+    memset(octave, 0, OCTAVES * sizeof *octave);
+    for (int32_t i = 1; i + 1 < e->count; i++) {
+        if (e->beam[i + 1] - e->beam[i - 1] != 2) {
+            continue;
+        }
+        const uint32_t k = ale_bit_length((uint64_t)e->range_um[i]) - 1 - OCTAVE_BASE;
+        e->histogram[k][log_bin((uint64_t)second_difference_um(e, i, curvature_q30))]++;
+        octave[k].samples++;
+        octave[k].range_um += e->range_um[i];
+    }
+    int32_t used = 0;
+    for (uint32_t k = 0; k < OCTAVES; k++) {
+        if (octave[k].samples >= MIN_SAMPLES) {
+            /* median of |d| is 0.6745 sqrt(6) sigma */
+            octave[used].sigma_um = ale_max64(
+                ale_round_div(histogram_median(e->histogram[k], (int32_t)octave[k].samples) * 1000, 1652),
+                ALE_SIGMA_FLOOR_UM);
+            octave[used].range_um = octave[k].range_um / octave[k].samples;
+            octave[used].samples = octave[k].samples;
+            used++;
+        }
+    }
+    return used;
+}
+
+/* sigma^2 = a + b r^2 by least squares of the relative misfit; a, b >= 0. */
+static void fit_model(ale_extractor_t *e, const octave_t *octave, int32_t used)
+{
+    int64_t var_min = INT64_MAX;
+    int64_t range_max = 1;
+    for (int32_t k = 0; k < used; k++) {
+        var_min = ale_min64(var_min, octave[k].sigma_um * octave[k].sigma_um);
+        range_max = ale_max64(range_max, octave[k].range_um);
+    }
+    int64_t pp = 0;
+    int64_t pt = 0;
+    int64_t tt = 0;
+    int64_t p1 = 0;
+    int64_t t1 = 0;
+    for (int32_t k = 0; k < used; k++) {
+        const int64_t p = (var_min << 15) / (octave[k].sigma_um * octave[k].sigma_um);
+        const int64_t r = (octave[k].range_um << 15) / range_max;
+        const int64_t t = (p * ((r * r) >> 15)) >> 15;
+        const int64_t n = octave[k].samples;
+        pp += n * p * p;
+        pt += n * p * t;
+        tt += n * t * t;
+        p1 += n * p;
+        t1 += n * t;
+    }
+    pp >>= 11;
+    pt >>= 11;
+    tt >>= 11;
+    p1 <<= 4;
+    t1 <<= 4;
+    int64_t det = pp * tt - pt * pt;
+    int64_t a_q15 = 0; /* in units of var_min */
+    int64_t b_q15 = 0; /* in units of var_min / range_max^2 */
+    if (det > pp * tt / 64) {
+        det = ale_max64(det >> 15, 1);
+        a_q15 = (p1 * tt - t1 * pt) / det;
+        b_q15 = (t1 * pp - p1 * pt) / det;
+    } else {
+        a_q15 = p1 * (1 << 15) / ale_max64(pp, 1);
+    }
+    if (b_q15 < 0) {
+        b_q15 = 0;
+        a_q15 = p1 * (1 << 15) / ale_max64(pp, 1);
+    }
+    if (a_q15 < 0) {
+        a_q15 = 0;
+        b_q15 = t1 * (1 << 15) / ale_max64(tt, 1);
+    }
+    e->noise.own_mm2_q36 = ((a_q15 * var_min) >> 15) * micro_q36;
+    const int64_t range_mm = ale_max64(range_max / 1000, 1);
+    e->noise.own_relative_q36 = ((b_q15 * var_min) >> 15) * micro_q36 / (range_mm * range_mm);
+}
+
+void ale_scan_noise_measure(ale_extractor_t *e, const ale_scan_t *scan)
+{
+    const ale_noise_t *prior = &e->config.noise;
+    const int64_t bearing_urad = prior->bearing_nrad / 1000;
+    e->noise.own_mm2_q36 = (int64_t)prior->own_um * prior->own_um * micro_q36;
+    e->noise.own_relative_q36 = (int64_t)prior->own_ppm * prior->own_ppm * micro_q36 / 1000000;
+    e->noise.shared_mm2_q36 = (int64_t)prior->shared_um * prior->shared_um * micro_q36;
+    e->noise.shared_relative_q36 = (int64_t)prior->shared_ppm * prior->shared_ppm * micro_q36 / 1000000;
+    e->noise.bearing_rad2_q36 = bearing_urad * bearing_urad * micro_q36 / 1000000;
+    octave_t octave[OCTAVES];
+    const int64_t curvature_q30 = 2 * (((int64_t)1 << 30) - ale_cos_q30((uint32_t)scan->step_bam));
+    const int32_t used = collect(e, curvature_q30, octave);
+    if (used > 0) {
+        fit_model(e, octave, used);
+    }
+}

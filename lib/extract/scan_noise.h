@@ -1,0 +1,11 @@
+/* The own noise of the scanner, measured in the scan itself. */
+#ifndef ALE_EXTRACT_SCAN_NOISE_H
+#define ALE_EXTRACT_SCAN_NOISE_H
+
+#include "extract/workspace.h"
+
+/* Sets e->noise from the second differences of 1/range (zero on a straight wall but for noise), by the
+ * median in octaves of the range; where the scan has too few, the configured model serves. O(points). */
+void ale_scan_noise_measure(ale_extractor_t *e, const ale_scan_t *scan);
+
+#endif

@@ -1,0 +1,90 @@
+/* Working memory of the extractor, and the numbers its stages share. For lib/extract only.
+ *
+ * The stages work on points: the beams that have a value, in beam order, numbered from 0 without gaps.
+ * A run is a range of points, both ends included. */
+#ifndef ALE_EXTRACT_WORKSPACE_H
+#define ALE_EXTRACT_WORKSPACE_H
+
+#include "extract/extract.h"
+
+/* Points are 1/16 mm: Q4. The largest product of the fits is 2 n^2 max^2 (see moments.h). */
+#define ALE_POINT_SHIFT 4
+#define ALE_POINT_MAX_Q4 ((int64_t)(ALE_MAX_RANGE_UM / 1000) << ALE_POINT_SHIFT)
+_Static_assert(2.0 * ALE_MAX_BEAMS * ALE_MAX_BEAMS * ALE_POINT_MAX_Q4 * ALE_POINT_MAX_Q4 < 9.2e18,
+               "centred moments of the largest scan must fit int64");
+
+/* Nearer than this no scanner measures, and 2^44 / range would not fit. */
+#define ALE_MIN_RANGE_UM 16384
+
+/* Logarithmic bins of the second differences, and the least noise that is believed. */
+#define ALE_NOISE_BINS 112
+#define ALE_SIGMA_FLOOR_UM 400
+
+/* Widest window of the smoother. */
+#define ALE_MAX_SPAN 31
+
+/* Fewest points that ALE fits a line to while it searches; shorter runs say nothing about a line. */
+#define ALE_MIN_RUN 5
+#define ALE_MAX_RUNS (ALE_MAX_BEAMS / ALE_MIN_RUN)
+
+/* Sums over the points before one: their difference is the sum over a run. */
+typedef struct {
+    int64_t x;
+    int64_t y;
+    int64_t xx;
+    int64_t yy;
+    int64_t xy;
+    int64_t noise_q36; /* own variance of the range over the square of the range */
+} ale_moments_t;
+
+typedef struct {
+    uint16_t first;
+    uint16_t last;
+} ale_run_t;
+
+/* Noise of this scan, part of it measured in the scan: variance of a range of r mm is
+ * constant_mm2 + relative * r^2. All Q36. */
+typedef struct {
+    int64_t own_mm2_q36;
+    int64_t own_relative_q36;
+    int64_t shared_mm2_q36;
+    int64_t shared_relative_q36;
+    int64_t bearing_rad2_q36;
+} ale_scan_noise_t;
+
+struct ale_extractor {
+    ale_extract_config_t config;
+    ale_stage_hook_t hook;
+
+    /* Directions of the beams, kept as long as the scanner stays the same. */
+    uint16_t direction_beams;
+    uint32_t direction_first_bam;
+    int32_t direction_step_bam;
+    int32_t cos_q30[ALE_MAX_BEAMS];
+    int32_t sin_q30[ALE_MAX_BEAMS];
+
+    /* The points. */
+    uint16_t count;
+    uint16_t outliers;
+    uint16_t beam[ALE_MAX_BEAMS];
+    int32_t range_um[ALE_MAX_BEAMS];
+    int32_t inverse_q44[ALE_MAX_BEAMS]; /* 2^44 / range_um */
+    bool jump_after[ALE_MAX_BEAMS];     /* the surface does not go on to the next point */
+    uint16_t segment_of[ALE_MAX_BEAMS];
+    int32_t x_q4[ALE_MAX_BEAMS];
+    int32_t y_q4[ALE_MAX_BEAMS];
+    ale_moments_t sum[ALE_MAX_BEAMS + 1];
+
+    ale_scan_noise_t noise;
+    uint16_t histogram[14][ALE_NOISE_BINS];
+
+    /* Largest chi square that a true line of n points has, Q8: bounds of the floating threshold. */
+    int32_t chi_low_q8[ALE_MAX_BEAMS + 1];
+    int32_t chi_high_q8[ALE_MAX_BEAMS + 1];
+
+    uint16_t run_count;
+    ale_run_t run[ALE_MAX_RUNS];
+    uint16_t refused[ALE_REFUSALS];
+};
+
+#endif
