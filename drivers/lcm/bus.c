@@ -1,0 +1,256 @@
+#include "lcm/bus.h"
+
+#include <arpa/inet.h>
+#include <errno.h>
+#include <lcm/lcm.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <lcmtypes_bot_core_planar_lidar_t.h>
+#include <lcmtypes_bot_core_pose_t.h>
+
+#include "lcm/convert.h"
+
+#define DEFAULT_GROUP "239.255.76.67"
+
+enum { MAX_HANDLED = 64, MESSAGE_BYTES = 16384 };
+
+struct ale_bus {
+    lcm_t *lcm;
+    uint64_t refused;
+    uint64_t unsent;
+    ale_bus_odometry_t take_odometry;
+    void *odometry_user;
+    ale_features_buffer_t features;
+    ale_scan_buffer_t scan;
+    ale_map_buffer_t map;
+    ale_status_buffer_t status;
+    float bot_ranges[ALE_MAX_BEAMS];
+    uint8_t bytes[MESSAGE_BYTES];
+};
+
+_Static_assert(ALE_MAX_BEAMS * 4 + 64 <= MESSAGE_BYTES, "a scan fits the message");
+_Static_assert(ALE_MAX_LINES * 48 + ALE_MAX_CORNERS * 29 + 64 <= MESSAGE_BYTES, "features fit the message");
+
+/* Group address of a udpm URL (udpm://address:port?options). */
+static void group_of(const char *url, char address[64])
+{
+    const char *start = strstr(url, "://") + 3;
+    const size_t length = strcspn(start, ":?/");
+    snprintf(address, 64, "%.*s", (int)(length < 63 ? length : 63), length ? start : DEFAULT_GROUP);
+}
+
+/* LCM prints a page of advice when there is no way to the group; one line is said here instead. */
+static int check_route(const char *url, char error[ALE_BUS_ERROR])
+{
+    char group[64];
+    group_of(url, group);
+    struct sockaddr_in to = {.sin_family = AF_INET, .sin_port = htons(7667)};
+    if (inet_pton(AF_INET, group, &to.sin_addr) != 1) {
+        snprintf(error, ALE_BUS_ERROR, "LCM: %.60s is not an address", group);
+        return -1;
+    }
+    const int probe = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    const bool reachable = probe >= 0 && connect(probe, (struct sockaddr *)&to, sizeof to) == 0;
+    if (probe >= 0) {
+        close(probe);
+    }
+    if (!reachable) {
+        snprintf(error, ALE_BUS_ERROR,
+                 "LCM: no route for multicast to %.60s; without a network, as root: "
+                 "ip link set lo multicast on && ip route add 224.0.0.0/4 dev lo",
+                 group);
+    }
+    return reachable ? 0 : -1;
+}
+
+static int check_url(const char *url, char error[ALE_BUS_ERROR])
+{
+    static const char *const kinds[] = {"udpm://", "mpudpm://", "tcpq://", "memq://", "file://"};
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
+        if (strncmp(url, kinds[k], strlen(kinds[k])) == 0) {
+            return k == 0 ? check_route(url, error) : 0;
+        }
+    }
+    snprintf(error, ALE_BUS_ERROR, "LCM: %.100s is no URL that LCM knows (udpm://..., tcpq://...)", url);
+    return -1;
+}
+
+ale_bus_t *ale_bus_open(const char *url, char error[ALE_BUS_ERROR])
+{
+    const char *chosen = url && *url ? url : getenv("LCM_DEFAULT_URL");
+    if (!chosen || !*chosen) {
+        chosen = "udpm://";
+    }
+    if (check_url(chosen, error) < 0) {
+        return NULL;
+    }
+    ale_bus_t *bus = calloc(1, sizeof *bus);
+    if (bus) {
+        bus->lcm = lcm_create(chosen);
+    }
+    if (!bus || !bus->lcm) {
+        snprintf(error, ALE_BUS_ERROR, "LCM: %.100s cannot be opened", chosen);
+        free(bus);
+        return NULL;
+    }
+    return bus;
+}
+
+void ale_bus_close(ale_bus_t *bus)
+{
+    if (bus) {
+        lcm_destroy(bus->lcm);
+        free(bus);
+    }
+}
+
+/* `length` is what the encoder returned: negative when the message did not fit. */
+static int send_bytes(ale_bus_t *bus, const char *channel, int length)
+{
+    if (length < 0 || lcm_publish(bus->lcm, channel, bus->bytes, (unsigned)length) < 0) {
+        bus->unsent++;
+        return -1;
+    }
+    return 0;
+}
+
+int ale_bus_send_pose(ale_bus_t *bus, const ale_pose_report_t *report)
+{
+    lcmtypes_ale_pose_t message;
+    ale_convert_pose(report, &message);
+    return send_bytes(bus, ALE_CHANNEL_POSE,
+                      lcmtypes_ale_pose_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
+}
+
+int ale_bus_send_features(ale_bus_t *bus, const ale_features_t *features, int64_t utime, uint32_t scan,
+                          ale_pose_t sensor)
+{
+    lcmtypes_ale_features_t message;
+    ale_convert_features(features, utime, scan, sensor, &bus->features, &message);
+    return send_bytes(bus, ALE_CHANNEL_FEATURES,
+                      lcmtypes_ale_features_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
+}
+
+int ale_bus_send_scan(ale_bus_t *bus, const ale_scan_t *scan, int64_t utime, uint32_t number,
+                      ale_pose_t sensor)
+{
+    lcmtypes_ale_scan_t message;
+    ale_convert_scan(scan, utime, number, sensor, &bus->scan, &message);
+    return send_bytes(bus, ALE_CHANNEL_SCAN,
+                      lcmtypes_ale_scan_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
+}
+
+int ale_bus_send_map_part(ale_bus_t *bus, const ale_map_t *map, int64_t utime, int16_t part)
+{
+    lcmtypes_ale_map_t message;
+    ale_convert_map(map, utime, part, &bus->map, &message);
+    return send_bytes(bus, ALE_CHANNEL_MAP,
+                      lcmtypes_ale_map_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
+}
+
+int ale_bus_send_status(ale_bus_t *bus, const ale_status_report_t *report)
+{
+    lcmtypes_ale_status_t message;
+    ale_convert_status(report, &bus->status, &message);
+    return send_bytes(bus, ALE_CHANNEL_STATUS,
+                      lcmtypes_ale_status_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
+}
+
+int ale_bus_send_odometry(ale_bus_t *bus, const ale_odometry_t *sample)
+{
+    lcmtypes_ale_odometry_t message;
+    ale_convert_odometry(sample, &message);
+    return send_bytes(bus, ALE_CHANNEL_ODOMETRY,
+                      lcmtypes_ale_odometry_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
+}
+
+int ale_bus_send_bot_lidar(ale_bus_t *bus, const ale_scan_t *scan, int64_t utime)
+{
+    for (int k = 0; k < scan->beams; k++) {
+        bus->bot_ranges[k] = scan->flag[k] == ALE_BEAM_VALID ? ale_to_metres(scan->range_um[k]) : 0;
+    }
+    const lcmtypes_bot_core_planar_lidar_t message = {
+        .utime = utime,
+        .nranges = scan->beams,
+        .ranges = bus->bot_ranges,
+        .rad0 = ale_to_radians(scan->first_bearing_bam),
+        .radstep = ale_to_radians((uint32_t)scan->step_bam),
+    };
+    return send_bytes(bus, ALE_CHANNEL_BOT_LIDAR,
+                      lcmtypes_bot_core_planar_lidar_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
+}
+
+int ale_bus_send_bot_pose(ale_bus_t *bus, const ale_pose_report_t *report)
+{
+    lcmtypes_ale_pose_t pose;
+    ale_convert_pose(report, &pose);
+    const double theta = (double)pose.map_theta;
+    const double forward = (double)pose.vx;
+    const double left = (double)pose.vy;
+    const lcmtypes_bot_core_pose_t message = {
+        .utime = pose.utime,
+        .pos = {(double)pose.map_x, (double)pose.map_y, 0},
+        .vel = {cos(theta) * forward - sin(theta) * left, sin(theta) * forward + cos(theta) * left, 0},
+        .orientation = {cos(theta / 2), 0, 0, sin(theta / 2)},
+        .rotation_rate = {0, 0, (double)pose.omega},
+    };
+    return send_bytes(bus, ALE_CHANNEL_BOT_POSE,
+                      lcmtypes_bot_core_pose_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
+}
+
+static void take_odometry(const lcm_recv_buf_t *received, const char *channel, void *user)
+{
+    (void)channel;
+    ale_bus_t *bus = user;
+    lcmtypes_ale_odometry_t message;
+    ale_odometry_t sample;
+    if (lcmtypes_ale_odometry_t_decode(received->data, 0, (int)received->data_size, &message) < 0 ||
+        ale_take_odometry(&message, &sample) < 0) {
+        bus->refused++;
+        return;
+    }
+    bus->take_odometry(bus->odometry_user, &sample);
+}
+
+int ale_bus_on_odometry(ale_bus_t *bus, ale_bus_odometry_t take, void *user)
+{
+    bus->take_odometry = take;
+    bus->odometry_user = user;
+    return lcm_subscribe(bus->lcm, ALE_CHANNEL_ODOMETRY, take_odometry, bus) ? 0 : -1;
+}
+
+int ale_bus_descriptor(ale_bus_t *bus)
+{
+    return lcm_get_fileno(bus->lcm);
+}
+
+int ale_bus_receive(ale_bus_t *bus, int timeout_ms)
+{
+    int handled = 0;
+    while (handled < MAX_HANDLED) {
+        const int result = lcm_handle_timeout(bus->lcm, handled ? 0 : timeout_ms);
+        if (result < 0) {
+            return errno == EINTR ? handled : -1;
+        }
+        if (result == 0) {
+            break;
+        }
+        handled++;
+    }
+    return handled;
+}
+
+uint64_t ale_bus_refused(const ale_bus_t *bus)
+{
+    return bus->refused;
+}
+
+uint64_t ale_bus_unsent(const ale_bus_t *bus)
+{
+    return bus->unsent;
+}

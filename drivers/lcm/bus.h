@@ -1,0 +1,66 @@
+/* The LCM bus: open, send, receive. Own buffers; nothing is allocated per message.
+ *
+ *   char error[ALE_BUS_ERROR];
+ *   ale_bus_t *bus = ale_bus_open(url, error);
+ *   if (!bus) ... error says in one line what is missing ...
+ *   ale_bus_on_odometry(bus, take, user);          (only who receives; starts LCM's receive thread)
+ *   ale_bus_send_odometry(bus, &sample);
+ *   ale_bus_receive(bus, 50);                      (calls `take` for what has come)
+ *   ale_bus_close(bus);
+ *
+ * One owner thread. Sending is a system call and may block for milliseconds: never from the estimate task.
+ * LCM's receive thread inherits policy, affinity and signal mask of the thread that first receives. */
+#ifndef ALE_LCM_BUS_H
+#define ALE_LCM_BUS_H
+
+#include <stdint.h>
+
+#include "lcm/report.h"
+
+#define ALE_CHANNEL_POSE "ALE_POSE"
+#define ALE_CHANNEL_FEATURES "ALE_FEATURES"
+#define ALE_CHANNEL_SCAN "ALE_SCAN"
+#define ALE_CHANNEL_MAP "ALE_MAP"
+#define ALE_CHANNEL_STATUS "ALE_STATUS"
+#define ALE_CHANNEL_ODOMETRY "ALE_ODOMETRY"
+#define ALE_CHANNEL_BOT_LIDAR "LASER" /* bot_core, when asked for */
+#define ALE_CHANNEL_BOT_POSE "POSE"
+
+enum { ALE_BUS_ERROR = 256 };
+
+typedef struct ale_bus ale_bus_t;
+
+/* url NULL or empty: the environment's LCM_DEFAULT_URL, else LCM's default. NULL on failure: *error then is
+ * one line for people (no multicast route, unknown kind of URL, ...). */
+ale_bus_t *ale_bus_open(const char *url, char error[ALE_BUS_ERROR]);
+void ale_bus_close(ale_bus_t *bus);
+
+/* Each: 0, or -1 when the system refused the message (counted: ale_bus_unsent). Reports as in report.h. */
+int ale_bus_send_pose(ale_bus_t *bus, const ale_pose_report_t *report);
+int ale_bus_send_features(ale_bus_t *bus, const ale_features_t *features, int64_t utime, uint32_t scan,
+                          ale_pose_t sensor);
+int ale_bus_send_scan(ale_bus_t *bus, const ale_scan_t *scan, int64_t utime, uint32_t number,
+                      ale_pose_t sensor);
+int ale_bus_send_map_part(ale_bus_t *bus, const ale_map_t *map, int64_t utime, int16_t part);
+int ale_bus_send_status(ale_bus_t *bus, const ale_status_report_t *report);
+int ale_bus_send_odometry(ale_bus_t *bus, const ale_odometry_t *sample);
+
+/* The same scan and pose for viewers that know bot_core's types. */
+int ale_bus_send_bot_lidar(ale_bus_t *bus, const ale_scan_t *scan, int64_t utime);
+int ale_bus_send_bot_pose(ale_bus_t *bus, const ale_pose_report_t *report);
+
+/* Odometry as it arrives, checked; sample->stamp_us is the message's utime. 0 or -1. */
+typedef void (*ale_bus_odometry_t)(void *user, const ale_odometry_t *sample);
+int ale_bus_on_odometry(ale_bus_t *bus, ale_bus_odometry_t take, void *user);
+
+/* A descriptor for poll that is readable while messages wait. -1 when there is none. */
+int ale_bus_descriptor(ale_bus_t *bus);
+
+/* Waits up to timeout_ms for a message (0: looks only), then handles all that have come, 64 at most.
+ * The number handled, or -1 when the bus is broken. */
+int ale_bus_receive(ale_bus_t *bus, int timeout_ms);
+
+uint64_t ale_bus_refused(const ale_bus_t *bus); /* messages that were not what they should be */
+uint64_t ale_bus_unsent(const ale_bus_t *bus);
+
+#endif

@@ -1,0 +1,51 @@
+/* What goes out over LCM, still in the core's integers: filled by those who know, turned into messages by
+ * convert.h. Times are microseconds of the messages' clock (utime): since 1970, of the robot. */
+#ifndef ALE_LCM_REPORT_H
+#define ALE_LCM_REPORT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/stage.h"
+#include "track/pipeline.h"
+
+/* ALE_POSE: the estimate (its stamp_us already a utime) and how long its scan was under way. */
+typedef struct {
+    ale_estimate_t estimate;
+    int64_t first_beam_us;
+    int64_t arrival_us; /* last byte of the scan */
+    int64_t sent_us;
+    int32_t stage_ns[ALE_STAGES];
+} ale_pose_report_t;
+
+enum { ALE_STATUS_STAGES = ALE_STAGES + 1, ALE_STATUS_COUNTERS = 32 };
+
+typedef struct {
+    const char *name; /* a constant text */
+    uint64_t value;
+} ale_counter_t;
+
+/* ALE_STATUS. The last of the stages is their sum. */
+typedef struct {
+    int64_t now_us;
+    int64_t boot; /* nonce of this start */
+    uint32_t scans;
+    uint32_t poses;
+    uint8_t state; /* ale_state_t */
+    int64_t stage_last_ns[ALE_STATUS_STAGES];
+    int64_t stage_p99_ns[ALE_STATUS_STAGES];
+    int64_t stage_worst_ns[ALE_STATUS_STAGES];
+    int64_t latency_p50_ns; /* last byte of a scan to its pose on the wire */
+    int64_t latency_p99_ns;
+    int64_t latency_worst_ns;
+    uint32_t deadline_misses;
+    bool realtime;
+    char realtime_detail[192];
+    char driver_state[192];
+    char device[160];
+    int32_t scan_period_us; /* 0: unknown */
+    uint32_t counters;
+    ale_counter_t counter[ALE_STATUS_COUNTERS];
+} ale_status_report_t;
+
+#endif
