@@ -1,0 +1,96 @@
+/* The board between the LCM thread, which pins the newest of everything to it, and the web thread, which
+ * reads. What is replaced before a slow client has read it is gone for that client: newest wins.
+ *
+ * The trail is the exception: every client gets all of it, from wherever he stands. */
+#ifndef CONSOLE_BOARD_H
+#define CONSOLE_BOARD_H
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace console
+{
+
+enum class Topic { pose, features, scan, map, status };
+constexpr size_t topic_count = 5;
+
+/* One message as pinned: its text, and how many of its topic there were so far, this one included. */
+struct Pinned {
+    std::shared_ptr<const std::string> text;
+    uint64_t number = 0;
+};
+
+struct TrailPoint {
+    float x;
+    float y;
+    bool first; /* no line from the point before: the pose jumped */
+};
+
+/* A stretch of the trail from index first on. The epoch changes when indices do. */
+struct TrailPiece {
+    uint64_t epoch;
+    size_t first;
+    std::vector<TrailPoint> points;
+};
+
+/* What a console can say about its own link to the robot. */
+struct LinkHealth {
+    int64_t pose_age_ms = -1; /* since the last pose came in; -1: none yet */
+    double pose_rate_hz = 0;
+    uint64_t poses = 0;
+    uint64_t lost_poses = 0; /* by gaps in the numbers of the scans */
+    uint64_t malformed = 0;
+};
+
+class Board
+{
+  public:
+    using Clock = std::chrono::steady_clock;
+
+    /* Called on the LCM thread after each change; it must only wake somebody. */
+    void on_change(std::function<void()> wake);
+
+    void pin(Topic topic, std::string text);
+    Pinned newest(Topic topic) const;
+
+    void extend_trail(TrailPoint point);
+    /* The robot started anew: its trail and what was pinned belong to a former life. */
+    void clear();
+    uint64_t life() const;
+    /* At most limit points from index first of that epoch; from the start if the epoch is another. */
+    TrailPiece trail(uint64_t epoch, size_t first, size_t limit) const;
+
+    void note_pose(Clock::time_point arrival, uint64_t lost_before);
+    void note_malformed(uint64_t total);
+    LinkHealth link(Clock::time_point now) const;
+
+  private:
+    static constexpr size_t trail_capacity = 20000;
+    static constexpr float finest_spacing_m = 0.02F;
+    static constexpr size_t rate_window = 20;
+
+    void wake() const;
+    void halve_trail();
+
+    mutable std::mutex mutex_;
+    std::function<void()> wake_;
+    std::array<Pinned, topic_count> pinned_;
+    uint64_t life_ = 1;
+    std::vector<TrailPoint> trail_;
+    uint64_t trail_epoch_ = 1;
+    float trail_spacing_m_ = finest_spacing_m;
+    std::vector<Clock::time_point> arrivals_; /* the last few poses, oldest first */
+    uint64_t poses_ = 0;
+    uint64_t lost_poses_ = 0;
+    uint64_t malformed_ = 0;
+};
+
+} // namespace console
+
+#endif

@@ -1,0 +1,155 @@
+/* ale-console: the operator's page. LCM in on one thread, the web on another, the board between them. */
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include <getopt.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "console/board.h"
+#include "console/http_address.h"
+#include "console/lcm_feed.h"
+#include "console/robot_watch.h"
+#include "console/web_server.h"
+
+namespace
+{
+
+constexpr char usage[] =
+    "usage: ale-console [--lcm-url URL] [--http ADDR:PORT] [--keys FILE]\n"
+    "The operator's console: serves a web page that shows what the robot publishes over LCM.\n"
+    "  --lcm-url URL     where the robot publishes (default: LCM_DEFAULT_URL, else LCM's own default)\n"
+    "  --http ADDR:PORT  where the page is served (default 127.0.0.1:8080; port 0: any free one)\n"
+    "  --keys FILE       keys for the operator's commands (must be readable; this version sends none)\n"
+    "  --help, --version\n"
+    "Prints the page's address on stdout. Ends with Ctrl-C or SIGTERM.\n";
+
+struct Options {
+    std::string lcm_url;
+    std::string http = "127.0.0.1:8080";
+    std::string keys;
+};
+
+/* The exit code when the command line has been answered already, else -1. */
+int parse(int argc, char **argv, Options &options)
+{
+    static const option known[] = {
+        {"lcm-url", required_argument, nullptr, 'l'}, {"http", required_argument, nullptr, 'a'},
+        {"keys", required_argument, nullptr, 'k'},    {"help", no_argument, nullptr, 'h'},
+        {"version", no_argument, nullptr, 'v'},       {nullptr, 0, nullptr, 0}};
+    for (int choice; (choice = getopt_long(argc, argv, "", known, nullptr)) != -1;) {
+        switch (choice) {
+        case 'l':
+            options.lcm_url = optarg;
+            break;
+        case 'a':
+            options.http = optarg;
+            break;
+        case 'k':
+            options.keys = optarg;
+            break;
+        case 'h':
+            std::fputs(usage, stdout);
+            return 0;
+        case 'v':
+            std::puts("ale-console 0.1.0");
+            return 0;
+        default:
+            return 2;
+        }
+    }
+    if (optind < argc) {
+        std::fprintf(stderr, "ale-console: what is \"%s\"? (see --help)\n", argv[optind]);
+        return 2;
+    }
+    return -1;
+}
+
+/* A forged message may claim more elements than memory holds: it fails at this limit and is counted. The
+ * sanitizers map far more than they use and must do without. */
+void limit_memory()
+{
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    const rlimit limit = {512U << 20U, 512U << 20U};
+    setrlimit(RLIMIT_DATA, &limit);
+#endif
+}
+
+void follow_robot(console::LcmFeed &feed, console::Board &board, const std::atomic<bool> &stopping)
+{
+    while (!stopping) {
+        feed.wait(100);
+        board.note_malformed(feed.malformed());
+    }
+}
+
+void run(const Options &options, const console::HttpAddress &address, const sigset_t &endings)
+{
+    console::Board board;
+    console::LcmFeed feed(options.lcm_url);
+    console::RobotWatch watch(board);
+    watch.subscribe(feed);
+    console::WebServer server(board, address);
+    std::printf("%s\n", server.address().url().c_str());
+    std::fflush(stdout);
+
+    std::atomic<bool> stopping{false};
+    std::atomic<bool> failed{false};
+    std::thread web([&] { server.run(); });
+    std::thread lcm([&] {
+        try {
+            follow_robot(feed, board, stopping);
+        } catch (const std::exception &error) {
+            std::fprintf(stderr, "ale-console: %s\n", error.what());
+            failed = true;
+            kill(getpid(), SIGTERM);
+        }
+    });
+    int signal = 0;
+    sigwait(&endings, &signal);
+    stopping = true;
+    server.stop();
+    lcm.join();
+    web.join();
+    if (failed) {
+        throw std::runtime_error("ended because the robot's messages can no longer be received");
+    }
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+    Options options;
+    const int answered = parse(argc, argv, options);
+    if (answered >= 0) {
+        return answered;
+    }
+    if (!options.keys.empty() && access(options.keys.c_str(), R_OK) != 0) {
+        std::fprintf(stderr, "ale-console: cannot read the keys: %s\n", options.keys.c_str());
+        return 1;
+    }
+    /* Blocked before any thread exists, so that all inherit it and only sigwait sees them. */
+    sigset_t endings;
+    sigemptyset(&endings);
+    sigaddset(&endings, SIGINT);
+    sigaddset(&endings, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &endings, nullptr);
+    std::signal(SIGPIPE, SIG_IGN);
+    limit_memory();
+    try {
+        run(options, console::parse_http_address(options.http), endings);
+    } catch (const std::invalid_argument &error) {
+        std::fprintf(stderr, "ale-console: --http: %s\n", error.what());
+        return 2;
+    } catch (const std::exception &error) {
+        std::fprintf(stderr, "ale-console: %s\n", error.what());
+        return 1;
+    }
+    return 0;
+}

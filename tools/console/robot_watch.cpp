@@ -1,0 +1,132 @@
+#include "console/robot_watch.h"
+
+#include <cmath>
+#include <initializer_list>
+#include <stdexcept>
+
+#include "base/limits.h"
+#include "console/messages.h"
+
+namespace console
+{
+
+namespace
+{
+
+/* A pose that moves farther between two scans was relocated, not driven. */
+constexpr float jump_m = 0.5F;
+
+/* A scan number this far back is a new start; one less far was overtaken on its way. */
+constexpr int32_t overtaken_scans = 10;
+
+/* Scan numbers run on over a gap of this size at most; beyond, somebody else is talking. */
+constexpr int32_t largest_gap = 100000;
+
+void require(bool sense, const char *what)
+{
+    if (!sense) {
+        throw std::runtime_error(what);
+    }
+}
+
+bool finite(std::initializer_list<float> values)
+{
+    for (const float value : values) {
+        if (!std::isfinite(value)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+} // namespace
+
+void RobotWatch::subscribe(LcmFeed &feed)
+{
+    feed.on<ale::pose_t>("ALE_POSE", [this](const ale::pose_t &message) { pose(message); });
+    feed.on<ale::features_t>("ALE_FEATURES", [this](const ale::features_t &message) { features(message); });
+    feed.on<ale::scan_t>("ALE_SCAN", [this](const ale::scan_t &message) { scan(message); });
+    feed.on<ale::map_t>("ALE_MAP", [this](const ale::map_t &message) { map(message); });
+    feed.on<ale::status_t>("ALE_STATUS", [this](const ale::status_t &message) { status(message); });
+}
+
+void RobotWatch::restarted()
+{
+    board_.clear();
+    map_parts_ = MapParts();
+    last_pose_.reset();
+    restart_known_ = true;
+}
+
+void RobotWatch::pose(const ale::pose_t &pose)
+{
+    require(finite({pose.x, pose.y, pose.theta, pose.map_x, pose.map_y, pose.map_theta}),
+            "pose is not a number");
+    require(pose.state >= 0 && pose.state <= 2, "unknown state");
+    if (last_pose_ && pose.scan <= last_pose_->scan) {
+        if (pose.scan > last_pose_->scan - overtaken_scans) {
+            return;
+        }
+        restarted();
+    }
+    const int64_t gap = last_pose_ ? static_cast<int64_t>(pose.scan) - last_pose_->scan - 1 : 0;
+    require(gap <= largest_gap, "scan number out of all proportion");
+    extend_trail(pose);
+    board_.note_pose(Board::Clock::now(), static_cast<uint64_t>(gap));
+    board_.pin(Topic::pose, pose_message(pose));
+    last_pose_ = pose;
+}
+
+void RobotWatch::extend_trail(const ale::pose_t &pose)
+{
+    const bool jumped =
+        last_pose_ && std::hypot(pose.map_x - last_pose_->map_x, pose.map_y - last_pose_->map_y) > jump_m;
+    board_.extend_trail({pose.map_x, pose.map_y, jumped || !last_pose_});
+}
+
+void RobotWatch::features(const ale::features_t &features)
+{
+    require(finite({features.sensor_x, features.sensor_y, features.sensor_theta}),
+            "mounting is not a number");
+    for (const auto &line : features.lines) {
+        require(finite({line.x1, line.y1, line.x2, line.y2}), "line is not a number");
+    }
+    for (const auto &corner : features.corners) {
+        require(finite({corner.x, corner.y, corner.angle}), "corner is not a number");
+    }
+    board_.pin(Topic::features, features_message(features));
+}
+
+void RobotWatch::scan(const ale::scan_t &scan)
+{
+    require(finite({scan.beam_time_us, scan.first_bearing, scan.step, scan.range_max, scan.sensor_x,
+                    scan.sensor_y, scan.sensor_theta}),
+            "geometry of the scan is not a number");
+    require(scan.num_ranges <= ALE_MAX_BEAMS, "too many beams");
+    board_.pin(Topic::scan, scan_message(scan));
+}
+
+void RobotWatch::map(const ale::map_t &part)
+{
+    for (const auto &line : part.lines) {
+        require(finite({line.x1, line.y1, line.x2, line.y2}), "wall is not a number");
+    }
+    for (const auto &corner : part.corners) {
+        require(finite({corner.x, corner.y}), "corner is not a number");
+    }
+    if (map_parts_.add(part)) {
+        board_.pin(Topic::map, map_message(map_parts_.whole()));
+    }
+}
+
+void RobotWatch::status(const ale::status_t &status)
+{
+    if (boot_ && *boot_ != status.boot && !restart_known_) {
+        restarted();
+    }
+    boot_ = status.boot;
+    restart_known_ = false;
+    board_.pin(Topic::status, status_message(status));
+}
+
+} // namespace console

@@ -1,0 +1,49 @@
+/* What comes from the robot, checked, and pinned to the board. LCM thread only. */
+#ifndef CONSOLE_ROBOT_WATCH_H
+#define CONSOLE_ROBOT_WATCH_H
+
+#include <cstdint>
+#include <optional>
+
+#include "ale/features_t.hpp"
+#include "ale/map_t.hpp"
+#include "ale/pose_t.hpp"
+#include "ale/scan_t.hpp"
+#include "ale/status_t.hpp"
+#include "console/board.h"
+#include "console/lcm_feed.h"
+#include "console/map_parts.h"
+
+namespace console
+{
+
+class RobotWatch
+{
+  public:
+    explicit RobotWatch(Board &board) : board_(board)
+    {
+    }
+
+    void subscribe(LcmFeed &feed);
+
+    /* Each throws std::runtime_error for a message that makes no sense; it is counted as malformed. */
+    void pose(const ale::pose_t &pose);
+    void features(const ale::features_t &features);
+    void scan(const ale::scan_t &scan);
+    void map(const ale::map_t &part);
+    void status(const ale::status_t &status);
+
+  private:
+    void restarted();
+    void extend_trail(const ale::pose_t &pose);
+
+    Board &board_;
+    MapParts map_parts_;
+    std::optional<ale::pose_t> last_pose_;
+    std::optional<int64_t> boot_;
+    bool restart_known_ = false; /* the scan numbers told before the next status does */
+};
+
+} // namespace console
+
+#endif

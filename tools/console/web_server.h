@@ -1,0 +1,65 @@
+/* The page over HTTP, and the board over a web socket to every browser that asks.
+ *
+ *   WebServer server(board, parse_http_address("127.0.0.1:8080"));   (throws std::runtime_error)
+ *   server.run(stop);                                                (until another thread stops it)
+ *
+ * One thread runs the server; wake() and stop() may be called from any. */
+#ifndef CONSOLE_WEB_SERVER_H
+#define CONSOLE_WEB_SERVER_H
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <unordered_map>
+
+#include "console/board.h"
+#include "console/client.h"
+#include "console/http_address.h"
+
+struct lws;
+struct lws_context;
+
+namespace console
+{
+
+class WebServer
+{
+  public:
+    WebServer(Board &board, const HttpAddress &address);
+    ~WebServer();
+    WebServer(const WebServer &) = delete;
+    WebServer &operator=(const WebServer &) = delete;
+
+    /* Where it listens: with the port that was found when any was asked for. */
+    const HttpAddress &address() const
+    {
+        return address_;
+    }
+
+    void run();
+    void stop();
+    void wake();
+
+  private:
+    friend struct WebCallbacks;
+
+    /* More browsers than look at one robot; keeps a flood from eating the machine. */
+    static constexpr unsigned most_connections = 64;
+
+    bool accepts(lws *connection) const;
+    void send_next(lws *connection);
+    void offer_all();
+    void links_due();
+
+    Board &board_;
+    HttpAddress address_;
+    std::string machine_name_;
+    lws_context *context_ = nullptr;
+    std::unordered_map<lws *, Client> clients_;
+    std::atomic<bool> stopping_{false};
+};
+
+} // namespace console
+
+#endif
