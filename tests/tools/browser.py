@@ -1,0 +1,109 @@
+"""Headless Chromium over the W3C WebDriver protocol, with nothing but the standard library."""
+import base64
+import json
+import shutil
+import subprocess
+import tempfile
+import time
+import urllib.error
+import urllib.request
+
+FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-dev-shm-usage",
+         "--disable-background-networking", "--disable-component-update", "--disable-sync", "--hide-scrollbars"]
+
+
+def missing():
+    """What stands in the way of a browser test, or an empty text."""
+    absent = [name for name in ("chromium", "chromedriver") if shutil.which(name) is None]
+    return f"no {' and no '.join(absent)}" if absent else ""
+
+
+class Browser:
+    def __init__(self, width=1280, height=800, light=False):
+        self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        self.driver = subprocess.Popen(["chromedriver", "--port=0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                                       text=True)
+        try:
+            self.base = f"http://127.0.0.1:{self._driver_port()}"
+            arguments = [*FLAGS, f"--user-data-dir={self.profile.name}", f"--window-size={width},{height}"]
+            if not light:
+                arguments.append("--blink-settings=preferredColorScheme=0")
+            options = {"browserName": "chrome", "goog:chromeOptions": {"args": arguments},
+                       "goog:loggingPrefs": {"browser": "ALL"}}
+            session = self._call("POST", "/session", {"capabilities": {"alwaysMatch": options}})
+            self.session = f"/session/{session['sessionId']}"
+        except BaseException:
+            self.close()
+            raise
+
+    def _driver_port(self):
+        for line in self.driver.stdout:
+            if "successfully on port" in line:
+                return int(line.rstrip(". \n").split()[-1])
+        raise RuntimeError("chromedriver did not start")
+
+    def _call(self, method, path, body=None):
+        data = None if method != "POST" else json.dumps(body or {}).encode()
+        request = urllib.request.Request(self.base + path, data, {"Content-Type": "application/json"}, method=method)
+        try:
+            with urllib.request.urlopen(request, timeout=60) as answer:
+                return json.load(answer)["value"]
+        except urllib.error.HTTPError as error:
+            raise RuntimeError(json.load(error)["value"]["message"]) from None
+
+    def open(self, url):
+        self._call("POST", f"{self.session}/url", {"url": url})
+
+    def run(self, script, *arguments):
+        return self._call("POST", f"{self.session}/execute/sync", {"script": script, "args": list(arguments)})
+
+    def text(self, element_id):
+        return self.run("return document.getElementById(arguments[0]).textContent", element_id)
+
+    def messages(self):
+        """What the page and the browser wrote to the console since the last call."""
+        return [entry["message"] for entry in self._call("POST", f"{self.session}/se/log", {"type": "browser"})]
+
+    def wait_for(self, condition, seconds=10):
+        """Runs the script until it gives something true; returns that and the seconds it took."""
+        started = time.monotonic()
+        while time.monotonic() - started < seconds:
+            value = self.run(f"return {condition}")
+            if value:
+                return value, time.monotonic() - started
+            time.sleep(0.02)
+        raise AssertionError(f"not within {seconds} s: {condition}")
+
+    def drag(self, x1, y1, x2, y2):
+        self._pointer([self._to(x1, y1), {"type": "pointerDown", "button": 0}, self._to(x2, y2),
+                       {"type": "pointerUp", "button": 0}])
+
+    def click(self, element_id):
+        x, y = self.run("const r = document.getElementById(arguments[0]).getBoundingClientRect();"
+                        "return [Math.round(r.x + r.width / 2), Math.round(r.y + r.height / 2)]", element_id)
+        self._pointer([self._to(x, y), {"type": "pointerDown", "button": 0}, {"type": "pointerUp", "button": 0}])
+
+    @staticmethod
+    def _to(x, y):
+        return {"type": "pointerMove", "duration": 20, "x": x, "y": y}
+
+    def _pointer(self, actions):
+        self._call("POST", f"{self.session}/actions", {"actions": [
+            {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": actions}]})
+
+    def resize(self, width, height):
+        self._call("POST", f"{self.session}/window/rect", {"width": width, "height": height})
+
+    def screenshot(self, path):
+        with open(path, "wb") as picture:
+            picture.write(base64.b64decode(self._call("GET", f"{self.session}/screenshot")))
+
+    def close(self):
+        try:
+            if hasattr(self, "session"):
+                self._call("DELETE", self.session)
+        finally:
+            self.driver.terminate()
+            self.driver.wait(10)
+            self.driver.stdout.close()
+            self.profile.cleanup()

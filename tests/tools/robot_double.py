@@ -1,0 +1,159 @@
+"""A robot that is not there: publishes over LCM what the firmware would, driving a circle in two rooms.
+
+    robot = RobotDouble(url)
+    robot.step()          # one scan: pose, features, scan; the map and the status with the first one
+"""
+import math
+import time
+
+import ale
+import lcm
+
+WALLS = [  # x1 y1 x2 y2: two rooms with a door between them, and a pillar
+    (-2.0, -1.6, 3.0, -1.6), (3.0, -1.6, 3.0, -0.4), (3.0, 0.5, 3.0, 2.0), (3.0, 2.0, -2.0, 2.0),
+    (-2.0, 2.0, -2.0, -1.6), (3.0, -1.6, 6.0, -1.6), (6.0, -1.6, 6.0, 2.0), (6.0, 2.0, 3.0, 2.0),
+    (-0.2, 0.7, 0.3, 0.7), (0.3, 0.7, 0.3, 1.2), (0.3, 1.2, -0.2, 1.2), (-0.2, 1.2, -0.2, 0.7),
+]
+BEAMS = 682
+STEP = 2 * math.pi / 1024
+FIRST_BEARING = -340 * STEP
+RANGE_MAX = 4.0
+BEAM_TIME = 97.656e-6
+STAMP_BEAM = -44
+RADIUS, OMEGA, SCANS_A_SECOND = 0.7, 0.3, 10  # of its circle
+MAP_LINES_A_PART = 7
+
+
+def cast(x, y, bearing):
+    """Distance to the nearest wall, or None beyond the scanner's reach."""
+    dx, dy = math.cos(bearing), math.sin(bearing)
+    nearest = RANGE_MAX
+    for x1, y1, x2, y2 in WALLS:
+        ex, ey = x2 - x1, y2 - y1
+        det = ex * dy - ey * dx
+        if abs(det) < 1e-9:
+            continue
+        along = ((x - x1) * dy - (y - y1) * dx) / det
+        reach = ((x - x1) * ey - (y - y1) * ex) / det
+        if 0 <= along <= 1 and 0 < reach < nearest:
+            nearest = reach
+    return nearest if nearest < RANGE_MAX else None
+
+
+def to_robot(pose, x, y):
+    dx, dy = x - pose[0], y - pose[1]
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    return c * dx + s * dy, -s * dx + c * dy
+
+
+class RobotDouble:
+    def __init__(self, url, boot=1):
+        self.bus = lcm.LCM(url)
+        self.boot = boot
+        self.scan = 0
+        self.state = 2
+
+    @property
+    def where(self):
+        return self.where_after(0)
+
+    def where_after(self, seconds):
+        """Pose of the robot so long after the stamp of the scan now due."""
+        turn = OMEGA * (self.scan / SCANS_A_SECOND + seconds)
+        return (0.5 + RADIUS * math.sin(turn), -0.6 + RADIUS * (1 - math.cos(turn)), turn)
+
+    def step(self):
+        """Everything that goes out for one scan."""
+        if self.scan == 0:
+            self.publish_map()
+            self.publish_status()
+        elif self.scan % 10 == 0:
+            self.publish_status()
+        self.publish_pose()
+        self.publish_features()
+        self.publish_scan()
+        self.scan += 1
+
+    def pose(self):
+        x, y, theta = self.where
+        now = time.time_ns() // 1000
+        sigma = (0.004, 0.006, 0.003)
+        pose = ale.pose_t()
+        pose.utime, pose.scan, pose.state = now - 70000, self.scan, self.state
+        pose.x, pose.y, pose.theta = x, y, theta
+        pose.map_x, pose.map_y, pose.map_theta = x, y, theta
+        pose.cov = [sigma[k // 4] ** 2 if k % 4 == 0 else 0.0 for k in range(9)]
+        pose.vx, pose.omega = RADIUS * OMEGA, OMEGA
+        pose.age_us, pose.arrival_utime = 70000, now - 1400
+        pose.stage_ns = [41000, 180000 + 9000 * (self.scan % 7), 240000, 310000, 60000]
+        return pose
+
+    def publish_pose(self):
+        self.bus.publish("ALE_POSE", self.pose().encode())
+
+    def publish_features(self):
+        features = ale.features_t()
+        features.scan = self.scan
+        for x1, y1, x2, y2 in WALLS[:5]:
+            line = ale.line_t()
+            line.x1, line.y1 = to_robot(self.where, x1, y1)
+            line.x2, line.y2 = to_robot(self.where, x2, y2)
+            features.lines.append(line)
+        for x, y in ((-2.0, -1.6), (-2.0, 2.0), (3.0, 2.0)):
+            corner = ale.corner_t()
+            corner.x, corner.y = to_robot(self.where, x, y)
+            corner.kind = 1
+            features.corners.append(corner)
+        features.num_lines, features.num_corners = len(features.lines), len(features.corners)
+        self.bus.publish("ALE_FEATURES", features.encode())
+
+    def publish_scan(self):
+        scan = ale.scan_t()
+        scan.scan, scan.stamp_beam, scan.beam_time_us = self.scan, STAMP_BEAM, BEAM_TIME * 1e6
+        scan.first_bearing, scan.step, scan.range_max = FIRST_BEARING, STEP, RANGE_MAX
+        scan.range_unit_mm = 1
+        ranges = [self.range_of(k) for k in range(BEAMS)]
+        scan.range_mm = [0 if r is None else round(r * 1000) for r in ranges]
+        codes = [0x81 if r is None else 0 for r in ranges]
+        codes[100] = 7
+        scan.codes = bytes(codes)
+        scan.num_ranges = scan.num_codes = BEAMS
+        self.bus.publish("ALE_SCAN", scan.encode())
+
+    def range_of(self, beam):
+        x, y, theta = self.where_after((beam - STAMP_BEAM) * BEAM_TIME)
+        return cast(x, y, theta + FIRST_BEARING + beam * STEP)
+
+    def map_parts(self, version=1):
+        parts = [WALLS[k:k + MAP_LINES_A_PART] for k in range(0, len(WALLS), MAP_LINES_A_PART)]
+        for number, walls in enumerate(parts):
+            part = ale.map_t()
+            part.version, part.part, part.parts = version, number, len(parts)
+            for wall in walls:
+                line = ale.map_line_t()
+                line.id, line.seen = WALLS.index(wall), 40
+                line.x1, line.y1, line.x2, line.y2 = wall
+                part.lines.append(line)
+            part.num_lines = len(part.lines)
+            yield part
+
+    def publish_map(self, version=1):
+        for part in self.map_parts(version):
+            self.bus.publish("ALE_MAP", part.encode())
+
+    def publish_status(self):
+        status = ale.status_t()
+        status.boot, status.scans, status.poses, status.state = self.boot, self.scan, self.scan, self.state
+        status.stage_last_us = [41, 190, 240, 310, 60, 841]
+        status.stage_p99_us = [55, 260, 330, 480, 110, 1170]
+        status.stage_worst_us = [80, 390, 520, 700, 160, 1690]
+        status.latency_p50_us, status.latency_p99_us, status.latency_worst_us = 1400, 2300, 4100
+        status.realtime_detail = "SCHED_FIFO 60, memory locked"
+        status.realtime = True
+        status.driver_state = "streaming"
+        status.device = "URG-04LX H0000001"
+        status.scan_rate_hz = 10.0
+        status.counter_name = ["checksum_errors", "resynchronised", "scans_lost"]
+        status.counter_value = [3, 1, 0]
+        status.num_counters = 3
+        self.bus.publish("ALE_STATUS", status.encode())

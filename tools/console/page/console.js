@@ -1,0 +1,57 @@
+// The operator's page: wires the link, the scene, the view on it and the health strip together.
+import { Link } from "./link.js";
+import { Scene } from "./scene.js";
+import { View } from "./view.js";
+import { Painter } from "./paint.js";
+import { Health } from "./health.js";
+
+const canvas = document.getElementById("map");
+const scene = new Scene();
+const view = new View(canvas, scene, () => painter.wanted());
+const painter = new Painter(canvas, scene, view);
+const health = new Health();
+const link = new Link((message) => {
+  scene.take(message);
+  health.take(message, scene);
+  painter.wanted();
+});
+
+for (const [id, action] of Object.entries({
+  "zoom-in": () => view.zoom(1.4),
+  "zoom-out": () => view.zoom(1 / 1.4),
+  follow: () => view.follow(),
+  whole: () => view.whole(),
+  theme: () => changeTheme(),
+})) {
+  document.getElementById(id).addEventListener("click", action);
+}
+
+const lightPreferred = matchMedia("(prefers-color-scheme: light)");
+
+// The operator's choice stays; until he makes one, the system's preference rules.
+function showTheme() {
+  const preferred = lightPreferred.matches ? "light" : "dark";
+  document.documentElement.dataset.theme = localStorage.getItem("theme") ?? preferred;
+  painter.themeChanged();
+}
+
+function changeTheme() {
+  localStorage.setItem("theme", document.documentElement.dataset.theme === "light" ? "dark" : "light");
+  showTheme();
+}
+
+// A lost link must show within one second: it is looked at ten times a second, whatever arrives.
+setInterval(() => health.showLink(link, scene), 100);
+
+function frame(now) {
+  view.step(now);
+  painter.frame();
+  health.frame();
+  link.drawn();
+  requestAnimationFrame(frame);
+}
+
+lightPreferred.addEventListener("change", showTheme);
+showTheme();
+link.open();
+requestAnimationFrame(frame);

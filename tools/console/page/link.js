@@ -1,0 +1,72 @@
+// The web socket to ale-console: opens it, opens it again, tells it what has been drawn, and knows how old
+// the news is. Pacing: the console keeps at most a few messages on their way, so a slow page sees the newest.
+
+const PROTOCOL = 1;
+const SILENCE_MS = 800; // the console speaks four times a second
+const POSE_SILENCE_MS = 700; // a pose comes with every scan, ten a second from a URG
+const RETRY_MS = 400;
+
+export class Link {
+  constructor(onMessage) {
+    this.onMessage = onMessage;
+    this.received = 0;
+    this.told = 0;
+    this.heardAt = -Infinity; // anything from the console
+    this.poseAt = -Infinity; // a pose, by this page's clock
+    this.opened = false;
+    // A page that comes to the front again asks at once for what it missed.
+    document.addEventListener("visibilitychange", () => this.drawn());
+  }
+
+  open() {
+    this.socket = new WebSocket(`ws://${location.host}/`);
+    this.received = 0;
+    this.told = 0;
+    this.posesSinceOpened = 0;
+    this.socket.onmessage = (event) => this.#take(JSON.parse(event.data));
+    this.socket.onclose = () => setTimeout(() => this.open(), RETRY_MS);
+  }
+
+  // Everything received so far is on the screen.
+  drawn() {
+    if (this.received !== this.told && this.socket.readyState === WebSocket.OPEN) {
+      this.told = this.received;
+      this.socket.send(JSON.stringify({ type: "got", count: this.told }));
+    }
+  }
+
+  // "connecting" before the first word, "gone" without the console, "waiting" for a robot's first pose,
+  // "lost" when poses stopped, else "up".
+  get state() {
+    const now = performance.now();
+    if (now - this.heardAt > SILENCE_MS) {
+      return this.opened ? "gone" : "connecting";
+    }
+    if (this.poseAt === -Infinity) {
+      return "waiting";
+    }
+    return now - this.poseAt > POSE_SILENCE_MS ? "lost" : "up";
+  }
+
+  get poseAgeMs() {
+    return performance.now() - this.poseAt;
+  }
+
+  #take(message) {
+    const now = performance.now();
+    this.received++;
+    this.heardAt = now;
+    this.opened = true;
+    if (message.type === "hello") {
+      if (message.protocol !== PROTOCOL) {
+        location.reload(); // the console was replaced by another version
+      }
+      this.poseAt = -Infinity;
+    } else if (message.type === "pose" && this.posesSinceOpened++ > 0) {
+      this.poseAt = now; // the first may be an old one, kept for newcomers: the link report tells its age
+    } else if (message.type === "link" && message.pose_age_ms !== null) {
+      this.poseAt = now - message.pose_age_ms;
+    }
+    this.onMessage(message);
+  }
+}

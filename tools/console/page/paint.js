@@ -1,0 +1,249 @@
+// Draws the scene. Strokes are in screen pixels at every zoom and the canvas has the screen's own
+// resolution, so the picture stays crisp.
+
+const ROBOT_RADIUS_M = 0.17;
+const ROBOT_LEAST_PX = 9;
+const ELLIPSE_SIGMAS = 3;
+const ELLIPSE_MAGNIFIED = 10; // millimetres would not be seen; the legend says so
+const SURE_AFTER_SCANS = 10; // a wall seen less often is drawn paler
+const FRESH_TRAIL_POINTS = 250;
+const GRID_LEAST_PX = 44;
+
+export class Painter {
+  constructor(canvas, scene, view) {
+    this.canvas = canvas;
+    this.scene = scene;
+    this.view = view;
+    this.context = canvas.getContext("2d");
+    this.due = true;
+  }
+
+  wanted() {
+    this.due = true;
+  }
+
+  themeChanged() {
+    const style = getComputedStyle(document.documentElement);
+    this.colour = (name) => style.getPropertyValue(`--${name}`);
+    this.due = true;
+  }
+
+  frame() {
+    if (!this.due) return;
+    this.due = false;
+    this.#fitToScreen();
+    const c = this.context;
+    c.fillStyle = this.colour("ground");
+    c.fillRect(0, 0, this.view.width, this.view.height);
+    c.lineCap = "round";
+    c.lineJoin = "round";
+    this.#grid();
+    this.#sight();
+    this.#trail();
+    this.#points();
+    this.#currentLines(7, 0.28);
+    this.#walls();
+    this.#currentLines(1.75, 1);
+    this.#corners();
+    this.#robot();
+    this.#scaleBar();
+  }
+
+  #fitToScreen() {
+    const ratio = devicePixelRatio || 1;
+    const [w, h] = [Math.round(this.view.width * ratio), Math.round(this.view.height * ratio)];
+    if (this.canvas.width !== w || this.canvas.height !== h) {
+      this.canvas.width = w;
+      this.canvas.height = h;
+    }
+    this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  }
+
+  // Smallest step of 1, 2, 5, 10 .. metres (or parts) whose lines stay apart.
+  #gridStep(leastPx) {
+    const least = leastPx / this.view.scale;
+    const power = 10 ** Math.floor(Math.log10(least));
+    return power * [1, 2, 5, 10].find((k) => k * power >= least);
+  }
+
+  #grid() {
+    const step = this.#gridStep(GRID_LEAST_PX);
+    const [left, top] = this.view.toMap(0, 0);
+    const [right, bottom] = this.view.toMap(this.view.width, this.view.height);
+    const c = this.context;
+    c.lineWidth = 1;
+    const strong = (k) => k % 5 === 0;
+    for (const bold of [false, true]) {
+      c.strokeStyle = this.colour(bold ? "grid-strong" : "grid");
+      c.beginPath();
+      for (let k = Math.ceil(left / step); k <= right / step; k++) {
+        if (strong(k) !== bold) continue;
+        const px = Math.round(this.view.toScreen(k * step, 0)[0]) + 0.5;
+        c.moveTo(px, 0);
+        c.lineTo(px, this.view.height);
+      }
+      for (let k = Math.ceil(bottom / step); k <= top / step; k++) {
+        if (strong(k) !== bold) continue;
+        const py = Math.round(this.view.toScreen(0, k * step)[1]) + 0.5;
+        c.moveTo(0, py);
+        c.lineTo(this.view.width, py);
+      }
+      c.stroke();
+    }
+  }
+
+  #path(points, from = 0) {
+    const c = this.context;
+    c.beginPath();
+    let pen = false;
+    for (let k = from; k < points.length; k += 2) {
+      if (points[k] === null) {
+        pen = false;
+        continue;
+      }
+      const [px, py] = this.view.toScreen(points[k], points[k + 1]);
+      pen ? c.lineTo(px, py) : c.moveTo(px, py);
+      pen = true;
+    }
+  }
+
+  #sight() {
+    const c = this.context;
+    this.#path(this.scene.sight);
+    c.globalAlpha = 0.1;
+    c.fillStyle = this.colour("sight");
+    c.fill();
+    c.globalAlpha = 1;
+  }
+
+  #trail() {
+    const c = this.context;
+    const trail = this.scene.trail;
+    c.strokeStyle = this.colour("trail");
+    c.lineWidth = 2;
+    this.#path(trail);
+    c.globalAlpha = 0.42;
+    c.stroke();
+    this.#path(trail, Math.max(0, trail.length - 2 * FRESH_TRAIL_POINTS));
+    if (this.scene.pose) c.lineTo(...this.view.toScreen(...this.scene.pose.map.slice(0, 2)));
+    c.globalAlpha = 0.75;
+    c.stroke();
+    c.globalAlpha = 1;
+  }
+
+  #walls() {
+    const c = this.context;
+    c.strokeStyle = this.colour("wall");
+    c.lineWidth = 2.5;
+    for (const sure of [false, true]) {
+      c.globalAlpha = sure ? 1 : 0.45;
+      c.beginPath();
+      for (const l of this.scene.map?.lines ?? []) {
+        if (l.seen >= SURE_AFTER_SCANS !== sure) continue;
+        c.moveTo(...this.view.toScreen(l.x1, l.y1));
+        c.lineTo(...this.view.toScreen(l.x2, l.y2));
+      }
+      c.stroke();
+    }
+    c.globalAlpha = 1;
+  }
+
+  #currentLines(width, alpha) {
+    const c = this.context;
+    c.strokeStyle = this.colour("line");
+    c.lineWidth = width;
+    c.globalAlpha = alpha;
+    c.beginPath();
+    for (const [x1, y1, x2, y2] of this.scene.lines) {
+      c.moveTo(...this.view.toScreen(x1, y1));
+      c.lineTo(...this.view.toScreen(x2, y2));
+    }
+    c.stroke();
+    c.globalAlpha = 1;
+  }
+
+  #points() {
+    const c = this.context;
+    c.fillStyle = this.colour("scan");
+    const size = Math.min(4, Math.max(2, this.view.scale / 60));
+    for (let k = 0; k < this.scene.points.length; k += 2) {
+      const [px, py] = this.view.toScreen(this.scene.points[k], this.scene.points[k + 1]);
+      c.fillRect(px - size / 2, py - size / 2, size, size);
+    }
+  }
+
+  #corners() {
+    const c = this.context;
+    c.fillStyle = this.colour("corner");
+    c.strokeStyle = this.colour("ground");
+    c.lineWidth = 1.5;
+    for (const [x, y] of this.scene.corners) {
+      const [px, py] = this.view.toScreen(x, y);
+      c.beginPath();
+      for (const [dx, dy] of [[0, -6], [6, 0], [0, 6], [-6, 0]]) c.lineTo(px + dx, py + dy);
+      c.closePath();
+      c.fill();
+      c.stroke();
+    }
+  }
+
+  #robot() {
+    const pose = this.scene.pose;
+    if (!pose) return;
+    const c = this.context;
+    const [px, py] = this.view.toScreen(pose.map[0], pose.map[1]);
+    const radius = Math.max(ROBOT_LEAST_PX, ROBOT_RADIUS_M * this.view.scale);
+    c.save();
+    c.translate(px, py);
+    c.strokeStyle = c.fillStyle = this.colour("robot");
+    this.#uncertainty(pose, radius);
+    c.rotate(-pose.map[2]);
+    c.beginPath();
+    c.arc(0, 0, radius, 0, 2 * Math.PI);
+    c.fill();
+    c.lineWidth = 2;
+    c.strokeStyle = this.colour("robot-edge");
+    c.stroke();
+    c.fillStyle = this.colour("robot-edge");
+    c.beginPath();
+    for (const [f, l] of [[0.72, 0], [-0.42, 0.5], [-0.2, 0], [-0.42, -0.5]]) c.lineTo(f * radius, l * radius);
+    c.closePath();
+    c.fill();
+    c.restore();
+  }
+
+  // Ellipse of the position and wedge of the heading, three sigma, magnified.
+  #uncertainty(pose, radius) {
+    const [xx, xy, , , yy, , , , tt] = pose.cov;
+    if ([xx, xy, yy, tt].some((v) => v === null)) return;
+    const middle = (xx + yy) / 2;
+    const spread = Math.hypot((xx - yy) / 2, xy);
+    const axis = (variance) => ELLIPSE_SIGMAS * ELLIPSE_MAGNIFIED * Math.sqrt(Math.max(0, variance)) * this.view.scale;
+    const c = this.context;
+    const far = 1e4; // an ellipse far beyond the screen is as good as this one
+    c.beginPath();
+    c.ellipse(0, 0, Math.min(far, axis(middle + spread)), Math.min(far, axis(middle - spread)),
+              -Math.atan2(2 * xy, xx - yy) / 2, 0, 2 * Math.PI);
+    c.globalAlpha = 0.14;
+    c.fill();
+    c.globalAlpha = 0.9;
+    c.setLineDash([5, 4]);
+    c.lineWidth = 1.5;
+    c.stroke();
+    c.setLineDash([]);
+    const half = Math.min(Math.PI, ELLIPSE_SIGMAS * ELLIPSE_MAGNIFIED * Math.sqrt(Math.max(0, tt)));
+    c.beginPath();
+    c.moveTo(0, 0);
+    c.arc(0, 0, radius * 3, -pose.map[2] - half, -pose.map[2] + half);
+    c.closePath();
+    c.globalAlpha = 0.22;
+    c.fill();
+    c.globalAlpha = 1;
+  }
+
+  #scaleBar() {
+    const step = this.#gridStep(70);
+    document.getElementById("scale-text").textContent = step >= 1 ? `${step} m` : step >= 0.01 ? `${Math.round(step * 100)} cm` : `${Math.round(step * 1000)} mm`;
+    document.getElementById("scale-bar").style.width = `${step * this.view.scale}px`;
+  }
+}
