@@ -8,7 +8,10 @@
  * Formats: CARMEN text (FLASER, RLASER, ROBOTLASER1, ODOM), Mines ParisTech rover logs (both column
  * layouts), .scan lines, Odometry/Laser pairs, .scip recordings, LCM event logs with ALE_SCAN.
  * Bad lines are counted in the statistics and skipped; they never end a log. Scans come in the order of
- * the log; odometry that belongs to a line comes before its scan, stamped as the log stamps it. */
+ * the log; odometry that belongs to a line comes before its scan, stamped as the log stamps it.
+ * The log is held in memory, unpacked (at most 4 GiB), and read through once at open: has_odometry and
+ * the use of its stamps are facts of the whole. Where stamps are missing or mostly do not advance, scan k
+ * is at k * 0.1 s. One owner thread; independent logs may be used at the same time. */
 #ifndef ALE_LOG_LOG_H
 #define ALE_LOG_LOG_H
 
@@ -44,8 +47,8 @@ typedef struct {
 /* What the log says of the robot it was taken on; known after open. */
 typedef struct {
     const char *format; /* for people: "CARMEN", "rover", ... */
-    bool has_odometry;
-    bool has_sensor; /* the mounting is stated by the format or the log */
+    bool has_odometry;  /* columns that never change are taken as left empty, except in live recordings */
+    bool has_sensor;    /* the mounting is stated by the format or the log */
     ale_pose_t sensor;
     int32_t lag_prior_us; /* odometry younger than the scan on its line: a prior, nothing is corrected */
     bool urg_noise;       /* the sensor is a URG-04LX (or simulates one): the default noise model applies */
@@ -56,8 +59,9 @@ typedef struct {
     uint64_t bad_lines;      /* unreadable, cut, wrong count: skipped */
     uint64_t bad_chunks;     /* of a recording: checksum, length */
     uint64_t too_many_beams; /* scans with more than ALE_MAX_BEAMS beams: skipped */
-    uint64_t bytes_read;     /* of the file as it lies, for progress */
+    uint64_t bytes_read;     /* of the unpacked log, for progress */
     uint64_t bytes_total;
+    bool cut_short; /* a gzip file that ends early or is damaged: what came before was read */
 } ale_log_statistics_t;
 
 /* 0, or -1 with *error set. */
@@ -66,9 +70,10 @@ int ale_log_open(ale_log_t **out, const char *path, ale_log_error_t *error);
 int ale_log_open_memory(ale_log_t **out, const uint8_t *bytes, uint64_t count, ale_log_error_t *error);
 const ale_log_info_t *ale_log_info(const ale_log_t *log);
 ale_log_statistics_t ale_log_statistics(const ale_log_t *log);
-/* 1 and *event filled, 0 at the end, -1 when the file cannot be read further (*error of open is not kept:
- * ale_log_last_error). */
+/* 1 and *event filled (of its parts only the one that `kind` names), 0 at the end. Time: one record, or as
+ * many bad lines as lie in between. */
 int ale_log_next(ale_log_t *log, ale_log_event_t *event);
+/* What was wrong with the line or chunk last skipped: file, line, what. Empty when there was none. */
 const char *ale_log_last_error(const ale_log_t *log);
 void ale_log_close(ale_log_t *log);
 

@@ -8,6 +8,8 @@
 #ifndef ALE_STORE_RECORDING_H
 #define ALE_STORE_RECORDING_H
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 
@@ -30,11 +32,37 @@ typedef struct {
     FILE *file;
 } ale_recording_t;
 
-/* Each: 0, or -1 with errno set. */
+/* Writing. One owner thread; buffered, so a crash loses the last chunks and never the ones before.
+ * Each: 0, or -1 with errno set (EINVAL: a payload above ALE_CHUNK_MAX_PAYLOAD). */
 int ale_recording_create(ale_recording_t *recording, const char *path);
 int ale_recording_write(ale_recording_t *recording, ale_chunk_kind_t kind, int64_t stamp_us,
                         const void *payload, uint32_t length);
 int ale_recording_odometry(ale_recording_t *recording, int64_t stamp_us, const ale_odometry_t *sample);
 int ale_recording_close(ale_recording_t *recording);
+
+/* Reading back, from memory. */
+typedef struct {
+    ale_chunk_kind_t kind; /* as written; later versions may know more kinds than the enum */
+    int64_t stamp_us;
+    const uint8_t *payload; /* in the caller's bytes */
+    uint32_t length;
+} ale_chunk_t;
+
+typedef struct {
+    const uint8_t *at;
+    const uint8_t *end;
+    uint64_t bad_chunks; /* damaged or cut off at the end: skipped */
+} ale_chunk_reader_t;
+
+bool ale_recording_claims(const uint8_t *bytes, size_t count);
+
+/* The bytes must begin as a recording does and outlive the reader. */
+ale_chunk_reader_t ale_chunk_reader(const uint8_t *bytes, size_t count);
+
+/* The next intact chunk; false at the end. Damage is skipped up to the next magic and counted once. */
+bool ale_chunk_next(ale_chunk_reader_t *reader, ale_chunk_t *chunk);
+
+/* The payload of an ODOMETRY chunk; false when its length is not that of one. */
+bool ale_chunk_odometry(const ale_chunk_t *chunk, ale_odometry_t *sample);
 
 #endif

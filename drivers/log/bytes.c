@@ -1,0 +1,157 @@
+#include "log/bytes.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+enum { FIRST_CAPACITY = 1 << 16, GZIP_WINDOW = 15 + 16 };
+
+typedef struct {
+    uint8_t *at;
+    size_t count;
+    size_t capacity;
+} buffer_t;
+
+static const char *make_room(buffer_t *buffer)
+{
+    if (buffer->count < buffer->capacity) {
+        return NULL;
+    }
+    if (buffer->capacity >= ALE_LOG_MOST_BYTES) {
+        return "larger than 4 GiB";
+    }
+    const size_t capacity = buffer->capacity ? 2 * buffer->capacity : FIRST_CAPACITY;
+    uint8_t *grown = realloc(buffer->at, capacity);
+    if (!grown) {
+        return "not enough memory";
+    }
+    buffer->at = grown;
+    buffer->capacity = capacity;
+    return NULL;
+}
+
+static const char *read_all(int file, buffer_t *buffer)
+{
+    for (;;) {
+        const char *wrong = make_room(buffer);
+        if (wrong) {
+            return wrong;
+        }
+        const ssize_t count = read(file, buffer->at + buffer->count, buffer->capacity - buffer->count);
+        if (count < 0 && errno == EINTR) {
+            continue;
+        }
+        if (count < 0) {
+            return strerror(errno);
+        }
+        if (count == 0) {
+            return NULL;
+        }
+        buffer->count += (size_t)count;
+    }
+}
+
+static const char *read_path(const char *path, buffer_t *buffer)
+{
+    const int file = open(path, O_RDONLY | O_CLOEXEC);
+    if (file < 0) {
+        return strerror(errno);
+    }
+    struct stat status;
+    const char *wrong = fstat(file, &status) == 0 && S_ISDIR(status.st_mode) ? "is a directory" : NULL;
+    if (!wrong) {
+        wrong = read_all(file, buffer);
+    }
+    close(file);
+    return wrong;
+}
+
+static bool is_gzip(const uint8_t *bytes, size_t count)
+{
+    return count >= 2 && bytes[0] == 0x1f && bytes[1] == 0x8b;
+}
+
+/* Takes one step of unpacking; *done when the last member has ended or nothing more can be had. */
+static const char *inflate_step(z_stream *stream, const uint8_t *end, buffer_t *out, bool *done,
+                                bool *cut_short)
+{
+    const char *wrong = make_room(out);
+    if (wrong) {
+        return wrong;
+    }
+    const size_t room = out->capacity - out->count;
+    stream->next_out = out->at + out->count;
+    stream->avail_out = (uInt)(room < UINT32_MAX ? room : UINT32_MAX);
+    const uInt before = stream->avail_out;
+    if (stream->avail_in == 0) {
+        const size_t left = (size_t)(end - stream->next_in);
+        stream->avail_in = (uInt)(left < UINT32_MAX ? left : UINT32_MAX);
+    }
+    const int status = inflate(stream, Z_NO_FLUSH);
+    out->count += before - stream->avail_out;
+    if (status == Z_STREAM_END) {
+        const size_t left = (size_t)(end - stream->next_in);
+        *done = !is_gzip(stream->next_in, left) || inflateReset(stream) != Z_OK;
+    } else if (status != Z_OK) {
+        *done = true;
+        *cut_short = true;
+    }
+    return NULL;
+}
+
+static const char *gunzip(const uint8_t *bytes, size_t count, buffer_t *out, bool *cut_short)
+{
+    z_stream stream = {.next_in = (z_const Bytef *)bytes};
+    if (inflateInit2(&stream, GZIP_WINDOW) != Z_OK) {
+        return "not enough memory";
+    }
+    const char *wrong = NULL;
+    for (bool done = false; !wrong && !done;) {
+        wrong = inflate_step(&stream, bytes + count, out, &done, cut_short);
+    }
+    inflateEnd(&stream);
+    return wrong;
+}
+
+const char *ale_bytes_from_memory(ale_bytes_t *out, const uint8_t *bytes, size_t count)
+{
+    *out = (ale_bytes_t){.at = bytes, .count = count};
+    if (!is_gzip(bytes, count)) {
+        return NULL;
+    }
+    buffer_t plain = {0};
+    const char *wrong = gunzip(bytes, count, &plain, &out->cut_short);
+    if (wrong) {
+        free(plain.at);
+        return wrong;
+    }
+    out->at = out->owned = plain.at;
+    out->count = plain.count;
+    return NULL;
+}
+
+const char *ale_bytes_read_file(ale_bytes_t *out, const char *path)
+{
+    buffer_t raw = {0};
+    *out = (ale_bytes_t){0};
+    const char *wrong = read_path(path, &raw);
+    if (!wrong) {
+        wrong = ale_bytes_from_memory(out, raw.at, raw.count);
+    }
+    if (!wrong && !out->owned) {
+        out->owned = raw.at;
+        return NULL;
+    }
+    free(raw.at);
+    return wrong;
+}
+
+void ale_bytes_free(ale_bytes_t *bytes)
+{
+    free(bytes->owned);
+    *bytes = (ale_bytes_t){0};
+}

@@ -1,0 +1,28 @@
+/* A whole log in memory, unpacked: every reader works on bytes and none on files. */
+#ifndef ALE_LOG_BYTES_H
+#define ALE_LOG_BYTES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Largest log, unpacked: above, the file is refused (a damaged or hostile gzip file can claim anything). */
+#define ALE_LOG_MOST_BYTES ((size_t)4 << 30)
+
+typedef struct {
+    const uint8_t *at;
+    size_t count;
+    uint8_t *owned; /* to be freed, or NULL when the bytes are the caller's */
+    bool cut_short; /* a gzip stream that ends early or is damaged: what came before it is here */
+} ale_bytes_t;
+
+/* Reads the file (or pipe), unpacking gzip by content. NULL, or what is wrong in a few words.
+ * The caller gives it back with ale_bytes_free. */
+const char *ale_bytes_read_file(ale_bytes_t *out, const char *path);
+
+/* The same for bytes in memory, which must outlive *out. */
+const char *ale_bytes_from_memory(ale_bytes_t *out, const uint8_t *bytes, size_t count);
+
+void ale_bytes_free(ale_bytes_t *bytes);
+
+#endif

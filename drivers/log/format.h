@@ -1,0 +1,65 @@
+/* What a log format is to the rest: how it is told, and how it yields records. Internal to drivers/log.
+ *
+ * A format keeps its own state (state_size bytes, zeroed at every rewind), takes what it needs from
+ * log->text and returns one record a call. Every log is read twice: once by the survey at open (does it
+ * have odometry, are its stamps of use), once by the caller. */
+#ifndef ALE_LOG_FORMAT_H
+#define ALE_LOG_FORMAT_H
+
+#include "log/bytes.h"
+#include "log/log.h"
+#include "log/text.h"
+
+typedef struct {
+    ale_log_event_t event; /* complete but for the stamps, when the log has none of use */
+    bool with_odometry;    /* a SCAN whose line also holds event.odometry */
+} ale_log_record_t;
+
+typedef struct {
+    const char *name;
+    /* Binary formats: the whole file is theirs. NULL for text formats. */
+    bool (*claims_file)(const uint8_t *bytes, size_t count);
+    /* Text formats: this line is one of theirs. NULL for binary formats. */
+    bool (*claims_line)(ale_span_t line);
+    size_t state_size;
+    bool stamped;           /* false: the format has no stamps at all */
+    bool constant_odometry; /* odometry that never changes is odometry too (else: columns left empty) */
+    /* Called when the format is chosen, with a line that it claimed (text formats). */
+    void (*choose)(ale_log_t *log, ale_span_t line);
+    /* True and *record filled, false at the end. Writes log->info where the log states something. */
+    bool (*next)(ale_log_t *log, ale_log_record_t *record);
+    void (*release)(ale_log_t *log); /* frees what the state owns; NULL: nothing */
+} ale_log_format_t;
+
+extern const ale_log_format_t ale_log_carmen;
+extern const ale_log_format_t ale_log_rover;
+extern const ale_log_format_t ale_log_scan_lines;
+extern const ale_log_format_t ale_log_pairs;
+extern const ale_log_format_t ale_log_scip;
+extern const ale_log_format_t ale_log_lcm_events;
+
+struct ale_log {
+    char path[160]; /* for messages */
+    ale_bytes_t bytes;
+    ale_text_t text; /* what is still to be read */
+    const ale_log_format_t *format;
+    void *state;
+    int32_t variant; /* of the format, set by choose */
+    ale_log_info_t info;
+    ale_log_statistics_t statistics;
+    char last_error[256];
+    bool stamps_of_use;
+    bool scan_waiting; /* record.event is a scan whose odometry was handed out */
+    ale_log_record_t record;
+};
+
+/* Which format the bytes are; NULL and *reason in plain words when none. */
+const ale_log_format_t *ale_log_detect(ale_log_t *log, const char **reason);
+
+/* Counts the line last taken as bad and remembers why. */
+__attribute__((format(printf, 2, 3))) void ale_log_bad_line(ale_log_t *log, const char *format, ...);
+
+/* Counts the line last taken as a scan of too many beams. */
+void ale_log_too_many_beams(ale_log_t *log, int64_t beams);
+
+#endif

@@ -1,0 +1,243 @@
+#include "log/log.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "log/format.h"
+
+/* Without stamps of use a scan is taken to come ten times a second. */
+enum { DEFAULT_PERIOD_US = 100000 };
+
+static int fail(ale_log_error_t *error, const char *path, const char *reason)
+{
+    snprintf(error->message, sizeof error->message, "%s: %s", path, reason);
+    return -1;
+}
+
+static void remember(ale_log_t *log, const char *format, va_list arguments)
+{
+    const int head = snprintf(log->last_error, sizeof log->last_error, "%s: line %llu: ", log->path,
+                              (unsigned long long)log->text.line);
+    vsnprintf(log->last_error + head, sizeof log->last_error - (size_t)head, format, arguments);
+}
+
+void ale_log_bad_line(ale_log_t *log, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    remember(log, format, arguments);
+    va_end(arguments);
+    log->statistics.bad_lines++;
+}
+
+void ale_log_too_many_beams(ale_log_t *log, int64_t beams)
+{
+    snprintf(log->last_error, sizeof log->last_error, "%s: scan of %lld beams; at most %d are possible",
+             log->path, (long long)beams, ALE_MAX_BEAMS);
+    log->statistics.too_many_beams++;
+}
+
+static void rewind_log(ale_log_t *log)
+{
+    if (log->format->release) {
+        log->format->release(log);
+    }
+    memset(log->state, 0, log->format->state_size);
+    log->text = ale_text(log->bytes.at, log->bytes.count);
+    log->statistics =
+        (ale_log_statistics_t){.bytes_total = log->bytes.count, .cut_short = log->bytes.cut_short};
+    log->last_error[0] = '\0';
+    log->scan_waiting = false;
+}
+
+typedef struct {
+    uint64_t forward;  /* steps of the stamps ahead */
+    uint64_t standing; /* and all others */
+    int64_t last_stamp_us;
+    bool odometry;
+    bool odometry_changes;
+    ale_pose_t first_odometry;
+} survey_t;
+
+static void survey_record(survey_t *survey, const ale_log_record_t *record, bool first_scan)
+{
+    const ale_log_event_t *event = &record->event;
+    if (event->kind == ALE_LOG_SCAN) {
+        const bool ahead = event->stamp_us > survey->last_stamp_us;
+        survey->forward += !first_scan && ahead;
+        survey->standing += !first_scan && !ahead;
+        survey->last_stamp_us = event->stamp_us;
+    }
+    if (event->kind != ALE_LOG_ODOMETRY && !record->with_odometry) {
+        return;
+    }
+    if (!survey->odometry) {
+        survey->odometry = true;
+        survey->first_odometry = event->odometry.pose;
+    }
+    const ale_pose_t *first = &survey->first_odometry;
+    const ale_pose_t *pose = &event->odometry.pose;
+    survey->odometry_changes |=
+        pose->x_um != first->x_um || pose->y_um != first->y_um || pose->theta_bam != first->theta_bam;
+}
+
+/* Reads the log once for what only the whole of it tells. */
+static int survey_log(ale_log_t *log, ale_log_error_t *error)
+{
+    survey_t survey = {0};
+    rewind_log(log);
+    while (log->format->next(log, &log->record)) {
+        survey_record(&survey, &log->record, log->statistics.scans == 0);
+        log->statistics.scans += log->record.event.kind == ALE_LOG_SCAN;
+    }
+    if (log->statistics.scans == 0 && log->statistics.too_many_beams > 0) {
+        snprintf(error->message, sizeof error->message, "%s", log->last_error);
+        return -1;
+    }
+    log->stamps_of_use = log->format->stamped && survey.forward >= survey.standing;
+    log->info.has_odometry = survey.odometry && (survey.odometry_changes || log->format->constant_odometry);
+    rewind_log(log);
+    return 0;
+}
+
+static int open_bytes(ale_log_t *log, ale_log_error_t *error)
+{
+    const char *reason = NULL;
+    log->format = ale_log_detect(log, &reason);
+    if (!log->format) {
+        return fail(error, log->path, reason);
+    }
+    log->state = calloc(1, log->format->state_size);
+    if (!log->state) {
+        return fail(error, log->path, "not enough memory");
+    }
+    log->info.format = log->format->name;
+    return survey_log(log, error);
+}
+
+static ale_log_t *create(const char *path)
+{
+    ale_log_t *log = calloc(1, sizeof *log);
+    if (log) {
+        snprintf(log->path, sizeof log->path, "%s", path);
+    }
+    return log;
+}
+
+/* Ends both ways of opening: `reason` is what went wrong in getting the bytes, or NULL. */
+static int finish_open(ale_log_t **out, ale_log_t *log, const char *reason, ale_log_error_t *error)
+{
+    const int status = reason ? fail(error, log->path, reason) : open_bytes(log, error);
+    if (status < 0) {
+        ale_log_close(log);
+        return -1;
+    }
+    *out = log;
+    return 0;
+}
+
+int ale_log_open(ale_log_t **out, const char *path, ale_log_error_t *error)
+{
+    *out = NULL;
+    ale_log_t *log = create(path);
+    if (!log) {
+        return fail(error, path, "not enough memory");
+    }
+    return finish_open(out, log, ale_bytes_read_file(&log->bytes, path), error);
+}
+
+int ale_log_open_memory(ale_log_t **out, const uint8_t *bytes, uint64_t count, ale_log_error_t *error)
+{
+    *out = NULL;
+    ale_log_t *log = create("memory");
+    if (!log) {
+        return fail(error, "memory", "not enough memory");
+    }
+    return finish_open(out, log, ale_bytes_from_memory(&log->bytes, bytes, count), error);
+}
+
+const ale_log_info_t *ale_log_info(const ale_log_t *log)
+{
+    return &log->info;
+}
+
+ale_log_statistics_t ale_log_statistics(const ale_log_t *log)
+{
+    ale_log_statistics_t statistics = log->statistics;
+    statistics.bytes_read = statistics.bytes_total - (uint64_t)(log->text.end - log->text.at);
+    return statistics;
+}
+
+const char *ale_log_last_error(const ale_log_t *log)
+{
+    return log->last_error;
+}
+
+/* Gives the record the stamps of a log that has none of use. False: it has no place in time. */
+static bool stamp_record(ale_log_t *log)
+{
+    ale_log_event_t *event = &log->record.event;
+    if (log->stamps_of_use) {
+        return true;
+    }
+    event->stamp_us = (int64_t)log->statistics.scans * DEFAULT_PERIOD_US;
+    event->scan.stamp_us = event->stamp_us;
+    event->odometry.stamp_us = event->stamp_us;
+    return event->kind != ALE_LOG_ODOMETRY;
+}
+
+static int hand_out_scan(ale_log_t *log, ale_log_event_t *event)
+{
+    log->scan_waiting = false;
+    log->statistics.scans++;
+    *event = log->record.event;
+    return 1;
+}
+
+static int hand_out_odometry(const ale_log_t *log, ale_log_event_t *event)
+{
+    event->kind = ALE_LOG_ODOMETRY;
+    event->stamp_us = log->record.event.odometry.stamp_us;
+    event->odometry = log->record.event.odometry;
+    event->text = NULL;
+    return 1;
+}
+
+int ale_log_next(ale_log_t *log, ale_log_event_t *event)
+{
+    if (log->scan_waiting) {
+        return hand_out_scan(log, event);
+    }
+    while (log->format->next(log, &log->record)) {
+        const ale_log_kind_t kind = log->record.event.kind;
+        const bool odometry = kind == ALE_LOG_ODOMETRY || log->record.with_odometry;
+        if (!stamp_record(log) || (kind == ALE_LOG_ODOMETRY && !log->info.has_odometry)) {
+            continue;
+        }
+        if (odometry && log->info.has_odometry) {
+            log->scan_waiting = kind == ALE_LOG_SCAN;
+            return hand_out_odometry(log, event);
+        }
+        if (kind == ALE_LOG_SCAN) {
+            return hand_out_scan(log, event);
+        }
+        *event = log->record.event;
+        return 1;
+    }
+    return 0;
+}
+
+void ale_log_close(ale_log_t *log)
+{
+    if (!log) {
+        return;
+    }
+    if (log->state && log->format->release) {
+        log->format->release(log);
+    }
+    free(log->state);
+    ale_bytes_free(&log->bytes);
+    free(log);
+}
