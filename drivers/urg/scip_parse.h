@@ -29,10 +29,10 @@
 #include <stdint.h>
 
 #include "base/limits.h"
+#include "urg/scip_line.h"
 #include "urg/scip_request.h"
 
 enum {
-    ALE_SCIP_LINE = 160,     /* longest line kept; data lines have 65, information lines under 100 */
     ALE_SCIP_ECHO = 40,      /* longest echo kept, NUL included: 15 + ";" + 16 and some reserve */
     ALE_SCIP_BODY_LINES = 64 /* most lines of one reply: 1081 values in 3 characters make 51 */
 };
@@ -58,7 +58,7 @@ typedef struct {
     ale_scip_kind_t kind;
     uint8_t protocol;         /* 1 or 2, by the status line */
     char echo[ALE_SCIP_ECHO]; /* NUL-terminated, as echoed, ";text" included */
-    char status[3];           /* "00", "99", ...; SCIP 1.1: one character */
+    char status[3];           /* "00", "99", ...; SCIP 1.1: one character; "": unreadable */
     bool has_request;         /* the echo is a range request: request is filled */
     ale_scip_request_t request;
     bool stamp_known;
@@ -85,19 +85,23 @@ typedef struct {
 /* Fields are private; copy and zero at will. */
 typedef struct {
     uint8_t state;
-    uint8_t line[ALE_SCIP_LINE + 1];
-    uint32_t line_count;
-    uint32_t line_dropped;         /* bytes that no longer fit in front of line[] */
-    int64_t line_us;               /* arrival of the line's first byte */
-    char candidate[ALE_SCIP_ECHO]; /* a line that may be the echo of a reply */
-    uint32_t candidate_count;
-    uint32_t candidate_bytes; /* on the line, LF included: garbage if it is none */
-    int64_t candidate_us;
+    ale_scip_line_t line;
+    int64_t now_us; /* arrival of the bytes being read */
+    struct {        /* a line that is the echo of a reply if a status follows */
+        char text[ALE_SCIP_ECHO];
+        uint32_t count;
+        uint32_t bytes; /* on the line, LF included: garbage if it is no echo */
+        bool has_request;
+        ale_scip_request_t request;
+        int64_t us;
+    } candidate;
     ale_scip_event_t reply; /* the reply being read */
+    bool has_data;          /* ranges belong to it, or did before it was damaged */
+    bool stamp_due;
+    bool ended; /* a short data line was the last one */
     uint32_t body_lines;
-    bool ended;        /* a short data line was the last one */
     uint32_t expected; /* values */
-    uint32_t partial;  /* value that a line end cut, its characters so far */
+    int32_t partial;   /* value that a line end cut, and how many of its characters were there */
     uint32_t partial_count;
     int32_t values[ALE_MAX_BEAMS];
     ale_scip_counters_t counters;
