@@ -40,18 +40,6 @@ static wide_t wide_add(wide_t a, uint64_t high, uint64_t low)
     return sum;
 }
 
-unsigned ale_bit_length(uint64_t v)
-{
-    unsigned length = 0;
-    for (unsigned step = 32; step > 0; step /= 2) {
-        if (v >> step) {
-            v >>= step;
-            length += step;
-        }
-    }
-    return length + (unsigned)v;
-}
-
 uint32_t ale_isqrt(uint64_t v)
 {
     uint64_t root = 0;

@@ -3,26 +3,29 @@
 #include "base/fixed.h"
 #include "extract/moments.h"
 
-enum { SHARED_SHARE = 2, RATE_Q8 = 3 * 256 };
+enum { SHARED_SHARE = 2, SHARED_PEAK = 6 };
 
 static ale_fit_t fit_between(const ale_extractor_t *e, int32_t a, int32_t b)
 {
     return a <= b ? ale_moments_fit(e, a, b) : ale_moments_fit(e, b, a);
 }
 
-static int64_t allowed_q8(const ale_fit_t *fit, int64_t chi_q8)
+/* Squared residuals that n points of a true line may add: chi square of the own noise, and the shared
+ * error, of which n points have only one draw for every 2 * shared_beams of them. */
+static int64_t allowed_q8(const ale_extractor_t *e, const ale_fit_t *fit, int32_t n)
 {
-    return ((fit->var_q8 * chi_q8) >> 8) + SHARED_SHARE * fit->shared_q8 * fit->n;
+    const int64_t together = ale_min64(n, 2 * e->config.noise.shared_beams);
+    const int64_t shared = fit->shared_q8 * (SHARED_SHARE * n + SHARED_PEAK * together);
+    return ((fit->var_q8 * e->chi_high_q8[n]) >> 8) + shared;
 }
 
 static bool acceptable(const ale_extractor_t *e, const ale_fit_t *fit, const ale_fit_t *accepted)
 {
-    if (fit->sse_q8 > allowed_q8(fit, e->chi_high_q8[fit->n])) {
+    if (fit->sse_q8 > allowed_q8(e, fit, fit->n)) {
         return false;
     }
-    const int64_t added = fit->n - accepted->n;
-    return fit->sse_q8 - accepted->sse_q8 <=
-           allowed_q8(fit, 0) + ((fit->var_q8 * e->chi_high_q8[added + 2]) >> 8);
+    const int32_t added = fit->n - accepted->n;
+    return fit->sse_q8 - accepted->sse_q8 <= allowed_q8(e, fit, added + 2);
 }
 
 int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to)
@@ -34,7 +37,7 @@ int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to)
         return from;
     }
     ale_fit_t accepted = fit_between(e, from, from + direction * low);
-    if (accepted.sse_q8 > allowed_q8(&accepted, e->chi_high_q8[accepted.n])) {
+    if (accepted.sse_q8 > allowed_q8(e, &accepted, accepted.n)) {
         return from;
     }
     while (high - low > 1) {

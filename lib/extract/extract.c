@@ -214,6 +214,12 @@ __attribute__((noinline)) void ale_extract_scan(ale_extractor_t *e, const ale_sc
     ale_points_place(e, scan, bearing_bam);
     ale_stage_end(&e->hook, ALE_STAGE_SMOOTH);
     ale_moments_build(e);
+    e->shared_prior_mm2_q36 = e->noise.shared_mm2_q36;
+    e->shared_prior_relative_q36 = e->noise.shared_relative_q36;
+    e->noise.shared_mm2_q36 *= 4;
+    e->noise.shared_relative_q36 *= 4;
+    search_all(e);
+    ale_scan_noise_measure_shared(e);
     search_all(e);
     ale_merge_runs(e);
     place_breaks(e);

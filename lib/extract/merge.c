@@ -3,7 +3,7 @@
 #include "base/fixed.h"
 #include "extract/moments.h"
 
-enum { PENALTY = 14, MAX_GAP_BEAMS = 8, MAX_GAP_POINTS = 4 };
+enum { PENALTY = 20, MAX_GAP_BEAMS = 8, MAX_GAP_POINTS = 4 };
 
 int64_t ale_merge_ratio_q8(const ale_extractor_t *e, ale_run_t a, ale_run_t b)
 {

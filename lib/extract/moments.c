@@ -112,8 +112,21 @@ ale_spread_t ale_moments_spread(const ale_extractor_t *e, int32_t first, int32_t
         .b = m.b,
         .c = m.c,
         .along2_q8 = ((m.a + m.c - m.lambda) << m.shift) / n,
+        .mean_x_q4 = ale_round_div(s.x, n),
+        .mean_y_q4 = ale_round_div(s.y, n),
         .mean_x_um = ale_round_div(s.x * 1000, n << ALE_POINT_SHIFT),
         .mean_y_um = ale_round_div(s.y * 1000, n << ALE_POINT_SHIFT),
     };
     return spread;
+}
+
+ale_normal_t ale_moments_normal(const ale_spread_t *m)
+{
+    const int64_t lambda = m->a * m->c > m->b * m->b ? (m->a * m->c - m->b * m->b) / (m->a + m->c) : 0;
+    const bool steep = m->c > m->a;
+    const int64_t x = steep ? m->c - lambda : -m->b;
+    const int64_t y = steep ? -m->b : m->a - lambda;
+    const int64_t length = ale_max64(ale_isqrt((uint64_t)(x * x + y * y)), 1);
+    const ale_normal_t normal = {(x << 30) / length, (y << 30) / length};
+    return normal;
 }

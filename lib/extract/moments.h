@@ -26,11 +26,21 @@ typedef struct {
     int64_t b;
     int64_t c;
     int64_t along2_q8; /* squared distances from the mean along the line, mm^2 Q8 */
+    int64_t mean_x_q4;
+    int64_t mean_y_q4;
     int64_t mean_x_um;
     int64_t mean_y_um;
 } ale_spread_t;
 
 ale_spread_t ale_moments_spread(const ale_extractor_t *e, int32_t first, int32_t last);
+
+typedef struct {
+    int64_t x_q30;
+    int64_t y_q30;
+} ale_normal_t;
+
+/* Unit normal of the fitted line, of either sign. */
+ale_normal_t ale_moments_normal(const ale_spread_t *spread);
 
 /* Squared residuals in units of the own variance, Q8. */
 static inline int64_t ale_fit_chi_q8(const ale_fit_t *fit)

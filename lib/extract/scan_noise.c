@@ -4,6 +4,7 @@
 
 #include "base/fixed.h"
 #include "base/trig.h"
+#include "extract/moments.h"
 
 enum {
     OCTAVE_BASE = 14, /* 2^14 um is just below the shortest range */
@@ -33,14 +34,14 @@ static int64_t bin_value(uint32_t bin)
     return (int64_t)(4u + (bin & 3u)) << (bits - 3);
 }
 
-/* Median of a histogram, linear within its bin. */
-static int64_t histogram_median(const uint16_t *bins, int32_t samples)
+/* Quantile of a histogram, linear within its bin. */
+static int64_t histogram_quantile(const uint16_t *bins, int32_t samples, int32_t percent)
 {
     int32_t below = 0;
     for (uint32_t b = 0; b < ALE_NOISE_BINS - 1; b++) {
-        if (2 * (below + bins[b]) >= samples && bins[b] > 0) {
+        if (100 * (below + bins[b]) >= samples * percent && bins[b] > 0) {
             const int64_t width = bin_value(b + 1) - bin_value(b);
-            return bin_value(b) + width * (samples - 2 * below) / (2 * bins[b]);
+            return bin_value(b) + width * (samples * percent - 100 * below) / (100 * bins[b]);
         }
         below += bins[b];
     }
@@ -80,7 +81,8 @@ static int32_t collect(ale_extractor_t *e, int64_t curvature_q30, octave_t octav
         if (octave[k].samples >= MIN_SAMPLES) {
             /* median of |d| is 0.6745 sqrt(6) sigma */
             octave[used].sigma_um = ale_max64(
-                ale_round_div(histogram_median(e->histogram[k], (int32_t)octave[k].samples) * 1000, 1652),
+                ale_round_div(histogram_quantile(e->histogram[k], (int32_t)octave[k].samples, 50) * 1000,
+                              1652),
                 ALE_SIGMA_FLOOR_UM);
             octave[used].range_um = octave[k].range_um / octave[k].samples;
             octave[used].samples = octave[k].samples;
@@ -158,4 +160,82 @@ void ale_scan_noise_measure(ale_extractor_t *e, const ale_scan_t *scan)
     if (used > 0) {
         fit_model(e, octave, used);
     }
+}
+
+enum { LAG_MIN = 3, LAG_MAX = 8, LAGS = LAG_MAX - LAG_MIN + 1, SHORTEST_RUN = 32, PIECE = 80 };
+
+typedef struct {
+    int64_t scale_q8; /* shared variance in units of the configured one */
+    int64_t weight;   /* pairs */
+    int64_t error_q8; /* one deviation of scale_q8 */
+} shared_estimate_t;
+
+/* Shared variance from the covariance of residuals LAG_MIN to LAG_MAX points apart. */
+static shared_estimate_t shared_of_run(const ale_extractor_t *e, ale_run_t run)
+{
+    const ale_spread_t m = ale_moments_spread(e, run.first, run.last);
+    const ale_normal_t normal = ale_moments_normal(&m);
+    int64_t prefix[LAG_MAX + 1] = {0};
+    int64_t sum_q8 = 0;
+    int64_t total = 0;
+    for (int32_t i = run.first, k = 0; i <= run.last; i++, k++) {
+        const int64_t dx = e->x_q4[i] - m.mean_x_q4;
+        const int64_t dy = e->y_q4[i] - m.mean_y_q4;
+        const int64_t residual = ale_round_shift(dx * normal.x_q30 + dy * normal.y_q30, 30);
+        /* prefix[j % 9]: sum of the residuals before point j */
+        const int64_t near = k >= LAG_MIN - 1 ? prefix[(k - LAG_MIN + 1) % (LAG_MAX + 1)] : 0;
+        const int64_t far = k >= LAG_MAX ? prefix[(k - LAG_MAX) % (LAG_MAX + 1)] : 0;
+        prefix[k % (LAG_MAX + 1)] = total;
+        sum_q8 += residual * (near - far);
+        total += residual;
+    }
+    const int64_t n = m.fit.n;
+    const int64_t pairs = n * LAGS - LAGS * (LAG_MIN + LAG_MAX) / 2;
+    const int64_t factor_q8 = 148 * n * n / (n * n + 12100);
+    const int64_t model_q8 = ale_max64((m.fit.shared_q8 * pairs * factor_q8) >> 8, 1);
+    shared_estimate_t estimate = {
+        .scale_q8 = ((sum_q8 + 2 * LAGS * m.fit.var_q8) << 8) / model_q8,
+        .weight = n * factor_q8 * factor_q8,
+        .error_q8 = m.fit.var_q8 * (int64_t)ale_isqrt((uint64_t)pairs << 16) / model_q8,
+    };
+    return estimate;
+}
+
+static void insert_sorted(shared_estimate_t *list, int32_t count, shared_estimate_t item)
+{
+    int32_t k = count;
+    for (; k > 0 && list[k - 1].scale_q8 > item.scale_q8; k--) {
+        list[k] = list[k - 1];
+    }
+    list[k] = item;
+}
+
+void ale_scan_noise_measure_shared(ale_extractor_t *e)
+{
+    shared_estimate_t list[ALE_MAX_BEAMS / SHORTEST_RUN];
+    int32_t count = 0;
+    int64_t weight = 0;
+    for (int32_t k = 0; k < e->run_count; k++) {
+        const int32_t n = e->run[k].last - e->run[k].first + 1;
+        const int32_t pieces = (n + PIECE / 2) / PIECE > 0 ? (n + PIECE / 2) / PIECE : 1;
+        for (int32_t p = 0; p < pieces && n >= SHORTEST_RUN; p++) {
+            const ale_run_t piece = {(uint16_t)(e->run[k].first + n * p / pieces),
+                                     (uint16_t)(e->run[k].first + n * (p + 1) / pieces - 1)};
+            const shared_estimate_t item = shared_of_run(e, piece);
+            insert_sorted(list, count++, item);
+            weight += item.weight;
+        }
+    }
+    int64_t below = 0;
+    int64_t scale_q8 = 256;
+    for (int32_t k = 0; k < count && 2 * below < weight; k++) {
+        below += list[k].weight;
+        const int64_t error_q8 =
+            list[k].error_q8 * (int64_t)ale_isqrt((uint64_t)((list[k].weight << 16) / weight)) / 256;
+        scale_q8 = list[k].scale_q8 > 3 * error_q8 ? list[k].scale_q8 : 0;
+    }
+    scale_q8 = ale_clamp64(4 * scale_q8, 256, 64 * 256);
+    e->shared_scale_q8 = scale_q8;
+    e->noise.shared_mm2_q36 = (e->shared_prior_mm2_q36 * scale_q8) >> 8;
+    e->noise.shared_relative_q36 = (e->shared_prior_relative_q36 * scale_q8) >> 8;
 }

@@ -76,6 +76,9 @@ struct ale_extractor {
     ale_moments_t sum[ALE_MAX_BEAMS + 1];
 
     ale_scan_noise_t noise;
+    int64_t shared_scale_q8;
+    int64_t shared_prior_mm2_q36;
+    int64_t shared_prior_relative_q36;
     uint16_t histogram[14][ALE_NOISE_BINS];
 
     /* Largest chi square that a true line of n points has, Q8: bounds of the floating threshold. */
