@@ -1,0 +1,17 @@
+# Benchmarks. Everything in tools/bench but the mains is one set of objects, linked to each program and test.
+BENCH_MAINS = tools/bench/lines.cpp
+BENCH_PARTS = $(filter-out $(BENCH_MAINS),$(wildcard tools/bench/*.cpp tools/bench/textbook/*.cpp))
+BENCH_SCANS ?= 20
+BENCH_COUNTED_SCANS ?= 5
+
+BENCH_PROGRAMS = $(patsubst tools/bench/%.cpp,$(BUILD)/bench/%,$(BENCH_MAINS))
+$(BENCH_PROGRAMS): $(BUILD)/bench/%: $(OBJ)/tools/bench/%.cpp.o $(call objects,$(BENCH_PARTS)) $(BUILD)/libale_drivers.a $(BUILD)/libale.a
+	$(call link)
+
+$(patsubst tests/tools/bench/%.cpp,$(BUILD)/tests/tools/bench/%,$(wildcard tests/tools/bench/test_*.cpp)): $(call objects,$(BENCH_PARTS))
+
+.PHONY: bench bench-lines
+bench: bench-lines ## the benchmarks as tables
+bench-lines: deps-test
+	@$(MAKE) --no-print-directory -s $(BUILD)/bench/lines
+	@$(PYTHON) tools/bench/lines_table.py --program $(BUILD)/bench/lines --scans $(BENCH_SCANS) --counted $(BENCH_COUNTED_SCANS)
