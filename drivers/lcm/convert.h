@@ -52,9 +52,6 @@ void ale_convert_features(const ale_features_t *features, int64_t utime, uint32_
 void ale_convert_scan(const ale_scan_t *scan, int64_t utime, uint32_t number, ale_pose_t sensor,
                       ale_scan_buffer_t *buffer, lcmtypes_ale_scan_t *message);
 
-/* Number of parts that a map needs, at least 1. */
-int16_t ale_map_parts(const ale_map_t *map);
-
 /* Part 0..parts-1: corners and lines in the order of the map, lines first. */
 void ale_convert_map(const ale_map_t *map, int64_t utime, int16_t part, ale_map_buffer_t *buffer,
                      lcmtypes_ale_map_t *message);

@@ -18,6 +18,9 @@ typedef struct {
     int32_t stage_ns[ALE_STAGES];
 } ale_pose_report_t;
 
+/* ALE_MAP: number of parts that a map needs, at least 1. */
+int16_t ale_map_parts(const ale_map_t *map);
+
 enum { ALE_STATUS_STAGES = ALE_STAGES + 1, ALE_STATUS_COUNTERS = 32 };
 
 typedef struct {

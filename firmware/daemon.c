@@ -1,0 +1,119 @@
+#include "daemon.h"
+
+#include <stdlib.h>
+
+#include "acquire.h"
+#include "estimate.h"
+#include "exchange.h"
+#include "lcm/bus.h"
+#include "realtime/rt.h"
+#include "telemetry.h"
+
+struct ale_daemon {
+    const ale_options_t *options;
+    bool realtime_started;
+    bool exchange_open;
+    ale_exchange_t exchange;
+    ale_bus_t *bus;
+    ale_estimator_t *estimator;
+    ale_rt_task_t *estimate;
+    ale_acquire_t *acquire;
+    ale_telemetry_t *telemetry;
+};
+
+static int fail(int exit_code, const char *reason)
+{
+    fprintf(stderr, "ale-slamd: %s\n", reason);
+    return exit_code;
+}
+
+static int prepare(ale_daemon_t *daemon)
+{
+    const ale_config_t *config = &daemon->options->config;
+    const ale_rt_config_t realtime = {
+        .priority = config->priority, .cpu = config->cpu, .lock_memory = config->lock_memory};
+    ale_rt_report_t report;
+    if (ale_rt_start(&realtime, &report) < 0) {
+        return fail(2, report.text);
+    }
+    daemon->realtime_started = true;
+    char error[ALE_BUS_ERROR];
+    daemon->bus = ale_bus_open(config->lcm_url, error);
+    if (!daemon->bus) {
+        return fail(1, error);
+    }
+    if (ale_exchange_open(&daemon->exchange, ale_clock_start(daemon->options->scale_ppm)) < 0) {
+        return fail(1, "out of memory");
+    }
+    daemon->exchange_open = true;
+    daemon->estimator = ale_estimator_create(config, &daemon->exchange);
+    if (!daemon->estimator) {
+        return fail(2, "the configuration of [extract], [noise] or [odometry] is refused by the core");
+    }
+    return 0;
+}
+
+/* The readers first, so that nothing fills up; telemetry last, because it tells what was got. */
+static int start_tasks(ale_daemon_t *daemon)
+{
+    const ale_config_t *config = &daemon->options->config;
+    daemon->estimate = ale_rt_task_start(&(ale_rt_task_config_t){
+        .name = "ale-estimate", .kind = ALE_RT_HARD, .body = ale_estimator_run, .user = daemon->estimator});
+    if (daemon->estimate) {
+        daemon->acquire = ale_acquire_start(config, &daemon->exchange);
+    }
+    ale_rt_report_t report;
+    ale_rt_report(&report);
+    if (daemon->acquire) {
+        daemon->telemetry = ale_telemetry_start(config, &daemon->exchange, daemon->bus, &report);
+    }
+    if (!daemon->telemetry) {
+        return fail(1, "threads cannot be started");
+    }
+    fprintf(stderr, "ale-slamd: %s: %s\n", report.realtime ? "real time" : "real time degraded", report.text);
+    return 0;
+}
+
+ale_daemon_t *ale_daemon_start(const ale_options_t *options, int *exit_code)
+{
+    ale_daemon_t *daemon = calloc(1, sizeof *daemon);
+    if (!daemon) {
+        *exit_code = fail(1, "out of memory");
+        return NULL;
+    }
+    daemon->options = options;
+    *exit_code = prepare(daemon);
+    if (*exit_code == 0) {
+        *exit_code = start_tasks(daemon);
+    }
+    if (*exit_code != 0) {
+        ale_daemon_stop(daemon);
+        return NULL;
+    }
+    return daemon;
+}
+
+static void stop_estimate(ale_daemon_t *daemon)
+{
+    if (daemon->estimate) {
+        ale_rt_task_stop(daemon->estimate);
+        ale_rt_release_post(daemon->exchange.arrived);
+        ale_rt_task_join(daemon->estimate);
+    }
+}
+
+void ale_daemon_stop(ale_daemon_t *daemon)
+{
+    ale_acquire_stop(daemon->acquire);
+    stop_estimate(daemon);
+    ale_telemetry_stop(daemon->telemetry);
+    ale_estimator_destroy(daemon->estimator);
+    if (daemon->exchange_open) {
+        ale_exchange_close(&daemon->exchange);
+    }
+    ale_bus_close(daemon->bus);
+    if (daemon->realtime_started) {
+        ale_rt_stop();
+    }
+    free(daemon);
+}

@@ -1,0 +1,154 @@
+#include "estimate.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fixed.h"
+
+#define IDLE_NS 100000000
+
+struct ale_estimator {
+    ale_exchange_t *exchange;
+    ale_pipeline_t *pipeline;
+    bool keep_scans;
+    uint32_t overloaded;
+    uint32_t late;
+    bool map_waits; /* changed since it was last handed over */
+    int64_t map_ns; /* when it was handed over */
+    int64_t stage_start_ns;
+    int32_t *stage_ns;  /* of the result being made */
+    ale_result_t spare; /* where a result goes that has no room */
+};
+
+static void end_of_stage(void *user, ale_stage_t stage)
+{
+    ale_estimator_t *estimator = user;
+    const int64_t now_ns = ale_rt_now_ns();
+    const int64_t spent_ns = now_ns - estimator->stage_start_ns;
+    estimator->stage_ns[stage] = (int32_t)ale_clamp64(estimator->stage_ns[stage] + spent_ns, 0, INT32_MAX);
+    estimator->stage_start_ns = now_ns;
+}
+
+ale_estimator_t *ale_estimator_create(const ale_config_t *config, ale_exchange_t *exchange)
+{
+    ale_estimator_t *estimator = calloc(1, sizeof *estimator);
+    ale_pipeline_t *pipeline = calloc(1, ale_pipeline_size());
+    if (!estimator || !pipeline || ale_pipeline_init(pipeline, &config->pipeline) < 0) {
+        free(estimator);
+        free(pipeline);
+        return NULL;
+    }
+    estimator->exchange = exchange;
+    estimator->map_ns = -ALE_MAP_PERIOD_NS;
+    estimator->pipeline = pipeline;
+    estimator->keep_scans = config->publish_scan || config->publish_bot_core;
+    estimator->stage_ns = estimator->spare.stage_ns;
+    const ale_stage_hook_t hook = {.end_of = end_of_stage, .user = estimator};
+    ale_pipeline_set_hook(pipeline, &hook);
+    return estimator;
+}
+
+void ale_estimator_destroy(ale_estimator_t *estimator)
+{
+    if (estimator) {
+        free(estimator->pipeline);
+        free(estimator);
+    }
+}
+
+void ale_estimator_load_map(ale_estimator_t *estimator, const ale_map_t *map)
+{
+    const ale_pose_t unknown = {0};
+    ale_pipeline_load_map(estimator->pipeline, map, unknown, false);
+    estimator->map_waits = true;
+}
+
+static void take_odometry(ale_estimator_t *estimator)
+{
+    ale_ring_t *odometry = estimator->exchange->odometry;
+    for (uint32_t ready = ale_ring_ready(odometry); ready > 0; ready--) {
+        ale_pipeline_odometry(estimator->pipeline, ale_ring_at(odometry, 0));
+        ale_ring_release(odometry);
+    }
+}
+
+static void use_scan(ale_estimator_t *estimator, const ale_scan_record_t *record, ale_result_t *result)
+{
+    const ale_scan_t *scan = &record->scan;
+    ale_pipeline_scan(estimator->pipeline, scan, &result->estimate);
+    result->features = *ale_pipeline_features(estimator->pipeline);
+    result->has_scan = true;
+    result->first_beam_us = scan->stamp_us + ale_scan_beam_offset_us(scan, 0);
+    if (estimator->keep_scans) {
+        result->scan = *scan;
+    }
+}
+
+static void answer(ale_estimator_t *estimator, const ale_scan_record_t *record, bool use,
+                   ale_result_t *result)
+{
+    ale_exchange_t *exchange = estimator->exchange;
+    const int64_t start_ns = ale_rt_now_ns();
+    estimator->stage_start_ns = start_ns;
+    estimator->stage_ns = result->stage_ns;
+    memset(result->stage_ns, 0, sizeof result->stage_ns);
+    result->arrival_us = record->arrival_us;
+    if (use) {
+        use_scan(estimator, record, result);
+    } else {
+        ale_pipeline_dropped(estimator->pipeline, record->scan.stamp_us, &result->estimate);
+        result->has_scan = false;
+        result->first_beam_us = record->scan.stamp_us;
+    }
+    result->total_ns = (int32_t)ale_clamp64(ale_rt_now_ns() - start_ns, 0, INT32_MAX);
+    estimator->late += ale_clock_now_us(&exchange->clock) - record->arrival_us > ALE_DEADLINE_US;
+    estimator->map_waits = estimator->map_waits || result->estimate.map_changed;
+    result->overloaded = estimator->overloaded;
+    result->late = estimator->late;
+}
+
+static void answer_oldest(ale_estimator_t *estimator, uint32_t waiting)
+{
+    ale_exchange_t *exchange = estimator->exchange;
+    const ale_scan_record_t *record = ale_ring_at(exchange->scans, 0);
+    const bool overload = !record->lost && waiting > ALE_MAX_BACKLOG;
+    estimator->overloaded += overload;
+    ale_result_t *result = ale_ring_reserve(exchange->results);
+    answer(estimator, record, !record->lost && !overload, result ? result : &estimator->spare);
+    if (result) {
+        ale_ring_commit(exchange->results);
+    }
+    ale_ring_release(exchange->scans);
+}
+
+/* Hands the map over when it has changed, once a second at most: it is large. */
+static void show_map(ale_estimator_t *estimator)
+{
+    const int64_t now_ns = ale_rt_now_ns();
+    if (!estimator->map_waits || now_ns < estimator->map_ns + ALE_MAP_PERIOD_NS) {
+        return;
+    }
+    ale_pipeline_copy_map(estimator->pipeline, ale_snapshot_back(estimator->exchange->map));
+    ale_snapshot_publish(estimator->exchange->map);
+    estimator->map_waits = false;
+    estimator->map_ns = now_ns;
+}
+
+void ale_estimator_step(ale_estimator_t *estimator)
+{
+    take_odometry(estimator);
+    for (uint32_t waiting = ale_ring_ready(estimator->exchange->scans); waiting > 0; waiting--) {
+        answer_oldest(estimator, waiting - 1);
+    }
+    show_map(estimator);
+}
+
+void ale_estimator_run(ale_rt_task_t *self, void *user)
+{
+    ale_estimator_t *estimator = user;
+    while (!ale_rt_task_stopping(self)) {
+        ale_rt_release_wait(estimator->exchange->arrived, ale_rt_now_ns() + IDLE_NS);
+        ale_estimator_step(estimator);
+    }
+    ale_estimator_step(estimator);
+}

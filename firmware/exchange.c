@@ -1,0 +1,42 @@
+#include "exchange.h"
+
+#include <string.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include "urg/urg_device.h"
+
+int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock)
+{
+    *exchange = (ale_exchange_t){
+        .clock = clock,
+        .scans = ale_ring_create(sizeof(ale_scan_record_t), ALE_SCAN_SLOTS),
+        .odometry = ale_ring_create(sizeof(ale_odometry_t), ALE_ODOMETRY_SLOTS),
+        .results = ale_ring_create(sizeof(ale_result_t), ALE_RESULT_SLOTS),
+        .map = ale_snapshot_create(sizeof(ale_map_t)),
+        .health = ale_snapshot_create(sizeof(ale_urg_health_t)),
+        .arrived = ale_rt_release_create(),
+        .under_way = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK),
+    };
+    const bool complete = exchange->scans && exchange->odometry && exchange->results && exchange->map &&
+                          exchange->health && exchange->arrived && exchange->under_way >= 0;
+    if (!complete) {
+        ale_exchange_close(exchange);
+    }
+    return complete ? 0 : -1;
+}
+
+void ale_exchange_close(ale_exchange_t *exchange)
+{
+    ale_ring_destroy(exchange->scans);
+    ale_ring_destroy(exchange->odometry);
+    ale_ring_destroy(exchange->results);
+    ale_snapshot_destroy(exchange->map);
+    ale_snapshot_destroy(exchange->health);
+    ale_rt_release_destroy(exchange->arrived);
+    if (exchange->under_way >= 0) {
+        close(exchange->under_way);
+    }
+    memset(exchange, 0, sizeof *exchange);
+    exchange->under_way = -1;
+}

@@ -1,0 +1,62 @@
+/* What passes between the threads, and nothing else does.
+ *
+ *            scans, lost scans                  results
+ *   acquire ───────────────────► estimate ───────────────────► telemetry
+ *      │                            ▲  └──── map (newest) ────────►  ▲
+ *      │                            └─────── odometry ───────────────┤
+ *      └──────────── health of the scanner (newest) ─────────────────┘
+ *
+ * Rings and snapshots have one writer and one reader each. Times are of the clock inside (clock.h). */
+#ifndef ALE_FIRMWARE_EXCHANGE_H
+#define ALE_FIRMWARE_EXCHANGE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/scan.h"
+#include "base/stage.h"
+#include "clock.h"
+#include "config.h"
+#include "realtime/rt.h"
+#include "ring.h"
+#include "snapshot.h"
+#include "track/pipeline.h"
+
+/* Several seconds of scans at 10 Hz, and of odometry at 100 Hz. */
+enum { ALE_SCAN_SLOTS = 64, ALE_RESULT_SLOTS = 64, ALE_ODOMETRY_SLOTS = 512 };
+
+typedef struct {
+    bool lost;          /* the device sent it, it cannot be used: scan.stamp_us alone counts */
+    int64_t arrival_us; /* last byte */
+    ale_scan_t scan;
+} ale_scan_record_t;
+
+typedef struct {
+    ale_estimate_t estimate;
+    int64_t first_beam_us;
+    int64_t arrival_us;
+    int32_t stage_ns[ALE_STAGES];
+    int32_t total_ns;
+    uint32_t overloaded; /* scans set aside since the start, for newer ones */
+    uint32_t late;       /* scans answered after their deadline, since the start */
+    bool has_scan;       /* a scan stands behind it: features and scan are set */
+    ale_features_t features;
+    ale_scan_t scan; /* only when scans are published */
+} ale_result_t;
+
+typedef struct {
+    ale_clock_t clock;
+    ale_ring_t *scans;         /* ale_scan_record_t: acquire to estimate */
+    ale_ring_t *odometry;      /* ale_odometry_t: telemetry to estimate */
+    ale_ring_t *results;       /* ale_result_t: estimate to telemetry */
+    ale_snapshot_t *map;       /* ale_map_t: estimate to telemetry */
+    ale_snapshot_t *health;    /* ale_urg_health_t: acquire to telemetry */
+    ale_rt_release_t *arrived; /* releases the estimate task */
+    int under_way; /* event descriptor: a scan has gone to the estimate task, or health has changed */
+} ale_exchange_t;
+
+/* Everything allocated and touched. 0, or -1: out of memory or descriptors (nothing is left open). */
+int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock);
+void ale_exchange_close(ale_exchange_t *exchange);
+
+#endif

@@ -1,0 +1,193 @@
+#include "options.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "clock.h"
+#include "decimal.h"
+
+#ifndef ALE_VERSION
+#define ALE_VERSION "0.1"
+#endif
+
+static const char help[] =
+    "usage: ale-slamd [--config FILE] [--port DEV] [--lcm-url URL] [--map FILE] [--keys FILE]\n"
+    "                 [--check-config] [--print-config] [--time-scale X]\n"
+    "\n"
+    "Reads a Hokuyo URG-04LX and publishes pose, lines, corners and map over LCM.\n"
+    "\n"
+    "  --config FILE    configuration; --print-config shows every key with its default\n"
+    "  --port DEV       serial device of the scanner (sensor.port)\n"
+    "  --lcm-url URL    where messages go (lcm.url)\n"
+    "  --map FILE       map to start from (map.file)\n"
+    "  --keys FILE      keys of those who may command the robot; commands are not taken by this version\n"
+    "  --check-config   reads the configuration and says whether it is fine\n"
+    "  --print-config   prints the whole configuration, commented, as a file to start from\n"
+    "  --time-scale X   the clock runs X times as fast (0.01 to 100), with a simulator's --speed X\n"
+    "  --help, --version\n"
+    "\n"
+    "SIGTERM or SIGINT ends it. Exit status: 0 fine, 1 failed, 2 wrong use or configuration.\n";
+
+typedef struct {
+    const char *config;
+    const char *port;
+    const char *lcm_url;
+    const char *map;
+    const char *keys;
+    const char *time_scale;
+    bool check;
+    bool print;
+} words_t;
+
+enum {
+    OPTION_CONFIG,
+    OPTION_PORT,
+    OPTION_URL,
+    OPTION_MAP,
+    OPTION_KEYS,
+    OPTION_SCALE,
+    OPTION_CHECK,
+    OPTION_PRINT,
+    OPTION_HELP,
+    OPTION_VERSION
+};
+
+static const struct option long_options[] = {
+    {"config", required_argument, NULL, OPTION_CONFIG},
+    {"port", required_argument, NULL, OPTION_PORT},
+    {"lcm-url", required_argument, NULL, OPTION_URL},
+    {"map", required_argument, NULL, OPTION_MAP},
+    {"keys", required_argument, NULL, OPTION_KEYS},
+    {"time-scale", required_argument, NULL, OPTION_SCALE},
+    {"check-config", no_argument, NULL, OPTION_CHECK},
+    {"print-config", no_argument, NULL, OPTION_PRINT},
+    {"help", no_argument, NULL, OPTION_HELP},
+    {"version", no_argument, NULL, OPTION_VERSION},
+    {NULL, 0, NULL, 0},
+};
+
+static ale_options_result_t take_word(int option, words_t *words, FILE *out)
+{
+    switch (option) {
+    case OPTION_CONFIG:
+        words->config = optarg;
+        return ALE_OPTIONS_RUN;
+    case OPTION_PORT:
+        words->port = optarg;
+        return ALE_OPTIONS_RUN;
+    case OPTION_URL:
+        words->lcm_url = optarg;
+        return ALE_OPTIONS_RUN;
+    case OPTION_MAP:
+        words->map = optarg;
+        return ALE_OPTIONS_RUN;
+    case OPTION_KEYS:
+        words->keys = optarg;
+        return ALE_OPTIONS_RUN;
+    case OPTION_SCALE:
+        words->time_scale = optarg;
+        return ALE_OPTIONS_RUN;
+    case OPTION_CHECK:
+        words->check = true;
+        return ALE_OPTIONS_RUN;
+    case OPTION_PRINT:
+        words->print = true;
+        return ALE_OPTIONS_RUN;
+    case OPTION_HELP:
+        fputs(help, out);
+        return ALE_OPTIONS_DONE;
+    case OPTION_VERSION:
+        fputs("ale-slamd " ALE_VERSION "\n", out);
+        return ALE_OPTIONS_DONE;
+    default:
+        return ALE_OPTIONS_REFUSED; /* getopt has said why */
+    }
+}
+
+static ale_options_result_t read_words(int count, char **arguments, words_t *words, FILE *out)
+{
+    optind = 0; /* GNU: start afresh */
+    for (int option = 0; (option = getopt_long(count, arguments, "", long_options, NULL)) != -1;) {
+        const ale_options_result_t result = take_word(option, words, out);
+        if (result != ALE_OPTIONS_RUN) {
+            return result;
+        }
+    }
+    if (optind < count) {
+        fprintf(stderr, "ale-slamd: %s: not an option; see --help\n", arguments[optind]);
+        return ALE_OPTIONS_REFUSED;
+    }
+    return ALE_OPTIONS_RUN;
+}
+
+/* Sets a text of the configuration from the command line. */
+static bool override(const char *option, const char *word, char *field, size_t size)
+{
+    if (word && strlen(word) >= size) {
+        fprintf(stderr, "ale-slamd: %s: longer than %zu characters\n", option, size - 1);
+        return false;
+    }
+    if (word) {
+        memset(field, 0, size);
+        memcpy(field, word, strlen(word));
+    }
+    return true;
+}
+
+static bool read_scale(const char *word, int32_t *scale_ppm)
+{
+    int64_t value = ALE_CLOCK_REAL;
+    if (word && (ale_decimal_parse(word, 6, &value) < 0 || value < ALE_CLOCK_REAL / 100 ||
+                 value > (int64_t)ALE_CLOCK_REAL * 100)) {
+        fprintf(stderr, "ale-slamd: --time-scale %.40s: not a number from 0.01 to 100\n", word);
+        return false;
+    }
+    *scale_ppm = (int32_t)value;
+    return true;
+}
+
+static bool check_keys(const char *path)
+{
+    if (path && access(path, R_OK) < 0) {
+        fprintf(stderr, "ale-slamd: --keys %s: %s\n", path, strerror(errno));
+        return false;
+    }
+    if (path) {
+        fputs("ale-slamd: --keys: this version takes no commands, the keys are not used\n", stderr);
+    }
+    return true;
+}
+
+static bool read_config(const words_t *words, ale_config_t *config)
+{
+    ale_config_error_t error;
+    *config = ale_config_default();
+    if (words->config && ale_config_load(words->config, config, &error) < 0) {
+        fprintf(stderr, "ale-slamd: %s\n", error.message);
+        return false;
+    }
+    return override("--port", words->port, config->port, sizeof config->port) &&
+           override("--lcm-url", words->lcm_url, config->lcm_url, sizeof config->lcm_url) &&
+           override("--map", words->map, config->map, sizeof config->map);
+}
+
+ale_options_result_t ale_options_read(int count, char **arguments, ale_options_t *options, FILE *out)
+{
+    words_t words = {0};
+    const ale_options_result_t result = read_words(count, arguments, &words, out);
+    if (result != ALE_OPTIONS_RUN) {
+        return result;
+    }
+    if (!read_config(&words, &options->config) || !read_scale(words.time_scale, &options->scale_ppm) ||
+        !check_keys(words.keys)) {
+        return ALE_OPTIONS_REFUSED;
+    }
+    if (words.print) {
+        ale_config_print(&options->config, out);
+    } else if (words.check) {
+        fprintf(out, "%s: fine\n", words.config ? words.config : "the default configuration");
+    }
+    return words.print || words.check ? ALE_OPTIONS_DONE : ALE_OPTIONS_RUN;
+}

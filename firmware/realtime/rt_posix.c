@@ -1,0 +1,255 @@
+/* The real-time port over POSIX and Linux: SCHED_FIFO, locked memory, touched stacks, futex. */
+#include "realtime/rt.h"
+
+#include <errno.h>
+#include <linux/futex.h>
+#include <pthread.h>
+#include <sched.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <time.h>
+#include <unistd.h>
+
+#define NS_PER_S 1000000000
+
+enum { LIBRARY_STACK_BYTES = 1024 * 1024 };
+
+struct ale_rt_task {
+    pthread_t thread;
+    ale_rt_task_config_t config;
+    atomic_bool stopping;
+};
+
+struct ale_rt_release {
+    atomic_uint posted; /* 0 or 1; the futex word */
+};
+
+/* What was got, for the report. Written by main alone. */
+static struct {
+    ale_rt_config_t config;
+    bool memory_locked;
+    bool priority_refused;
+    bool cpu_refused;
+    bool preempt_rt;
+} state;
+
+int64_t ale_rt_now_ns(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * NS_PER_S + now.tv_nsec;
+}
+
+static bool kernel_is_preempt_rt(void)
+{
+    FILE *file = fopen("/sys/kernel/realtime", "r");
+    const int answer = file ? fgetc(file) : EOF;
+    if (file) {
+        fclose(file);
+    }
+    return answer == '1';
+}
+
+/* Threads of libraries too: with memory locked the usual 8 MB of stack would all be taken. */
+static void limit_default_stack(void)
+{
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, LIBRARY_STACK_BYTES);
+    pthread_setattr_default_np(&attributes);
+    pthread_attr_destroy(&attributes);
+}
+
+/* Under a limit MCL_FUTURE would make later allocations fail: all or nothing. */
+static bool lock_memory(void)
+{
+    struct rlimit limit = {RLIM_INFINITY, RLIM_INFINITY};
+    setrlimit(RLIMIT_MEMLOCK, &limit);
+    if (getrlimit(RLIMIT_MEMLOCK, &limit) < 0 || limit.rlim_cur != RLIM_INFINITY) {
+        return false;
+    }
+    return mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
+}
+
+int ale_rt_start(const ale_rt_config_t *config, ale_rt_report_t *report)
+{
+    memset(&state, 0, sizeof state);
+    state.config = *config;
+    state.preempt_rt = kernel_is_preempt_rt();
+    limit_default_stack();
+    state.memory_locked = config->lock_memory && lock_memory();
+    ale_rt_report(report);
+    return 0;
+}
+
+void ale_rt_stop(void)
+{
+    if (state.memory_locked) {
+        munlockall();
+    }
+}
+
+/* Appends ", word" to a list. */
+static void append(char *list, size_t size, const char *format, int number)
+{
+    const size_t used = strlen(list);
+    const size_t comma = used ? 2 : 0;
+    if (used + comma < size) {
+        memcpy(list + used, ", ", comma);
+        snprintf(list + used + comma, size - used - comma, format, number);
+    }
+}
+
+void ale_rt_report(ale_rt_report_t *report)
+{
+    char got[80] = "";
+    char missing[100] = "";
+    const bool priority = state.config.priority > 0 && !state.priority_refused;
+    const bool cpu = state.config.cpu >= 0 && !state.cpu_refused;
+    append(priority ? got : missing, priority ? sizeof got : sizeof missing,
+           state.config.priority ? "SCHED_FIFO %d" : "priority (none asked for)", state.config.priority);
+    append(state.memory_locked ? got : missing, state.memory_locked ? sizeof got : sizeof missing,
+           "locked memory", 0);
+    if (state.config.cpu >= 0) {
+        append(cpu ? got : missing, cpu ? sizeof got : sizeof missing, "processor %d", state.config.cpu);
+    }
+    append(got, sizeof got, "touched stacks", 0);
+    append(state.preempt_rt ? got : missing, state.preempt_rt ? sizeof got : sizeof missing,
+           "PREEMPT_RT kernel", 0);
+    report->realtime = missing[0] == '\0';
+    snprintf(report->text, sizeof report->text, "%s%s%s", got, missing[0] ? "; missing: " : "", missing);
+}
+
+/* Touches the stack, so that its pages are there before the first release. */
+static void touch_stack(void)
+{
+    enum { MARGIN = 32 * 1024, PAGE = 4096 };
+    volatile uint8_t stack[ALE_RT_STACK_BYTES - MARGIN];
+    for (size_t k = 0; k < sizeof stack; k += PAGE) {
+        stack[k] = 0;
+    }
+    (void)stack[0];
+}
+
+static void *run_task(void *user)
+{
+    ale_rt_task_t *task = user;
+    touch_stack();
+    task->config.body(task, task->config.user);
+    return NULL;
+}
+
+static int create_thread(ale_rt_task_t *task, int priority)
+{
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, ALE_RT_STACK_BYTES);
+    if (priority > 0) {
+        const struct sched_param parameter = {.sched_priority = priority};
+        pthread_attr_setinheritsched(&attributes, PTHREAD_EXPLICIT_SCHED);
+        pthread_attr_setschedpolicy(&attributes, SCHED_FIFO);
+        pthread_attr_setschedparam(&attributes, &parameter);
+    }
+    const int result = pthread_create(&task->thread, &attributes, run_task, task);
+    pthread_attr_destroy(&attributes);
+    return result;
+}
+
+/* With its priority if that is allowed, else without. */
+static int create_with_priority(ale_rt_task_t *task)
+{
+    const int32_t below = task->config.kind == ALE_RT_HARD ? 0 : (task->config.kind == ALE_RT_SOFT ? 1 : 2);
+    const int32_t priority = state.config.priority - below;
+    if (priority > 0 && !state.priority_refused) {
+        if (create_thread(task, priority) == 0) {
+            return 0;
+        }
+        state.priority_refused = true;
+    }
+    return create_thread(task, 0);
+}
+
+static void pin_to_cpu(const ale_rt_task_t *task)
+{
+    cpu_set_t cpus;
+    CPU_ZERO(&cpus);
+    CPU_SET((size_t)state.config.cpu, &cpus);
+    state.cpu_refused = pthread_setaffinity_np(task->thread, sizeof cpus, &cpus) != 0;
+}
+
+ale_rt_task_t *ale_rt_task_start(const ale_rt_task_config_t *config)
+{
+    ale_rt_task_t *task = calloc(1, sizeof *task);
+    if (!task) {
+        return NULL;
+    }
+    task->config = *config;
+    atomic_init(&task->stopping, false);
+    sigset_t all;
+    sigset_t before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    const int result = create_with_priority(task);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    if (result != 0) {
+        free(task);
+        return NULL;
+    }
+    pthread_setname_np(task->thread, config->name);
+    if (config->kind == ALE_RT_HARD && state.config.cpu >= 0) {
+        pin_to_cpu(task);
+    }
+    return task;
+}
+
+void ale_rt_task_stop(ale_rt_task_t *task)
+{
+    atomic_store(&task->stopping, true);
+}
+
+bool ale_rt_task_stopping(const ale_rt_task_t *self)
+{
+    return atomic_load_explicit(&self->stopping, memory_order_relaxed);
+}
+
+void ale_rt_task_join(ale_rt_task_t *task)
+{
+    if (task) {
+        pthread_join(task->thread, NULL);
+        free(task);
+    }
+}
+
+ale_rt_release_t *ale_rt_release_create(void)
+{
+    return calloc(1, sizeof(ale_rt_release_t));
+}
+
+void ale_rt_release_destroy(ale_rt_release_t *release)
+{
+    free(release);
+}
+
+void ale_rt_release_post(ale_rt_release_t *release)
+{
+    if (atomic_exchange(&release->posted, 1) == 0) {
+        syscall(SYS_futex, &release->posted, FUTEX_WAKE_PRIVATE, 1, NULL, NULL, 0);
+    }
+}
+
+bool ale_rt_release_wait(ale_rt_release_t *release, int64_t until_ns)
+{
+    const struct timespec until = {.tv_sec = until_ns / NS_PER_S, .tv_nsec = until_ns % NS_PER_S};
+    if (atomic_exchange(&release->posted, 0) == 1) {
+        return true;
+    }
+    /* Returns at once with EAGAIN when a post came in between; a spurious return is one early time-out. */
+    syscall(SYS_futex, &release->posted, FUTEX_WAIT_BITSET_PRIVATE, 0, &until, NULL, FUTEX_BITSET_MATCH_ANY);
+    return atomic_exchange(&release->posted, 0) == 1;
+}

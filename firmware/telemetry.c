@@ -1,0 +1,240 @@
+#include "telemetry.h"
+
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/eventfd.h>
+#include <sys/random.h>
+
+#include "base/fixed.h"
+#include "statistics.h"
+#include "supervisor.h"
+
+#define NS_PER_S 1000000000
+#define STATUS_PERIOD_NS NS_PER_S
+#define WHOLE_MAP_PERIOD_NS (10LL * NS_PER_S)
+#define LOOK_NS 250000  /* while a result is awaited */
+#define PART_NS 1000000 /* between bursts of map parts */
+
+enum { PARTS_AT_ONCE = 8 };
+
+struct ale_telemetry {
+    const ale_config_t *config;
+    ale_exchange_t *exchange;
+    ale_bus_t *bus;
+    ale_rt_task_t *task;
+    ale_rt_report_t realtime;
+    int64_t boot;
+    ale_supervisor_t supervisor;
+    ale_statistics_t statistics;
+    const ale_urg_health_t *health;
+    const ale_map_t *map; /* being sent, or sent last; NULL before the first */
+    int16_t next_part;    /* of the map; all sent: its number of parts */
+    int64_t next_whole_map_ns;
+    int64_t next_status_ns;
+    ale_status_report_t report;
+};
+
+static void take_odometry(void *user, const ale_odometry_t *sample)
+{
+    ale_exchange_t *exchange = ((ale_telemetry_t *)user)->exchange;
+    ale_odometry_t *slot = ale_ring_reserve(exchange->odometry);
+    if (slot) {
+        *slot = *sample;
+        slot->stamp_us = ale_clock_from_utime(&exchange->clock, sample->stamp_us);
+        ale_ring_commit(exchange->odometry);
+    }
+}
+
+static void send_scan(ale_telemetry_t *telemetry, const ale_result_t *result)
+{
+    const ale_config_t *config = telemetry->config;
+    const int64_t utime = ale_clock_to_utime(&telemetry->exchange->clock, result->estimate.stamp_us);
+    ale_bus_send_features(telemetry->bus, &result->features, utime, result->estimate.scan,
+                          config->pipeline.sensor);
+    if (config->publish_scan) {
+        ale_bus_send_scan(telemetry->bus, &result->scan, utime, result->estimate.scan,
+                          config->pipeline.sensor);
+    }
+    if (config->publish_bot_core) {
+        ale_bus_send_bot_lidar(telemetry->bus, &result->scan, utime);
+    }
+}
+
+static void send_result(ale_telemetry_t *telemetry, const ale_result_t *result)
+{
+    const ale_clock_t *clock = &telemetry->exchange->clock;
+    ale_pose_report_t report = {
+        .estimate = result->estimate,
+        .first_beam_us = ale_clock_to_utime(clock, result->first_beam_us),
+        .arrival_us = ale_clock_to_utime(clock, result->arrival_us),
+        .sent_us = ale_clock_to_utime(clock, ale_clock_now_us(clock)),
+    };
+    report.estimate.stamp_us = ale_clock_to_utime(clock, result->estimate.stamp_us);
+    memcpy(report.stage_ns, result->stage_ns, sizeof report.stage_ns);
+    ale_bus_send_pose(telemetry->bus, &report);
+    const int64_t latency_us = ale_clock_now_us(clock) - result->arrival_us;
+    ale_statistics_add(&telemetry->statistics, result, ale_clock_real_ns(clock, latency_us));
+    if (telemetry->config->publish_bot_core) {
+        ale_bus_send_bot_pose(telemetry->bus, &report);
+    }
+    if (result->has_scan) {
+        send_scan(telemetry, result);
+    }
+}
+
+static void send_results(ale_telemetry_t *telemetry)
+{
+    ale_ring_t *results = telemetry->exchange->results;
+    for (uint32_t ready = ale_ring_ready(results); ready > 0; ready--) {
+        send_result(telemetry, ale_ring_at(results, 0));
+        ale_ring_release(results);
+    }
+}
+
+static void watch_scanner(ale_telemetry_t *telemetry)
+{
+    bool fresh = false;
+    telemetry->health = ale_snapshot_newest(telemetry->exchange->health, &fresh);
+    char line[ALE_SUPERVISOR_LINE];
+    if (fresh && ale_supervisor_watch(&telemetry->supervisor, telemetry->health, line)) {
+        fprintf(stderr, "ale-slamd: %s\n", line);
+    }
+}
+
+static void send_status(ale_telemetry_t *telemetry)
+{
+    const ale_clock_t *clock = &telemetry->exchange->clock;
+    ale_status_report_t *report = &telemetry->report;
+    report->now_us = ale_clock_to_utime(clock, ale_clock_now_us(clock));
+    report->boot = telemetry->boot;
+    report->realtime = telemetry->realtime.realtime;
+    memcpy(report->realtime_detail, telemetry->realtime.text, sizeof report->realtime_detail);
+    ale_statistics_report(&telemetry->statistics, report);
+    ale_supervisor_report(telemetry->health, ale_clock_now_us(clock), report);
+    ale_statistics_counters(&telemetry->statistics, telemetry->health, telemetry->exchange,
+                            ale_bus_refused(telemetry->bus), ale_bus_unsent(telemetry->bus), report);
+    ale_bus_send_status(telemetry->bus, report);
+}
+
+static bool map_under_way(const ale_telemetry_t *telemetry)
+{
+    return telemetry->map && telemetry->next_part < ale_map_parts(telemetry->map);
+}
+
+/* A new map goes out whole, in bursts that leave room for poses; the same again every ten seconds, for those
+ * who came later or missed a part. A newer one waits until the one under way is out. */
+static void send_map(ale_telemetry_t *telemetry, int64_t now_ns)
+{
+    if (!map_under_way(telemetry)) {
+        bool fresh = false;
+        const ale_map_t *newest = ale_snapshot_newest(telemetry->exchange->map, &fresh);
+        const bool again = telemetry->map && now_ns >= telemetry->next_whole_map_ns;
+        if (!fresh && !again) {
+            return;
+        }
+        telemetry->map = newest;
+        telemetry->next_part = 0;
+        telemetry->next_whole_map_ns = now_ns + WHOLE_MAP_PERIOD_NS;
+    }
+    const ale_clock_t *clock = &telemetry->exchange->clock;
+    const int64_t utime = ale_clock_to_utime(clock, ale_clock_now_us(clock));
+    for (int k = 0; k < PARTS_AT_ONCE && map_under_way(telemetry); k++) {
+        ale_bus_send_map_part(telemetry->bus, telemetry->map, utime, telemetry->next_part++);
+    }
+}
+
+static bool result_awaited(const ale_exchange_t *exchange)
+{
+    return ale_ring_committed(exchange->scans) !=
+           ale_ring_committed(exchange->results) + ale_ring_refused(exchange->results);
+}
+
+static void wait_for_work(ale_telemetry_t *telemetry)
+{
+    ale_exchange_t *exchange = telemetry->exchange;
+    struct pollfd sources[] = {{.fd = exchange->under_way, .events = POLLIN},
+                               {.fd = ale_bus_descriptor(telemetry->bus), .events = POLLIN}};
+    int64_t wait_ns = ale_max64(telemetry->next_status_ns - ale_rt_now_ns(), 0);
+    if (map_under_way(telemetry)) {
+        wait_ns = ale_min64(wait_ns, PART_NS);
+    }
+    if (result_awaited(exchange)) {
+        wait_ns = ale_min64(wait_ns, LOOK_NS);
+    }
+    const struct timespec wait = {.tv_sec = wait_ns / NS_PER_S, .tv_nsec = wait_ns % NS_PER_S};
+    ppoll(sources, 2, &wait, NULL);
+    eventfd_t announced = 0;
+    eventfd_read(exchange->under_way, &announced);
+    if (sources[1].revents != 0) {
+        ale_bus_receive(telemetry->bus, 0);
+    }
+}
+
+static void work(ale_telemetry_t *telemetry)
+{
+    send_results(telemetry);
+    watch_scanner(telemetry);
+    const int64_t now_ns = ale_rt_now_ns();
+    send_map(telemetry, now_ns);
+    if (now_ns >= telemetry->next_status_ns) {
+        send_status(telemetry);
+        telemetry->next_status_ns = ale_max64(telemetry->next_status_ns + STATUS_PERIOD_NS, now_ns);
+    }
+}
+
+static void run(ale_rt_task_t *self, void *user)
+{
+    ale_telemetry_t *telemetry = user;
+    while (!ale_rt_task_stopping(self)) {
+        wait_for_work(telemetry);
+        work(telemetry);
+    }
+    work(telemetry);
+    send_status(telemetry);
+}
+
+static int64_t boot_nonce(void)
+{
+    int64_t nonce = 0;
+    if (getrandom(&nonce, sizeof nonce, 0) != (ssize_t)sizeof nonce) {
+        nonce = ale_rt_now_ns();
+    }
+    return nonce & INT64_MAX;
+}
+
+ale_telemetry_t *ale_telemetry_start(const ale_config_t *config, ale_exchange_t *exchange, ale_bus_t *bus,
+                                     const ale_rt_report_t *realtime)
+{
+    ale_telemetry_t *telemetry = calloc(1, sizeof *telemetry);
+    if (!telemetry) {
+        return NULL;
+    }
+    telemetry->config = config;
+    telemetry->exchange = exchange;
+    telemetry->bus = bus;
+    telemetry->realtime = *realtime;
+    telemetry->boot = boot_nonce();
+    telemetry->next_status_ns = ale_rt_now_ns() + STATUS_PERIOD_NS;
+    if (ale_bus_on_odometry(bus, take_odometry, telemetry) == 0) {
+        telemetry->task = ale_rt_task_start(&(ale_rt_task_config_t){
+            .name = "ale-telemetry", .kind = ALE_RT_ORDINARY, .body = run, .user = telemetry});
+    }
+    if (!telemetry->task) {
+        free(telemetry);
+        return NULL;
+    }
+    return telemetry;
+}
+
+void ale_telemetry_stop(ale_telemetry_t *telemetry)
+{
+    if (!telemetry) {
+        return;
+    }
+    ale_rt_task_stop(telemetry->task);
+    eventfd_write(telemetry->exchange->under_way, 1);
+    ale_rt_task_join(telemetry->task);
+    free(telemetry);
+}
