@@ -38,6 +38,7 @@ $(LCM_STAMP): $(LCM_FILES)
 	$(Q)lcm-gen -j --jpath $(BUILD)/java $(LCM_FILES)
 	$(Q)touch $@
 
+.PRECIOUS: $(BUILD)/lcmtypes/%.c
 $(BUILD)/lcmtypes/%.c: $(LCM_STAMP) ;
 
 $(OBJ)/lcmtypes/%.o: $(BUILD)/lcmtypes/%.c
