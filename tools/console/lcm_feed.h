@@ -9,6 +9,7 @@
 #ifndef CONSOLE_LCM_FEED_H
 #define CONSOLE_LCM_FEED_H
 
+#include <cerrno>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -49,11 +50,13 @@ class LcmFeed
         subscribe(channel);
     }
 
-    /* Waits for one message and handles it. False when the time is over; throws when LCM fails. */
+    /* Waits for one message and handles it. False when the time is over or a signal came; throws when LCM
+     * fails. */
     bool wait(int timeout_ms)
     {
+        errno = 0;
         const int handled = lcm_handle_timeout(lcm_.get(), timeout_ms);
-        if (handled < 0) {
+        if (handled < 0 && errno != EINTR) {
             throw std::runtime_error("LCM stopped receiving");
         }
         return handled > 0;

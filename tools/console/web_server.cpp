@@ -114,7 +114,7 @@ struct WebCallbacks {
         case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION:
             return server->accepts(connection) ? 0 : refuse(connection);
         case LWS_CALLBACK_ESTABLISHED:
-            server->clients_.emplace(connection, Client(server->board_));
+            server->connections_.emplace(connection, WebServer::Connection{Client(server->board_), {}});
             lws_callback_on_writable(connection);
             return 0;
         case LWS_CALLBACK_SERVER_WRITEABLE:
@@ -123,7 +123,7 @@ struct WebCallbacks {
         case LWS_CALLBACK_RECEIVE:
             return received(*server, connection, text);
         case LWS_CALLBACK_CLOSED:
-            server->clients_.erase(connection);
+            server->connections_.erase(connection);
             return 0;
         case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
             server->offer_all();
@@ -139,17 +139,24 @@ struct WebCallbacks {
         return -1;
     }
 
-    static int received(WebServer &server, lws *connection, std::string_view text)
+    static int received(WebServer &server, lws *connection, std::string_view part)
     {
-        const auto client = server.clients_.find(connection);
-        const bool whole =
-            lws_is_final_fragment(connection) != 0 && lws_remaining_packet_payload(connection) == 0;
-        if (client == server.clients_.end() || !whole || text.size() > longest_page_message ||
-            !client->second.heard(std::string(text))) {
+        const auto found = server.connections_.find(connection);
+        if (found == server.connections_.end()) {
             return -1;
         }
+        std::string &heard = found->second.heard;
+        heard += part;
+        if (heard.size() > longest_page_message) {
+            return -1;
+        }
+        if (lws_is_final_fragment(connection) == 0 || lws_remaining_packet_payload(connection) > 0) {
+            return 0;
+        }
+        const bool understood = found->second.client.heard(heard);
+        heard.clear();
         lws_callback_on_writable(connection);
-        return 0;
+        return understood ? 0 : -1;
     }
 
     static void on_link_timer(lws_sorted_usec_list_t *list)
@@ -237,11 +244,11 @@ bool WebServer::accepts(lws *connection) const
 
 void WebServer::send_next(lws *connection)
 {
-    const auto client = clients_.find(connection);
-    if (client == clients_.end()) {
+    const auto found = connections_.find(connection);
+    if (found == connections_.end()) {
         return;
     }
-    const auto message = client->second.next(Board::Clock::now());
+    const auto message = found->second.client.next(Board::Clock::now());
     if (!message) {
         return;
     }
@@ -253,15 +260,15 @@ void WebServer::send_next(lws *connection)
 
 void WebServer::offer_all()
 {
-    for (const auto &client : clients_) {
-        lws_callback_on_writable(client.first);
+    for (const auto &entry : connections_) {
+        lws_callback_on_writable(entry.first);
     }
 }
 
 void WebServer::links_due()
 {
-    for (auto &client : clients_) {
-        client.second.link_due();
+    for (auto &entry : connections_) {
+        entry.second.client.link_due();
     }
     offer_all();
 }

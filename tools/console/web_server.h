@@ -47,6 +47,11 @@ class WebServer
     /* More browsers than look at one robot; keeps a flood from eating the machine. */
     static constexpr unsigned most_connections = 64;
 
+    struct Connection {
+        Client client;
+        std::string heard; /* of a message that has not come whole yet */
+    };
+
     bool accepts(lws *connection) const;
     void send_next(lws *connection);
     void offer_all();
@@ -56,7 +61,7 @@ class WebServer
     HttpAddress address_;
     std::string machine_name_;
     lws_context *context_ = nullptr;
-    std::unordered_map<lws *, Client> clients_;
+    std::unordered_map<lws *, Connection> connections_;
     std::atomic<bool> stopping_{false};
 };
 

@@ -1,0 +1,266 @@
+"""ale-console as its clients meet it: HTTP, the web socket, LCM; no browser (see test_console_page.py)."""
+import json
+import os
+import random
+import shutil
+import signal
+import socket
+import struct
+import subprocess
+import threading
+import time
+import urllib.error
+
+import ale
+import lcm
+import pytest
+
+from robot_double import WALLS
+from watching import BINARIES, Console, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
+from web_socket import Refused, WebSocket
+
+
+def run_console(*arguments):
+    return subprocess.run([BINARIES / "ale-console", *arguments], capture_output=True, text=True, timeout=10, check=False)
+
+
+def one_line(text):
+    return len(text.strip().splitlines()) == 1
+
+
+def test_it_says_what_it_is():
+    assert "--lcm-url" in run_console("--help").stdout
+    assert run_console("--version").stdout.startswith("ale-console ")
+
+
+@pytest.mark.parametrize("arguments", [["--http", "nonsense"], ["--http", "127.0.0.1:70000"], ["--http", "127.0.0.1:8x"],
+                                       ["--http", ":8080"], ["--http", "no.such.host.invalid:80"], ["--unknown"], ["word"]])
+def test_wrong_use_is_told_in_one_line_and_ends_with_2(arguments):
+    done = run_console(*arguments)
+    assert done.returncode == 2
+    assert one_line(done.stderr) and done.stdout == ""
+
+
+def test_a_port_that_is_taken_is_named():
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port = other.getsockname()[1]
+        done = run_console("--http", f"127.0.0.1:{port}")
+    assert done.returncode == 1
+    assert one_line(done.stderr) and str(port) in done.stderr and "in use" in done.stderr
+
+
+def test_keys_that_cannot_be_read_are_named(tmp_path):
+    done = run_console("--keys", str(tmp_path / "absent"))
+    assert done.returncode == 1 and "absent" in done.stderr
+
+
+@pytest.mark.skipif(os.geteuid() != 0 or shutil.which("unshare") is None, reason="needs root and unshare to take the network away")
+def test_without_a_multicast_route_it_says_so():
+    done = subprocess.run(["unshare", "-n", BINARIES / "ale-console", "--http", "127.0.0.1:0"], capture_output=True,
+                          text=True, timeout=10, check=False)
+    assert done.returncode == 1
+    assert "no route for multicast" in done.stderr.strip().splitlines()[-1]
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_with_0(lcm_url, number):
+    running = Console(lcm_url)
+    watching = WebSocket(running.url)
+    watching.wait_for("hello")
+    assert running.end(number) == 0
+
+
+def test_the_page_comes_whole_and_bound_to_this_origin(console):
+    with console.get() as answer:
+        assert answer.headers["content-type"] == "text/html; charset=utf-8"
+        assert "default-src 'none'" in answer.headers["content-security-policy"]
+        page = answer.read().decode()
+    assert page.rstrip().endswith("</html>")
+    for name, kind in (("console.css", "text/css"), ("console.js", "text/javascript")):
+        assert name in page
+        with console.get(name) as answer:
+            assert answer.headers["content-type"].startswith(kind)
+            assert len(answer.read()) == int(answer.headers["content-length"])
+
+
+@pytest.mark.parametrize("path", ["absent.js", "../main.cpp", "%2e%2e/main.cpp", "page/index.html"])
+def test_nothing_else_is_served(console, path):
+    with pytest.raises(urllib.error.HTTPError) as refused:
+        console.get(path)
+    assert refused.value.code in (403, 404)
+
+
+def test_a_web_socket_from_a_foreign_page_is_refused(console):
+    for origin, host in (("http://evil.example", None), ("null", None), (console.url.rstrip("/") + "1", None),
+                         ("http://evil.example:80", "evil.example:80")):  # the last: a name made to resolve to us
+        with pytest.raises(Refused, match="403"):
+            WebSocket(console.url, origin=origin, host=host)
+
+
+def test_a_web_socket_from_its_own_page_is_accepted(console):
+    WebSocket(console.url, origin=console.url.rstrip("/")).wait_for("hello")
+
+
+def test_a_pose_arrives_as_it_was_sent(console, robot):
+    watching = WebSocket(console.url)
+    watching.wait_for("hello")
+    sent = robot.pose()
+    sent.state, sent.predicted, sent.scan = 1, True, 17
+    robot.bus.publish("ALE_POSE", sent.encode())
+    pose = watching.wait_for("pose")
+    assert (pose["scan"], pose["state"], pose["predicted"]) == (17, "weak", True)
+    assert pose["map"] == pytest.approx([sent.map_x, sent.map_y, sent.map_theta], abs=1e-4)
+    assert pose["cov"] == pytest.approx(sent.cov, rel=1e-5)
+    assert pose["latency_us"] == sent.utime + sent.age_us - sent.arrival_utime
+    assert pose["stages_us"] == pytest.approx([ns / 1000 for ns in sent.stage_ns], abs=0.1)
+
+
+def test_the_map_is_whole_only_with_all_its_parts(console, robot):
+    watching = WebSocket(console.url)
+    watching.wait_for("hello")
+    parts = list(robot.map_parts(version=1))
+    assert len(parts) > 1
+    robot.bus.publish("ALE_MAP", parts[0].encode())  # the rest is lost on the way
+    for part in reversed(list(robot.map_parts(version=2))):
+        robot.bus.publish("ALE_MAP", part.encode())
+    received = watching.wait_for("map")
+    assert received["version"] == 2
+    assert sorted((l["x1"], l["y1"], l["x2"], l["y2"]) for l in received["lines"]) == sorted(WALLS)
+
+
+def test_scan_and_features_keep_their_geometry(console, robot):
+    watching = WebSocket(console.url)
+    watching.wait_for("hello")
+    robot.step()
+    scan = watching.wait_for("scan")
+    assert len(scan["ranges_mm"]) == 682 and scan["ranges_mm"][100] == 0 and scan["ranges_mm"][340] > 0
+    assert [7, 1] in scan["codes"]
+    assert scan["step"] == pytest.approx(0.006135923, abs=1e-8)
+    robot.step()
+    features = watching.wait_for("features")
+    assert len(features["lines"]) == 5 and len(features["corners"]) == 3
+    assert features["corners"][0]["kind"] == "concave"
+
+
+def test_who_comes_late_gets_map_status_and_the_whole_trail(console, robot):
+    first = WebSocket(console.url)
+    for _ in range(40):
+        robot.step()
+    first.wait_for("pose", lambda pose: pose["scan"] == 39)
+    late = WebSocket(console.url)
+    wanted = {"map", "status", "trail", "pose", "features", "scan"}
+    while wanted:
+        message = late.next()
+        late.got()
+        if message["type"] == "trail":
+            assert message["anew"] and len(message["points"]) > 40
+        wanted.discard(message["type"])
+
+
+def test_a_restarted_robot_is_shown_from_anew(console, robot):
+    watching = WebSocket(console.url)
+    for _ in range(20):
+        robot.step()
+    watching.wait_for("pose", lambda pose: pose["scan"] == 19)
+    robot.scan, robot.boot = 0, 2
+    robot.step()
+    watching.wait_for("hello")
+    trail = watching.wait_for("trail", lambda trail: trail["anew"])
+    assert len(trail["points"]) <= 4
+
+
+def test_an_overtaken_pose_does_not_turn_back_time(console, robot):
+    watching = WebSocket(console.url)
+    for scan in (5, 7, 6, 8):
+        robot.scan = scan
+        robot.publish_pose()
+    assert watching.wait_for("pose", lambda pose: pose["scan"] == 8)
+    assert watching.wait_for("link", lambda link: link["poses"] == 3)["lost_poses"] == 1
+
+
+def test_a_client_that_does_not_keep_up_skips_to_the_newest(console, robot):
+    watching = WebSocket(console.url)
+    watching.wait_for("hello")
+    for _ in range(100):
+        robot.publish_pose()
+        robot.scan += 1
+        time.sleep(0.005)
+    backlog = [watching.next() for _ in range(32)]  # never more on the way
+    watching.socket.settimeout(0.7)
+    with pytest.raises(TimeoutError):
+        watching.next()
+    watching.socket.settimeout(10)
+    watching.got()
+    newest = watching.wait_for("pose")
+    assert newest["scan"] == 99
+    assert max(message["scan"] for message in backlog if message["type"] == "pose") < 98
+    assert watching.wait_for("link", lambda link: link["skipped"] > 0)
+
+
+@pytest.mark.parametrize("text", ["", "nonsense", "[1]", '{"type":"got"}', '{"type":"got","count":-1}',
+                                  '{"type":"got","count":1000000}', '{"type":"drive","v":1}', "x" * 1000])
+def test_a_client_that_talks_nonsense_is_hung_up_on_and_nobody_else(console, robot, text):
+    other, rude = WebSocket(console.url), WebSocket(console.url)
+    rude.send(text)
+    with pytest.raises(OSError):
+        while True:
+            rude.next()
+    robot.publish_pose()
+    assert other.wait_for("pose")["scan"] == 0
+
+
+def empty_scan():
+    scan = ale.scan_t()
+    scan.codes = b""
+    return scan
+
+
+def hostile_messages():
+    """Bytes that no honest robot sends: cut, with counts beyond reason, with numbers that are none."""
+    whole = {"ALE_POSE": ale.pose_t(), "ALE_FEATURES": ale.features_t(), "ALE_SCAN": empty_scan(),
+             "ALE_MAP": ale.map_t(), "ALE_STATUS": ale.status_t()}
+    for channel, message in whole.items():
+        data = message.encode()
+        yield channel, b""
+        yield channel, data[:-1]
+        yield channel, b"\0" * len(data)
+    counts = {"ALE_FEATURES": 8 + 8 + 4 + 12, "ALE_SCAN": 8 + 8 + 4 * 10, "ALE_MAP": 8 + 8 + 4 + 4}
+    for channel, offset in counts.items():
+        for count in (-1, 1 << 20, 0x7FFFFFFF):
+            data = bytearray(whole[channel].encode())
+            struct.pack_into(">i", data, offset, count)
+            yield channel, bytes(data)
+    for name in ("map_x", "map_theta"):
+        pose = ale.pose_t()
+        setattr(pose, name, float("nan"))
+        yield "ALE_POSE", pose.encode()
+    pose = ale.pose_t()
+    pose.state = 7
+    yield "ALE_POSE", pose.encode()
+
+
+def test_hostile_messages_are_counted_and_survived(console, robot):
+    watching = WebSocket(console.url)
+    watching.wait_for("hello")
+    count = 0
+    for channel, data in hostile_messages():
+        robot.bus.publish(channel, data)
+        count += 1
+        time.sleep(0.002)
+    assert watching.wait_for("link", lambda link: link["malformed"] == count)
+    robot.publish_pose()
+    assert watching.wait_for("pose")["scan"] == 0
+
+
+def test_random_bytes_are_survived(console, robot):
+    watching = WebSocket(console.url)
+    rng = random.Random(4)
+    prints = {"ALE_POSE": ale.pose_t(), "ALE_MAP": ale.map_t(), "ALE_STATUS": ale.status_t(), "ALE_SCAN": empty_scan()}
+    for _ in range(400):
+        channel, message = rng.choice(list(prints.items()))
+        fingerprint = message.encode()[:8]
+        robot.bus.publish(channel, fingerprint + rng.randbytes(rng.randrange(300)))
+        time.sleep(0.0005)
+    robot.publish_pose()
+    assert watching.wait_for("link", lambda link: link["malformed"] > 100)
+    assert console.process.poll() is None
