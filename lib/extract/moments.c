@@ -16,8 +16,10 @@ static int64_t relative_own_var_q36(const ale_scan_noise_t *noise, int64_t range
 void ale_moments_build(ale_extractor_t *e)
 {
     ale_moments_t total = {0};
+    e->inverse_sum[0] = 0;
     for (int32_t i = 0; i < e->count; i++) {
         e->sum[i] = total;
+        e->inverse_sum[i + 1] = e->inverse_sum[i] + e->inverse_q44[i];
         const int64_t x = e->x_q4[i];
         const int64_t y = e->y_q4[i];
         total.x += x;

@@ -8,4 +8,7 @@
  * ale_segment, which is to be called again afterwards). Sets e->outliers. O(points). */
 void ale_outlier_remove(ale_extractor_t *e);
 
+/* Removes points within a segment that stand out from both neighbours. Adds to e->outliers. O(points). */
+void ale_outlier_remove_spikes(ale_extractor_t *e);
+
 #endif

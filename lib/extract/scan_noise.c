@@ -160,81 +160,60 @@ void ale_scan_noise_measure(ale_extractor_t *e, const ale_scan_t *scan)
     if (used > 0) {
         fit_model(e, octave, used);
     }
+    e->noise.sigma_um = ((int64_t)ale_isqrt((uint64_t)e->noise.own_mm2_q36) * 1000) >> 18;
+    e->noise.sigma_per_range_q20 = (int64_t)ale_isqrt((uint64_t)e->noise.own_relative_q36) << 2;
 }
 
-enum { LAG_MIN = 3, LAG_MAX = 8, LAGS = LAG_MAX - LAG_MIN + 1, SHORTEST_RUN = 32, PIECE = 80 };
+/* Blocks of beams whose second difference shows what neighbours share, for an error that is correlated
+ * over 12 beams: the block means of pure own noise have 6 / BLOCK own variances, of the shared part
+ * SHARED_GAIN_Q8 shared ones. */
+enum { BLOCK = 8, SHARED_GAIN_Q8 = 299, MIN_BLOCKS = 60, RATIO_Q8 = 512 };
 
-typedef struct {
-    int64_t scale_q8; /* shared variance in units of the configured one */
-    int64_t weight;   /* pairs */
-    int64_t error_q8; /* one deviation of scale_q8 */
-} shared_estimate_t;
-
-/* Shared variance from the covariance of residuals LAG_MIN to LAG_MAX points apart. */
-static shared_estimate_t shared_of_run(const ale_extractor_t *e, ale_run_t run)
+/* Squared second difference of three blocks of points from start on, over what own noise would give; Q8. */
+static int64_t block_ratio_q8(const ale_extractor_t *e, int32_t start, int64_t curvature_q30)
 {
-    const ale_spread_t m = ale_moments_spread(e, run.first, run.last);
-    const ale_normal_t normal = ale_moments_normal(&m);
-    int64_t prefix[LAG_MAX + 1] = {0};
-    int64_t sum_q8 = 0;
-    int64_t total = 0;
-    for (int32_t i = run.first, k = 0; i <= run.last; i++, k++) {
-        const int64_t dx = e->x_q4[i] - m.mean_x_q4;
-        const int64_t dy = e->y_q4[i] - m.mean_y_q4;
-        const int64_t residual = ale_round_shift(dx * normal.x_q30 + dy * normal.y_q30, 30);
-        /* prefix[j % 9]: sum of the residuals before point j */
-        const int64_t near = k >= LAG_MIN - 1 ? prefix[(k - LAG_MIN + 1) % (LAG_MAX + 1)] : 0;
-        const int64_t far = k >= LAG_MAX ? prefix[(k - LAG_MAX) % (LAG_MAX + 1)] : 0;
-        prefix[k % (LAG_MAX + 1)] = total;
-        sum_q8 += residual * (near - far);
-        total += residual;
-    }
-    const int64_t n = m.fit.n;
-    const int64_t pairs = n * LAGS - LAGS * (LAG_MIN + LAG_MAX) / 2;
-    const int64_t factor_q8 = 148 * n * n / (n * n + 12100);
-    const int64_t model_q8 = ale_max64((m.fit.shared_q8 * pairs * factor_q8) >> 8, 1);
-    shared_estimate_t estimate = {
-        .scale_q8 = ((sum_q8 + 2 * LAGS * m.fit.var_q8) << 8) / model_q8,
-        .weight = n * factor_q8 * factor_q8,
-        .error_q8 = m.fit.var_q8 * (int64_t)ale_isqrt((uint64_t)pairs << 16) / model_q8,
-    };
-    return estimate;
+    const int64_t *p = &e->inverse_sum[start];
+    const int64_t middle = p[2 * BLOCK] - p[BLOCK];
+    const int64_t d = p[3 * BLOCK] - p[0] - 3 * middle + ale_round_shift(middle * curvature_q30, 30);
+    const int64_t range_um = e->range_um[start + 3 * BLOCK / 2];
+    const int64_t d_um = d * range_um / middle;
+    const int64_t range_mm = range_um / 1000;
+    const int64_t own_q20 = (e->noise.own_mm2_q36 + e->noise.own_relative_q36 * range_mm * range_mm) >> 16;
+    return d_um * d_um * (BLOCK << 8) / ale_max64((own_q20 * 6000000) >> 20, 1);
 }
 
-static void insert_sorted(shared_estimate_t *list, int32_t count, shared_estimate_t item)
+void ale_scan_noise_measure_shared(ale_extractor_t *e, const ale_scan_t *scan)
 {
-    int32_t k = count;
-    for (; k > 0 && list[k - 1].scale_q8 > item.scale_q8; k--) {
-        list[k] = list[k - 1];
-    }
-    list[k] = item;
-}
-
-void ale_scan_noise_measure_shared(ale_extractor_t *e)
-{
-    shared_estimate_t list[ALE_MAX_BEAMS / SHORTEST_RUN];
-    int32_t count = 0;
-    int64_t weight = 0;
+    const int64_t curvature_q30 = 2 * (((int64_t)1 << 30) - ale_cos_q30((uint32_t)scan->step_bam * BLOCK));
+    uint16_t *bins = e->histogram[0];
+    memset(bins, 0, sizeof e->histogram[0]);
+    int32_t samples = 0;
+    int64_t range_mm = 0;
     for (int32_t k = 0; k < e->run_count; k++) {
-        const int32_t n = e->run[k].last - e->run[k].first + 1;
-        const int32_t pieces = (n + PIECE / 2) / PIECE > 0 ? (n + PIECE / 2) / PIECE : 1;
-        for (int32_t p = 0; p < pieces && n >= SHORTEST_RUN; p++) {
-            const ale_run_t piece = {(uint16_t)(e->run[k].first + n * p / pieces),
-                                     (uint16_t)(e->run[k].first + n * (p + 1) / pieces - 1)};
-            const shared_estimate_t item = shared_of_run(e, piece);
-            insert_sorted(list, count++, item);
-            weight += item.weight;
+        for (int32_t i = e->run[k].first; i + 3 * BLOCK - 1 <= e->run[k].last; i++) {
+            if (e->beam[i + 3 * BLOCK - 1] - e->beam[i] == 3 * BLOCK - 1) {
+                const uint32_t bin = log_bin((uint64_t)block_ratio_q8(e, i, curvature_q30));
+                bins[bin < ALE_NOISE_BINS ? bin : ALE_NOISE_BINS - 1]++;
+                range_mm += e->range_um[i] / 1000;
+                samples++;
+            }
         }
     }
-    int64_t below = 0;
     int64_t scale_q8 = 256;
-    for (int32_t k = 0; k < count && 2 * below < weight; k++) {
-        below += list[k].weight;
-        const int64_t error_q8 =
-            list[k].error_q8 * (int64_t)ale_isqrt((uint64_t)((list[k].weight << 16) / weight)) / 256;
-        scale_q8 = list[k].scale_q8 > 3 * error_q8 ? list[k].scale_q8 : 0;
+    e->shared_ratio_q8 = 0;
+    if (samples >= MIN_BLOCKS) {
+        range_mm /= samples;
+        const int64_t ratio_q8 = histogram_quantile(bins, samples, 50) * 1000 / 455;
+        const int64_t own_q20 =
+            (e->noise.own_mm2_q36 + e->noise.own_relative_q36 * range_mm * range_mm) >> 16;
+        const int64_t model_q20 = ale_max64(
+            (e->shared_prior_mm2_q36 + e->shared_prior_relative_q36 * range_mm * range_mm) >> 16, 1);
+        e->shared_ratio_q8 = ratio_q8;
+        if (ratio_q8 > RATIO_Q8) {
+            scale_q8 = ale_clamp64(
+                (ratio_q8 - 256) * 6 * 256 / (BLOCK * SHARED_GAIN_Q8) * own_q20 / model_q20, 256, 16 * 256);
+        }
     }
-    scale_q8 = ale_clamp64(4 * scale_q8, 256, 64 * 256);
     e->shared_scale_q8 = scale_q8;
     e->noise.shared_mm2_q36 = (e->shared_prior_mm2_q36 * scale_q8) >> 8;
     e->noise.shared_relative_q36 = (e->shared_prior_relative_q36 * scale_q8) >> 8;

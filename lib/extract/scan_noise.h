@@ -9,6 +9,6 @@
 void ale_scan_noise_measure(ale_extractor_t *e, const ale_scan_t *scan);
 
 /* Scales the shared part of e->noise to what blocks of beams of one segment show. O(points). */
-void ale_scan_noise_measure_shared(ale_extractor_t *e);
+void ale_scan_noise_measure_shared(ale_extractor_t *e, const ale_scan_t *scan);
 
 #endif

@@ -16,11 +16,9 @@ typedef struct {
 
 static jump_limit_t jump_limit(const ale_extractor_t *e, const ale_scan_t *scan)
 {
-    const int64_t constant_mm_q18 = ale_isqrt((uint64_t)e->noise.own_mm2_q36);
-    const int64_t relative_q18 = ale_isqrt((uint64_t)e->noise.own_relative_q36);
     const jump_limit_t limit = {
-        .constant_um = NOISE_FACTOR * ((constant_mm_q18 * 1000) >> 18),
-        .per_range_q20 = NOISE_FACTOR * relative_q18 * 4,
+        .constant_um = NOISE_FACTOR * e->noise.sigma_um,
+        .per_range_q20 = NOISE_FACTOR * e->noise.sigma_per_range_q20,
         .step_q20 =
             ale_round_shift(ale_bam_to_nrad((int32_t)ale_abs64(scan->step_bam)) * 1074, 10 + 0) / 1000000,
     };

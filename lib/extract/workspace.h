@@ -50,6 +50,8 @@ typedef struct {
     int64_t shared_mm2_q36;
     int64_t shared_relative_q36;
     int64_t bearing_rad2_q36;
+    int64_t sigma_um; /* the own deviation is at most sigma_um + sigma_per_range * r */
+    int64_t sigma_per_range_q20;
 } ale_scan_noise_t;
 
 struct ale_extractor {
@@ -77,6 +79,8 @@ struct ale_extractor {
 
     ale_scan_noise_t noise;
     int64_t shared_scale_q8;
+    int64_t shared_ratio_q8;
+    int64_t inverse_sum[ALE_MAX_BEAMS + 1];
     int64_t shared_prior_mm2_q36;
     int64_t shared_prior_relative_q36;
     uint16_t histogram[14][ALE_NOISE_BINS];
