@@ -1,0 +1,201 @@
+#include "serial/port.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "serial/port_backend.h"
+
+int ale_port_status_of_errno(int error)
+{
+    switch (error) {
+    case EACCES:
+    case EPERM:
+    case EBUSY:
+    case EWOULDBLOCK:
+        return ALE_PORT_DENIED;
+    case ENOENT:
+    case ENODEV:
+    case ENXIO:
+    case ENOTDIR:
+    case ENOTTY:
+    case EISDIR:
+    case ELOOP:
+        return ALE_PORT_ABSENT;
+    default:
+        return ALE_PORT_GONE;
+    }
+}
+
+/* libserialport serves what the kernel lists as a terminal; it refuses pseudo terminals. */
+static bool listed_by_kernel(const char *name)
+{
+    char entry[PATH_MAX];
+    snprintf(entry, sizeof entry, "/sys/class/tty/%s", name);
+    return access(entry, F_OK) == 0;
+}
+
+/* The rate means something on ttyS and on USB adapters with a real line behind them, not on CDC-ACM. */
+static bool rate_has_effect(const char *name)
+{
+    return strncmp(name, "ttyACM", 6) != 0;
+}
+
+static int open_locked(ale_port_t *port, const char *real_path, int32_t baud)
+{
+    const int status = port->backend->open(port, real_path, baud);
+    if (status < 0) {
+        return status;
+    }
+    if (flock(port->fd, LOCK_EX | LOCK_NB) < 0) {
+        port->backend->close(port);
+        return ALE_PORT_DENIED;
+    }
+    return ALE_PORT_OK;
+}
+
+int ale_port_open(ale_port_t **out, const char *path, int32_t baud)
+{
+    *out = NULL;
+    char real_path[PATH_MAX];
+    if (realpath(path, real_path) == NULL) {
+        return ale_port_status_of_errno(errno);
+    }
+    ale_port_t *port = calloc(1, sizeof *port);
+    if (port == NULL) {
+        return ALE_PORT_GONE;
+    }
+    const char *name = strrchr(real_path, '/') + 1;
+    const bool real = listed_by_kernel(name);
+    port->backend = real ? &ale_port_libserialport_backend : &ale_port_fd_backend;
+    port->has_baud = real && rate_has_effect(name);
+    port->fd = -1;
+    const int status = open_locked(port, real_path, baud);
+    if (status < 0) {
+        free(port);
+        return status;
+    }
+    *out = port;
+    return ALE_PORT_OK;
+}
+
+int ale_port_set_baud(ale_port_t *port, int32_t baud)
+{
+    return port->backend->set_baud(port, baud);
+}
+
+static int64_t monotonic_ms(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
+}
+
+/* Waits for events until the deadline; the events that came, 0 at the deadline, -1 with errno. */
+static int poll_until(int fd, short events, int64_t deadline_ms)
+{
+    for (;;) {
+        struct pollfd wait = {.fd = fd, .events = events};
+        const int64_t left_ms = deadline_ms - monotonic_ms();
+        const int ready = poll(&wait, 1, left_ms > 0 ? (int)left_ms : 0);
+        if (ready >= 0) {
+            return ready > 0 ? wait.revents : 0;
+        }
+        if (errno != EINTR) {
+            return -1;
+        }
+    }
+}
+
+int ale_port_wait(ale_port_t *port, int32_t timeout_ms)
+{
+    const int64_t deadline_ms = monotonic_ms() + timeout_ms;
+    if (port == NULL) {
+        poll_until(-1, 0, deadline_ms);
+        return 0;
+    }
+    const int events = poll_until(port->fd, POLLIN, deadline_ms);
+    if (events < 0 || (events & POLLNVAL) != 0) {
+        return ALE_PORT_GONE;
+    }
+    if ((events & POLLIN) != 0) {
+        return 1;
+    }
+    return events == 0 ? 0 : ALE_PORT_GONE;
+}
+
+/* A terminal that hung up reads as "nothing there". */
+static bool hung_up(const ale_port_t *port)
+{
+    const int events = poll_until(port->fd, POLLIN, 0);
+    return events < 0 || (events & (POLLHUP | POLLERR | POLLNVAL)) != 0;
+}
+
+int ale_port_read(ale_port_t *port, uint8_t *bytes, size_t capacity)
+{
+    const int count = port->backend->read(port, bytes, capacity);
+    return count == 0 && hung_up(port) ? ALE_PORT_GONE : count;
+}
+
+int ale_port_write(ale_port_t *port, const uint8_t *bytes, size_t count, int32_t timeout_ms)
+{
+    const int64_t deadline_ms = monotonic_ms() + timeout_ms;
+    size_t done = 0;
+    while (done < count) {
+        const int written = port->backend->write(port, bytes + done, count - done);
+        if (written < 0) {
+            return written;
+        }
+        done += (size_t)written;
+        if (done == count) {
+            break;
+        }
+        const int events = poll_until(port->fd, POLLOUT, deadline_ms);
+        if (events < 0 || (events & (POLLHUP | POLLERR | POLLNVAL)) != 0) {
+            return ALE_PORT_GONE;
+        }
+        if (events == 0) {
+            return ALE_PORT_TIMEOUT;
+        }
+    }
+    return ALE_PORT_OK;
+}
+
+bool ale_port_has_baud(const ale_port_t *port)
+{
+    return port->has_baud;
+}
+
+void ale_port_close(ale_port_t *port)
+{
+    if (port != NULL) {
+        port->backend->close(port);
+        free(port);
+    }
+}
+
+const char *ale_port_strerror(int status)
+{
+    switch (status) {
+    case ALE_PORT_OK:
+        return "no error";
+    case ALE_PORT_GONE:
+        return "the port is gone (unplugged or hung up)";
+    case ALE_PORT_DENIED:
+        return "no access: permission is missing (group dialout), or another program holds the port";
+    case ALE_PORT_ABSENT:
+        return "no such serial device";
+    case ALE_PORT_BAUD:
+        return "the port cannot do this baud rate";
+    case ALE_PORT_TIMEOUT:
+        return "the port takes no bytes";
+    default:
+        return "unknown status";
+    }
+}

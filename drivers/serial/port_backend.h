@@ -1,0 +1,34 @@
+/* What a back end of the serial port provides; for drivers/serial only. */
+#ifndef ALE_SERIAL_PORT_BACKEND_H
+#define ALE_SERIAL_PORT_BACKEND_H
+
+#include "serial/port.h"
+
+typedef struct {
+    /* Opens the real path (no link) raw, 8N1, without flow control; sets port->fd, which poll can wait for.
+     */
+    int (*open)(ale_port_t *port, const char *real_path, int32_t baud);
+    int (*set_baud)(ale_port_t *port, int32_t baud);
+    /* One call each: bytes moved, 0 when none can be now, or a negative ale_port_status_t. */
+    int (*read)(ale_port_t *port, uint8_t *bytes, size_t capacity);
+    int (*write)(ale_port_t *port, const uint8_t *bytes, size_t count);
+    void (*close)(ale_port_t *port);
+} ale_port_backend_t;
+
+struct ale_port {
+    const ale_port_backend_t *backend;
+    int fd;
+    void *handle; /* of the back end */
+    bool has_baud;
+};
+
+extern const ale_port_backend_t ale_port_fd_backend;
+extern const ale_port_backend_t ale_port_libserialport_backend;
+
+/* The status that an errno of open, read or write stands for. */
+int ale_port_status_of_errno(int error);
+
+/* Sets any rate, also those without a constant (Linux: termios2, BOTHER). 0, or ALE_PORT_BAUD. */
+int ale_port_set_any_baud(int fd, int32_t baud);
+
+#endif
