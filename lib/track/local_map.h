@@ -1,0 +1,55 @@
+/* The map: walls in bounded memory, and quick access to those around the robot.
+ *
+ * Walls lie in one array without gaps. Those near the robot are listed by the direction of their normal,
+ * so that a view is compared only with walls that face the same way; the list is made anew when the
+ * robot has gone on or the map has changed, in time bounded by the capacity. One owner. */
+#ifndef ALE_TRACK_LOCAL_MAP_H
+#define ALE_TRACK_LOCAL_MAP_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "track/pipeline.h"
+#include "track/wall.h"
+
+enum {
+    ALE_MAP_DIRECTIONS = 64, /* buckets of the near list: 5.6 degrees each */
+    ALE_MAP_CONFIRMED = 3,   /* scans after which a wall counts as real */
+    ALE_NO_WALL = 0xffff
+};
+
+typedef struct {
+    ale_wall_t wall[ALE_MAP_MAX_LINES];
+    uint16_t count;
+    uint32_t next_id;
+    uint32_t version;
+    uint32_t refused; /* walls that found no room */
+
+    uint16_t near[ALE_MAP_MAX_LINES]; /* walls around near_centre, by direction of their normal */
+    uint16_t near_first[ALE_MAP_DIRECTIONS + 1];
+    uint16_t chosen[ALE_MAP_MAX_LINES]; /* working memory of the listing */
+    ale_point_t near_centre;
+    int32_t near_radius_um; /* 0: to be made anew */
+} ale_local_map_t;
+
+void ale_local_map_clear(ale_local_map_t *map);
+
+/* Prepares the list of walls that a sensor at `centre` with this reach can see. O(1) as a rule, O(map)
+ * when the robot has gone a metre or walls came and went. */
+void ale_local_map_approach(ale_local_map_t *map, ale_point_t centre, int32_t reach_um);
+
+/* Range first..last-1 of near[] that holds the walls facing in the bucket's direction (any integer). */
+void ale_local_map_facing(const ale_local_map_t *map, int32_t bucket, uint16_t *first, uint16_t *last);
+int32_t ale_local_map_bucket(uint32_t normal_bam);
+
+/* Adds a wall and gives it an id. When the map is full the oldest unconfirmed wall makes room; when there
+ * is none the wall is refused and counted. Returns its index or ALE_NO_WALL. */
+uint16_t ale_local_map_add(ale_local_map_t *map, const ale_wall_t *wall);
+
+/* Removes a wall: the last one takes its place. */
+void ale_local_map_remove(ale_local_map_t *map, uint16_t index);
+
+/* Joins a near wall with another one that continues or repeats it, if there is one. True when it did. */
+bool ale_local_map_merge_at(ale_local_map_t *map, uint16_t index);
+
+#endif

@@ -1,0 +1,66 @@
+#include "track/map_update.h"
+
+#include <stddef.h>
+
+#include "base/fixed.h"
+#include "base/trig.h"
+
+enum {
+    NEW_LENGTH_UM = 150000,     /* shorter views sharpen walls but begin none */
+    CONFLICT_OFFSET_UM = 50000, /* a wall this near may be the same: better none than a double one */
+    CONFLICT_ANGLE_URAD = 120000,
+    CONFLICT_SIGMAS = 1000
+};
+
+static void sharpen(ale_wall_t *wall, const ale_view_t *view, const ale_fit_t *fit, const ale_match_t *match,
+                    uint32_t scan)
+{
+    const int64_t var_offset = view->var_offset_um2 + ale_view_offset_var(view, &fit->motion.cov);
+    const int64_t var_angle = view->var_angle_urad2 + ale_view_angle_var(&fit->motion.cov);
+    ale_wall_observe(wall, &match->error, var_offset, var_angle);
+    ale_wall_extend(wall, match->error.t_um + view->start_um, match->error.t_um + view->end_um);
+    wall->seen++;
+    wall->last_scan = scan;
+    wall->missed = 0;
+}
+
+/* The wall as the view shows it, moved by what the change of velocity says. */
+static void begin(ale_local_map_t *map, const ale_view_t *view, const ale_fit_t *fit, uint32_t scan)
+{
+    ale_wall_t wall;
+    ale_view_rows_t rows;
+    int64_t offset_um = 0;
+    int64_t angle_urad = 0;
+    ale_wall_from_view(&wall, view, fit->motion.pose);
+    ale_view_rows(view, fit->motion.pose.theta_bam, wall.normal_bam, &rows);
+    for (int i = 0; i < 3; i++) {
+        offset_um += ale_mul_shift(rows.offset_row_q14[i + 3], fit->velocity_change[i], ALE_ROW_BITS);
+        angle_urad += ale_mul_shift(rows.angle_row_q14[i + 3], fit->velocity_change[i], ALE_ROW_BITS);
+    }
+    wall.anchor = ale_plus(wall.anchor, ale_polar(offset_um, wall.normal_bam));
+    wall.normal_bam += (uint32_t)ale_nrad_to_bam(angle_urad * 1000);
+    wall.var_offset_um2 += ale_view_offset_var(view, &fit->motion.cov);
+    wall.var_angle_urad2 += ale_view_angle_var(&fit->motion.cov);
+    wall.seen = 1;
+    wall.last_scan = scan;
+    ale_local_map_add(map, &wall);
+}
+
+void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t count, const ale_fit_t *fit,
+                    uint32_t scan, bool grow)
+{
+    const ale_gate_t conflict = {CONFLICT_OFFSET_UM, CONFLICT_ANGLE_URAD, CONFLICT_SIGMAS};
+    for (uint32_t i = 0; i < count; i++) {
+        const ale_match_t *match = &fit->match[i];
+        if (match->wall != ALE_NO_WALL) {
+            sharpen(&map->wall[match->wall], &view[i], fit, match, scan);
+            continue;
+        }
+        const int64_t length_um = (int64_t)view[i].end_um - view[i].start_um;
+        if (grow && length_um >= NEW_LENGTH_UM &&
+            ale_match_view(map, &view[i], fit->motion.pose, NULL, &conflict).wall == ALE_NO_WALL) {
+            begin(map, &view[i], fit, scan);
+        }
+    }
+    map->version++;
+}

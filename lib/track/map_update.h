@@ -1,0 +1,19 @@
+/* The map grows and sharpens: the paper's "the transformation is applied and added to the reference".
+ *
+ * A view that found its wall sharpens and lengthens it, weighted by the covariances of view and pose; one
+ * that found none begins a new wall, but only from a well known pose and where no wall is near that it
+ * might be. So old walls hold the map where it is: drift does not smear it. O(views * near walls). */
+#ifndef ALE_TRACK_MAP_UPDATE_H
+#define ALE_TRACK_MAP_UPDATE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "track/local_map.h"
+#include "track/refine.h"
+
+/* Takes the views of a scan, matched at fit->motion, into the map. grow = false: no new walls. */
+void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t count, const ale_fit_t *fit,
+                    uint32_t scan, bool grow);
+
+#endif

@@ -1,0 +1,80 @@
+#include "track/match.h"
+
+#include "base/fixed.h"
+#include "base/trig.h"
+
+enum { OVERLAP_PERCENT = 40, OVERLAP_LEAST_UM = 60000 };
+
+int64_t ale_view_offset_var(const ale_view_t *view, const ale_matrix_t *cov)
+{
+    const int64_t n[3] = {
+        ale_round_shift(ale_cos_q30(view->normal_bam), 10),
+        ale_round_shift(ale_sin_q30(view->normal_bam), 10),
+        -ale_round_div(ale_along(view->centre, ale_tangent_bam(view->normal_bam)) * (1 << 20), 1000000)};
+    int64_t var = 0;
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            var += ale_mul_shift(n[i] * n[j], cov->m[i][j], 40);
+        }
+    }
+    return ale_max64(var, 0);
+}
+
+int64_t ale_view_angle_var(const ale_matrix_t *cov)
+{
+    return cov->m[2][2];
+}
+
+/* Common length of view and wall, enough to believe that one shows the other. */
+static bool overlaps(const ale_wall_t *wall, const ale_view_t *view, const ale_wall_error_t *e)
+{
+    const int64_t shorter_um =
+        ale_min64(wall->end_um - wall->start_um, (int64_t)view->end_um - view->start_um);
+    const int64_t needed_um =
+        ale_min64(ale_max64(shorter_um * OVERLAP_PERCENT / 100, OVERLAP_LEAST_UM), shorter_um * 8 / 10);
+    return e->overlap_um > needed_um;
+}
+
+/* Squared distance in sigmas, Q8; beyond the gate: INT64_MAX. */
+static int64_t distance_q8(const ale_wall_t *wall, const ale_view_t *view, const ale_wall_error_t *e,
+                           int64_t pose_var[2], const ale_gate_t *gate)
+{
+    if (ale_abs64(e->angle_urad) > gate->angle_urad || ale_abs64(e->offset_um) > gate->offset_um ||
+        !overlaps(wall, view, e)) {
+        return INT64_MAX;
+    }
+    const int64_t var_offset = ale_wall_offset_var(wall, e->t_um) + view->var_offset_um2 + pose_var[0];
+    const int64_t var_angle = wall->var_angle_urad2 + view->var_angle_urad2 + pose_var[1];
+    const int64_t limit = (int64_t)gate->sigmas * gate->sigmas;
+    const int64_t offset2 = e->offset_um * e->offset_um;
+    const int64_t angle2 = e->angle_urad * e->angle_urad;
+    if (offset2 > limit * var_offset || angle2 > limit * var_angle) {
+        return INT64_MAX;
+    }
+    return (offset2 << 8) / var_offset + (angle2 << 8) / var_angle;
+}
+
+ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, ale_pose_t pose,
+                           const ale_matrix_t *cov, const ale_gate_t *gate)
+{
+    ale_match_t best = {.wall = ALE_NO_WALL};
+    int64_t least = INT64_MAX;
+    int64_t pose_var[2] = {cov ? ale_view_offset_var(view, cov) : 0, cov ? ale_view_angle_var(cov) : 0};
+    const int32_t bucket = ale_local_map_bucket(view->normal_bam + pose.theta_bam);
+    for (int32_t b = bucket - 2; b <= bucket + 2; b++) {
+        uint16_t first;
+        uint16_t last;
+        ale_local_map_facing(map, b, &first, &last);
+        for (uint16_t k = first; k < last; k++) {
+            const ale_wall_t *wall = &map->wall[map->near[k]];
+            const ale_wall_error_t e = ale_wall_error(wall, view, pose);
+            const int64_t d = distance_q8(wall, view, &e, pose_var, gate);
+            if (d < least) {
+                least = d;
+                best.wall = map->near[k];
+                best.error = e;
+            }
+        }
+    }
+    return best;
+}

@@ -1,0 +1,33 @@
+/* Which wall of the map a view shows: the paper's "corresponding" features, for lines.
+ *
+ * Among the near walls that face as the view does, overlap it and lie no farther than the gate, the one
+ * with the least squared distance in sigmas. Bounded by the near walls of five buckets a view. */
+#ifndef ALE_TRACK_MATCH_H
+#define ALE_TRACK_MATCH_H
+
+#include <stdint.h>
+
+#include "track/local_map.h"
+#include "track/motion.h"
+#include "track/view.h"
+
+typedef struct {
+    int32_t offset_um; /* farthest along the normal and by angle, whatever the covariances say */
+    int32_t angle_urad;
+    int32_t sigmas; /* and in sigmas of view, wall and pose together */
+} ale_gate_t;
+
+typedef struct {
+    uint16_t wall; /* ALE_NO_WALL: none */
+    ale_wall_error_t error;
+} ale_match_t;
+
+/* Variance that the pose's covariance gives the offset of a view at its centre, and its angle. */
+int64_t ale_view_offset_var(const ale_view_t *view, const ale_matrix_t *cov);
+int64_t ale_view_angle_var(const ale_matrix_t *cov);
+
+/* The wall that fits a view seen from a pose with covariance `cov` (NULL: known exactly). */
+ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, ale_pose_t pose,
+                           const ale_matrix_t *cov, const ale_gate_t *gate);
+
+#endif

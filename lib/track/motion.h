@@ -1,0 +1,54 @@
+/* Motion of the robot: pose and velocity with their covariance, and how they go on to the next scan.
+ *
+ * Covariances refer to an error in the robot's own frame (x forward, y left, heading), velocities
+ * count per tick of 2^17 us, so that all six entries have the size of micrometres and microradians.
+ * Between scans the velocity wanders like a robot that accelerates; wheels, when there are any,
+ * measure the displacement and the velocity. Constant work. Source: paper (29) with the rotation
+ * [cos -sin; sin cos], the displacement being the new pose in the frame of the old one. */
+#ifndef ALE_TRACK_MOTION_H
+#define ALE_TRACK_MOTION_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/pose.h"
+#include "track/matrix.h"
+
+enum { ALE_TICK_BITS = 17, ALE_AXES = 3 };
+#define ALE_TICK_US ((int64_t)1 << ALE_TICK_BITS)
+
+typedef struct {
+    int64_t stamp_us;
+    ale_pose_t pose;
+    int32_t velocity[ALE_AXES]; /* um, um, urad per tick; robot's frame */
+    ale_matrix_t cov;           /* of pose (um, um, urad) and velocity */
+} ale_motion_t;
+
+/* What the wheels say of the way to the next scan: displacement in the frame of the last one, velocity
+ * at its end, and their variances (um^2, um^2, urad^2; per tick squared). */
+typedef struct {
+    ale_pose_t displacement;
+    int64_t displacement_var[ALE_AXES];
+    int32_t velocity[ALE_AXES];
+    int64_t velocity_var[ALE_AXES];
+} ale_wheel_motion_t;
+
+/* At rest at a pose known without error (the origin of the map), speed unknown within what is stated. */
+void ale_motion_init(ale_motion_t *motion, int64_t stamp_us, ale_pose_t pose, int32_t speed_sigma_mm_s,
+                     int32_t turn_sigma_mrad_s);
+
+/* Goes on to stamp_us: by the velocity alone, or with the wheels (NULL: none). A step of no time, back in
+ * time, or of more than two seconds says nothing about velocity: without wheels the robot then is where
+ * it was, within what it can have driven. */
+void ale_motion_predict(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_motion_t *wheels);
+
+/* Applies an error in the robot's frame to the state: pose, then velocity. */
+void ale_motion_correct(ale_motion_t *motion, const int64_t delta[ALE_STATES]);
+
+/* Motion of a constant velocity over a time, in the frame of its beginning. |time| up to 2 s. */
+ale_pose_t ale_motion_sweep(const int32_t velocity[ALE_AXES], int64_t time_us);
+
+/* A micro-motion (um, um, urad) as a pose. */
+ale_pose_t ale_pose_of_step(int64_t x_um, int64_t y_um, int64_t turn_urad);
+
+#endif

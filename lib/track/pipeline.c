@@ -1,0 +1,286 @@
+#include "track/pipeline.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#include "base/fixed.h"
+#include "base/trig.h"
+#include "track/deskew.h"
+#include "track/map_exchange.h"
+#include "track/map_update.h"
+#include "track/pipeline_state.h"
+
+enum {
+    ACQUIRE_OFFSET_UM = 300000, /* how far a wall may lie from where the prediction puts it */
+    ACQUIRE_ANGLE_URAD = 200000,
+    ACQUIRE_SIGMAS = 4,
+    START_SPEED_MM_S = 300,
+    START_TURN_MRAD_S = 500,
+    LEARN_DETERMINED_UM = 10000, /* scans that know the way well enough to teach the wheels */
+    SCAN_PERIOD_MAX_US = 2000000
+};
+
+ale_pipeline_config_t ale_pipeline_default_config(void)
+{
+    return (ale_pipeline_config_t){
+        .extract = ale_extract_default_config(),
+        .use_odometry = true,
+        .odometry_scale_ppm = 50000,
+        .odometry_turn_urad_m = 35000,
+        .odometry_turn_ppm = 20000,
+        .max_speed_mm_s = 3000,
+        .max_turn_mrad_s = 6000,
+    };
+}
+
+uint32_t ale_pipeline_size(void)
+{
+    return (uint32_t)sizeof(ale_pipeline_t);
+}
+
+static bool is_valid(const ale_pipeline_config_t *c)
+{
+    return c->odometry_scale_ppm >= 0 && c->odometry_scale_ppm <= 500000 && c->odometry_turn_urad_m >= 0 &&
+           c->odometry_turn_urad_m <= 1000000 && c->odometry_turn_ppm >= 0 &&
+           c->odometry_turn_ppm <= 500000 && c->odometry_lag_us >= -100000 && c->odometry_lag_us <= 300000 &&
+           c->max_speed_mm_s > 0 && c->max_speed_mm_s <= 50000 && c->max_turn_mrad_s > 0 &&
+           c->max_turn_mrad_s <= 50000 && c->blind_count <= ALE_MAX_BLIND_SECTORS;
+}
+
+int ale_pipeline_init(ale_pipeline_t *pipeline, const ale_pipeline_config_t *config)
+{
+    if (!is_valid(config) || ale_extractor_init(&pipeline->extractor, &config->extract) < 0) {
+        return -1;
+    }
+    pipeline->config = *config;
+    pipeline->hook = (ale_stage_hook_t){NULL, NULL};
+    ale_pipeline_reset(pipeline);
+    return 0;
+}
+
+void ale_pipeline_set_hook(ale_pipeline_t *pipeline, const ale_stage_hook_t *hook)
+{
+    pipeline->hook = hook ? *hook : (ale_stage_hook_t){NULL, NULL};
+    ale_extractor_set_hook(&pipeline->extractor, hook);
+}
+
+void ale_pipeline_reset(ale_pipeline_t *pipeline)
+{
+    const ale_pipeline_config_t *c = &pipeline->config;
+    const ale_wheel_noise_t noise = {c->odometry_scale_ppm, c->odometry_turn_urad_m, c->odometry_turn_ppm};
+    ale_wheels_init(&pipeline->wheels, c->max_speed_mm_s, c->max_turn_mrad_s);
+    ale_lag_init(&pipeline->lag, c->odometry_lag_us);
+    ale_wheel_scale_init(&pipeline->scale, &noise);
+    ale_tracker_init(&pipeline->tracker);
+    ale_local_map_clear(&pipeline->map);
+    ale_motion_init(&pipeline->motion, 0, (ale_pose_t){0, 0, 0}, START_SPEED_MM_S, START_TURN_MRAD_S);
+    pipeline->smooth = (ale_pose_t){0, 0, 0};
+    pipeline->scans = 0;
+    pipeline->started = false;
+    pipeline->view_count = 0;
+    memset(&pipeline->features, 0, sizeof pipeline->features);
+    memset(&pipeline->fit, 0, sizeof pipeline->fit);
+}
+
+void ale_pipeline_odometry(ale_pipeline_t *pipeline, const ale_odometry_t *sample)
+{
+    if (pipeline->config.use_odometry) {
+        ale_wheels_add(&pipeline->wheels, sample);
+    }
+}
+
+/* The way from the last scan to this instant, by wheels where there are some. */
+static bool predict(ale_pipeline_t *p, int64_t stamp_us, int64_t *counted_um)
+{
+    ale_wheel_motion_t wheels;
+    const bool known =
+        ale_wheel_motion(&p->wheels, &p->lag, &p->scale, p->motion.stamp_us, stamp_us, &wheels, counted_um);
+    ale_motion_predict(&p->motion, stamp_us, known ? &wheels : NULL);
+    return known;
+}
+
+/* Straightens the scan with a velocity, extracts, and turns its lines into views. */
+static void look(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t velocity[ALE_AXES])
+{
+    int32_t sensor_velocity[ALE_AXES];
+    p->scan = *raw;
+    ale_scan_mask(&p->scan, p->config.blind, p->config.blind_count);
+    ale_sensor_velocity(velocity, p->config.sensor, sensor_velocity);
+    const bool straightened = ale_deskew(&p->scan, sensor_velocity, p->bearing_bam);
+    ale_stage_end(&p->hook, ALE_STAGE_DESKEW);
+    ale_extract_scan(&p->extractor, &p->scan, straightened ? p->bearing_bam : NULL, &p->features);
+    p->view_count = ale_views_of(&p->features, &p->scan, p->config.sensor, p->view);
+}
+
+static void match(ale_pipeline_t *p, const ale_motion_t *predicted)
+{
+    const ale_gate_t gate = {ACQUIRE_OFFSET_UM, ACQUIRE_ANGLE_URAD, ACQUIRE_SIGMAS};
+    const ale_scene_t scene = {&p->map, p->view, p->view_count};
+    const ale_point_t centre = {predicted->pose.x_um, predicted->pose.y_um};
+    ale_local_map_approach(&p->map, centre, p->scan.range_max_um);
+    ale_refine(predicted, &scene, &gate, &p->fit);
+}
+
+/* The smooth pose goes the way the map pose went, unless the robot could not have gone it. */
+static void advance_smooth(ale_pipeline_t *p, ale_pose_t from, ale_pose_t predicted, int64_t dt_us)
+{
+    const ale_pose_t way = ale_pose_between(from, p->motion.pose);
+    const int64_t dt_ms = ale_clamp64(dt_us / 1000, 0, SCAN_PERIOD_MAX_US / 1000);
+    const int64_t sigma_um =
+        3 * (int64_t)ale_isqrt((uint64_t)(p->motion.cov.m[0][0] + p->motion.cov.m[1][1]));
+    const int64_t sigma_urad = 3 * (int64_t)ale_isqrt((uint64_t)p->motion.cov.m[2][2]);
+    const int64_t reach_um = dt_ms * p->config.max_speed_mm_s + sigma_um;
+    const int64_t reach_urad = dt_ms * p->config.max_turn_mrad_s + sigma_urad;
+    const int64_t turn_urad = ale_abs64(ale_bam_to_nrad((int32_t)way.theta_bam)) / 1000;
+    const bool possible =
+        (int64_t)way.x_um * way.x_um + (int64_t)way.y_um * way.y_um <= reach_um * reach_um &&
+        turn_urad <= reach_urad;
+    p->smooth = ale_pose_compose(p->smooth, possible ? way : ale_pose_between(from, predicted));
+}
+
+/* What a good scan teaches about the wheels: their lag from turns, their scale from the way. */
+static void teach_wheels(ale_pipeline_t *p, const ale_motion_t *before, bool counted, int64_t counted_um)
+{
+    const int64_t dt_us = p->motion.stamp_us - before->stamp_us;
+    if (!p->config.use_odometry || dt_us <= 0 || dt_us > SCAN_PERIOD_MAX_US ||
+        !ale_information_determines(&p->fit.information, LEARN_DETERMINED_UM)) {
+        return;
+    }
+    const ale_pose_t way = ale_pose_between(before->pose, p->motion.pose);
+    const ale_heading_t heading = {p->motion.stamp_us, p->motion.pose.theta_bam, p->motion.velocity[2]};
+    ale_lag_add_heading(&p->lag, &heading);
+    ale_lag_update(&p->lag, &p->wheels);
+    if (counted) {
+        ale_wheel_scale_learn(&p->scale, way.x_um, counted_um);
+    }
+}
+
+static void begin(ale_pipeline_t *p, const ale_scan_t *scan)
+{
+    ale_motion_init(&p->motion, scan->stamp_us, p->motion.pose, START_SPEED_MM_S, START_TURN_MRAD_S);
+    look(p, scan, p->motion.velocity);
+    p->fit.motion = p->motion;
+    match(p, &p->motion);
+    p->fit.motion = p->motion;
+    ale_stage_end(&p->hook, ALE_STAGE_MATCH);
+    ale_map_update(&p->map, p->view, p->view_count, &p->fit, p->scans, true);
+    p->started = p->view_count > 0;
+}
+
+static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
+{
+    const ale_motion_t before = p->motion;
+    int64_t counted_um = 0;
+    const bool counted = predict(p, scan->stamp_us, &counted_um);
+    const ale_motion_t predicted = p->motion;
+    look(p, scan, predicted.velocity);
+    match(p, &predicted);
+    p->motion = p->fit.motion;
+    ale_tracker_judge(&p->tracker, &p->fit);
+    ale_stage_end(&p->hook, ALE_STAGE_MATCH);
+    advance_smooth(p, before.pose, predicted.pose, scan->stamp_us - before.stamp_us);
+    teach_wheels(p, &before, counted, counted_um);
+    if (p->tracker.state != ALE_STATE_LOST) {
+        ale_map_update(&p->map, p->view, p->view_count, &p->fit, p->scans,
+                       ale_tracker_may_map(&p->tracker, &p->fit));
+    }
+    ale_stage_end(&p->hook, ALE_STAGE_MAP);
+}
+
+static int32_t per_second(int32_t per_tick)
+{
+    return (int32_t)ale_round_shift((int64_t)per_tick * 1000000, ALE_TICK_BITS);
+}
+
+/* Covariance of the pose turned from the robot's frame into the map's: um^2, um nrad, nrad^2. */
+static void map_covariance(const ale_motion_t *m, int64_t out[9])
+{
+    const int64_t c = ale_round_shift(ale_cos_q30(m->pose.theta_bam), 10);
+    const int64_t s = ale_round_shift(ale_sin_q30(m->pose.theta_bam), 10);
+    const int64_t one = (int64_t)1 << 20;
+    const int64_t f_q20[ALE_STATES][ALE_STATES] = {{c, -s, 0}, {s, c, 0}, {0, 0, one}};
+    ale_matrix_t turned;
+    ale_matrix_congruence(f_q20, &m->cov, &turned);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            const int64_t to_nrad = (i == 2 ? 1000 : 1) * (j == 2 ? 1000 : 1);
+            out[3 * i + j] = turned.m[i][j] * to_nrad;
+        }
+    }
+}
+
+/* Information of the scan: 1/um^2 in Q54 becomes 1/mm^2 in Q20, microradians at a metre milliradians. */
+static void scan_information(const ale_information_t *sum, int64_t out[6])
+{
+    const int64_t(*m)[ALE_STATES] = sum->matrix.m;
+    const int64_t in[6] = {m[0][0], m[1][0], m[2][0], m[1][1], m[2][1], m[2][2]};
+    for (int i = 0; i < 6; i++) {
+        out[i] = ale_mul_shift(in[i], 1000000, ALE_MATRIX_BITS - 20);
+    }
+}
+
+static void answer(ale_pipeline_t *p, bool predicted, uint32_t version, ale_estimate_t *out)
+{
+    memset(out, 0, sizeof *out);
+    out->stamp_us = p->motion.stamp_us;
+    out->scan = p->scans++;
+    out->smooth = p->smooth;
+    out->map = p->motion.pose;
+    map_covariance(&p->motion, out->cov);
+    if (!predicted) {
+        scan_information(&p->fit.information, out->information);
+        out->matched_lines = p->fit.matched;
+    }
+    out->velocity_x_um_s = per_second(p->motion.velocity[0]);
+    out->velocity_y_um_s = per_second(p->motion.velocity[1]);
+    out->velocity_theta_urad_s = per_second(p->motion.velocity[2]);
+    out->lag_us = p->lag.lag_us;
+    out->state = (uint8_t)p->tracker.state;
+    out->predicted = predicted;
+    out->map_changed = p->map.version != version;
+}
+
+void ale_pipeline_scan(ale_pipeline_t *pipeline, const ale_scan_t *scan, ale_estimate_t *out)
+{
+    const uint32_t version = pipeline->map.version;
+    if (pipeline->started) {
+        follow(pipeline, scan);
+    } else {
+        begin(pipeline, scan);
+    }
+    answer(pipeline, false, version, out);
+}
+
+void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estimate_t *out)
+{
+    int64_t counted_um;
+    if (pipeline->started) {
+        const ale_pose_t before = pipeline->motion.pose;
+        predict(pipeline, stamp_us, &counted_um);
+        pipeline->smooth =
+            ale_pose_compose(pipeline->smooth, ale_pose_between(before, pipeline->motion.pose));
+        ale_tracker_skip(&pipeline->tracker, &pipeline->motion);
+    } else {
+        pipeline->motion.stamp_us = stamp_us;
+    }
+    answer(pipeline, true, pipeline->map.version, out);
+}
+
+const ale_features_t *ale_pipeline_features(const ale_pipeline_t *pipeline)
+{
+    return &pipeline->features;
+}
+
+void ale_pipeline_copy_map(const ale_pipeline_t *pipeline, ale_map_t *out)
+{
+    ale_map_hand_out(&pipeline->map, out);
+}
+
+void ale_pipeline_load_map(ale_pipeline_t *pipeline, const ale_map_t *map, ale_pose_t pose, bool known)
+{
+    ale_pipeline_reset(pipeline);
+    ale_map_take_in(&pipeline->map, map);
+    ale_motion_init(&pipeline->motion, 0, pose, START_SPEED_MM_S, START_TURN_MRAD_S);
+    pipeline->smooth = pose;
+    pipeline->tracker.state = known ? ALE_STATE_WEAK : ALE_STATE_LOST;
+}

@@ -1,0 +1,41 @@
+/* Working memory of the pipeline. For lib/track and its tests only. */
+#ifndef ALE_TRACK_PIPELINE_STATE_H
+#define ALE_TRACK_PIPELINE_STATE_H
+
+#include "extract/workspace.h"
+#include "track/lag.h"
+#include "track/local_map.h"
+#include "track/motion.h"
+#include "track/odometry.h"
+#include "track/pipeline.h"
+#include "track/refine.h"
+#include "track/tracker.h"
+#include "track/view.h"
+#include "track/wheels.h"
+
+struct ale_pipeline {
+    ale_pipeline_config_t config;
+    ale_stage_hook_t hook;
+    ale_extractor_t extractor;
+
+    ale_wheels_t wheels;
+    ale_lag_t lag;
+    ale_wheel_scale_t scale;
+
+    uint32_t scans;
+    bool started; /* the first scan has set the origin */
+    ale_motion_t motion;
+    ale_tracker_t tracker;
+    ale_pose_t smooth;
+    ale_local_map_t map;
+
+    /* the scan at hand */
+    ale_scan_t scan;
+    uint32_t bearing_bam[ALE_MAX_BEAMS];
+    ale_features_t features;
+    ale_view_t view[ALE_MAX_LINES];
+    uint32_t view_count;
+    ale_fit_t fit;
+};
+
+#endif

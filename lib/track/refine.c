@@ -1,0 +1,166 @@
+#include "track/refine.h"
+
+#include "base/fixed.h"
+#include "base/trig.h"
+#include "track/ratio.h"
+
+enum {
+    CONVERGED_UM = 30, /* a step below this (um, urad) ends the iterations */
+    HUBER_SIGMAS = 2,
+    LATER_SIGMAS = 4, /* gates of the later iterations */
+    LATER_OFFSET_UM = 60000,
+    LATER_ANGLE_URAD = 80000
+};
+
+static int64_t ticks_q20(int64_t time_us)
+{
+    return ale_round_shift(time_us * (1 << 20), ALE_TICK_BITS);
+}
+
+/* Time at the view's centre, and how it grows along the wall (ticks per metre), Q20. */
+static void view_time(const ale_view_t *v, int64_t *centre_q20, int64_t *slope_q20)
+{
+    const int64_t length_um = ale_max64((int64_t)v->end_um - v->start_um, 10000);
+    const int64_t start = ticks_q20(v->start_time_us);
+    const int64_t growth = ticks_q20(v->end_time_us) - start;
+    *centre_q20 = start + ale_round_div(growth * -v->start_um, length_um);
+    *slope_q20 = ale_round_div(growth * 1000000, length_um);
+}
+
+void ale_view_rows(const ale_view_t *view, uint32_t pose_theta_bam, uint32_t wall_normal_bam,
+                   ale_view_rows_t *out)
+{
+    const uint32_t normal_bam = wall_normal_bam - pose_theta_bam;
+    const int64_t nx = ale_round_shift(ale_cos_q30(normal_bam), 16);
+    const int64_t ny = ale_round_shift(ale_sin_q30(normal_bam), 16);
+    const int64_t lever =
+        ale_round_div((int64_t)view->centre.x_um * ny - (int64_t)view->centre.y_um * nx, 1000000);
+    int64_t time;
+    int64_t slope;
+    view_time(view, &time, &slope);
+    const int64_t offset[3] = {nx, ny, lever};
+    for (int i = 0; i < 3; i++) {
+        out->offset_row_q14[i] = offset[i];
+        out->offset_row_q14[i + 3] = ale_round_shift(offset[i] * time, 20);
+        out->angle_row_q14[i] = i == 2 ? 1 << ALE_ROW_BITS : 0;
+        out->angle_row_q14[i + 3] = ale_round_shift(offset[i] * slope, 20);
+    }
+    out->angle_row_q14[5] += ale_round_shift(time, 20 - ALE_ROW_BITS);
+}
+
+/* Errors as they are with the velocity found so far: the scan was straightened with another. */
+static void correct_for_velocity(const ale_view_rows_t *rows, const int64_t change[3], ale_wall_error_t *e)
+{
+    for (int i = 0; i < 3; i++) {
+        e->offset_um += ale_mul_shift(rows->offset_row_q14[i + 3], change[i], ALE_ROW_BITS);
+        e->angle_urad += ale_mul_shift(rows->angle_row_q14[i + 3], change[i], ALE_ROW_BITS);
+    }
+}
+
+/* Huber: beyond two sigmas an error counts as if its variance grew with it. */
+static int64_t robust_var(int64_t error, int64_t var)
+{
+    const int64_t limit = (int64_t)HUBER_SIGMAS * ale_isqrt((uint64_t)var);
+    const int64_t size = ale_abs64(error);
+    return size <= limit ? var : var / ale_max64(limit, 1) * size;
+}
+
+/* Two rows: the offset, and the angle freed of what the wall's own error shares between them. */
+static void add_rows(const ale_view_t *view, const ale_wall_t *wall, const ale_view_rows_t *rows,
+                     const ale_wall_error_t *e, ale_information_t *sum)
+{
+    const int64_t var_offset = ale_wall_offset_var(wall, e->t_um) + view->var_offset_um2;
+    const int64_t shared = ale_wall_offset_angle_cov(wall, e->t_um);
+    const int64_t part_q30 = ale_ratio_q30(shared, var_offset);
+    const int64_t var_angle =
+        wall->var_angle_urad2 + view->var_angle_urad2 - ale_mul_shift(part_q30, shared, 30);
+    const int64_t rest_urad = e->angle_urad - ale_mul_shift(part_q30, e->offset_um, 30);
+    int64_t rest_row[ALE_STATES];
+    for (int i = 0; i < ALE_STATES; i++) {
+        rest_row[i] = rows->angle_row_q14[i] - ale_mul_shift(part_q30, rows->offset_row_q14[i], 30);
+    }
+    ale_information_add(sum, rows->offset_row_q14, e->offset_um, robust_var(e->offset_um, var_offset));
+    ale_information_add(sum, rest_row, rest_urad, robust_var(rest_urad, var_angle));
+}
+
+static void clear_sums(ale_fit_t *fit)
+{
+    fit->information = (ale_information_t){{{{0}}}, {0}};
+    fit->matched = 0;
+    fit->matched_um = 0;
+    fit->shown_um = 0;
+}
+
+static void gather(const ale_scene_t *scene, const ale_matrix_t *cov, const ale_gate_t *gate, ale_fit_t *fit)
+{
+    clear_sums(fit);
+    for (uint32_t i = 0; i < scene->view_count; i++) {
+        const ale_view_t *view = &scene->view[i];
+        const int64_t length_um = (int64_t)view->end_um - view->start_um;
+        fit->shown_um += length_um;
+        fit->match[i] = ale_match_view(scene->map, view, fit->motion.pose, cov, gate);
+        if (fit->match[i].wall == ALE_NO_WALL) {
+            continue;
+        }
+        const ale_wall_t *wall = &scene->map->wall[fit->match[i].wall];
+        ale_view_rows_t rows;
+        ale_view_rows(view, fit->motion.pose.theta_bam, wall->normal_bam, &rows);
+        correct_for_velocity(&rows, fit->velocity_change, &fit->match[i].error);
+        add_rows(view, wall, &rows, &fit->match[i].error, &fit->information);
+        fit->matched++;
+        fit->matched_um += length_um;
+    }
+}
+
+/* One Gauss-Newton step on scan and prediction together; returns its size. */
+static int64_t step(const ale_matrix_t *prior, int64_t total[ALE_STATES], ale_fit_t *fit)
+{
+    ale_matrix_t sum;
+    ale_factors_t factors;
+    int64_t gradient[ALE_STATES];
+    int64_t delta[ALE_STATES];
+    for (int i = 0; i < ALE_STATES; i++) {
+        gradient[i] = fit->information.gradient[i];
+        for (int j = 0; j < ALE_STATES; j++) {
+            gradient[i] -= ale_mul_shift(prior->m[i][j], total[j], ALE_MATRIX_BITS - ALE_GRADIENT_BITS);
+            sum.m[i][j] = prior->m[i][j] + fit->information.matrix.m[i > j ? i : j][i > j ? j : i];
+        }
+    }
+    ale_matrix_factor(&sum, &factors);
+    ale_matrix_solve(&factors, gradient, ALE_MATRIX_BITS - ALE_GRADIENT_BITS, delta);
+    ale_motion_correct(&fit->motion, delta);
+    int64_t size = 0;
+    for (int i = 0; i < ALE_STATES; i++) {
+        total[i] += delta[i];
+        size = ale_max64(size, ale_abs64(delta[i]));
+    }
+    for (int i = 0; i < 3; i++) {
+        fit->velocity_change[i] = total[i + 3];
+    }
+    ale_matrix_invert(&factors, ALE_MATRIX_BITS, &fit->motion.cov);
+    return size;
+}
+
+void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
+                ale_fit_t *out)
+{
+    const ale_gate_t later = {LATER_OFFSET_UM, LATER_ANGLE_URAD, LATER_SIGMAS};
+    ale_factors_t factors;
+    ale_matrix_t prior;
+    int64_t total[ALE_STATES] = {0};
+    out->motion = *predicted;
+    for (int i = 0; i < 3; i++) {
+        out->velocity_change[i] = 0;
+    }
+    ale_matrix_factor(&predicted->cov, &factors);
+    ale_matrix_invert(&factors, ALE_MATRIX_BITS, &prior);
+    int64_t size = INT64_MAX;
+    for (out->iterations = 0; out->iterations < ALE_REFINE_ITERATIONS && size > CONVERGED_UM;
+         out->iterations++) {
+        gather(scene, out->iterations == 0 ? &predicted->cov : &out->motion.cov,
+               out->iterations == 0 ? gate : &later, out);
+        size = step(&prior, total, out);
+    }
+    /* errors at the pose that was found, for the map */
+    gather(scene, &out->motion.cov, &later, out);
+}

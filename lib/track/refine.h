@@ -1,0 +1,53 @@
+/* The pose by least squares over all that a scan shows, together with the prediction; paper section IV.
+ *
+ * The predicted state (pose and velocity with covariance) is corrected by the walls that the views show:
+ * an iterated Kalman update in information form. Each wall gives two independent rows, the offset at the
+ * view's centre and what its angle says beyond that, weighted by the covariances of view and wall; rows
+ * far out lose weight (Huber). Rows depend on the velocity too, by the time at which each wall was
+ * passed: the motion within the scan is found along with the pose. What the scene does not determine
+ * keeps the prediction and its variance. Iterations and views are bounded. */
+#ifndef ALE_TRACK_REFINE_H
+#define ALE_TRACK_REFINE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/limits.h"
+#include "track/information.h"
+#include "track/local_map.h"
+#include "track/match.h"
+#include "track/motion.h"
+#include "track/view.h"
+
+enum { ALE_REFINE_ITERATIONS = 5 };
+
+typedef struct {
+    const ale_local_map_t *map; /* near list prepared */
+    const ale_view_t *view;
+    uint32_t view_count;
+} ale_scene_t;
+
+typedef struct {
+    ale_motion_t motion;           /* corrected */
+    int64_t velocity_change[3];    /* against the velocity the scan was straightened with */
+    ale_information_t information; /* of the scan alone */
+    ale_match_t match[ALE_MAX_LINES];
+    uint16_t matched;   /* views that found a wall */
+    int64_t matched_um; /* their length, and that of all views */
+    int64_t shown_um;
+    uint8_t iterations;
+} ale_fit_t;
+
+/* A view's errors against its wall with the change of velocity taken in; derivatives Q14. */
+typedef struct {
+    int64_t offset_row_q14[ALE_STATES];
+    int64_t angle_row_q14[ALE_STATES];
+} ale_view_rows_t;
+
+void ale_view_rows(const ale_view_t *view, uint32_t pose_theta_bam, uint32_t wall_normal_bam,
+                   ale_view_rows_t *out);
+
+void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
+                ale_fit_t *out);
+
+#endif

@@ -1,0 +1,32 @@
+/* Good, weak or lost: how far the pose can be trusted, from what the last scans showed.
+ *
+ * Good: the scan fits the map and, with the prediction, determines every direction. Weak: part of the pose
+ * rests on the prediction (a corridor, a hall out of reach). Lost: what the scans show does not fit
+ * the map, for several scans that showed enough. Constant time. */
+#ifndef ALE_TRACK_TRACKER_H
+#define ALE_TRACK_TRACKER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "track/pipeline.h"
+#include "track/refine.h"
+
+typedef struct {
+    ale_state_t state;
+    uint16_t misfits; /* scans in a row that showed walls, but not those of the map */
+    uint16_t blind;   /* scans in a row that showed nothing */
+} ale_tracker_t;
+
+void ale_tracker_init(ale_tracker_t *tracker);
+
+/* Judges a fitted scan and returns the new state. */
+ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit);
+
+/* A scan that was dropped: nothing was seen. */
+ale_state_t ale_tracker_skip(ale_tracker_t *tracker, const ale_motion_t *predicted);
+
+/* Whether the pose is known well enough to add to the map. */
+bool ale_tracker_may_map(const ale_tracker_t *tracker, const ale_fit_t *fit);
+
+#endif

@@ -1,0 +1,63 @@
+#include "track/view.h"
+
+#include "base/fixed.h"
+#include "base/trig.h"
+
+/* No wall is known better than this from one scan: paint, skirting boards, warped boards. */
+enum { OFFSET_FLOOR_UM2 = 250000, ANGLE_FLOOR_URAD2 = 40000, NRAD_PER_RAD = 1000000000 };
+
+ale_point_t ale_polar(int64_t length_um, uint32_t direction_bam)
+{
+    return (ale_point_t){(int32_t)ale_round_shift(length_um * ale_cos_q30(direction_bam), 30),
+                         (int32_t)ale_round_shift(length_um * ale_sin_q30(direction_bam), 30)};
+}
+
+int64_t ale_along(ale_point_t v, uint32_t direction_bam)
+{
+    return ale_round_shift(
+        (int64_t)v.x_um * ale_cos_q30(direction_bam) + (int64_t)v.y_um * ale_sin_q30(direction_bam), 30);
+}
+
+/* Position along the line, from the foot of the normal, where offset and angle are uncorrelated. */
+static int64_t centre_of(const ale_line_t *line, int64_t from_um, int64_t to_um)
+{
+    if (line->var_alpha_nrad2 <= 0) {
+        return (from_um + to_um) / 2;
+    }
+    const int64_t t_um = ale_mul_div(line->cov_alpha_rho, NRAD_PER_RAD, line->var_alpha_nrad2);
+    return ale_clamp64(t_um, ale_min64(from_um, to_um), ale_max64(from_um, to_um));
+}
+
+static void view_of(const ale_line_t *line, const ale_scan_t *scan, ale_pose_t sensor, ale_view_t *out)
+{
+    const uint32_t along_bam = line->alpha_bam + ALE_BAM_QUARTER_TURN;
+    const int64_t a_um = ale_along(line->start, along_bam);
+    const int64_t b_um = ale_along(line->end, along_bam);
+    const bool forward = a_um <= b_um;
+    const int64_t centre_um = centre_of(line, a_um, b_um);
+    const ale_point_t foot = ale_polar(line->rho_um, line->alpha_bam);
+    const ale_point_t centre = ale_plus(foot, ale_polar(centre_um, along_bam));
+    const int32_t first_us = ale_scan_beam_offset_us(scan, line->first);
+    const int32_t last_us = ale_scan_beam_offset_us(scan, line->last);
+    const int64_t var_um2 = line->var_rho_um2 - ale_mul_div(centre_um, line->cov_alpha_rho, NRAD_PER_RAD);
+    out->centre = ale_pose_apply(sensor, centre);
+    out->normal_bam = line->alpha_bam + ALE_BAM_HALF_TURN + sensor.theta_bam;
+    out->start_um = (int32_t)((forward ? a_um : b_um) - centre_um);
+    out->end_um = (int32_t)((forward ? b_um : a_um) - centre_um);
+    out->start_time_us = forward ? first_us : last_us;
+    out->end_time_us = forward ? last_us : first_us;
+    out->start_end = forward ? line->first_end : line->last_end;
+    out->end_end = forward ? line->last_end : line->first_end;
+    out->var_offset_um2 = ale_max64(var_um2, 0) + OFFSET_FLOOR_UM2;
+    out->var_angle_urad2 = line->var_alpha_nrad2 / 1000000 + ANGLE_FLOOR_URAD2;
+}
+
+uint32_t ale_views_of(const ale_features_t *features, const ale_scan_t *scan, ale_pose_t sensor,
+                      ale_view_t out[])
+{
+    for (uint32_t i = 0; i < features->line_count; i++) {
+        view_of(&features->line[i], scan, sensor, &out[i]);
+        out[i].line = (uint16_t)i;
+    }
+    return features->line_count;
+}

@@ -1,0 +1,57 @@
+/* A wall as one scan shows it, in the robot's frame: what the matcher works with.
+ *
+ *            start ------- centre ------------- end      tangent: start to end, counter-clockwise
+ *                            | normal                     as seen from the sensor
+ *                            v
+ *                          sensor
+ *
+ * The line's covariance (alpha, rho) of the extractor is turned into two independent errors: of the
+ * offset along the normal at the line's centre (its points' centre of weight), and of its angle. */
+#ifndef ALE_TRACK_VIEW_H
+#define ALE_TRACK_VIEW_H
+
+#include <stdint.h>
+
+#include "extract/extract.h"
+
+typedef struct {
+    ale_point_t centre;
+    uint32_t normal_bam; /* towards the sensor */
+    int32_t start_um;    /* along the tangent, from the centre: start < 0 < end, as a rule */
+    int32_t end_um;
+    int64_t var_offset_um2;
+    int64_t var_angle_urad2;
+    int32_t start_time_us; /* when its ends were measured, relative to the scan's stamp */
+    int32_t end_time_us;
+    uint16_t line;     /* index in the features */
+    uint8_t start_end; /* ale_end_kind_t of either end */
+    uint8_t end_end;
+} ale_view_t;
+
+/* Views of all lines of a scan. out has room for ALE_MAX_LINES; returns their number. O(lines). */
+uint32_t ale_views_of(const ale_features_t *features, const ale_scan_t *scan, ale_pose_t sensor,
+                      ale_view_t out[]);
+
+/* The tangent that belongs to a normal (a quarter turn clockwise), as a direction. */
+static inline uint32_t ale_tangent_bam(uint32_t normal_bam)
+{
+    return normal_bam - 0x40000000u;
+}
+
+/* A vector of a length (um) in a direction. */
+ale_point_t ale_polar(int64_t length_um, uint32_t direction_bam);
+
+/* Component of a vector along a direction, um. */
+int64_t ale_along(ale_point_t v, uint32_t direction_bam);
+
+static inline ale_point_t ale_minus(ale_point_t a, ale_point_t b)
+{
+    return (ale_point_t){a.x_um - b.x_um, a.y_um - b.y_um};
+}
+
+static inline ale_point_t ale_plus(ale_point_t a, ale_point_t b)
+{
+    return (ale_point_t){a.x_um + b.x_um, a.y_um + b.y_um};
+}
+
+#endif

@@ -1,0 +1,56 @@
+/* One wall of the map: a segment with an error model, sharpened by every view of it.
+ *
+ * A wall has an anchor on it, a normal towards the side it was seen from, and extends along its tangent
+ * from start to end, counted from the anchor. Its error is an offset along the normal at the anchor and
+ * an angle (counter-clockwise); a point t metres along the tangent then errs by offset + t * angle.
+ * Both sides of a thin panel are two walls. Pure functions, constant time. */
+#ifndef ALE_TRACK_WALL_H
+#define ALE_TRACK_WALL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/pose.h"
+#include "track/view.h"
+
+typedef struct {
+    ale_point_t anchor; /* map frame */
+    uint32_t normal_bam;
+    int32_t start_um;
+    int32_t end_um;
+    int64_t var_offset_um2;
+    int64_t cov_um_urad;
+    int64_t var_angle_urad2;
+    uint32_t id;
+    uint32_t seen;      /* scans that supported it */
+    uint32_t last_scan; /* number of the last one */
+    uint16_t missed;    /* scans that looked through it since */
+} ale_wall_t;
+
+/* How a view lies to a wall, the robot being at a pose: errors view minus wall at t along the wall. */
+typedef struct {
+    int64_t offset_um;
+    int64_t angle_urad;
+    int64_t t_um;       /* the view's centre along the tangent, from the anchor */
+    int64_t overlap_um; /* common length; negative: gap between them */
+} ale_wall_error_t;
+
+void ale_wall_from_view(ale_wall_t *wall, const ale_view_t *view, ale_pose_t pose);
+
+ale_wall_error_t ale_wall_error(const ale_wall_t *wall, const ale_view_t *view, ale_pose_t pose);
+
+/* Variance of the wall's offset at t along it, and its covariance with the angle there. */
+int64_t ale_wall_offset_var(const ale_wall_t *wall, int64_t t_um);
+int64_t ale_wall_offset_angle_cov(const ale_wall_t *wall, int64_t t_um);
+
+/* Takes in an independent view (Kalman filter): offset error at t and angle error, with variances. */
+void ale_wall_observe(ale_wall_t *wall, const ale_wall_error_t *error, int64_t var_offset_um2,
+                      int64_t var_angle_urad2);
+
+/* Lengthens the wall to hold from..to (along the tangent, from the anchor). */
+void ale_wall_extend(ale_wall_t *wall, int64_t from_um, int64_t to_um);
+
+/* The point at t along the tangent. */
+ale_point_t ale_wall_point(const ale_wall_t *wall, int64_t t_um);
+
+#endif
