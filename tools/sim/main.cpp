@@ -1,0 +1,196 @@
+/* ale-sim: wiring of the simulator. */
+#include <cerrno>
+#include <cinttypes>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "sim/bus.h"
+#include "sim/describe.h"
+#include "sim/log_source.h"
+#include "sim/options.h"
+#include "sim/simulator.h"
+#include "sim/units.h"
+#include "sim/world_source.h"
+#include "sim/write_log.h"
+#include "sim/wrong_use.h"
+
+namespace
+{
+
+volatile bool stop = false;
+
+extern "C" void on_signal(int)
+{
+    stop = true;
+}
+
+void catch_signals()
+{
+    struct sigaction action = {};
+    action.sa_handler = on_signal; /* no SA_RESTART: a wait ends at once */
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    std::signal(SIGHUP, SIG_IGN);
+}
+
+class OutFile
+{
+  public:
+    explicit OutFile(const std::string &path) : path_(path), file_(path.empty() ? nullptr : open())
+    {
+    }
+    ~OutFile()
+    {
+        if (file_) {
+            std::fclose(file_);
+        }
+    }
+    OutFile(const OutFile &) = delete;
+    OutFile &operator=(const OutFile &) = delete;
+
+    std::FILE *get() const
+    {
+        return file_;
+    }
+    void finish()
+    {
+        const bool bad = file_ && (std::ferror(file_) != 0 || std::fflush(file_) != 0);
+        if (bad) {
+            throw std::runtime_error(path_ + ": cannot be written: " + std::strerror(errno));
+        }
+    }
+
+  private:
+    std::FILE *open()
+    {
+        std::FILE *file = std::fopen(path_.c_str(), "w");
+        if (!file) {
+            throw std::runtime_error(path_ + ": " + std::strerror(errno));
+        }
+        return file;
+    }
+
+    std::string path_;
+    std::FILE *file_;
+};
+
+sim::World world_of(const sim::Options &options)
+{
+    sim::World world = sim::load_world(options.world);
+    if (options.sensor) {
+        world.sensor = *options.sensor;
+    }
+    return world;
+}
+
+void describe(const sim::Options &options)
+{
+    sim::Description description;
+    if (!options.world.empty()) {
+        description = {"world " + options.world, true, world_of(options).sensor, options.odometry,
+                       options.world_source.odometry_lag_us};
+    } else {
+        const sim::LogSource log(options.log, true);
+        const ale_log_info_t &info = log.info();
+        description = {std::string(info.format) + " log " + options.log,
+                       info.has_sensor,
+                       {},
+                       info.has_odometry && options.odometry,
+                       info.lag_prior_us};
+        description.sensor = {sim::metres(info.sensor.x_um), sim::metres(info.sensor.y_um),
+                              sim::radians(info.sensor.theta_bam)};
+    }
+    std::fputs(sim::configuration(description).c_str(), stdout);
+}
+
+void write_drive(const sim::Options &options)
+{
+    OutFile log(options.write_log);
+    OutFile truth(options.truth);
+    sim::WorldSource source(world_of(options), options.world_source);
+    const uint32_t scans = sim::write_log(source, log.get(), truth.get());
+    log.finish();
+    truth.finish();
+    std::printf("scans %" PRIu32 "\n", scans);
+}
+
+void print_tally(const sim::Tally &tally)
+{
+    std::printf("scans %" PRIu64 "\nsent %" PRIu64 "\ndamaged %" PRIu64 "\nswallowed %" PRIu64 "\n",
+                tally.scans, tally.sent, tally.damaged, tally.swallowed);
+}
+
+std::unique_ptr<sim::WorldSource> driven_world(sim::Options options, const sim::DriveIn &drive)
+{
+    constexpr double slip = 0.03;
+    constexpr double radius = 0.2;
+    options.world_source.journey.slip = slip;
+    options.world_source.journey.collision_radius = radius;
+    return std::make_unique<sim::WorldSource>(
+        world_of(options), options.world_source,
+        [&drive](const sim::Robot &, int64_t play_us) { return std::optional(drive.command(play_us)); });
+}
+
+void play(const sim::Options &options)
+{
+    OutFile truth(options.truth);
+    std::unique_ptr<sim::DriveIn> drive;
+    std::unique_ptr<sim::WorldSource> world;
+    std::unique_ptr<sim::Source> log;
+    if (options.drive) {
+        drive = std::make_unique<sim::DriveIn>(options.lcm_url);
+        world = driven_world(options, *drive);
+    } else if (!options.world.empty()) {
+        world = std::make_unique<sim::WorldSource>(world_of(options), options.world_source);
+    } else {
+        log = std::make_unique<sim::LogSource>(options.log, options.once);
+    }
+    sim::Source &source = world ? *world : *log;
+    std::unique_ptr<sim::OdometryOut> odometry;
+    if (options.odometry) {
+        odometry = std::make_unique<sim::OdometryOut>(options.lcm_url);
+    }
+    sim::Simulator simulator(source, options.simulator, odometry.get(), drive.get(), truth.get());
+    simulator.run(stop);
+    truth.finish();
+    print_tally(simulator.tally());
+    if (world && options.drive) {
+        std::printf("collisions %" PRIu32 "\n", world->collisions());
+    }
+}
+
+int run(int argc, char **argv)
+{
+    sim::Options options;
+    if (const int answered = sim::parse_options(argc, argv, options); answered >= 0) {
+        return answered;
+    }
+    catch_signals();
+    if (options.describe) {
+        describe(options);
+    } else if (!options.write_log.empty()) {
+        write_drive(options);
+    } else {
+        play(options);
+    }
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+    try {
+        return run(argc, argv);
+    } catch (const sim::WrongUse &error) {
+        std::fprintf(stderr, "ale-sim: %s (see --help)\n", error.what());
+        return 2;
+    } catch (const std::exception &error) {
+        std::fprintf(stderr, "ale-sim: %s\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,128 @@
+/* A URG-04LX as seen through its serial line: commands in, replies out, SCIP 1.1 and 2.0. Pure on bytes
+ * and times of the caller; no line, no clock, no measurement of its own.
+ *
+ *   device.receive(bytes, now_us);           what the host sent
+ *   host << device.answer(now_us);           what is to be answered by now
+ *   host << device.turn(turn, now_us);       a turn is over: stream frames, and replies that waited for it
+ *
+ * Behaves as firmware 3.1.04 does; what the document leaves open is said in README.md. */
+#ifndef ALE_SIM_SCIP_DEVICE_H
+#define ALE_SIM_SCIP_DEVICE_H
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "sim/scanner.h"
+
+extern "C" {
+#include "urg/scip_request.h"
+}
+
+namespace sim
+{
+
+enum class Protocol {
+    scip1,      /* powers up in SCIP 1.1, can be switched to 2.0 */
+    scip1_only, /* firmware before 3.0: knows nothing else */
+    scip2       /* powers up in 2.0 */
+};
+
+class ScipDevice
+{
+  public:
+    struct Options {
+        Protocol protocol = Protocol::scip2;
+        int64_t command_interval_us = 0;       /* commands are served at most so often */
+        std::optional<int64_t> clock_wraps_us; /* the millisecond counter passes 2^24 at this time */
+    };
+
+    ScipDevice(const Scanner &scanner, const Options &options);
+
+    /* As after the supply came on: default protocol, laser and stream off, clock at 0. */
+    void power_up(int64_t now_us);
+    /* A power-up that comes back in SCIP 1.1. */
+    void power_up_in_scip1(int64_t now_us);
+
+    void receive(std::string_view bytes, int64_t now_us);
+    std::string answer(int64_t now_us);
+    /* When answer() will have something to say by itself; nothing: not before a command or a turn. */
+    std::optional<int64_t> answer_due_us() const;
+
+    /* The turn is over; device_start_us is when it began, on the clock of now_us. */
+    std::string turn(const Turn &turn, int64_t device_start_us);
+
+    /* The next frame of the stream carries this error status and no data, and the stream is over. */
+    void break_stream(const std::string &status);
+
+    /* Somebody has asked for ranges since the start. */
+    bool wanted() const
+    {
+        return wanted_;
+    }
+    bool streaming() const
+    {
+        return stream_.has_value();
+    }
+
+  private:
+    struct Stream {
+        ale_scip_request_t request;
+        std::string suffix; /* ";string" of the command */
+        uint32_t to_skip;
+    };
+    struct Waiting {
+        ale_scip_request_t request;
+        std::string echo;
+    };
+
+    void boot(int protocol, int64_t now_us);
+    uint32_t clock_ms(int64_t at_us) const;
+    void set_laser(bool on);
+    std::string execute(const std::string &line);
+    std::string execute_scip1(const std::string &line);
+    std::string execute_scip2(const std::string &line);
+    std::string version_scip1(const std::string &line) const;
+    std::string switch_laser_scip1(const std::string &line);
+    std::string get_scip1(const std::string &line);
+    std::string set_baud_scip1(const std::string &line);
+    std::string identity(const std::string &echo) const;
+    std::string parameters(const std::string &echo) const;
+    std::string condition(const std::string &echo) const;
+    std::string laser_on(const std::string &echo);
+    std::string laser_off(const std::string &echo);
+    std::string reset(const std::string &echo);
+    std::string time_mode(const std::string &echo, const std::string &parameter);
+    std::string set_baud(const std::string &echo, const std::string &digits);
+    std::string motor_speed(const std::string &echo, const std::string &digits) const;
+    std::string measure(const std::string &echo, const std::string &command);
+    std::string range_error(const std::string &command) const;
+    std::string ranges(const ale_scip_request_t &request, const std::string &echo, const char *status) const;
+    std::string stream_frame();
+
+    Scanner scanner_;
+    Options options_;
+    int protocol_ = 2;
+    int64_t clock_origin_us_ = 0;
+    int64_t now_us_ = 0; /* of the command that is being executed */
+    bool laser_ = false;
+    int64_t laser_since_us_ = 0;
+    bool time_mode_ = false;
+    int32_t baud_ = 19200;
+    bool wanted_ = false;
+    std::optional<Stream> stream_;
+    std::string broken_status_;
+    std::optional<Waiting> waiting_; /* a request for the last scan, before there is one */
+    std::optional<Turn> last_turn_;  /* measured whole since the laser is on */
+    uint32_t last_stamp_ms_ = 0;
+    std::string line_;
+    bool line_too_long_ = false;
+    std::deque<std::string> commands_;
+    int64_t next_answer_us_ = 0;
+};
+
+} // namespace sim
+
+#endif
