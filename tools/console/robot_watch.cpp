@@ -1,10 +1,8 @@
 #include "console/robot_watch.h"
 
 #include <cmath>
-#include <initializer_list>
-#include <stdexcept>
 
-#include "base/limits.h"
+#include "console/checks.h"
 #include "console/messages.h"
 
 namespace console
@@ -21,23 +19,6 @@ constexpr int32_t overtaken_scans = 10;
 
 /* Scan numbers run on over a gap of this size at most; beyond, somebody else is talking. */
 constexpr int32_t largest_gap = 100000;
-
-void require(bool sense, const char *what)
-{
-    if (!sense) {
-        throw std::runtime_error(what);
-    }
-}
-
-bool finite(std::initializer_list<float> values)
-{
-    for (const float value : values) {
-        if (!std::isfinite(value)) {
-            return false;
-        }
-    }
-    return true;
-}
 
 } // namespace
 
@@ -60,9 +41,7 @@ void RobotWatch::restarted()
 
 void RobotWatch::pose(const ale::pose_t &pose)
 {
-    require(finite({pose.x, pose.y, pose.theta, pose.map_x, pose.map_y, pose.map_theta}),
-            "pose is not a number");
-    require(pose.state >= 0 && pose.state <= 2, "unknown state");
+    check(pose);
     if (last_pose_ && pose.scan <= last_pose_->scan) {
         if (pose.scan > last_pose_->scan - overtaken_scans) {
             return;
@@ -86,34 +65,19 @@ void RobotWatch::extend_trail(const ale::pose_t &pose)
 
 void RobotWatch::features(const ale::features_t &features)
 {
-    require(finite({features.sensor_x, features.sensor_y, features.sensor_theta}),
-            "mounting is not a number");
-    for (const auto &line : features.lines) {
-        require(finite({line.x1, line.y1, line.x2, line.y2}), "line is not a number");
-    }
-    for (const auto &corner : features.corners) {
-        require(finite({corner.x, corner.y, corner.angle}), "corner is not a number");
-    }
+    check(features);
     board_.pin(Topic::features, features_message(features));
 }
 
 void RobotWatch::scan(const ale::scan_t &scan)
 {
-    require(finite({scan.beam_time_us, scan.first_bearing, scan.step, scan.range_max, scan.sensor_x,
-                    scan.sensor_y, scan.sensor_theta}),
-            "geometry of the scan is not a number");
-    require(scan.num_ranges <= ALE_MAX_BEAMS, "too many beams");
+    check(scan);
     board_.pin(Topic::scan, scan_message(scan));
 }
 
 void RobotWatch::map(const ale::map_t &part)
 {
-    for (const auto &line : part.lines) {
-        require(finite({line.x1, line.y1, line.x2, line.y2}), "wall is not a number");
-    }
-    for (const auto &corner : part.corners) {
-        require(finite({corner.x, corner.y}), "corner is not a number");
-    }
+    check(part);
     if (map_parts_.add(part)) {
         board_.pin(Topic::map, map_message(map_parts_.whole()));
     }
