@@ -5,6 +5,7 @@
 #include "base/fixed.h"
 #include "extract/breakpoint.h"
 #include "extract/corner.h"
+#include "extract/curve.h"
 #include "extract/line_fit.h"
 #include "extract/merge.h"
 #include "extract/moments.h"
@@ -183,7 +184,13 @@ static uint8_t end_kind(const ale_extractor_t *e, int32_t end, int32_t beyond)
 
 static void write_lines(ale_extractor_t *e, ale_features_t *out)
 {
+    bool curved[ALE_MAX_RUNS];
+    ale_curve_mark(e, curved);
     for (int32_t k = 0; k < e->run_count; k++) {
+        if (curved[k]) {
+            e->refused[ALE_REFUSED_CURVED]++;
+            continue;
+        }
         ale_line_t line;
         const ale_run_t run = e->run[k];
         ale_line_fit(e, run, &line);
