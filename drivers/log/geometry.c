@@ -8,8 +8,10 @@ enum {
     URG_BEAM_TIME_NS = 97656, /* 100 ms a turn, 1024 steps */
     URG_RANGE_MIN_UM = 20000,
     URG_RANGE_MAX_UM = 5600000, /* as the device states it (PP: DMAX) */
-    SICK_NOTHING_UM = 31900000,
-    INT16_NOTHING_UM = 32767000,
+    OLD_SICK_NOTHING_UM = 31900000,
+    SICK_CODES_FROM_UM =
+        32759000, /* the nine highest values of 15 bits are codes of the SICK's 32 m setting */
+    SICK_CODES_TO_UM = 32767000,
     DEGREES_A_TURN = 360,
     PRINTED_STEP_BAM = 684 /* 10^-6 rad, the coarsest that a resolution is printed with */
 };
@@ -66,6 +68,7 @@ int32_t ale_geometry_whole_step(int32_t step_bam)
 
 void ale_geometry_set_range(ale_scan_t *scan, uint16_t beam, int32_t range_um)
 {
-    const bool nothing = range_um == SICK_NOTHING_UM || range_um == INT16_NOTHING_UM;
+    const bool code = range_um >= SICK_CODES_FROM_UM && range_um <= SICK_CODES_TO_UM;
+    const bool nothing = code || range_um == OLD_SICK_NOTHING_UM;
     ale_scan_set_range(scan, beam, nothing ? 0 : range_um);
 }

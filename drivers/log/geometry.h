@@ -17,7 +17,8 @@ void ale_geometry_by_count(ale_scan_t *scan, uint16_t beams);
  * 10^-6 rad (0.017453 is a degree, 0.006135923 is 1/1024 turn), else the step as it is. */
 int32_t ale_geometry_whole_step(int32_t step_bam);
 
-/* Sets one beam of a laser that tells "no return" by one of the usual values (31.9, 32.767, range_max). */
+/* Sets one beam of a laser that tells "no return" by one of the usual values (31.9, 32.759 to 32.767,
+ * range_max). */
 void ale_geometry_set_range(ale_scan_t *scan, uint16_t beam, int32_t range_um);
 
 #endif

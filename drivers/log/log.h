@@ -51,6 +51,7 @@ typedef struct {
     bool has_sensor;    /* the mounting is stated by the format or the log */
     ale_pose_t sensor;
     int32_t lag_prior_us; /* odometry younger than the scan on its line: a prior, nothing is corrected */
+    bool raw_device;      /* bearings are the device's own: a scanner upside down is not yet accounted for */
     bool urg_noise;       /* the sensor is a URG-04LX (or simulates one): the default noise model applies */
 } ale_log_info_t;
 

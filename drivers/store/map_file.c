@@ -1,0 +1,239 @@
+#include "store/map_file.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include "log/bytes.h"
+#include "log/text.h"
+
+static const char HEAD[] = "ALE-SLAM map 1";
+static const char WALL_LEGEND[] =
+    "# wall: id start_x start_y end_x end_y var_alpha_nrad2 cov_um_nrad var_rho_um2 seen\n";
+static const char CORNER_LEGEND[] = "# corner: x y var_xx var_xy var_yy angle_bam bisector_bam seen kind\n";
+
+enum { WALL_NUMBERS = 9, CORNER_NUMBERS = 9, PATH_BYTES = 4096 };
+
+static int fail(char error[ALE_MAP_FILE_ERROR], const char *path, const char *reason)
+{
+    snprintf(error, ALE_MAP_FILE_ERROR, "%s: %s", path, reason);
+    return -1;
+}
+
+static void print_wall(FILE *out, const ale_map_line_t *wall)
+{
+    fprintf(out, "wall %" PRIu32 " %" PRId32 " %" PRId32 " %" PRId32 " %" PRId32, wall->id, wall->start.x_um,
+            wall->start.y_um, wall->end.x_um, wall->end.y_um);
+    fprintf(out, " %" PRId64 " %" PRId64 " %" PRId64 " %" PRIu32 "\n", wall->var_alpha_nrad2,
+            wall->cov_alpha_rho, wall->var_rho_um2, wall->seen);
+}
+
+static void print_corner(FILE *out, const ale_map_corner_t *corner)
+{
+    fprintf(out, "corner %" PRId32 " %" PRId32 " %" PRId64 " %" PRId64 " %" PRId64, corner->p.x_um,
+            corner->p.y_um, corner->cov_um2[0], corner->cov_um2[1], corner->cov_um2[2]);
+    fprintf(out, " %" PRIu32 " %" PRIu32 " %" PRIu32 " %u\n", corner->angle_bam, corner->bisector_bam,
+            corner->seen, corner->kind);
+}
+
+/* The whole text in memory, the caller's to free; NULL when there is no memory. */
+static char *print_map(const ale_map_t *map, size_t *count)
+{
+    char *text = NULL;
+    FILE *out = open_memstream(&text, count);
+    if (!out) {
+        return NULL;
+    }
+    fprintf(out, "%s\n%s%s", HEAD, WALL_LEGEND, CORNER_LEGEND);
+    for (uint32_t i = 0; i < map->line_count; i++) {
+        print_wall(out, &map->line[i]);
+    }
+    for (uint32_t i = 0; i < map->corner_count; i++) {
+        print_corner(out, &map->corner[i]);
+    }
+    fflush(out);
+    const uint32_t crc = (uint32_t)crc32(0, (const Bytef *)text, (uInt)*count);
+    fprintf(out, "end %u %08" PRIx32 "\n", (unsigned)map->line_count + map->corner_count, crc);
+    if (fclose(out) != 0) {
+        free(text);
+        return NULL;
+    }
+    return text;
+}
+
+static int write_and_sync(const char *path, const char *text, size_t count)
+{
+    FILE *file = fopen(path, "we");
+    if (!file) {
+        return -1;
+    }
+    const bool written =
+        fwrite(text, 1, count, file) == count && fflush(file) == 0 && fsync(fileno(file)) == 0;
+    const int reason = errno;
+    if (fclose(file) != 0 || !written) {
+        errno = written ? errno : reason;
+        return -1;
+    }
+    return 0;
+}
+
+int ale_map_file_save(const char *path, const ale_map_t *map, char error[ALE_MAP_FILE_ERROR])
+{
+    char beside[PATH_BYTES];
+    if (snprintf(beside, sizeof beside, "%s.new", path) >= (int)sizeof beside) {
+        return fail(error, path, strerror(ENAMETOOLONG));
+    }
+    size_t count = 0;
+    char *text = print_map(map, &count);
+    if (!text) {
+        return fail(error, path, "not enough memory");
+    }
+    int status = write_and_sync(beside, text, count);
+    if (status == 0) {
+        status = rename(beside, path);
+    }
+    free(text);
+    if (status < 0) {
+        const int reason = errno;
+        unlink(beside);
+        return fail(error, path, strerror(reason));
+    }
+    return 0;
+}
+
+/* Takes `count` whole numbers that end the line. */
+static bool take_numbers(ale_span_t line, int64_t *numbers, uint32_t count)
+{
+    ale_span_t word;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!ale_text_word(&line, &word) || !ale_text_decimal(word, 0, &numbers[i])) {
+            return false;
+        }
+    }
+    return !ale_text_word(&line, &word);
+}
+
+static bool is_length(int64_t value)
+{
+    return value >= INT32_MIN && value <= INT32_MAX;
+}
+
+static bool is_word32(int64_t value)
+{
+    return value >= 0 && value <= UINT32_MAX;
+}
+
+static bool take_wall(ale_span_t line, ale_map_t *map)
+{
+    int64_t n[WALL_NUMBERS];
+    if (map->line_count >= ALE_MAP_MAX_LINES || !take_numbers(line, n, WALL_NUMBERS) || !is_word32(n[0]) ||
+        !is_length(n[1]) || !is_length(n[2]) || !is_length(n[3]) || !is_length(n[4]) || n[5] < 0 ||
+        n[7] < 0 || !is_word32(n[8])) {
+        return false;
+    }
+    map->line[map->line_count++] = (ale_map_line_t){.id = (uint32_t)n[0],
+                                                    .start = {(int32_t)n[1], (int32_t)n[2]},
+                                                    .end = {(int32_t)n[3], (int32_t)n[4]},
+                                                    .var_alpha_nrad2 = n[5],
+                                                    .cov_alpha_rho = n[6],
+                                                    .var_rho_um2 = n[7],
+                                                    .seen = (uint32_t)n[8]};
+    return true;
+}
+
+static bool take_corner(ale_span_t line, ale_map_t *map)
+{
+    int64_t n[CORNER_NUMBERS];
+    if (map->corner_count >= ALE_MAP_MAX_CORNERS || !take_numbers(line, n, CORNER_NUMBERS) ||
+        !is_length(n[0]) || !is_length(n[1]) || n[2] < 0 || n[4] < 0 || !is_word32(n[5]) ||
+        !is_word32(n[6]) || !is_word32(n[7]) || n[8] < ALE_CORNER_CONVEX || n[8] > ALE_CORNER_CONCAVE) {
+        return false;
+    }
+    map->corner[map->corner_count++] = (ale_map_corner_t){.p = {(int32_t)n[0], (int32_t)n[1]},
+                                                          .cov_um2 = {n[2], n[3], n[4]},
+                                                          .angle_bam = (uint32_t)n[5],
+                                                          .bisector_bam = (uint32_t)n[6],
+                                                          .seen = (uint32_t)n[7],
+                                                          .kind = (uint8_t)n[8]};
+    return true;
+}
+
+static bool is_right_end(ale_span_t line, const ale_map_t *map, const ale_bytes_t *bytes,
+                         const char *end_line)
+{
+    char expected[32];
+    const uint32_t crc = (uint32_t)crc32(0, bytes->at, (uInt)(end_line - (const char *)bytes->at));
+    snprintf(expected, sizeof expected, "%08" PRIx32, crc);
+    ale_span_t word;
+    int64_t count = 0;
+    return ale_text_word(&line, &word) && ale_text_decimal(word, 0, &count) &&
+           count == (int64_t)map->line_count + map->corner_count && ale_text_word(&line, &word) &&
+           ale_text_is(word, expected);
+}
+
+typedef enum { LINE_TAKEN, LINE_WRONG, LINE_ENDS_MAP } line_outcome_t;
+
+static line_outcome_t take_line(ale_span_t line, const ale_bytes_t *bytes, ale_map_t *map)
+{
+    const char *begin = line.at;
+    ale_span_t word;
+    if (!ale_text_word(&line, &word) || *word.at == '#') {
+        return LINE_TAKEN;
+    }
+    if (ale_text_is(word, "wall")) {
+        return take_wall(line, map) ? LINE_TAKEN : LINE_WRONG;
+    }
+    if (ale_text_is(word, "corner")) {
+        return take_corner(line, map) ? LINE_TAKEN : LINE_WRONG;
+    }
+    return ale_text_is(word, "end") && is_right_end(line, map, bytes, begin) ? LINE_ENDS_MAP : LINE_WRONG;
+}
+
+/* NULL, or what is wrong. */
+static const char *parse_map(const ale_bytes_t *bytes, ale_map_t *map, uint64_t *line_number)
+{
+    ale_text_t text = ale_text(bytes->at, bytes->count);
+    ale_span_t line;
+    if (!ale_text_line(&text, &line) || !ale_text_is(line, HEAD)) {
+        return "not a map of version 1";
+    }
+    while (ale_text_line(&text, &line)) {
+        *line_number = text.line;
+        const line_outcome_t outcome = take_line(line, bytes, map);
+        if (outcome == LINE_ENDS_MAP) {
+            return NULL;
+        }
+        if (outcome == LINE_WRONG) {
+            return "damaged or too large";
+        }
+    }
+    return "cut short";
+}
+
+int ale_map_file_load(const char *path, ale_map_t *map, char error[ALE_MAP_FILE_ERROR])
+{
+    ale_bytes_t bytes;
+    const char *wrong = ale_bytes_read_file(&bytes, path);
+    ale_map_t *loaded = wrong ? NULL : calloc(1, sizeof *loaded);
+    uint64_t line_number = 1;
+    if (loaded) {
+        wrong = parse_map(&bytes, loaded, &line_number);
+    } else if (!wrong) {
+        wrong = "not enough memory";
+    }
+    if (loaded && !wrong) {
+        loaded->version = 1;
+        *map = *loaded;
+    }
+    free(loaded);
+    ale_bytes_free(&bytes);
+    if (wrong) {
+        snprintf(error, ALE_MAP_FILE_ERROR, "%s: line %" PRIu64 ": %s", path, line_number, wrong);
+        return -1;
+    }
+    return 0;
+}

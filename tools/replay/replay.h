@@ -1,0 +1,17 @@
+/* A log through the firmware's code: every event in the order of the log, results into the files asked for.
+ */
+#ifndef ALE_REPLAY_REPLAY_H
+#define ALE_REPLAY_REPLAY_H
+
+#include "replay/options.h"
+
+namespace ale
+{
+
+/* Throws std::runtime_error (log or file trouble; no scan in the log) or std::invalid_argument (bad
+ * configuration), each with one line for people. */
+void replay(const ReplayOptions &options);
+
+} // namespace ale
+
+#endif

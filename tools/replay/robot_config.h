@@ -1,0 +1,21 @@
+/* The configuration that a log is replayed with: file, log and command line, the latter before the former. */
+#ifndef ALE_REPLAY_ROBOT_CONFIG_H
+#define ALE_REPLAY_ROBOT_CONFIG_H
+
+#include "replay/log_reader.h"
+#include "replay/options.h"
+
+extern "C" {
+#include "config.h"
+}
+
+namespace ale
+{
+
+/* recorded: the configuration text of a flight recording, or nullptr; --config goes before it.
+ * Throws std::invalid_argument with the one line that names file, line and key. */
+ale_config_t robot_config(const ReplayOptions &options, const ale_log_info_t &info, const char *recorded);
+
+} // namespace ale
+
+#endif

@@ -1,0 +1,43 @@
+/* What a replay says about itself on the standard error. */
+#ifndef ALE_REPLAY_SUMMARY_H
+#define ALE_REPLAY_SUMMARY_H
+
+#include <chrono>
+#include <cstdint>
+
+#include "replay/log_reader.h"
+
+namespace ale
+{
+
+/* A bar on a terminal, for work of more than two seconds. */
+class Progress
+{
+  public:
+    Progress();
+    ~Progress();
+    Progress(const Progress &) = delete;
+    Progress &operator=(const Progress &) = delete;
+    void show(const LogReader &log);
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    bool terminal_;
+    bool shown_ = false;
+    Clock::time_point next_;
+};
+
+struct ReplayCounts {
+    uint64_t scans = 0;
+    uint64_t lost = 0;
+    uint64_t lines = 0;
+    uint64_t corners = 0;
+    int64_t cpu_ns = 0;
+    int64_t worst_ns = 0;
+};
+
+void print_summary(const std::string &path, const LogReader &log, const ReplayCounts &counts);
+
+} // namespace ale
+
+#endif
