@@ -215,10 +215,10 @@ __attribute__((noinline)) void ale_extract_scan(ale_extractor_t *e, const ale_sc
     out->curve_count = 0;
     ale_points_list(e, scan);
     ale_scan_noise_measure(e, scan);
+    ale_outlier_remove_spikes(e);
     ale_segment(e, scan);
     ale_outlier_remove(e);
     ale_segment(e, scan);
-    ale_outlier_remove_spikes(e);
     ale_points_place(e, scan, bearing_bam);
     ale_stage_end(&e->hook, ALE_STAGE_SMOOTH);
     ale_moments_build(e);

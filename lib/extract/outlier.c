@@ -4,6 +4,7 @@
 
 enum {
     STRAY_BEAMS = 4,
+    SPIKE_REACH = 7,
     SPIKE_FACTOR_Q8 = 4 * 256 /* deviations by which a point must stand out from both neighbours */
 };
 
@@ -27,11 +28,12 @@ void ale_outlier_remove(ale_extractor_t *e)
         }
         first = i + 1;
     }
-    e->outliers = (uint16_t)(e->count - kept);
+    e->outliers = (uint16_t)(e->outliers + e->count - kept);
     e->count = (uint16_t)kept;
 }
 
-/* A point stands out when it lies on the same side of both neighbours, the local slope taken off. */
+/* A point stands out when both neighbours agree with each other and it lies off both on the same side,
+ * the local slope taken off. */
 static bool is_spike(const ale_extractor_t *e, int32_t i)
 {
     const int64_t here = e->range_um[i];
@@ -40,29 +42,22 @@ static bool is_spike(const ale_extractor_t *e, int32_t i)
     const int64_t right = here - e->range_um[i + 1] + slope;
     const int64_t limit =
         (SPIKE_FACTOR_Q8 * (e->noise.sigma_um + (here * e->noise.sigma_per_range_q20 >> 20))) >> 8;
-    return (left > limit && right > limit) || (left < -limit && right < -limit);
+    return ((left > limit && right > limit) || (left < -limit && right < -limit)) &&
+           ale_abs64(left - right) <= limit && e->beam[i + 2] - e->beam[i - 2] <= SPIKE_REACH;
 }
 
 void ale_outlier_remove_spikes(ale_extractor_t *e)
 {
     int32_t kept = 0;
-    int32_t since = 0;
-    int32_t dropped_last = -1;
     bool spike[ALE_MAX_BEAMS];
     for (int32_t i = 0; i < e->count; i++) {
-        spike[i] = i - 2 >= since && i + 2 < e->count && !e->jump_after[i] && !e->jump_after[i + 1] &&
-                   is_spike(e, i);
-        since = e->jump_after[i] ? i + 1 : since;
+        spike[i] = i >= 2 && i + 2 < e->count && is_spike(e, i);
     }
     for (int32_t i = 0; i < e->count; i++) {
-        if (spike[i]) {
-            continue;
+        if (!spike[i]) {
+            move_point(e, kept++, i);
         }
-        move_point(e, kept, i);
-        e->jump_after[kept] = e->jump_after[i];
-        kept++;
     }
-    (void)dropped_last;
     e->outliers = (uint16_t)(e->outliers + e->count - kept);
     e->count = (uint16_t)kept;
 }
