@@ -18,7 +18,7 @@ enum {
     ALE_LAG_CANDIDATES = 21,
     ALE_LAG_FIRST_US = -100000,
     ALE_LAG_STEP_US = 20000,
-    ALE_LAG_PRIOR_SIGMA_US = 60000,
+    ALE_LAG_PRIOR_SIGMA_US = 80000,
     ALE_LAG_HEADINGS = 16 /* scans that are remembered */
 };
 

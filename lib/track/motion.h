@@ -31,6 +31,8 @@ typedef struct {
     int64_t displacement_var[ALE_AXES];
     int32_t velocity[ALE_AXES];
     int64_t velocity_var[ALE_AXES];
+    int64_t counted_um;  /* forward way as counted, before it was scaled */
+    int64_t lag_var_um2; /* part of its variance that comes from the lag */
 } ale_wheel_motion_t;
 
 /* At rest at a pose known without error (the origin of the map), speed unknown within what is stated. */

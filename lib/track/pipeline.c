@@ -17,6 +17,7 @@ enum {
     START_SPEED_MM_S = 300,
     START_TURN_MRAD_S = 500,
     LEARN_DETERMINED_UM = 10000, /* scans that know the way well enough to teach the wheels */
+    LEARN_LAG_VAR_UM2 = 4000000, /* and a lag that could not have made (2 mm)^2 of it */
     SCAN_PERIOD_MAX_US = 2000000
 };
 
@@ -90,12 +91,10 @@ void ale_pipeline_odometry(ale_pipeline_t *pipeline, const ale_odometry_t *sampl
 }
 
 /* The way from the last scan to this instant, by wheels where there are some. */
-static bool predict(ale_pipeline_t *p, int64_t stamp_us, int64_t *counted_um)
+static bool predict(ale_pipeline_t *p, int64_t stamp_us, ale_wheel_motion_t *wheels)
 {
-    ale_wheel_motion_t wheels;
-    const bool known =
-        ale_wheel_motion(&p->wheels, &p->lag, &p->scale, p->motion.stamp_us, stamp_us, &wheels, counted_um);
-    ale_motion_predict(&p->motion, stamp_us, known ? &wheels : NULL);
+    const bool known = ale_wheel_motion(&p->wheels, &p->lag, &p->scale, p->motion.stamp_us, stamp_us, wheels);
+    ale_motion_predict(&p->motion, stamp_us, known ? wheels : NULL);
     return known;
 }
 
@@ -109,7 +108,8 @@ static void look(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t velocit
     const bool straightened = ale_deskew(&p->scan, sensor_velocity, p->bearing_bam);
     ale_stage_end(&p->hook, ALE_STAGE_DESKEW);
     ale_extract_scan(&p->extractor, &p->scan, straightened ? p->bearing_bam : NULL, &p->features);
-    p->view_count = ale_views_of(&p->features, &p->scan, p->config.sensor, p->view);
+    p->view_count = ale_views_of(&p->features, &p->scan, p->config.sensor,
+                                 p->config.extract.noise.surface_um / 2, p->view);
 }
 
 static void match(ale_pipeline_t *p, const ale_motion_t *predicted)
@@ -139,7 +139,7 @@ static void advance_smooth(ale_pipeline_t *p, ale_pose_t from, ale_pose_t predic
 }
 
 /* What a good scan teaches about the wheels: their lag from turns, their scale from the way. */
-static void teach_wheels(ale_pipeline_t *p, const ale_motion_t *before, bool counted, int64_t counted_um)
+static void teach_wheels(ale_pipeline_t *p, const ale_motion_t *before, const ale_wheel_motion_t *counted)
 {
     const int64_t dt_us = p->motion.stamp_us - before->stamp_us;
     if (!p->config.use_odometry || dt_us <= 0 || dt_us > SCAN_PERIOD_MAX_US ||
@@ -150,8 +150,8 @@ static void teach_wheels(ale_pipeline_t *p, const ale_motion_t *before, bool cou
     const ale_heading_t heading = {p->motion.stamp_us, p->motion.pose.theta_bam, p->motion.velocity[2]};
     ale_lag_add_heading(&p->lag, &heading);
     ale_lag_update(&p->lag, &p->wheels);
-    if (counted) {
-        ale_wheel_scale_learn(&p->scale, way.x_um, counted_um);
+    if (counted && counted->lag_var_um2 < LEARN_LAG_VAR_UM2) {
+        ale_wheel_scale_learn(&p->scale, way.x_um, counted->counted_um);
     }
 }
 
@@ -170,8 +170,8 @@ static void begin(ale_pipeline_t *p, const ale_scan_t *scan)
 static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
 {
     const ale_motion_t before = p->motion;
-    int64_t counted_um = 0;
-    const bool counted = predict(p, scan->stamp_us, &counted_um);
+    ale_wheel_motion_t wheels;
+    const bool counted = predict(p, scan->stamp_us, &wheels);
     const ale_motion_t predicted = p->motion;
     look(p, scan, predicted.velocity);
     match(p, &predicted);
@@ -179,7 +179,7 @@ static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
     ale_tracker_judge(&p->tracker, &p->fit);
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);
     advance_smooth(p, before.pose, predicted.pose, scan->stamp_us - before.stamp_us);
-    teach_wheels(p, &before, counted, counted_um);
+    teach_wheels(p, &before, counted ? &wheels : NULL);
     if (p->tracker.state != ALE_STATE_LOST) {
         ale_map_update(&p->map, p->view, p->view_count, &p->fit, p->scans,
                        ale_tracker_may_map(&p->tracker, &p->fit));
@@ -253,10 +253,10 @@ void ale_pipeline_scan(ale_pipeline_t *pipeline, const ale_scan_t *scan, ale_est
 
 void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estimate_t *out)
 {
-    int64_t counted_um;
+    ale_wheel_motion_t wheels;
     if (pipeline->started) {
         const ale_pose_t before = pipeline->motion.pose;
-        predict(pipeline, stamp_us, &counted_um);
+        predict(pipeline, stamp_us, &wheels);
         pipeline->smooth =
             ale_pose_compose(pipeline->smooth, ale_pose_between(before, pipeline->motion.pose));
         ale_tracker_skip(&pipeline->tracker, &pipeline->motion);

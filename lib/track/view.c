@@ -28,7 +28,8 @@ static int64_t centre_of(const ale_line_t *line, int64_t from_um, int64_t to_um)
     return ale_clamp64(t_um, ale_min64(from_um, to_um), ale_max64(from_um, to_um));
 }
 
-static void view_of(const ale_line_t *line, const ale_scan_t *scan, ale_pose_t sensor, ale_view_t *out)
+static void view_of(const ale_line_t *line, const ale_scan_t *scan, ale_pose_t sensor, int64_t systematic_um,
+                    ale_view_t *out)
 {
     const uint32_t along_bam = line->alpha_bam + ALE_BAM_QUARTER_TURN;
     const int64_t a_um = ale_along(line->start, along_bam);
@@ -48,15 +49,17 @@ static void view_of(const ale_line_t *line, const ale_scan_t *scan, ale_pose_t s
     out->end_time_us = forward ? last_us : first_us;
     out->start_end = forward ? line->first_end : line->last_end;
     out->end_end = forward ? line->last_end : line->first_end;
-    out->var_offset_um2 = ale_max64(var_um2, 0) + OFFSET_FLOOR_UM2;
-    out->var_angle_urad2 = line->var_alpha_nrad2 / 1000000 + ANGLE_FLOOR_URAD2;
+    const int64_t length_mm = ale_max64((out->end_um - out->start_um) / 1000, 10);
+    const int64_t bend_urad = systematic_um * 2000 / length_mm;
+    out->var_offset_um2 = ale_max64(var_um2, 0) + OFFSET_FLOOR_UM2 + systematic_um * systematic_um;
+    out->var_angle_urad2 = line->var_alpha_nrad2 / 1000000 + ANGLE_FLOOR_URAD2 + bend_urad * bend_urad;
 }
 
 uint32_t ale_views_of(const ale_features_t *features, const ale_scan_t *scan, ale_pose_t sensor,
-                      ale_view_t out[])
+                      int32_t systematic_um, ale_view_t out[])
 {
     for (uint32_t i = 0; i < features->line_count; i++) {
-        view_of(&features->line[i], scan, sensor, &out[i]);
+        view_of(&features->line[i], scan, sensor, systematic_um, &out[i]);
         out[i].line = (uint16_t)i;
     }
     return features->line_count;

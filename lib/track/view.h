@@ -28,9 +28,11 @@ typedef struct {
     uint8_t end_end;
 } ale_view_t;
 
-/* Views of all lines of a scan. out has room for ALE_MAX_LINES; returns their number. O(lines). */
+/* Views of all lines of a scan. systematic_um: one sigma of what bends and shifts a line the same way in
+ * scan after scan (the surface, the range), which no number of beams or scans averages away. out has room for
+ * ALE_MAX_LINES; returns their number. O(lines). */
 uint32_t ale_views_of(const ale_features_t *features, const ale_scan_t *scan, ale_pose_t sensor,
-                      ale_view_t out[]);
+                      int32_t systematic_um, ale_view_t out[]);
 
 /* The tangent that belongs to a normal (a quarter turn clockwise), as a direction. */
 static inline uint32_t ale_tangent_bam(uint32_t normal_bam)

@@ -71,24 +71,21 @@ static void way_variance(const ale_wheel_scale_t *scale, ale_pose_t d, int64_t v
              square(part(turn, scale->noise.turn_ppm)) + square(FLOOR_URAD);
 }
 
-/* Half the difference of two readings of a motion, squared: what an error of the lag makes of it. */
-static void add_lag_variance(const ale_wheels_t *wheels, const ale_lag_t *lag, int64_t from_us, int64_t to_us,
-                             int64_t var[ALE_AXES])
+/* What an error of the lag makes of a motion: the largest change when it is read one sigma away. Ahead of
+ * the newest sample there may be nothing to read. */
+static void lag_variance(const ale_wheels_t *wheels, int32_t sigma_us, int64_t from_us, int64_t to_us,
+                         ale_pose_t d, int64_t var[ALE_AXES])
 {
-    ale_pose_t early;
-    ale_pose_t late;
-    int32_t beyond_us;
-    const int32_t s = lag->sigma_us;
-    if (!ale_wheels_motion(wheels, from_us - s, to_us - s, &early, &beyond_us)) {
-        return;
+    var[0] = var[1] = var[2] = 0;
+    for (int64_t shift_us = -2 * sigma_us; shift_us <= sigma_us; shift_us += sigma_us) {
+        ale_pose_t other;
+        int32_t beyond_us;
+        if (ale_wheels_motion(wheels, from_us + shift_us, to_us + shift_us, &other, &beyond_us)) {
+            var[0] = ale_max64(var[0], square(other.x_um - d.x_um));
+            var[1] = ale_max64(var[1], square(other.y_um - d.y_um));
+            var[2] = ale_max64(var[2], square(turn_urad(other) - turn_urad(d)));
+        }
     }
-    if (!ale_wheels_motion(wheels, from_us + s, to_us + s, &late, &beyond_us) &&
-        !ale_wheels_motion(wheels, from_us, to_us, &late, &beyond_us)) {
-        return;
-    }
-    var[0] += square(((int64_t)late.x_um - early.x_um) / 2);
-    var[1] += square(((int64_t)late.y_um - early.y_um) / 2);
-    var[2] += square((turn_urad(late) - turn_urad(early)) / 2);
 }
 
 /* Samples that had to be extrapolated miss what the robot began in the meantime. */
@@ -106,6 +103,7 @@ static bool velocity_at(const ale_wheels_t *wheels, const ale_lag_t *lag, const 
     ale_pose_t d;
     int32_t beyond_us;
     int64_t var[ALE_AXES];
+    int64_t lag_var[ALE_AXES];
     int64_t ahead_us = LOOK_AHEAD_US;
     bool found = ale_wheels_motion(wheels, t_us + ahead_us - WINDOW_US, t_us + ahead_us, &d, &beyond_us);
     if (!found || beyond_us > 0) {
@@ -121,32 +119,38 @@ static bool velocity_at(const ale_wheels_t *wheels, const ale_lag_t *lag, const 
         ale_rotate((ale_point_t){rescaled(scale, d.x_um), rescaled(scale, d.y_um)}, 0u - to_end);
     const int64_t way[ALE_AXES] = {p.x_um, p.y_um, turn_urad(d)};
     way_variance(scale, d, var);
-    add_lag_variance(wheels, lag, t_us + ahead_us - WINDOW_US, t_us + ahead_us, var);
+    lag_variance(wheels, lag->sigma_us, t_us + ahead_us - WINDOW_US, t_us + ahead_us, d, lag_var);
     add_extrapolation_variance(beyond_us, var);
     const int64_t behind_us = WINDOW_US / 2 - ahead_us + beyond_us; /* middle of the window before t */
     const int64_t change[ALE_AXES] = {ACCELERATION_UM_S2, ACCELERATION_UM_S2 / 5, TURN_ACCELERATION_URAD_S2};
     for (int i = 0; i < ALE_AXES; i++) {
         out->velocity[i] = (int32_t)ale_round_div(way[i] * ALE_TICK_US, WINDOW_US);
         out->velocity_var[i] =
-            ale_mul_div(var[i], ALE_TICK_US * ALE_TICK_US, (int64_t)WINDOW_US * WINDOW_US) +
+            ale_mul_div(var[i] + lag_var[i], ALE_TICK_US * ALE_TICK_US, (int64_t)WINDOW_US * WINDOW_US) +
             square(change[i] / 1000 * behind_us / 1000 * ALE_TICK_US / 1000000);
     }
     return true;
 }
 
 bool ale_wheel_motion(const ale_wheels_t *wheels, const ale_lag_t *lag, const ale_wheel_scale_t *scale,
-                      int64_t from_us, int64_t to_us, ale_wheel_motion_t *out, int64_t *counted_um)
+                      int64_t from_us, int64_t to_us, ale_wheel_motion_t *out)
 {
     ale_pose_t d;
     int32_t beyond_us;
-    const int64_t shift_us = lag->lag_us;
-    if (!ale_wheels_motion(wheels, from_us - shift_us, to_us - shift_us, &d, &beyond_us)) {
+    int64_t lag_var[ALE_AXES];
+    const int64_t from = from_us - lag->lag_us;
+    const int64_t to = to_us - lag->lag_us;
+    if (!ale_wheels_motion(wheels, from, to, &d, &beyond_us)) {
         return false;
     }
-    *counted_um = d.x_um;
     out->displacement = (ale_pose_t){rescaled(scale, d.x_um), rescaled(scale, d.y_um), d.theta_bam};
     way_variance(scale, d, out->displacement_var);
-    add_lag_variance(wheels, lag, from_us - shift_us, to_us - shift_us, out->displacement_var);
     add_extrapolation_variance(beyond_us, out->displacement_var);
-    return velocity_at(wheels, lag, scale, to_us - shift_us, out);
+    lag_variance(wheels, lag->sigma_us, from, to, d, lag_var);
+    for (int i = 0; i < ALE_AXES; i++) {
+        out->displacement_var[i] += lag_var[i];
+    }
+    out->counted_um = d.x_um;
+    out->lag_var_um2 = lag_var[0];
+    return velocity_at(wheels, lag, scale, to, out);
 }

@@ -34,9 +34,8 @@ void ale_wheel_scale_learn(ale_wheel_scale_t *scale, int64_t found_um, int64_t c
 /* One sigma of the learnt factor, parts per million. */
 int64_t ale_wheel_scale_sigma_ppm(const ale_wheel_scale_t *scale);
 
-/* The way between two scans. *counted_um: forward way as counted, for learning. False when the buffer
- * does not cover it. */
+/* The way between two scans. False when the buffer does not cover it. */
 bool ale_wheel_motion(const ale_wheels_t *wheels, const ale_lag_t *lag, const ale_wheel_scale_t *scale,
-                      int64_t from_us, int64_t to_us, ale_wheel_motion_t *out, int64_t *counted_um);
+                      int64_t from_us, int64_t to_us, ale_wheel_motion_t *out);
 
 #endif
