@@ -4,6 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Fewer steps a turn would let the step of a cluster of 99 leave its number format. */
+enum { LEAST_STEPS = 200 };
+
 enum {
     KEY = 4,
     VALUE_LIMIT = 1000000,
@@ -108,7 +111,7 @@ void ale_urg_identity_line(ale_urg_identity_t *identity, const char *text, bool 
 
 bool ale_urg_geometry_valid(const ale_urg_geometry_t *g)
 {
-    return g->range_min_mm >= 0 && g->range_min_mm < g->range_max_mm && g->steps_per_turn > 0 &&
+    return g->range_min_mm >= 0 && g->range_min_mm < g->range_max_mm && g->steps_per_turn >= LEAST_STEPS &&
            g->steps_per_turn < STEP_LIMIT && g->first_step >= 0 && g->first_step <= g->last_step &&
            g->last_step < STEP_LIMIT && g->front_step >= 0 && g->front_step < STEP_LIMIT && g->rpm > 0 &&
            g->rpm <= MOST_RPM;

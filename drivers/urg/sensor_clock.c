@@ -127,3 +127,9 @@ int64_t ale_sensor_clock_update(ale_sensor_clock_t *clock, uint32_t stamp_ms, in
     clock->offset_us = first ? target_us : ale_min64(target_us, expected_us + ALE_CLOCK_SLEW_US);
     return clock->sensor_us + clock->offset_us;
 }
+
+int64_t ale_sensor_clock_host_us(const ale_sensor_clock_t *clock, uint32_t stamp_ms)
+{
+    const int64_t passed_us = (int64_t)ale_stamp_difference_ms(stamp_ms, clock->stamp_ms) * 1000;
+    return clock->sensor_us + passed_us + clock->offset_us;
+}

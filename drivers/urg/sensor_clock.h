@@ -61,6 +61,9 @@ ale_stamp_kind_t ale_sensor_clock_judge(const ale_sensor_clock_t *clock, uint32_
 /* Takes a stamp and returns its host time. A stamp that jumped must be preceded by a reset. */
 int64_t ale_sensor_clock_update(ale_sensor_clock_t *clock, uint32_t stamp_ms, int64_t arrival_us);
 
+/* Host time of a stamp near the last one, by the present estimate; changes nothing. */
+int64_t ale_sensor_clock_host_us(const ale_sensor_clock_t *clock, uint32_t stamp_ms);
+
 /* Modular difference of two stamps, later - earlier, milliseconds, -2^23 .. 2^23-1. */
 int32_t ale_stamp_difference_ms(uint32_t later_ms, uint32_t earlier_ms);
 

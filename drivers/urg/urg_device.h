@@ -17,11 +17,12 @@
 typedef struct ale_urg ale_urg_t;
 
 typedef struct {
-    const char *path;    /* device, or NULL: look for `serial` on every candidate port */
-    const char *serial;  /* serial number (SERI line) that must match, or NULL: any */
-    int32_t baud;        /* 0: detect */
-    bool reversed;       /* mounted upside down: bearings are negated */
-    uint16_t first_step; /* 0, 0: what PP says */
+    const char *path;             /* device, or NULL: look for `serial` on every candidate port */
+    const char *device_directory; /* where candidates are looked for; NULL: /dev */
+    const char *serial;           /* serial number (SERI line) that must match, or NULL: any */
+    int32_t baud;                 /* 0: detect */
+    bool reversed;                /* mounted upside down: bearings are negated */
+    uint16_t first_step;          /* 0, 0: what PP says */
     uint16_t last_step;
     bool two_character; /* MS instead of MD */
     uint8_t cluster;
@@ -31,14 +32,17 @@ typedef struct {
     /* Called for every run of bytes as it passes: sent (true) or received (false). NULL: nobody. */
     void (*tap)(void *user, bool sent, const uint8_t *bytes, uint32_t count, int64_t host_us);
     void *tap_user;
-    int64_t (*now_us)(void *user); /* host's monotonic clock, microseconds; NULL: CLOCK_MONOTONIC */
+    /* The clock of all stamps, microseconds, running time_scale as fast as the host's; NULL: CLOCK_MONOTONIC
+     * times time_scale. */
+    int64_t (*now_us)(void *user);
     void *now_user;
 } ale_urg_config_t;
 
 typedef enum {
     ALE_URG_IDLE,      /* nothing new */
     ALE_URG_SCAN,      /* *scan filled; stamp in host time (monotonic clock of now_us) */
-    ALE_URG_SCAN_LOST, /* the device sent a scan that cannot be used; scan->stamp_us is its best known time */
+    ALE_URG_SCAN_LOST, /* the device sent a scan that cannot be used; scan->stamp_us is its best known time,
+                        * scan->beams 0 */
     ALE_URG_CHANGED    /* state or health changed: see ale_urg_health */
 } ale_urg_event_t;
 
