@@ -60,9 +60,10 @@ class Browser:
     def text(self, element_id):
         return self.run("return document.getElementById(arguments[0]).textContent", element_id)
 
-    def messages(self):
-        """What the page and the browser wrote to the console since the last call."""
-        return [entry["message"] for entry in self._call("POST", f"{self.session}/se/log", {"type": "browser"})]
+    def errors(self):
+        """What the page and the browser complained about since the last call."""
+        entries = self._call("POST", f"{self.session}/se/log", {"type": "browser"})
+        return [entry["message"] for entry in entries if entry["level"] == "SEVERE"]
 
     def wait_for(self, condition, seconds=10):
         """Runs the script until it gives something true; returns that and the seconds it took."""

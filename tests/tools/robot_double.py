@@ -153,7 +153,7 @@ class RobotDouble:
         status.driver_state = "streaming"
         status.device = "URG-04LX H0000001"
         status.scan_rate_hz = 10.0
-        status.counter_name = ["checksum_errors", "resynchronised", "scans_lost"]
-        status.counter_value = [3, 1, 0]
-        status.num_counters = 3
+        status.counter_name = ["bad_checksum", "scans_lost", "odometry", "resets"]
+        status.counter_value = [3, 1, 200, 0]
+        status.num_counters = 4
         self.bus.publish("ALE_STATUS", status.encode())

@@ -1,5 +1,5 @@
 // The health strip and panel: everything that is not the map.
-import { codesInWords, degrees, duration, heading, metres, millimetres, STATES } from "./words.js";
+import { codesInWords, counterInWords, countDrops, degrees, duration, heading, isTraffic, metres, millimetres, STATES } from "./words.js";
 
 const STAGES = ["deskew", "smooth", "extract", "match", "map", "total"];
 const STAGE_COLOURS = ["#7c8cff", "#38bdf8", "#22d3b6", "#ffb84d", "#f472b6"];
@@ -94,12 +94,13 @@ export class Health {
   }
 
   #counters(counters) {
-    const dropped = counters.reduce((sum, c) => sum + c.value, 0);
+    const dropped = countDrops(counters);
     show("dropped", dropped, dropped ? "fair" : "fine");
-    const rows = [...counters].sort((a, b) => (b.value > 0) - (a.value > 0)).map((counter) => {
+    const troubled = (counter) => counter.value > 0 && !isTraffic(counter.name);
+    const rows = [...counters].sort((a, b) => troubled(b) - troubled(a)).map((counter) => {
       const row = document.createElement("tr");
-      row.classList.toggle("zero", counter.value === 0);
-      row.append(cell(counter.name.replaceAll("_", " ")), cell(counter.value));
+      row.classList.toggle("trouble", troubled(counter));
+      row.append(cell(counterInWords(counter.name)), cell(counter.value));
       return row;
     });
     document.querySelector("#counters tbody").replaceChildren(...rows);

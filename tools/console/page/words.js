@@ -33,6 +33,24 @@ export function codesInWords(codes) {
   return [...counts].map(([words, count]) => `${count} ${words}`).join(", ") || "none";
 }
 
+// Counters of the firmware. Those in DROPS are scans that did not reach the estimate; those in TRAFFIC count
+// what is no trouble at all.
+const COUNTERS = {
+  scans_lost: "scans lost on the line", overloaded: "scans skipped, too busy", scan_ring_full: "scans, no room",
+  result_ring_full: "results, no room", bad_checksum: "wrong checksums", bad_frame: "broken replies",
+  repeated: "repeated replies", garbage_bytes: "garbage bytes", stream_restarts: "stream restarted",
+  resets: "scanner reset", reopens: "port opened again", hardware_faults: "scanner faults",
+  identity_warnings: "odd identity lines", odometry: "odometry received", odometry_ring_full: "odometry, no room",
+  odometry_refused: "odometry refused", messages_unsent: "messages not sent",
+};
+const DROPS = ["scans_lost", "overloaded", "scan_ring_full", "result_ring_full"];
+const TRAFFIC = ["odometry", "identity_warnings"];
+
+export const counterInWords = (name) => COUNTERS[name] ?? name.replaceAll("_", " ");
+export const isTraffic = (name) => TRAFFIC.includes(name);
+export const countDrops = (counters) =>
+  counters.filter((counter) => DROPS.includes(counter.name)).reduce((sum, counter) => sum + counter.value, 0);
+
 export const STATES = {
   good: ["good", ""],
   weak: ["weak", "position uncertain"],

@@ -1,0 +1,216 @@
+"""The console's page in headless Chromium: what an operator sees."""
+import re
+import time
+
+import pytest
+
+import browser
+from watching import Console, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
+
+pytestmark = pytest.mark.skipif(bool(browser.missing()), reason=f"no browser test: {browser.missing()}")
+
+COUNT_PIXELS = """
+const [name, tolerance] = arguments;
+const canvas = document.getElementById("map");
+const copy = document.createElement("canvas");
+[copy.width, copy.height] = [canvas.width, canvas.height];
+const probe = copy.getContext("2d", {willReadFrequently: true});
+probe.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--" + name);
+probe.fillRect(0, 0, 1, 1);
+const wanted = probe.getImageData(0, 0, 1, 1).data;
+probe.drawImage(canvas, 0, 0);
+const pixels = probe.getImageData(0, 0, canvas.width, canvas.height).data;
+let count = 0, x = 0, y = 0;
+for (let k = 0; k < pixels.length; k += 4) {
+  if ([0, 1, 2].every((c) => Math.abs(pixels[k + c] - wanted[c]) <= tolerance)) {
+    count++; x += (k / 4) % canvas.width; y += Math.floor(k / 4 / canvas.width);
+  }
+}
+return {count, x: x / count / canvas.width, y: y / count / canvas.height};
+"""
+STATE = "document.body.dataset.state"
+LINK = "document.body.dataset.link"
+ALARM = "!document.getElementById('alarm').hidden && document.getElementById('alarm-word').textContent"
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    running = browser.Browser()
+    yield running
+    running.close()
+
+
+@pytest.fixture
+def page(chromium, console):
+    chromium.open(console.url)
+    chromium.run("localStorage.clear()")
+    chromium.errors()
+    yield chromium
+    assert chromium.errors() == []  # of scripts, or resources refused
+
+
+def pixels(page, colour, tolerance=12):
+    return page.run(COUNT_PIXELS, colour, tolerance)
+
+
+def number(text):
+    return float(re.search(r"-?[\d.]+", text)[0])
+
+
+def test_before_the_robot_is_heard_it_waits(page):
+    page.wait_for(f"{LINK} === 'waiting'")
+    assert page.text("state-word") == "waiting"
+    assert page.run(f"return {ALARM}") is False
+
+
+def test_the_map_appears_and_the_pose_moves(page, pulse):
+    page.wait_for(f"{STATE} === 'good' && {LINK} === 'up'")
+    page.wait_for("document.getElementById('map-lines').textContent === '12'")
+    first = page.text("x")
+    page.wait_for(f"document.getElementById('x').textContent !== '{first}'")
+    page.wait_for("document.getElementById('beams').textContent.endsWith('/ 682')")
+    page.wait_for("Number(document.getElementById('scan').textContent) > 25")  # a trail longer than the robot
+    for colour, least in (("wall", 1500), ("line", 1000), ("corner", 60), ("robot", 300), ("trail", 20)):
+        assert pixels(page, colour, 40)["count"] > least, colour
+    assert page.text("lines") == "5" and page.text("corners") == "3"
+
+
+def test_the_numbers_are_those_that_were_sent(page, pulse):
+    page.wait_for("document.getElementById('device').textContent.startsWith('URG-04LX')")
+    assert page.text("realtime") == "yes"
+    assert page.text("latency-p99") == "2.30 ms"
+    assert page.text("sigma-x") == "4.0 mm" and page.text("sigma-heading") == "0.17°"
+    assert page.text("dropped") == "1"  # one scan lost; what else is counted was no scan
+    assert "wrong checksums" in page.text("counters") and "streaming" in page.text("driver")
+    assert "1 beside a disturbed beam" in page.text("codes")
+    assert 8 < page.wait_for("parseFloat(document.getElementById('rate').textContent) > 8 && "
+                             "parseFloat(document.getElementById('rate').textContent)")[0] < 12
+
+
+@pytest.mark.parametrize("state, name", [(1, "weak"), (0, "lost")])
+def test_weak_and_lost_cannot_be_missed(page, robot, pulse, state, name):
+    page.wait_for(f"{STATE} === 'good'")
+    assert page.run(f"return {ALARM}") is False
+    robot.state = state
+    _, seconds = page.wait_for(f"{ALARM} === '{name}'")
+    assert seconds < 1
+    assert page.text("state-word") == name
+    assert page.run("return getComputedStyle(document.querySelector('main'), '::after').borderTopWidth") != "0px"
+
+
+def test_a_lost_link_shows_within_a_second(page, pulse):
+    page.wait_for(f"{LINK} === 'up'")
+    pulse.stop()
+    _, seconds = page.wait_for(f"{LINK} === 'lost'")
+    assert seconds < 1
+    assert page.run(f"return {ALARM}") == "link lost"
+    assert "ago" in page.text("alarm-text")
+
+
+def test_a_console_that_ends_shows_within_a_second_and_one_that_returns_is_found(chromium, lcm_url, robot, pulse):
+    first = Console(lcm_url)
+    chromium.open(first.url)
+    chromium.wait_for(f"{LINK} === 'up'")
+    assert first.end() == 0
+    _, seconds = chromium.wait_for(f"{LINK} === 'gone'")
+    assert seconds < 1
+    again = Console(lcm_url, first.url.removeprefix("http://").rstrip("/"))
+    chromium.wait_for(f"{LINK} === 'up'")
+    assert again.end() == 0
+    chromium.errors()  # the browser's own notes about the connection that was refused meanwhile
+
+
+def test_nothing_comes_from_elsewhere(page, console, pulse):
+    page.wait_for(f"{LINK} === 'up'")
+    urls = page.run("return performance.getEntriesByType('resource').map((entry) => entry.name)")
+    assert len(urls) >= 7
+    assert all(url.startswith(console.url) for url in urls)
+
+
+def test_following_keeps_the_robot_in_the_middle(page, pulse):
+    page.wait_for(f"{STATE} === 'good'")
+    page.click("follow")
+    page.wait_for("document.getElementById('follow').ariaPressed === 'true'")
+    time.sleep(1)  # the camera glides
+    where = pixels(page, "robot")
+    assert where["x"] == pytest.approx(0.5, abs=0.03) and where["y"] == pytest.approx(0.5, abs=0.04)
+
+
+def test_zoom_pan_and_back_to_the_whole(page, robot):
+    for _ in range(3):
+        robot.step()
+    page.wait_for("document.getElementById('map-lines').textContent === '12'")
+    time.sleep(1)
+    before = pixels(page, "robot")
+    scale = number(page.text("scale-text")) / page.run("return document.getElementById('scale-bar').offsetWidth")
+    page.click("zoom-in")
+    page.click("zoom-in")
+    page.drag(500, 400, 600, 460)
+    moved = pixels(page, "robot")
+    assert (moved["x"], moved["y"]) != (before["x"], before["y"])
+    assert page.run("return document.getElementById('whole').ariaPressed") == "false"
+    page.click("whole")
+    time.sleep(1.5)
+    after = pixels(page, "robot")
+    assert after["x"] == pytest.approx(before["x"], abs=0.01) and after["y"] == pytest.approx(before["y"], abs=0.01)
+    assert number(page.text("scale-text")) / page.run(
+        "return document.getElementById('scale-bar').offsetWidth") == pytest.approx(scale, rel=0.05)
+
+
+def test_dark_and_light_by_one_button_and_remembered(page, robot):
+    robot.step()
+    ground = "getComputedStyle(document.body).backgroundColor"
+    theme = page.run("return document.documentElement.dataset.theme")
+    colour = page.run(f"return {ground}")
+    page.click("theme")
+    page.wait_for(f"document.documentElement.dataset.theme !== '{theme}'")
+    assert page.run(f"return {ground}") != colour
+    assert pixels(page, "ground")["count"] > 10000
+    page.run("location.reload()")
+    page.wait_for(f"document.documentElement.dataset.theme !== '{theme}' && document.readyState === 'complete'")
+
+
+@pytest.mark.parametrize("width, height", [(820, 1180), (1180, 820), (480, 900)])
+def test_it_fits_a_tablet_either_way(page, pulse, width, height):
+    try:
+        page.resize(width, height)
+        page.wait_for(f"{STATE} === 'good'")
+        assert page.run("return document.documentElement.scrollWidth - innerWidth") <= 0
+        area = page.run("const r = document.getElementById('map').getBoundingClientRect(); return [r.width, r.height]")
+        assert min(area) > 250
+        for name in ("state", "follow", "whole", "theme"):
+            right = page.run("return document.getElementById(arguments[0]).getBoundingClientRect().right", name)
+            assert 0 < right <= width
+    finally:
+        page.resize(1280, 800)
+
+
+def test_a_scan_taken_while_turning_is_straightened(page, robot):
+    """The beams of the double are cast from where the robot was at each beam's time: drawn rightly they lie on
+    the walls."""
+    robot.scan = 30
+    robot.publish_map()
+    robot.step()
+    page.wait_for("document.getElementById('beams').textContent.endsWith('/ 682')")
+    distances = page.run("""
+        return import("/scene.js").then(({ Scene }) => new Promise((done) => {
+          const scene = new Scene();
+          const socket = new WebSocket(`ws://${location.host}/`);
+          socket.onmessage = (event) => {
+            scene.take(JSON.parse(event.data));
+            if (!scene.map || !scene.pose || !scene.scan || !scene.points.length) return;
+            socket.close();
+            const far = [];
+            for (let k = 0; k < scene.points.length; k += 2) {
+              const [x, y] = [scene.points[k], scene.points[k + 1]];
+              far.push(Math.min(...scene.map.lines.map((l) => {
+                const [ex, ey] = [l.x2 - l.x1, l.y2 - l.y1];
+                const t = Math.max(0, Math.min(1, ((x - l.x1) * ex + (y - l.y1) * ey) / (ex * ex + ey * ey)));
+                return Math.hypot(x - l.x1 - t * ex, y - l.y1 - t * ey);
+              })));
+            }
+            done(far);
+          };
+        }));""")
+    assert len(distances) > 300
+    assert max(distances) < 0.004  # as sent in whole millimetres; bent, it would be centimetres
