@@ -2,7 +2,7 @@
 
 #include "log/format.h"
 
-static const ale_log_format_t *const BINARY[] = {&ale_log_lcm_events};
+static const ale_log_format_t *const BINARY[] = {&ale_log_scip, &ale_log_lcm_events};
 static const ale_log_format_t *const TEXT[] = {&ale_log_carmen, &ale_log_pairs, &ale_log_rover,
                                                &ale_log_scan_lines};
 enum {

@@ -28,7 +28,6 @@ typedef struct {
     void (*choose)(ale_log_t *log, ale_span_t line);
     /* True and *record filled, false at the end. Writes log->info where the log states something. */
     bool (*next)(ale_log_t *log, ale_log_record_t *record);
-    void (*release)(ale_log_t *log); /* frees what the state owns; NULL: nothing */
 } ale_log_format_t;
 
 extern const ale_log_format_t ale_log_carmen;
@@ -58,6 +57,9 @@ const ale_log_format_t *ale_log_detect(ale_log_t *log, const char **reason);
 
 /* Counts the line last taken as bad and remembers why. */
 __attribute__((format(printf, 2, 3))) void ale_log_bad_line(ale_log_t *log, const char *format, ...);
+
+/* Counts a damaged part of a binary log, at about log->text.at, and remembers what it was. */
+void ale_log_bad_chunk(ale_log_t *log, const char *what);
 
 /* Counts the line last taken as a scan of too many beams. */
 void ale_log_too_many_beams(ale_log_t *log, int64_t beams);

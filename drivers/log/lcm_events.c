@@ -71,7 +71,7 @@ static void skip_damage(ale_log_t *log)
     ale_text_t *text = &log->text;
     const char *found = memmem(text->at + 1, (size_t)(text->end - text->at - 1), SYNC, sizeof SYNC);
     text->at = found ? found : text->end;
-    log->statistics.bad_chunks++;
+    ale_log_bad_chunk(log, "damaged or cut event");
 }
 
 /* The generated decoder allocates what a message claims to hold; this one holds it. */
@@ -140,7 +140,7 @@ static bool convert_scan(ale_log_t *log, const lcmtypes_ale_scan_t *message, ale
         return false;
     }
     if (!all_finite(message) || message->range_unit_mm < 1 || message->num_codes != message->num_ranges) {
-        log->statistics.bad_chunks++;
+        ale_log_bad_chunk(log, "ALE_SCAN with impossible values");
         return false;
     }
     ale_scan_t *scan = &record->event.scan;
@@ -166,7 +166,7 @@ static bool take_scan(ale_log_t *log, const message_t *message, ale_log_record_t
     lcmtypes_ale_scan_t scan;
     if (!has_right_length(message) ||
         lcmtypes_ale_scan_t_decode(message->data, 0, (int)message->length, &scan) < 0) {
-        log->statistics.bad_chunks++;
+        ale_log_bad_chunk(log, "unreadable ALE_SCAN");
         return false;
     }
     const bool taken = convert_scan(log, &scan, record);
@@ -180,7 +180,7 @@ static bool take_odometry(ale_log_t *log, const message_t *message, ale_log_reco
     ale_log_event_t *event = &record->event;
     if (lcmtypes_ale_odometry_t_decode(message->data, 0, (int)message->length, &odometry) < 0 ||
         ale_take_odometry(&odometry, &event->odometry) < 0) {
-        log->statistics.bad_chunks++;
+        ale_log_bad_chunk(log, "unreadable ALE_ODOMETRY");
         return false;
     }
     event->kind = ALE_LOG_ODOMETRY;

@@ -16,20 +16,23 @@ static int fail(ale_log_error_t *error, const char *path, const char *reason)
     return -1;
 }
 
-static void remember(ale_log_t *log, const char *format, va_list arguments)
+void ale_log_bad_line(ale_log_t *log, const char *format, ...)
 {
     const int head = snprintf(log->last_error, sizeof log->last_error, "%s: line %llu: ", log->path,
                               (unsigned long long)log->text.line);
-    vsnprintf(log->last_error + head, sizeof log->last_error - (size_t)head, format, arguments);
-}
-
-void ale_log_bad_line(ale_log_t *log, const char *format, ...)
-{
     va_list arguments;
     va_start(arguments, format);
-    remember(log, format, arguments);
+    vsnprintf(log->last_error + head, sizeof log->last_error - (size_t)head, format, arguments);
     va_end(arguments);
     log->statistics.bad_lines++;
+}
+
+void ale_log_bad_chunk(ale_log_t *log, const char *what)
+{
+    const uint64_t offset = (uint64_t)((const uint8_t *)log->text.at - log->bytes.at);
+    snprintf(log->last_error, sizeof log->last_error, "%s: before byte %llu: %s", log->path,
+             (unsigned long long)offset, what);
+    log->statistics.bad_chunks++;
 }
 
 void ale_log_too_many_beams(ale_log_t *log, int64_t beams)
@@ -41,9 +44,6 @@ void ale_log_too_many_beams(ale_log_t *log, int64_t beams)
 
 static void rewind_log(ale_log_t *log)
 {
-    if (log->format->release) {
-        log->format->release(log);
-    }
     memset(log->state, 0, log->format->state_size);
     log->text = ale_text(log->bytes.at, log->bytes.count);
     log->statistics =
@@ -233,9 +233,6 @@ void ale_log_close(ale_log_t *log)
 {
     if (!log) {
         return;
-    }
-    if (log->state && log->format->release) {
-        log->format->release(log);
     }
     free(log->state);
     ale_bytes_free(&log->bytes);
