@@ -7,6 +7,7 @@
 #include "exchange.h"
 #include "lcm/bus.h"
 #include "realtime/rt.h"
+#include "store/map_file.h"
 #include "telemetry.h"
 
 struct ale_daemon {
@@ -25,6 +26,23 @@ static int fail(int exit_code, const char *reason)
 {
     fprintf(stderr, "ale-slamd: %s\n", reason);
     return exit_code;
+}
+
+/* The map to start from, if one is configured. */
+static int load_map(ale_daemon_t *daemon)
+{
+    const char *path = daemon->options->config.map;
+    if (path[0] == '\0') {
+        return 0;
+    }
+    char error[ALE_MAP_FILE_ERROR] = "out of memory";
+    ale_map_t *map = malloc(sizeof *map);
+    const bool loaded = map && ale_map_file_load(path, map, error) == 0;
+    if (loaded) {
+        ale_estimator_load_map(daemon->estimator, map);
+    }
+    free(map);
+    return loaded ? 0 : fail(2, error);
 }
 
 static int prepare(ale_daemon_t *daemon)
@@ -50,7 +68,7 @@ static int prepare(ale_daemon_t *daemon)
     if (!daemon->estimator) {
         return fail(2, "the configuration of [extract], [noise] or [odometry] is refused by the core");
     }
-    return 0;
+    return load_map(daemon);
 }
 
 /* The readers first, so that nothing fills up; telemetry last, because it tells what was got. */

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <memory>
 #include <random>
 #include <string>
 
@@ -10,6 +11,7 @@ extern "C" {
 #include "base/trig.h"
 #include "config.h"
 #include "config_keys.h"
+#include "decimal.h"
 }
 
 namespace
@@ -140,7 +142,7 @@ TEST(Config, ErrorsNameFileLineAndKey)
     EXPECT_EQ(refusal("[sensor]\nreversed = maybe\n"),
               "robot.ini:2: sensor.reversed: maybe is neither yes nor no");
     EXPECT_EQ(refusal("[extract]\nsmooth_span = 10\n"),
-              "robot.ini:2: extract.smooth_span: 10 is not a number from 3 to 99, odd");
+              "robot.ini:2: extract.smooth_span: 10 is not a number from 1 to 31, odd");
     EXPECT_EQ(refusal("[sensor]\nblind = 10\n"),
               "robot.ini:2: sensor.blind: a sector is from:to in degrees, -360 to 360");
     EXPECT_EQ(refusal("[sensor]\nblind = 1:2,1:2,1:2,1:2,1:2,1:2,1:2,1:2,1:2\n"),
@@ -171,6 +173,28 @@ TEST(Config, EveryNumberRefusesWhatLiesBeyondItsRange)
                 std::string("[") + key.section + "]\n" + key.key + " = " + std::to_string(bad);
             EXPECT_NE(refusal(text).find(std::string(key.section) + "." + key.key), std::string::npos)
                 << text;
+        }
+    }
+}
+
+/* The table's ranges are those of the core: what the configuration takes, the core takes. */
+TEST(Config, TheCoreAcceptsBothEndsOfEveryRange)
+{
+    const auto memory = std::make_unique<uint8_t[]>(ale_pipeline_size());
+    auto *pipeline = reinterpret_cast<ale_pipeline_t *>(memory.get());
+    for (size_t k = 0; k < ale_config_key_count; k++) {
+        const ale_config_key_t &key = ale_config_keys[k];
+        for (const int64_t end : {key.min, key.max}) {
+            char text[ALE_DECIMAL_TEXT];
+            ale_decimal_print(end, key.digits, text);
+            ale_config_t config = ale_config_default();
+            const bool is_number =
+                key.kind == ALE_KEY_NUMBER || key.kind == ALE_KEY_ODD || key.kind == ALE_KEY_ANGLE;
+            if (is_number && std::string(key.key) != "first_step") {
+                ASSERT_EQ(parse(std::string("[") + key.section + "]\n" + key.key + " = " + text, config), "");
+                EXPECT_EQ(ale_pipeline_init(pipeline, &config.pipeline), 0)
+                    << key.section << "." << key.key << " = " << text;
+            }
         }
     }
 }

@@ -1,0 +1,256 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "room.hpp"
+
+extern "C" {
+#include "estimate.h"
+}
+
+namespace
+{
+
+constexpr int64_t kPeriod = 100000;
+
+class Estimate : public testing::Test
+{
+  protected:
+    void SetUp() override
+    {
+        const ale_rt_config_t realtime = {0, -1, false};
+        ale_rt_report_t report;
+        ASSERT_EQ(ale_rt_start(&realtime, &report), 0);
+        config = ale_config_default();
+        ASSERT_EQ(ale_exchange_open(&exchange, ale_clock_start(ALE_CLOCK_REAL)), 0);
+        estimator = ale_estimator_create(&config, &exchange);
+        ASSERT_NE(estimator, nullptr);
+    }
+    void TearDown() override
+    {
+        ale_estimator_destroy(estimator);
+        ale_exchange_close(&exchange);
+        ale_rt_stop();
+    }
+
+    bool push(int64_t stamp_us, bool lost = false, double x = 0)
+    {
+        auto *record = static_cast<ale_scan_record_t *>(ale_ring_reserve(exchange.scans));
+        if (!record) {
+            return false;
+        }
+        record->lost = lost;
+        record->arrival_us = ale_clock_now_us(&exchange.clock);
+        room::fill(record->scan, x, 0, stamp_us);
+        ale_ring_commit(exchange.scans);
+        return true;
+    }
+    bool pop(ale_result_t &result)
+    {
+        if (ale_ring_ready(exchange.results) == 0) {
+            return false;
+        }
+        result = *static_cast<ale_result_t *>(ale_ring_at(exchange.results, 0));
+        ale_ring_release(exchange.results);
+        return true;
+    }
+
+    ale_config_t config{};
+    ale_exchange_t exchange{};
+    ale_estimator_t *estimator = nullptr;
+};
+
+TEST_F(Estimate, EveryScanIsAnsweredOnceInItsOrderWithFeaturesAndTimes)
+{
+    auto result = std::make_unique<ale_result_t>();
+    for (int k = 0; k < 20; k++) {
+        ASSERT_TRUE(push(kPeriod * (k + 1)));
+        ale_estimator_step(estimator);
+        ASSERT_TRUE(pop(*result));
+        EXPECT_EQ(result->estimate.stamp_us, kPeriod * (k + 1));
+        EXPECT_EQ(result->estimate.scan, static_cast<uint32_t>(k));
+        EXPECT_FALSE(result->estimate.predicted);
+        EXPECT_TRUE(result->has_scan);
+        EXPECT_GE(result->features.line_count, 3);
+        EXPECT_NEAR(result->estimate.smooth.x_um, 0, 3000);
+        EXPECT_GT(result->total_ns, 0);
+        int64_t sum = 0;
+        for (const int32_t stage : result->stage_ns) {
+            EXPECT_GE(stage, 0);
+            sum += stage;
+        }
+        EXPECT_LE(sum, result->total_ns);
+        EXPECT_FALSE(pop(*result));
+    }
+}
+
+TEST_F(Estimate, ALostScanIsAnsweredByPrediction)
+{
+    auto result = std::make_unique<ale_result_t>();
+    push(kPeriod);
+    push(2 * kPeriod, true);
+    push(3 * kPeriod);
+    ale_estimator_step(estimator);
+    ASSERT_TRUE(pop(*result));
+    ASSERT_TRUE(pop(*result));
+    EXPECT_TRUE(result->estimate.predicted);
+    EXPECT_FALSE(result->has_scan);
+    EXPECT_EQ(result->estimate.stamp_us, 2 * kPeriod);
+    EXPECT_EQ(result->overloaded, 0u);
+    ASSERT_TRUE(pop(*result));
+    EXPECT_FALSE(result->estimate.predicted);
+    EXPECT_EQ(result->estimate.scan, 2u);
+}
+
+TEST_F(Estimate, WhenOverloadedTheNewestScansWinAndTheOthersAreCounted)
+{
+    auto result = std::make_unique<ale_result_t>();
+    constexpr int kCount = 12;
+    for (int k = 0; k < kCount; k++) {
+        push(kPeriod * (k + 1));
+    }
+    ale_estimator_step(estimator);
+    for (int k = 0; k < kCount; k++) {
+        ASSERT_TRUE(pop(*result));
+        const bool old = kCount - 1 - k > ALE_MAX_BACKLOG;
+        EXPECT_EQ(result->estimate.predicted, old) << k;
+        EXPECT_EQ(result->estimate.stamp_us, kPeriod * (k + 1));
+    }
+    EXPECT_EQ(result->overloaded, static_cast<uint32_t>(kCount - 1 - ALE_MAX_BACKLOG));
+}
+
+TEST_F(Estimate, AFullResultRingIsCountedAndTheTaskGoesOn)
+{
+    auto result = std::make_unique<ale_result_t>();
+    for (int k = 0; k < ALE_RESULT_SLOTS + 5; k++) {
+        push(kPeriod * (k + 1));
+        ale_estimator_step(estimator);
+    }
+    EXPECT_EQ(ale_ring_refused(exchange.results), 5u);
+    while (pop(*result)) {
+    }
+    push(kPeriod * 1000);
+    ale_estimator_step(estimator);
+    ASSERT_TRUE(pop(*result));
+    EXPECT_EQ(result->estimate.scan, static_cast<uint32_t>(ALE_RESULT_SLOTS + 5));
+}
+
+TEST_F(Estimate, AScanThatIsAnsweredAfterItsDeadlineIsCounted)
+{
+    auto result = std::make_unique<ale_result_t>();
+    push(kPeriod);
+    static_cast<ale_scan_record_t *>(ale_ring_at(exchange.scans, 0))->arrival_us -= ALE_DEADLINE_US + 1;
+    ale_estimator_step(estimator);
+    ASSERT_TRUE(pop(*result));
+    EXPECT_EQ(result->late, 1u);
+}
+
+TEST_F(Estimate, OdometryMovesThePredictedPose)
+{
+    auto result = std::make_unique<ale_result_t>();
+    push(kPeriod);
+    ale_estimator_step(estimator);
+    for (int k = 0; k <= 60; k++) {
+        auto *sample = static_cast<ale_odometry_t *>(ale_ring_reserve(exchange.odometry));
+        *sample = {kPeriod / 2 + k * 10000, {k * 5000, 0, 0}}; // 0.5 m/s
+        ale_ring_commit(exchange.odometry);
+    }
+    for (int k = 2; k <= 5; k++) {
+        push(kPeriod * k, true);
+        ale_estimator_step(estimator);
+    }
+    EXPECT_EQ(ale_ring_ready(exchange.odometry), 0u);
+    while (pop(*result)) {
+    }
+    EXPECT_NEAR(result->estimate.smooth.x_um, 200000, 20000);
+}
+
+TEST_F(Estimate, TheMapIsHandedOverWhenItHasChangedAndNotMoreThanOnceASecond)
+{
+    auto result = std::make_unique<ale_result_t>();
+    const int64_t begin = ale_rt_now_ns();
+    const ale_map_t *map = nullptr;
+    int handed = 0;
+    for (int64_t stamp = kPeriod; !map || map->line_count < 3; stamp += kPeriod) {
+        push(stamp);
+        ale_estimator_step(estimator);
+        pop(*result);
+        bool fresh = false;
+        map = static_cast<const ale_map_t *>(ale_snapshot_newest(exchange.map, &fresh));
+        handed += fresh;
+    }
+    const int64_t seconds = (ale_rt_now_ns() - begin) / 1000000000;
+    EXPECT_GE(handed, 1);
+    EXPECT_LE(handed, seconds + 1);
+}
+
+TEST_F(Estimate, ALoadedMapIsShownBeforeTheFirstScan)
+{
+    auto map = std::make_unique<ale_map_t>();
+    map->version = 1;
+    map->line_count = 1;
+    map->line[0].id = 1;
+    map->line[0].start = {1000000, -1000000};
+    map->line[0].end = {1000000, 1000000};
+    map->line[0].var_alpha_nrad2 = 1000000000;
+    map->line[0].var_rho_um2 = 1000000;
+    map->line[0].seen = 50;
+    ale_estimator_load_map(estimator, map.get());
+    ale_estimator_step(estimator);
+    bool fresh = false;
+    EXPECT_EQ(static_cast<const ale_map_t *>(ale_snapshot_newest(exchange.map, &fresh))->line_count, 1);
+    EXPECT_TRUE(fresh);
+}
+
+TEST_F(Estimate, AConfigurationThatTheCoreRefusesGivesNoEstimator)
+{
+    config.pipeline.extract.smooth_span = 4;
+    EXPECT_EQ(ale_estimator_create(&config, &exchange), nullptr);
+}
+
+/* The task as it runs: a producer and a consumer in threads of their own (for the thread sanitizer). */
+TEST_F(Estimate, AsATaskItAnswersEverythingBeforeItEnds)
+{
+    constexpr int kCount = 300;
+    const ale_rt_task_config_t description = {"estimate", ALE_RT_HARD, ale_estimator_run, estimator};
+    ale_rt_task_t *task = ale_rt_task_start(&description);
+    ASSERT_NE(task, nullptr);
+    std::atomic<bool> done{false};
+    int answers = 0;
+    int disorder = 0;
+    std::thread consumer([&] {
+        auto result = std::make_unique<ale_result_t>();
+        bool fresh = false;
+        int64_t stamp_us = 0;
+        for (bool last = false; !last;) {
+            last = done;
+            while (pop(*result)) {
+                disorder += result->estimate.stamp_us <= stamp_us;
+                stamp_us = result->estimate.stamp_us;
+                answers++;
+            }
+            ale_snapshot_newest(exchange.map, &fresh);
+            std::this_thread::yield();
+        }
+    });
+    for (int k = 0; k < kCount;) {
+        if (push(kPeriod * (k + 1), k % 7 == 3)) {
+            k++;
+        } else {
+            std::this_thread::yield();
+        }
+        ale_rt_release_post(exchange.arrived);
+    }
+    ale_rt_task_stop(task);
+    ale_rt_release_post(exchange.arrived);
+    ale_rt_task_join(task);
+    done = true;
+    consumer.join();
+    EXPECT_EQ(disorder, 0);
+    EXPECT_EQ(answers, kCount - static_cast<int>(ale_ring_refused(exchange.results)));
+}
+
+} // namespace
