@@ -1,9 +1,16 @@
 #include "extract/breakpoint.h"
+#include "extract/merge.h"
 
 #include "base/fixed.h"
 #include "extract/moments.h"
 
-enum { SHARED_SHARE = 2, SHARED_PEAK = 6 };
+enum {
+    SHARED_SHARE = 2, /* shared variances that a point may add in the mean, */
+    SHARED_PEAK = 6,  /* and those that are in error together on top of it */
+    GRID = 12,        /* places at which a run is tried for a break */
+    MIN_SPLIT_POINTS = 16,
+    PROMISING_Q8 = 100 /* part of the gain wanted that a place of the grid must show */
+};
 
 static ale_fit_t fit_between(const ale_extractor_t *e, int32_t a, int32_t b)
 {
@@ -90,4 +97,58 @@ int32_t ale_break_place(const ale_extractor_t *e, ale_run_t a, ale_run_t b, int3
         }
     }
     return best;
+}
+
+/* The break after which the joint fit is best, of the places of a grid that is the same in both directions;
+ * -1 when the run has no room for two. *gain_q8: chi square of the two less that of the one. */
+static int32_t coarse_break(const ale_extractor_t *e, ale_run_t run, int32_t direction, int64_t *gain_q8)
+{
+    const int32_t n = run.last + 1 - run.first;
+    const ale_fit_t one = ale_moments_fit(e, run.first, run.last);
+    int64_t best_chi = INT64_MAX;
+    int32_t best = -1;
+    for (int32_t j = 1; j < GRID; j++) {
+        const int32_t near_part = 2 * j <= GRID ? n * j / GRID : n - n * (GRID - j) / GRID;
+        if (near_part < ALE_MIN_RUN || n - near_part < ALE_MIN_RUN) {
+            continue;
+        }
+        const int32_t split = direction > 0 ? run.first + near_part - 1 : run.last - near_part;
+        const int64_t chi = joint_chi_q8(e, run.first, split, run.last);
+        if (chi < best_chi) {
+            best_chi = chi;
+            best = split;
+        }
+    }
+    *gain_q8 = best < 0 ? 0 : best_chi - ale_fit_chi_q8(&one);
+    return best;
+}
+
+int64_t ale_break_gain_q8(const ale_extractor_t *e, ale_run_t run)
+{
+    int64_t gain_q8;
+    coarse_break(e, run, 1, &gain_q8);
+    return gain_q8;
+}
+
+static int64_t ratio_at(const ale_extractor_t *e, ale_run_t run, int32_t split)
+{
+    const ale_run_t a = {run.first, (uint16_t)split, false};
+    const ale_run_t b = {(uint16_t)(split + 1), run.last, false};
+    return ale_merge_ratio_q8(e, a, b);
+}
+
+int32_t ale_break_find(const ale_extractor_t *e, ale_run_t run, int32_t direction)
+{
+    if (run.last - run.first + 1 < MIN_SPLIT_POINTS) {
+        return -1;
+    }
+    int64_t gain_q8;
+    const int32_t coarse = coarse_break(e, run, direction, &gain_q8);
+    if (coarse < 0 || ratio_at(e, run, coarse) < PROMISING_Q8) {
+        return -1;
+    }
+    const ale_run_t a = {run.first, (uint16_t)coarse, false};
+    const ale_run_t b = {(uint16_t)(coarse + 1), run.last, false};
+    const int32_t split = ale_break_place(e, a, b, direction);
+    return ratio_at(e, run, split) >= 256 ? split : -1;
 }

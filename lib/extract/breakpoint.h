@@ -12,4 +12,11 @@ int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to);
  * Points between a.last and b.first are given to either. A pattern search: O(log n) fits. */
 int32_t ale_break_place(const ale_extractor_t *e, ale_run_t a, ale_run_t b, int32_t direction);
 
+/* The break that splits a run in two lines which explain it better than one by more than noise would
+ * (merge.h), or -1. The same break in both directions. O(log n) fits. */
+int32_t ale_break_find(const ale_extractor_t *e, ale_run_t run, int32_t direction);
+
+/* Chi square of the two best lines less that of one, Q8: 0 or negative. */
+int64_t ale_break_gain_q8(const ale_extractor_t *e, ale_run_t run);
+
 #endif

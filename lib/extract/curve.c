@@ -1,14 +1,18 @@
 #include "extract/curve.h"
 
 #include "base/fixed.h"
+#include "extract/breakpoint.h"
+#include "extract/circle.h"
 #include "extract/moments.h"
 
 enum {
     MIN_POINTS = 6,
-    SINGLE_Q8 = 3 * 256 + 128, /* deviations of the bulge by which one run is curved */
-    CHAIN_STEP_Q8 = 256,       /* what every run of a chain must bring, and the chain together */
-    CHAIN_SUM_Q8 = 384,
     MAX_GAP_POINTS = 6,
+    SINGLE_Q8 = 3 * 256, /* deviations of the bulge from which one run is suspect */
+    CHAIN_STEP_Q8 = 128, /* deviations that every run of a chain must bring, */
+    CHAIN_SUM_Q8 = 256,  /* and the chain beyond that */
+    CHAIN_ALLOWANCE_Q8 =
+        20 * 256,        /* chi square that a circle may lose for each line beyond two it replaces */
     SHARED_PART_Q8 = 154 /* share of the shared variance that a bulge contains */
 };
 
@@ -42,7 +46,7 @@ static shape_t shape_of(const ale_extractor_t *e, ale_run_t run)
     const int64_t dx = (b.x_q8 - a.x_q8) / 16;
     const int64_t dy = (b.y_q8 - a.y_q8) / 16;
     const int64_t length_q4 = ale_max64(ale_isqrt((uint64_t)(dx * dx + dy * dy)), 1);
-    const int64_t bulge_q8 = (dx * (m.y_q8 - a.y_q8) - dy * (m.x_q8 - a.x_q8)) / length_q4; /* mm Q8 */
+    const int64_t bulge_q8 = (dx * (m.y_q8 - a.y_q8) - dy * (m.x_q8 - a.x_q8)) / length_q4;
     const int64_t var_q8 =
         fit.var_q8 / (n - 2 * third) + fit.var_q8 / (2 * third) + ((fit.shared_q8 * SHARED_PART_Q8) >> 8);
     const int64_t sigma_q8 = ale_max64(ale_isqrt((uint64_t)var_q8 << 8), 1);
@@ -50,14 +54,14 @@ static shape_t shape_of(const ale_extractor_t *e, ale_run_t run)
     return shape;
 }
 
-/* Sign of the turn from a to b when it is one of a chain of chords: 3 to 50 degrees; else 0. */
-static int32_t turn_between(const ale_extractor_t *e, const shape_t *a, const shape_t *b, ale_run_t run_a,
-                            ale_run_t run_b)
+static bool adjoin(const ale_extractor_t *e, ale_run_t a, ale_run_t b)
 {
-    if (run_b.first - run_a.last > MAX_GAP_POINTS ||
-        e->segment_of[run_a.last] != e->segment_of[run_b.first]) {
-        return 0;
-    }
+    return b.first - a.last <= MAX_GAP_POINTS && e->segment_of[a.last] == e->segment_of[b.first];
+}
+
+/* Sign of the turn from a to b when it is one of a chain of chords: 3 to 50 degrees; else 0. */
+static int32_t turn_between(const shape_t *a, const shape_t *b)
+{
     const int64_t cross = a->x_q4 * b->y_q4 - a->y_q4 * b->x_q4;
     const int64_t dot = a->x_q4 * b->x_q4 + a->y_q4 * b->y_q4;
     if (ale_abs64(cross) * 5 > dot * 6 || ale_abs64(cross) * 19 < dot) {
@@ -66,50 +70,120 @@ static int32_t turn_between(const ale_extractor_t *e, const shape_t *a, const sh
     return cross > 0 ? 1 : -1;
 }
 
-/* Marks the stretch of the chain first..last (turning by sign) whose bulges together say most. */
-static void mark_chain(const shape_t *shape, int32_t first, int32_t last, int32_t sign, bool *curved)
+/* Chi square of the points of the runs first..last about a circle, minus that about their own lines, Q8. */
+static int64_t circle_excess_q8(const ale_extractor_t *e, int32_t first, int32_t last)
 {
+    const ale_circle_t circle = ale_circle_fit(e, e->run[first].first, e->run[last].last);
+    if (circle.radius_q4 == 0) {
+        return INT64_MAX;
+    }
+    int64_t excess = 0;
+    for (int32_t k = first; k <= last; k++) {
+        const ale_fit_t fit = ale_moments_fit(e, e->run[k].first, e->run[k].last);
+        const int64_t sse = ale_circle_sse_q8(e, &circle, e->run[k].first, e->run[k].last);
+        excess += ((sse - fit.sse_q8) << 8) / fit.var_q8;
+    }
+    return excess;
+}
+
+static bool chain_is_curve(const ale_extractor_t *e, int32_t first, int32_t last)
+{
+    return circle_excess_q8(e, first, last) <= CHAIN_ALLOWANCE_Q8 * (last - first - 1);
+}
+
+/* One run: curved when a circle explains it better than its two best lines. */
+static bool run_is_curve(const ale_extractor_t *e, int32_t k)
+{
+    const int64_t circle = circle_excess_q8(e, k, k);
+    return circle < 0 && circle < ale_break_gain_q8(e, e->run[k]);
+}
+
+/* The stretch of the chain first..last, turning by sign, whose bulges together say most. */
+static ale_run_t strongest_stretch(const shape_t *shape, int32_t first, int32_t last, int32_t sign)
+{
+    ale_run_t stretch = {1, 0, false};
+    int64_t best = CHAIN_SUM_Q8;
     int64_t sum = 0;
-    int64_t best = 0;
     int32_t from = first;
-    int32_t best_from = 0;
-    int32_t best_to = -1;
     for (int32_t k = first; k <= last; k++) {
         sum += -sign * shape[k].bulge_q8 - CHAIN_STEP_Q8;
         if (sum > best && k > from) {
             best = sum;
-            best_from = from;
-            best_to = k;
+            stretch.first = (uint16_t)from;
+            stretch.last = (uint16_t)k;
         }
         if (sum < 0) {
             sum = 0;
             from = k + 1;
         }
     }
-    for (int32_t k = best_from; best > CHAIN_SUM_Q8 && k <= best_to; k++) {
-        curved[k] = true;
-    }
+    return stretch;
 }
 
-void ale_curve_mark(const ale_extractor_t *e, bool curved[ALE_MAX_RUNS])
+static int32_t chain_end(const ale_extractor_t *e, const shape_t *shape, int32_t first, int32_t *sign)
+{
+    int32_t last = first;
+    *sign = 0;
+    while (last + 1 < e->run_count && !e->run[last].curved && !e->run[last + 1].curved &&
+           adjoin(e, e->run[last], e->run[last + 1])) {
+        const int32_t turn = turn_between(&shape[last], &shape[last + 1]);
+        if (turn == 0 || (*sign != 0 && turn != *sign)) {
+            break;
+        }
+        *sign = turn;
+        last++;
+    }
+    return last;
+}
+
+static void join_marked(ale_extractor_t *e, const uint8_t *curve_of)
+{
+    int32_t kept = 0;
+    for (int32_t k = 0; k < e->run_count; k++) {
+        ale_run_t run = e->run[k];
+        const uint8_t id = curve_of[k];
+        while (id != 0 && k + 1 < e->run_count && curve_of[k + 1] == id) {
+            run.last = e->run[++k].last;
+        }
+        run.curved = run.curved || id != 0;
+        e->run[kept++] = run;
+    }
+    e->run_count = (uint16_t)kept;
+}
+
+void ale_curve_find(ale_extractor_t *e)
 {
     shape_t shape[ALE_MAX_RUNS];
+    uint8_t curve_of[ALE_MAX_RUNS] = {0};
+    uint8_t curves = 0;
     for (int32_t k = 0; k < e->run_count; k++) {
         const bool enough = e->run[k].last - e->run[k].first + 1 >= MIN_POINTS;
         shape[k] = enough ? shape_of(e, e->run[k]) : (shape_t){0};
-        curved[k] = ale_abs64(shape[k].bulge_q8) > SINGLE_Q8;
-    }
-    int32_t first = 0;
-    int32_t sign = 0;
-    for (int32_t k = 0; k < e->run_count; k++) {
-        const int32_t turn =
-            k + 1 < e->run_count ? turn_between(e, &shape[k], &shape[k + 1], e->run[k], e->run[k + 1]) : 0;
-        if (sign != 0 && turn != sign) {
-            mark_chain(shape, first, k, sign, curved);
+        if (!e->run[k].curved && ale_abs64(shape[k].bulge_q8) > SINGLE_Q8 && run_is_curve(e, k)) {
+            curve_of[k] = ++curves;
         }
-        if (turn != sign) {
-            first = k;
-        }
-        sign = turn;
     }
+    for (int32_t first = 0; first < e->run_count;) {
+        int32_t sign;
+        const int32_t last = chain_end(e, shape, first, &sign);
+        const ale_run_t stretch = strongest_stretch(shape, first, last, sign);
+        if (stretch.first < stretch.last && chain_is_curve(e, stretch.first, stretch.last)) {
+            curves++;
+            for (int32_t k = stretch.first; k <= stretch.last; k++) {
+                curve_of[k] = curves;
+            }
+        }
+        first = last > first ? last : first + 1;
+    }
+    join_marked(e, curve_of);
+}
+
+void ale_curve_fit(const ale_extractor_t *e, ale_run_t run, ale_curve_t *curve)
+{
+    const ale_circle_t circle = ale_circle_fit(e, run.first, run.last);
+    curve->first = e->beam[run.first];
+    curve->last = e->beam[run.last];
+    curve->centre.x_um = (int32_t)ale_round_shift(circle.x_q4 * 1000, ALE_POINT_SHIFT);
+    curve->centre.y_um = (int32_t)ale_round_shift(circle.y_q4 * 1000, ALE_POINT_SHIFT);
+    curve->radius_um = (int32_t)ale_round_shift(circle.radius_q4 * 1000, ALE_POINT_SHIFT);
 }

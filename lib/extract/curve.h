@@ -4,11 +4,12 @@
 
 #include "extract/workspace.h"
 
-/* Marks in curved[] the runs that lie on a curve: a run whose middle stands out from its ends, and chains
- * of adjoining runs that turn the same way and bulge the way they turn. O(runs). */
-void ale_curve_mark(const ale_extractor_t *e, bool curved[ALE_MAX_RUNS]);
+/* Finds the runs that lie on a curve, joins those of one curve and marks it (run.curved): a run whose
+ * middle stands out from its ends, or a chain of adjoining runs that turn the same way and bulge the way
+ * they turn, when a circle explains the points as well as lines do. O(runs) and O(points) of the suspects. */
+void ale_curve_find(ale_extractor_t *e);
 
-/* The circle through the points first..last, in the frame of the points. O(points). */
-void ale_curve_fit(const ale_extractor_t *e, int32_t first, int32_t last, ale_curve_t *curve);
+/* The circle through the points of a run, in the frame of the points. O(points). */
+void ale_curve_fit(const ale_extractor_t *e, ale_run_t run, ale_curve_t *curve);
 
 #endif

@@ -78,6 +78,7 @@ static void add_run(ale_extractor_t *e, int32_t a, int32_t b)
     }
     e->run[e->run_count].first = (uint16_t)(a < b ? a : b);
     e->run[e->run_count].last = (uint16_t)(a < b ? b : a);
+    e->run[e->run_count].curved = false;
     e->run_count++;
 }
 
@@ -128,12 +129,40 @@ static void place_breaks(ale_extractor_t *e)
     for (int32_t k = 0; k + 1 < e->run_count; k++) {
         ale_run_t *a = &e->run[k];
         ale_run_t *b = &e->run[k + 1];
-        if (b->first - a->last > 4 || e->segment_of[a->last] != e->segment_of[b->first]) {
+        if (b->first - a->last > 4 || e->segment_of[a->last] != e->segment_of[b->first] || a->curved ||
+            b->curved) {
             continue;
         }
         const int32_t split = ale_break_place(e, *a, *b, 1);
         a->last = (uint16_t)split;
         b->first = (uint16_t)(split + 1);
+    }
+}
+
+static void insert_run(ale_extractor_t *e, int32_t k, int32_t split)
+{
+    for (int32_t i = e->run_count; i > k; i--) {
+        e->run[i] = e->run[i - 1];
+    }
+    e->run[k + 1] = e->run[k];
+    e->run[k + 1].first = (uint16_t)(split + 1);
+    e->run[k].last = (uint16_t)split;
+    e->run_count++;
+}
+
+static void split_runs(ale_extractor_t *e)
+{
+    int32_t k = 0;
+    while (k < e->run_count && e->run_count < ALE_MAX_RUNS) {
+        const int32_t split =
+            e->run[k].curved
+                ? -1
+                : ale_break_find(e, e->run[k], reading_direction(e, e->run[k].first, e->run[k].last));
+        if (split >= 0) {
+            insert_run(e, k, split);
+        } else {
+            k++;
+        }
     }
 }
 
@@ -184,11 +213,12 @@ static uint8_t end_kind(const ale_extractor_t *e, int32_t end, int32_t beyond)
 
 static void write_lines(ale_extractor_t *e, ale_features_t *out)
 {
-    bool curved[ALE_MAX_RUNS];
-    ale_curve_mark(e, curved);
     for (int32_t k = 0; k < e->run_count; k++) {
-        if (curved[k]) {
+        if (e->run[k].curved) {
             e->refused[ALE_REFUSED_CURVED]++;
+            if (out->curve_count < ALE_MAX_CURVES) {
+                ale_curve_fit(e, e->run[k], &out->curve[out->curve_count++]);
+            }
             continue;
         }
         ale_line_t line;
@@ -231,8 +261,11 @@ __attribute__((noinline)) void ale_extract_scan(ale_extractor_t *e, const ale_sc
     search_all(e);
     ale_merge_runs(e);
     place_breaks(e);
+    ale_curve_find(e);
+    split_runs(e);
     ale_merge_runs(e);
     place_breaks(e);
+    ale_curve_find(e);
     write_lines(e, out);
     ale_corner_find(out);
     out->outliers = e->outliers;

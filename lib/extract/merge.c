@@ -20,7 +20,8 @@ int64_t ale_merge_ratio_q8(const ale_extractor_t *e, ale_run_t a, ale_run_t b)
 
 static bool may_join(const ale_extractor_t *e, ale_run_t a, ale_run_t b)
 {
-    return b.first - a.last <= MAX_GAP_POINTS && e->beam[b.first] - e->beam[a.last] <= MAX_GAP_BEAMS;
+    return !a.curved && !b.curved && b.first - a.last <= MAX_GAP_POINTS &&
+           e->beam[b.first] - e->beam[a.last] <= MAX_GAP_BEAMS;
 }
 
 static void remove_run(ale_extractor_t *e, int32_t k)

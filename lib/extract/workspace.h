@@ -40,6 +40,7 @@ typedef struct {
 typedef struct {
     uint16_t first;
     uint16_t last;
+    bool curved;
 } ale_run_t;
 
 /* Noise of this scan, part of it measured in the scan: variance of a range of r mm is

@@ -1,0 +1,81 @@
+#include "extract/circle.h"
+
+#include "base/fixed.h"
+
+enum { MAX_RADIUS_Q4 = 10000 << ALE_POINT_SHIFT, SUM_BITS = 29 };
+
+typedef struct {
+    int64_t uu;
+    int64_t uv;
+    int64_t vv;
+    int64_t uz;
+    int64_t vz;
+    int64_t z;
+} circle_sums_t;
+
+static circle_sums_t sums_about(const ale_extractor_t *e, int32_t first, int32_t last, int64_t x, int64_t y)
+{
+    circle_sums_t s = {0};
+    for (int32_t i = first; i <= last; i++) {
+        const int64_t u = e->x_q4[i] - x;
+        const int64_t v = e->y_q4[i] - y;
+        const int64_t z = ale_round_shift(u * u + v * v, ALE_POINT_SHIFT);
+        s.uu += u * u;
+        s.uv += u * v;
+        s.vv += v * v;
+        s.uz += u * z;
+        s.vz += v * z;
+        s.z += z;
+    }
+    return s;
+}
+
+static unsigned excess_bits(int64_t v)
+{
+    const unsigned bits = ale_bit_length((uint64_t)v);
+    return bits > SUM_BITS ? bits - SUM_BITS : 0;
+}
+
+ale_circle_t ale_circle_fit(const ale_extractor_t *e, int32_t first, int32_t last)
+{
+    const ale_circle_t none = {0, 0, 0};
+    const int64_t n = last + 1 - first;
+    const int64_t x = (e->sum[last + 1].x - e->sum[first].x) / n;
+    const int64_t y = (e->sum[last + 1].y - e->sum[first].y) / n;
+    const circle_sums_t s = sums_about(e, first, last, x, y);
+    const unsigned p = excess_bits(s.uu + s.vv);
+    const unsigned q = excess_bits(ale_abs64(s.uz) + ale_abs64(s.vz));
+    const int64_t uu = ale_round_shift(s.uu, p);
+    const int64_t uv = ale_round_shift(s.uv, p);
+    const int64_t vv = ale_round_shift(s.vv, p);
+    const int64_t uz = ale_round_shift(s.uz, q);
+    const int64_t vz = ale_round_shift(s.vz, q);
+    /* 2 [uu uv; uv vv] (a, b) = (uz, vz); z is Q4, so the centre comes out in Q4 after a shift by 4 */
+    const int64_t det = uu * vv - uv * uv;
+    const int32_t scale = (int32_t)q - (int32_t)p + ALE_POINT_SHIFT - 1;
+    if (det <= 0) {
+        return none;
+    }
+    const int64_t a = ale_mul_div(uz * vv - vz * uv, (int64_t)1 << (scale > 0 ? scale : 0), det) >>
+                      (scale < 0 ? -scale : 0);
+    const int64_t b = ale_mul_div(vz * uu - uz * uv, (int64_t)1 << (scale > 0 ? scale : 0), det) >>
+                      (scale < 0 ? -scale : 0);
+    if (ale_abs64(a) > MAX_RADIUS_Q4 || ale_abs64(b) > MAX_RADIUS_Q4) {
+        return none;
+    }
+    const uint32_t radius = ale_isqrt((uint64_t)(((s.z / n) << ALE_POINT_SHIFT) + a * a + b * b));
+    const ale_circle_t circle = {x + a, y + b, radius <= MAX_RADIUS_Q4 ? radius : 0};
+    return circle;
+}
+
+int64_t ale_circle_sse_q8(const ale_extractor_t *e, const ale_circle_t *circle, int32_t first, int32_t last)
+{
+    int64_t sum = 0;
+    for (int32_t i = first; i <= last; i++) {
+        const int64_t u = e->x_q4[i] - circle->x_q4;
+        const int64_t v = e->y_q4[i] - circle->y_q4;
+        const int64_t d = (u * u + v * v - circle->radius_q4 * circle->radius_q4) / (2 * circle->radius_q4);
+        sum += d * d;
+    }
+    return sum;
+}
