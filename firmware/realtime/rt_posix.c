@@ -2,6 +2,7 @@
 #include "realtime/rt.h"
 
 #include <errno.h>
+#include <linux/capability.h>
 #include <linux/futex.h>
 #include <pthread.h>
 #include <sched.h>
@@ -66,15 +67,20 @@ static void limit_default_stack(void)
     pthread_attr_destroy(&attributes);
 }
 
+static bool may_lock_all_memory(void)
+{
+    struct __user_cap_header_struct header = {.version = _LINUX_CAPABILITY_VERSION_3};
+    struct __user_cap_data_struct rights[_LINUX_CAPABILITY_U32S_3] = {0};
+    struct rlimit limit = {0};
+    const bool unlimited = getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY;
+    const bool asked = syscall(SYS_capget, &header, rights) == 0;
+    return unlimited || (asked && (rights[0].effective & (1U << CAP_IPC_LOCK)) != 0);
+}
+
 /* Under a limit MCL_FUTURE would make later allocations fail: all or nothing. */
 static bool lock_memory(void)
 {
-    struct rlimit limit = {RLIM_INFINITY, RLIM_INFINITY};
-    setrlimit(RLIMIT_MEMLOCK, &limit);
-    if (getrlimit(RLIMIT_MEMLOCK, &limit) < 0 || limit.rlim_cur != RLIM_INFINITY) {
-        return false;
-    }
-    return mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
+    return may_lock_all_memory() && mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
 }
 
 int ale_rt_start(const ale_rt_config_t *config, ale_rt_report_t *report)
