@@ -48,6 +48,7 @@ static void enter(ale_urg_t *urg, ale_urg_phase_t phase, const char *command)
 void ale_urg_probe(ale_urg_t *urg)
 {
     ale_urg_set_state(urg, ALE_URG_DETECTING);
+    ale_urg_stream_interrupt(&urg->stream);
     enter(urg, ALE_PHASE_PROBE, "QT");
 }
 

@@ -6,9 +6,10 @@
 #include "urg/scan_fill.h"
 
 enum {
-    REGULAR_MS = 3,       /* the motor's turns differ by a millisecond; more is no whole turn */
-    REGULAR_ENOUGH = 8,   /* intervals in a row before a gap is taken for lost scans */
-    MOST_GAPS = 30,       /* more than that is an interruption */
+    REGULAR_MS = 3,     /* the motor's turns differ by a millisecond; more is no whole turn */
+    REGULAR_ENOUGH = 3, /* intervals in a row before a gap is taken for lost scans */
+    IRREGULAR = -20,    /* recorded logs that are played back have other intervals: there no gap is a loss */
+    MOST_GAPS = 30,     /* more than that is an interruption */
     PERIOD_SMOOTHING = 32 /* scans over which the period is averaged: the stamps count in whole ms */
 };
 
@@ -41,6 +42,11 @@ void ale_urg_stream_forget_clock(ale_urg_stream_t *stream)
 void ale_urg_stream_begin(ale_urg_stream_t *stream, const ale_scip_request_t *request)
 {
     stream->request = *request;
+    ale_urg_stream_interrupt(stream);
+}
+
+void ale_urg_stream_interrupt(ale_urg_stream_t *stream)
+{
     stream->continuous = false;
     stream->losses = 0;
 }
@@ -71,7 +77,7 @@ static void account_for_gap(ale_urg_stream_t *stream, int64_t interval_us)
     const int64_t turns = whole_turns(stream, interval_us);
     stream->gaps_owed = 0;
     if (turns <= 0) {
-        stream->regular = 0;
+        stream->regular = IRREGULAR;
         return;
     }
     const int64_t missing = turns - 1 - stream->losses;
@@ -80,7 +86,7 @@ static void account_for_gap(ale_urg_stream_t *stream, int64_t interval_us)
         stream->turn_us = interval_us / turns;
         stream->gap_us = stream->last_stamp_us + stream->turn_us * (1 + stream->losses);
     }
-    stream->regular++;
+    stream->regular += stream->regular < REGULAR_ENOUGH;
     follow_period(stream, interval_us, turns);
 }
 

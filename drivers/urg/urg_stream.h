@@ -35,7 +35,7 @@ typedef struct {
     ale_sensor_clock_t clock;
     int32_t period_us; /* of one turn, measured */
     bool continuous;   /* the last scan belongs to the same stream: gaps can be counted */
-    uint32_t regular;  /* intervals in a row that were whole turns */
+    int32_t regular;   /* intervals in a row that were whole turns; far below 0 after one that was not */
     uint32_t losses;   /* reported since the last scan */
     int64_t last_stamp_us;
     uint32_t gaps_owed; /* losses seen by the gap before the scan that waits */
@@ -55,6 +55,9 @@ void ale_urg_stream_describe(ale_urg_stream_t *stream, const ale_urg_geometry_t 
 
 /* A stream with this request begins: gaps in the stamps before it are no losses. */
 void ale_urg_stream_begin(ale_urg_stream_t *stream, const ale_scip_request_t *request);
+
+/* Nobody knows whether the sensor goes on sending: the gap that follows is no loss. */
+void ale_urg_stream_interrupt(ale_urg_stream_t *stream);
 
 /* The sensor's counter was set to 0 (reset, power). */
 void ale_urg_stream_forget_clock(ale_urg_stream_t *stream);
