@@ -19,6 +19,7 @@ void ale_local_map_clear(ale_local_map_t *map)
     map->version = 0;
     map->refused = 0;
     map->near_radius_um = 0;
+    ale_marks_clear(&map->marks);
 }
 
 int32_t ale_local_map_bucket(uint32_t normal_bam)

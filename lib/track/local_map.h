@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "track/marks.h"
 #include "track/pipeline.h"
 #include "track/wall.h"
 
@@ -23,7 +24,8 @@ typedef struct {
     uint16_t count;
     uint32_t next_id;
     uint32_t version;
-    uint32_t refused; /* walls that found no room */
+    uint32_t refused;  /* walls that found no room */
+    ale_marks_t marks; /* where there are no walls */
 
     uint16_t near[ALE_MAP_MAX_LINES]; /* walls around near_centre, by direction of their normal */
     uint16_t near_first[ALE_MAP_DIRECTIONS + 1];

@@ -9,7 +9,8 @@ enum {
     NEW_LENGTH_UM = 150000,     /* shorter views sharpen walls but begin none */
     CONFLICT_OFFSET_UM = 50000, /* a wall this near may be the same: better none than a double one */
     CONFLICT_ANGLE_URAD = 120000,
-    CONFLICT_SIGMAS = 1000
+    CONFLICT_SIGMAS = 1000,
+    NEW_MARK_UM = 60000 /* marks lie no closer than this */
 };
 
 static void sharpen(ale_wall_t *wall, const ale_view_t *view, const ale_fit_t *fit, const ale_match_t *match,
@@ -46,12 +47,37 @@ static void begin(ale_local_map_t *map, const ale_view_t *view, const ale_fit_t 
     ale_local_map_add(map, &wall);
 }
 
+static void update_mark(ale_marks_t *marks, const ale_view_t *view, const ale_fit_t *fit,
+                        const ale_match_t *match, uint32_t scan, bool grow)
+{
+    const ale_point_t p = ale_pose_apply(fit->motion.pose, view->centre);
+    const uint32_t normal_bam = view->normal_bam + fit->motion.pose.theta_bam;
+    const int64_t var_um2 = view->var_offset_um2 + ale_view_offset_var(view, &fit->motion.cov);
+    if (match->mark != ALE_NO_MARK) {
+        ale_mark_observe(&marks->mark[match->mark], p, normal_bam, var_um2, scan);
+    } else if (grow && match->wall == ALE_NO_WALL) {
+        const bool spot = view->kind == ALE_VIEW_SPOT;
+        if (ale_marks_find(marks, p, normal_bam, spot, NEW_MARK_UM) == ALE_NO_MARK) {
+            ale_marks_add(marks, &(ale_mark_t){.p = p,
+                                               .normal_bam = normal_bam,
+                                               .var_um2 = var_um2,
+                                               .spot = spot,
+                                               .seen = 1,
+                                               .last_scan = scan});
+        }
+    }
+}
+
 void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t count, const ale_fit_t *fit,
                     uint32_t scan, bool grow)
 {
-    const ale_gate_t conflict = {CONFLICT_OFFSET_UM, CONFLICT_ANGLE_URAD, CONFLICT_SIGMAS};
+    const ale_gate_t conflict = {CONFLICT_OFFSET_UM, CONFLICT_ANGLE_URAD, CONFLICT_SIGMAS, 0};
     for (uint32_t i = 0; i < count; i++) {
         const ale_match_t *match = &fit->match[i];
+        if (view[i].kind != ALE_VIEW_WALL) {
+            update_mark(&map->marks, &view[i], fit, match, scan, grow);
+            continue;
+        }
         if (match->wall != ALE_NO_WALL) {
             sharpen(&map->wall[match->wall], &view[i], fit, match, scan);
             continue;

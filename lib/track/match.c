@@ -57,7 +57,7 @@ static int64_t distance_q8(const ale_wall_t *wall, const ale_view_t *view, const
 ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, ale_pose_t pose,
                            const ale_matrix_t *cov, const ale_gate_t *gate)
 {
-    ale_match_t best = {.wall = ALE_NO_WALL};
+    ale_match_t best = {.wall = ALE_NO_WALL, .mark = ALE_NO_MARK};
     int64_t least = INT64_MAX;
     int64_t pose_var[2] = {cov ? ale_view_offset_var(view, cov) : 0, cov ? ale_view_angle_var(cov) : 0};
     const int32_t bucket = ale_local_map_bucket(view->normal_bam + pose.theta_bam);
@@ -77,4 +77,20 @@ ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, a
         }
     }
     return best;
+}
+
+ale_match_t ale_match_mark(const ale_local_map_t *map, const ale_view_t *view, ale_pose_t pose,
+                           int32_t reach_um)
+{
+    ale_match_t found = {.wall = ALE_NO_WALL};
+    const ale_point_t p = ale_pose_apply(pose, view->centre);
+    found.mark = ale_marks_find(&map->marks, p, view->normal_bam + pose.theta_bam,
+                                view->kind == ALE_VIEW_SPOT, reach_um);
+    if (found.mark != ALE_NO_MARK) {
+        const ale_mark_t *mark = &map->marks.mark[found.mark];
+        const ale_point_t d = ale_minus(p, mark->p);
+        found.error.offset_um = ale_along(d, mark->normal_bam);
+        found.error.t_um = ale_along(d, ale_tangent_bam(mark->normal_bam));
+    }
+    return found;
 }

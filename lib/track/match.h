@@ -14,17 +14,24 @@
 typedef struct {
     int32_t offset_um; /* farthest along the normal and by angle, whatever the covariances say */
     int32_t angle_urad;
-    int32_t sigmas; /* and in sigmas of view, wall and pose together */
+    int32_t sigmas;   /* and in sigmas of view, wall and pose together */
+    int32_t piece_um; /* reach of pieces and spots, 100 mm at most */
 } ale_gate_t;
 
 typedef struct {
     uint16_t wall; /* ALE_NO_WALL: none */
+    int32_t mark;  /* ALE_NO_MARK: none; a view shows a wall or a mark */
     ale_wall_error_t error;
 } ale_match_t;
 
 /* Variance that the pose's covariance gives the offset of a view at its centre, and its angle. */
 int64_t ale_view_offset_var(const ale_view_t *view, const ale_matrix_t *cov);
 int64_t ale_view_angle_var(const ale_matrix_t *cov);
+
+/* The mark that a piece or spot shows, seen from a pose; error.offset_um along the mark's normal, error.t_um
+ * across it. */
+ale_match_t ale_match_mark(const ale_local_map_t *map, const ale_view_t *view, ale_pose_t pose,
+                           int32_t reach_um);
 
 /* The wall that fits a view seen from a pose with covariance `cov` (NULL: known exactly). */
 ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, ale_pose_t pose,

@@ -14,6 +14,7 @@ enum {
     ACQUIRE_OFFSET_UM = 300000, /* how far a wall may lie from where the prediction puts it */
     ACQUIRE_ANGLE_URAD = 200000,
     ACQUIRE_SIGMAS = 4,
+    ACQUIRE_PIECE_UM = 100000,
     START_SPEED_MM_S = 300,
     START_TURN_MRAD_S = 500,
     LEARN_DETERMINED_UM = 10000, /* scans that know the way well enough to teach the wheels */
@@ -98,23 +99,36 @@ static bool predict(ale_pipeline_t *p, int64_t stamp_us, ale_wheel_motion_t *whe
     return known;
 }
 
-/* Straightens the scan with a velocity, extracts, and turns its lines into views. */
+/* The noise model with the beams' own noise as the extractor found it in this scan. */
+static ale_noise_t measured_noise(const ale_pipeline_t *p)
+{
+    ale_noise_t noise = p->config.extract.noise;
+    const ale_scan_noise_t *found = &p->extractor.noise;
+    noise.own_um = (int32_t)ale_isqrt((uint64_t)ale_mul_shift(found->own_mm2_q36, 1000000, 36));
+    noise.own_ppm = (int32_t)ale_isqrt((uint64_t)ale_mul_shift(found->own_relative_q36, 1000000000000, 36));
+    return noise;
+}
+
+/* Straightens the scan with a velocity, extracts, and turns lines and what is left into views. */
 static void look(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t velocity[ALE_AXES])
 {
     int32_t sensor_velocity[ALE_AXES];
     p->scan = *raw;
     ale_scan_mask(&p->scan, p->config.blind, p->config.blind_count);
     ale_sensor_velocity(velocity, p->config.sensor, sensor_velocity);
-    const bool straightened = ale_deskew(&p->scan, sensor_velocity, p->bearing_bam);
+    const uint32_t *bearing_bam =
+        ale_deskew(&p->scan, sensor_velocity, p->bearing_bam) ? p->bearing_bam : NULL;
     ale_stage_end(&p->hook, ALE_STAGE_DESKEW);
-    ale_extract_scan(&p->extractor, &p->scan, straightened ? p->bearing_bam : NULL, &p->features);
-    p->view_count = ale_views_of(&p->features, &p->scan, p->config.sensor,
-                                 p->config.extract.noise.surface_um / 2, p->view);
+    ale_extract_scan(&p->extractor, &p->scan, bearing_bam, &p->features);
+    const ale_noise_t noise = measured_noise(p);
+    p->view_count = ale_views_of(&p->features, &p->scan, p->config.sensor, noise.surface_um / 2, p->view);
+    p->view_count +=
+        ale_pieces_of(&p->features, &p->scan, bearing_bam, p->config.sensor, &noise, &p->view[p->view_count]);
 }
 
 static void match(ale_pipeline_t *p, const ale_motion_t *predicted)
 {
-    const ale_gate_t gate = {ACQUIRE_OFFSET_UM, ACQUIRE_ANGLE_URAD, ACQUIRE_SIGMAS};
+    const ale_gate_t gate = {ACQUIRE_OFFSET_UM, ACQUIRE_ANGLE_URAD, ACQUIRE_SIGMAS, ACQUIRE_PIECE_UM};
     const ale_scene_t scene = {&p->map, p->view, p->view_count};
     const ale_point_t centre = {predicted->pose.x_um, predicted->pose.y_um};
     ale_local_map_approach(&p->map, centre, p->scan.range_max_um);

@@ -33,7 +33,7 @@ struct ale_pipeline {
     ale_scan_t scan;
     uint32_t bearing_bam[ALE_MAX_BEAMS];
     ale_features_t features;
-    ale_view_t view[ALE_MAX_LINES];
+    ale_view_t view[ALE_MAX_VIEWS];
     uint32_t view_count;
     ale_fit_t fit;
 };

@@ -9,7 +9,9 @@ enum {
     HUBER_SIGMAS = 2,
     LATER_SIGMAS = 4, /* gates of the later iterations */
     LATER_OFFSET_UM = 60000,
-    LATER_ANGLE_URAD = 80000
+    LATER_ANGLE_URAD = 80000,
+    LATER_PIECE_UM = 50000,
+    PIECE_ANGLE_URAD = 600000 /* a piece hardly has a direction */
 };
 
 static int64_t ticks_q20(int64_t time_us)
@@ -83,10 +85,54 @@ static void add_rows(const ale_view_t *view, const ale_wall_t *wall, const ale_v
     ale_information_add(sum, rest_row, rest_urad, robust_var(rest_urad, var_angle));
 }
 
+/* A mark: the offset along its normal, and for a spot also the one across. */
+static void add_mark_rows(const ale_view_t *view, const ale_mark_t *mark, uint32_t theta_bam,
+                          const int64_t change[3], ale_match_t *match, ale_information_t *sum)
+{
+    ale_view_rows_t rows;
+    const int64_t var = view->var_offset_um2 + mark->var_um2;
+    ale_view_rows(view, theta_bam, mark->normal_bam, &rows);
+    correct_for_velocity(&rows, change, &match->error);
+    ale_information_add(sum, rows.offset_row_q14, match->error.offset_um,
+                        robust_var(match->error.offset_um, var));
+    if (view->kind == ALE_VIEW_SPOT && mark->spot) {
+        const int64_t width_um = (int64_t)view->end_um - view->start_um;
+        const int64_t var_across = var + width_um * width_um / 12;
+        ale_wall_error_t across = {.offset_um = match->error.t_um};
+        ale_view_rows(view, theta_bam, ale_tangent_bam(mark->normal_bam), &rows);
+        correct_for_velocity(&rows, change, &across);
+        ale_information_add(sum, rows.offset_row_q14, across.offset_um,
+                            robust_var(across.offset_um, var_across));
+    }
+}
+
+static void add_wall_rows(const ale_view_t *view, const ale_wall_t *wall, ale_fit_t *fit, ale_match_t *match)
+{
+    ale_view_rows_t rows;
+    ale_view_rows(view, fit->motion.pose.theta_bam, wall->normal_bam, &rows);
+    correct_for_velocity(&rows, fit->velocity_change, &match->error);
+    add_rows(view, wall, &rows, &match->error, &fit->information);
+}
+
+static ale_match_t find(const ale_scene_t *scene, const ale_view_t *view, const ale_fit_t *fit,
+                        const ale_matrix_t *cov, const ale_gate_t *gate)
+{
+    if (view->kind == ALE_VIEW_WALL) {
+        return ale_match_view(scene->map, view, fit->motion.pose, cov, gate);
+    }
+    const ale_gate_t loose = {gate->piece_um, PIECE_ANGLE_URAD, gate->sigmas, 0};
+    const ale_match_t match = view->kind == ALE_VIEW_PIECE
+                                  ? ale_match_view(scene->map, view, fit->motion.pose, cov, &loose)
+                                  : (ale_match_t){.wall = ALE_NO_WALL};
+    return match.wall != ALE_NO_WALL ? match
+                                     : ale_match_mark(scene->map, view, fit->motion.pose, gate->piece_um);
+}
+
 static void clear_sums(ale_fit_t *fit)
 {
     fit->information = (ale_information_t){{{{0}}}, {0}};
     fit->matched = 0;
+    fit->matched_pieces = 0;
     fit->matched_um = 0;
     fit->shown_um = 0;
 }
@@ -96,19 +142,21 @@ static void gather(const ale_scene_t *scene, const ale_matrix_t *cov, const ale_
     clear_sums(fit);
     for (uint32_t i = 0; i < scene->view_count; i++) {
         const ale_view_t *view = &scene->view[i];
+        ale_match_t *match = &fit->match[i];
         const int64_t length_um = (int64_t)view->end_um - view->start_um;
+        *match = find(scene, view, fit, cov, gate);
         fit->shown_um += length_um;
-        fit->match[i] = ale_match_view(scene->map, view, fit->motion.pose, cov, gate);
-        if (fit->match[i].wall == ALE_NO_WALL) {
+        if (match->wall != ALE_NO_WALL) {
+            add_wall_rows(view, &scene->map->wall[match->wall], fit, match);
+        } else if (match->mark != ALE_NO_MARK) {
+            add_mark_rows(view, &scene->map->marks.mark[match->mark], fit->motion.pose.theta_bam,
+                          fit->velocity_change, match, &fit->information);
+        } else {
             continue;
         }
-        const ale_wall_t *wall = &scene->map->wall[fit->match[i].wall];
-        ale_view_rows_t rows;
-        ale_view_rows(view, fit->motion.pose.theta_bam, wall->normal_bam, &rows);
-        correct_for_velocity(&rows, fit->velocity_change, &fit->match[i].error);
-        add_rows(view, wall, &rows, &fit->match[i].error, &fit->information);
-        fit->matched++;
         fit->matched_um += length_um;
+        fit->matched = (uint16_t)(fit->matched + (view->kind == ALE_VIEW_WALL));
+        fit->matched_pieces = (uint16_t)(fit->matched_pieces + (view->kind != ALE_VIEW_WALL));
     }
 }
 
@@ -144,7 +192,7 @@ static int64_t step(const ale_matrix_t *prior, int64_t total[ALE_STATES], ale_fi
 void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
                 ale_fit_t *out)
 {
-    const ale_gate_t later = {LATER_OFFSET_UM, LATER_ANGLE_URAD, LATER_SIGMAS};
+    const ale_gate_t later = {LATER_OFFSET_UM, LATER_ANGLE_URAD, LATER_SIGMAS, LATER_PIECE_UM};
     ale_factors_t factors;
     ale_matrix_t prior;
     int64_t total[ALE_STATES] = {0};

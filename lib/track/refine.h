@@ -17,23 +17,25 @@
 #include "track/local_map.h"
 #include "track/match.h"
 #include "track/motion.h"
+#include "track/piece.h"
 #include "track/view.h"
 
-enum { ALE_REFINE_ITERATIONS = 5 };
+enum { ALE_REFINE_ITERATIONS = 5, ALE_MAX_VIEWS = ALE_MAX_LINES + ALE_MAX_PIECES };
 
 typedef struct {
     const ale_local_map_t *map; /* near list prepared */
     const ale_view_t *view;
-    uint32_t view_count;
+    uint32_t view_count; /* ALE_MAX_VIEWS at most */
 } ale_scene_t;
 
 typedef struct {
     ale_motion_t motion;           /* corrected */
     int64_t velocity_change[3];    /* against the velocity the scan was straightened with */
     ale_information_t information; /* of the scan alone */
-    ale_match_t match[ALE_MAX_LINES];
-    uint16_t matched;   /* views that found a wall */
-    int64_t matched_um; /* their length, and that of all views */
+    ale_match_t match[ALE_MAX_VIEWS];
+    uint16_t matched;        /* lines that found a wall */
+    uint16_t matched_pieces; /* pieces and spots that found a wall or a mark */
+    int64_t matched_um;      /* their length, and that of all views */
     int64_t shown_um;
     uint8_t iterations;
 } ale_fit_t;

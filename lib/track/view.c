@@ -61,6 +61,7 @@ uint32_t ale_views_of(const ale_features_t *features, const ale_scan_t *scan, al
     for (uint32_t i = 0; i < features->line_count; i++) {
         view_of(&features->line[i], scan, sensor, systematic_um, &out[i]);
         out[i].line = (uint16_t)i;
+        out[i].kind = ALE_VIEW_WALL;
     }
     return features->line_count;
 }

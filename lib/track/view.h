@@ -14,6 +14,12 @@
 
 #include "extract/extract.h"
 
+typedef enum {
+    ALE_VIEW_WALL = 0,  /* an extracted line */
+    ALE_VIEW_PIECE = 1, /* a few beams of a surface that made no line */
+    ALE_VIEW_SPOT = 2   /* a small thing that stands alone, such as the leg of a table */
+} ale_view_kind_t;
+
 typedef struct {
     ale_point_t centre;
     uint32_t normal_bam; /* towards the sensor */
@@ -26,6 +32,7 @@ typedef struct {
     uint16_t line;     /* index in the features */
     uint8_t start_end; /* ale_end_kind_t of either end */
     uint8_t end_end;
+    uint8_t kind; /* ale_view_kind_t */
 } ale_view_t;
 
 /* Views of all lines of a scan. systematic_um: one sigma of what bends and shifts a line the same way in
