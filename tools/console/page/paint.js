@@ -5,6 +5,7 @@ const ROBOT_RADIUS_M = 0.17;
 const ROBOT_LEAST_PX = 9;
 const ELLIPSE_SIGMAS = 3;
 const ELLIPSE_MAGNIFIED = 10; // millimetres would not be seen; the legend says so
+const HEADING_LENGTH = 3; // radii of the robot
 const SURE_AFTER_SCANS = 10; // a wall seen less often is drawn paler
 const FRESH_TRAIL_POINTS = 250;
 const GRID_LEAST_PX = 44;
@@ -212,17 +213,18 @@ export class Painter {
     c.restore();
   }
 
-  // Ellipse of the position and wedge of the heading, three sigma, magnified.
+  // Three sigma, magnified: how far the robot's edge may lie from where it is drawn, and the wedge of its heading.
   #uncertainty(pose, radius) {
     const [xx, xy, , , yy, , , , tt] = pose.cov;
     if ([xx, xy, yy, tt].some((v) => v === null)) return;
     const middle = (xx + yy) / 2;
     const spread = Math.hypot((xx - yy) / 2, xy);
-    const axis = (variance) => ELLIPSE_SIGMAS * ELLIPSE_MAGNIFIED * Math.sqrt(Math.max(0, variance)) * this.view.scale;
-    const c = this.context;
+    const shown = (variance) => ELLIPSE_SIGMAS * ELLIPSE_MAGNIFIED * Math.sqrt(Math.max(0, variance));
     const far = 1e4; // an ellipse far beyond the screen is as good as this one
+    const axis = (variance) => Math.min(far, radius + 1.5 + shown(variance) * this.view.scale);
+    const c = this.context;
     c.beginPath();
-    c.ellipse(0, 0, Math.min(far, axis(middle + spread)), Math.min(far, axis(middle - spread)),
+    c.ellipse(0, 0, axis(middle + spread), axis(middle - spread),
               -Math.atan2(2 * xy, xx - yy) / 2, 0, 2 * Math.PI);
     c.globalAlpha = 0.14;
     c.fill();
@@ -231,10 +233,10 @@ export class Painter {
     c.lineWidth = 1.5;
     c.stroke();
     c.setLineDash([]);
-    const half = Math.min(Math.PI, ELLIPSE_SIGMAS * ELLIPSE_MAGNIFIED * Math.sqrt(Math.max(0, tt)));
+    const half = Math.min(Math.PI, shown(tt));
     c.beginPath();
     c.moveTo(0, 0);
-    c.arc(0, 0, radius * 3, -pose.map[2] - half, -pose.map[2] + half);
+    c.arc(0, 0, radius * HEADING_LENGTH, -pose.map[2] - half, -pose.map[2] + half);
     c.closePath();
     c.globalAlpha = 0.22;
     c.fill();

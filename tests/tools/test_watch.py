@@ -1,0 +1,154 @@
+"""ale-watch: what it says each second and what it leaves behind, fed by a robot double."""
+import csv
+import math
+import re
+import signal
+import subprocess
+import xml.etree.ElementTree as ElementTree
+
+import ale
+import pytest
+
+from robot_double import WALLS
+from watching import BINARIES, lcm_url, robot  # noqa: F401 (fixtures)
+
+SCANS = 25
+
+
+def run_watch(*arguments):
+    return subprocess.run([BINARIES / "ale-watch", *map(str, arguments)], capture_output=True, text=True, timeout=20,
+                          check=False)
+
+
+class Watch:
+    """ale-watch, listening."""
+
+    def __init__(self, lcm_url, *arguments):
+        self.process = subprocess.Popen([BINARIES / "ale-watch", "--lcm-url", lcm_url, *map(str, arguments)],
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.messages = self.process.stderr.readline()
+
+    def end(self, number=None):
+        if number:
+            self.process.send_signal(number)
+        out, err = self.process.communicate(timeout=20)
+        return self.process.returncode, out.splitlines(), err
+
+
+def drive(robot, scans=SCANS):
+    for _ in range(scans):
+        robot.step()
+
+
+def test_it_says_what_it_is():
+    assert "--until-silent" in run_watch("--help").stdout
+    assert run_watch("--version").stdout.startswith("ale-watch ")
+
+
+@pytest.mark.parametrize("arguments", [["--map", "picture.jpeg"], ["--seconds", "soon"], ["--seconds", "-1"],
+                                       ["--until-silent", "0"], ["--seconds", "nan"], ["--unknown"], ["word"]])
+def test_wrong_use_is_told_in_one_line_and_ends_with_2(arguments):
+    done = run_watch(*arguments)
+    assert done.returncode == 2
+    assert len(done.stderr.strip().splitlines()) == 1 and done.stdout == ""
+
+
+def test_without_a_robot_it_says_so_and_fails(lcm_url, tmp_path):
+    done = run_watch("--lcm-url", lcm_url, "--seconds", 0.2, "--trajectory", tmp_path / "t.tum")
+    assert done.returncode == 1
+    assert "no pose came" in done.stderr
+    assert not (tmp_path / "t.tum").exists()
+
+
+def test_everything_that_came_is_in_the_files(lcm_url, robot, tmp_path):
+    names = ["map.png", "map.svg", "t.tum", "p.csv"]
+    files = {name: tmp_path / name for name in names}
+    watch = Watch(lcm_url, "--until-silent", 1.2, "--map", files["map.png"], "--map", files["map.svg"],
+                  "--trajectory", files["t.tum"], "--csv", files["p.csv"])
+    drive(robot)
+    code, lines, err = watch.end()
+    assert code == 0, err
+    assert re.match(r" +\d+ s  poses +25  good  x .* lines  5 corners  3  map  12  worst match 0\.31 ms  dropped 0  "
+                    r"latency 1\.40 ms", lines[0])
+    assert lines[-1].startswith("25 poses, 0 missing, 0 predicted; good 25, weak 0, lost 0; 0 malformed")
+
+    assert files["map.png"].read_bytes().startswith(b"\x89PNG")
+    assert ElementTree.parse(files["map.svg"]).getroot().tag.endswith("svg")
+    check_trajectory(files["t.tum"], robot)
+    rows = list(csv.DictReader(files["p.csv"].open()))
+    assert [int(row["scan"]) for row in rows] == list(range(SCANS))
+    assert all(row["lines"] == "5" and row["corners"] == "3" and row["state"] == "2" for row in rows)
+    assert {int(row["latency_us"]) for row in rows} == {1400}
+
+
+def check_trajectory(path, robot):
+    poses = [list(map(float, line.split())) for line in path.read_text().splitlines()]
+    assert len(poses) == SCANS
+    for scan, (_, x, y, z, qx, qy, qz, qw) in enumerate(poses):
+        robot.scan = scan
+        assert (x, y, z, qx, qy) == pytest.approx((*robot.where[:2], 0, 0, 0), abs=2e-6)
+        assert 2 * math.atan2(qz, qw) == pytest.approx(robot.where[2], abs=1e-6)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_with_its_files_written(lcm_url, robot, tmp_path, number):
+    path = tmp_path / "t.tum"
+    watch = Watch(lcm_url, "--trajectory", path)
+    drive(robot, 5)
+    assert "poses     5" in watch.process.stdout.readline()
+    code, _, err = watch.end(number)
+    assert code == 0, err
+    assert len(path.read_text().splitlines()) == 5
+
+
+def test_a_file_that_cannot_be_written_is_named(lcm_url, robot, tmp_path):
+    path = tmp_path / "absent" / "t.tum"
+    watch = Watch(lcm_url, "--until-silent", 0.3, "--trajectory", path)
+    drive(robot, 2)
+    code, _, err = watch.end()
+    assert code == 1 and str(path) in err
+
+
+def test_missing_and_predicted_poses_are_counted(lcm_url, robot):
+    watch = Watch(lcm_url, "--until-silent", 1.2)
+    for scan in (0, 1, 4, 5):  # 2 and 3 are lost on the way
+        robot.scan = scan
+        pose = robot.pose()
+        pose.predicted, pose.state = scan == 5, 2 if scan < 5 else 0
+        robot.bus.publish("ALE_POSE", pose.encode())
+    code, lines, _ = watch.end()
+    assert code == 0
+    assert "LOST" in lines[0] and "dropped 3" in lines[0]
+    assert lines[-1].startswith("4 poses, 2 missing, 1 predicted; good 3, weak 0, lost 1")
+
+
+def test_silence_is_said(lcm_url, robot):
+    watch = Watch(lcm_url, "--seconds", 3.5)
+    drive(robot, 1)
+    _, lines, _ = watch.end()
+    assert any("SILENT for 2 s" in line for line in lines)
+
+
+def test_hostile_messages_are_counted_and_leave_no_trace(lcm_url, robot, tmp_path):
+    path = tmp_path / "t.tum"
+    watch = Watch(lcm_url, "--until-silent", 0.6, "--trajectory", path)
+    robot.publish_pose()
+    robot.bus.publish("ALE_POSE", b"nonsense")
+    bad = robot.pose()
+    bad.map_x = float("inf")
+    robot.bus.publish("ALE_POSE", bad.encode())
+    scan = ale.scan_t()
+    scan.codes, scan.num_codes, scan.num_ranges, scan.range_mm = b"\0", 1, 2, [1, 2]
+    robot.bus.publish("ALE_SCAN", scan.encode())
+    code, lines, err = watch.end()
+    assert code == 0, err
+    assert lines[-1].endswith("3 malformed messages")
+    assert len(path.read_text().splitlines()) == 1
+
+
+def test_the_walls_of_the_map_are_in_the_picture(lcm_url, robot, tmp_path):
+    path = tmp_path / "map.dxf"
+    watch = Watch(lcm_url, "--until-silent", 0.5, "--map", path)
+    drive(robot, 3)
+    assert watch.end()[0] == 0
+    assert path.read_text().count("WALLS") >= len(WALLS)
