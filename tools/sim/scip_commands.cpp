@@ -36,20 +36,20 @@ std::string six_hex_digits(uint32_t value)
 
 } // namespace
 
-std::string ScipDevice::identity(const std::string &echo) const
+Reply ScipDevice::identity(const std::string &echo) const
 {
-    return ScipReply(echo, "00")
+    return ReplyWriter(echo, "00")
         .info("VEND", "Hokuyo Automatic Co.,Ltd.")
         .info("PROD", scanner_.product)
         .info("FIRM", scanner_.firmware)
         .info("PROT", "SCIP 2.0")
         .info("SERI", scanner_.serial)
-        .end();
+        .reply();
 }
 
-std::string ScipDevice::parameters(const std::string &echo) const
+Reply ScipDevice::parameters(const std::string &echo) const
 {
-    return ScipReply(echo, "00")
+    return ReplyWriter(echo, "00")
         .info("MODL", scanner_.model)
         .info("DMIN", scanner_.min_mm)
         .info("DMAX", scanner_.max_mm)
@@ -58,13 +58,13 @@ std::string ScipDevice::parameters(const std::string &echo) const
         .info("AMAX", scanner_.last_step)
         .info("AFRT", scanner_.front_step)
         .info("SCAN", scanner_.rpm)
-        .end();
+        .reply();
 }
 
-std::string ScipDevice::condition(const std::string &echo) const
+Reply ScipDevice::condition(const std::string &echo) const
 {
     const std::string origin = baud_ == rates[0] ? "<-Default setting by user" : "";
-    return ScipReply(echo, "00")
+    return ReplyWriter(echo, "00")
         .info("MODL", scanner_.model)
         .info("LASR", laser_ ? "ON" : "OFF")
         .info("SCSP", "Initial(" + std::to_string(scanner_.rpm) + "[rpm])<-Default setting by user")
@@ -72,10 +72,10 @@ std::string ScipDevice::condition(const std::string &echo) const
         .info("SBPS", std::to_string(baud_) + "[bps]" + origin)
         .info("TIME", six_hex_digits(clock_ms(now_us_)))
         .info("STAT", "Sensor works well.")
-        .end();
+        .reply();
 }
 
-std::string ScipDevice::set_baud(const std::string &echo, const std::string &digits)
+Reply ScipDevice::set_baud(const std::string &echo, const std::string &digits)
 {
     if (digits.size() < rate_digits) {
         return short_reply(echo, "0C");
@@ -93,7 +93,7 @@ std::string ScipDevice::set_baud(const std::string &echo, const std::string &dig
 }
 
 /* The simulated motor has one speed. */
-std::string ScipDevice::motor_speed(const std::string &echo, const std::string &digits) const
+Reply ScipDevice::motor_speed(const std::string &echo, const std::string &digits) const
 {
     if (digits.size() < 2) {
         return short_reply(echo, "0C");
@@ -135,12 +135,12 @@ std::string ScipDevice::range_error(const std::string &command) const
     return last < first ? "05" : "";
 }
 
-std::string ScipDevice::execute_scip1(const std::string &line)
+Reply ScipDevice::execute_scip1(const std::string &line)
 {
     if (line == "SCIP2.0" && options_.protocol != Protocol::scip1_only) {
         protocol_ = ALE_SCIP_2;
         set_laser(false);
-        return line + "\n0\n\n";
+        return short_reply(line, "0");
     }
     switch (line[0]) {
     case 'V':
@@ -156,7 +156,7 @@ std::string ScipDevice::execute_scip1(const std::string &line)
     }
 }
 
-std::string ScipDevice::version_scip1(const std::string &line) const
+Reply ScipDevice::version_scip1(const std::string &line) const
 {
     if (line.size() > 1) {
         return short_reply(line, "E");
@@ -165,16 +165,16 @@ std::string ScipDevice::version_scip1(const std::string &line) const
                                "[mm],240[deg]," + std::to_string(scanner_.first_step) + "-" +
                                std::to_string(scanner_.last_step) + "[step]," + std::to_string(scanner_.rpm) +
                                "[rpm])";
-    return ScipReply(line, "0")
+    return ReplyWriter(line, "0")
         .plain("VEND:Hokuyo Automatic Co.,Ltd.")
         .plain("PROD:" + scanner_.product)
         .plain("FIRM:" + scanner_.firmware + ranges)
         .plain("PROT:SCIP 1.1")
         .plain("SERI:" + scanner_.serial)
-        .end();
+        .reply();
 }
 
-std::string ScipDevice::switch_laser_scip1(const std::string &line)
+Reply ScipDevice::switch_laser_scip1(const std::string &line)
 {
     if (line != "L0" && line != "L1") {
         return short_reply(line, "E");
@@ -185,7 +185,7 @@ std::string ScipDevice::switch_laser_scip1(const std::string &line)
     return short_reply(line, already ? "2" : "0");
 }
 
-std::string ScipDevice::set_baud_scip1(const std::string &line)
+Reply ScipDevice::set_baud_scip1(const std::string &line)
 {
     constexpr size_t full = 14;
     if (line.size() != full || !digits_only(line.substr(1))) {
@@ -199,7 +199,7 @@ std::string ScipDevice::set_baud_scip1(const std::string &line)
     return short_reply(line, "0");
 }
 
-std::string ScipDevice::get_scip1(const std::string &line)
+Reply ScipDevice::get_scip1(const std::string &line)
 {
     ale_scip_request_t request = {};
     const bool formed =
@@ -210,12 +210,7 @@ std::string ScipDevice::get_scip1(const std::string &line)
     if (!laser_) {
         return short_reply(line, "1");
     }
-    wanted_ = true;
-    if (!last_turn_) {
-        waiting_ = Waiting{request, line};
-        return {};
-    }
-    return ranges(request, line, "0");
+    return last_ranges(request, line);
 }
 
 } // namespace sim

@@ -107,44 +107,42 @@ std::optional<int64_t> ScipDevice::answer_due_us() const
     return commands_.empty() || waiting_ ? std::nullopt : std::optional(next_answer_us_);
 }
 
-std::string ScipDevice::answer(int64_t now_us)
+std::vector<Reply> ScipDevice::answer(int64_t now_us)
 {
-    std::string out;
+    std::vector<Reply> replies;
     now_us_ = now_us;
     while (!commands_.empty() && !waiting_ && next_answer_us_ <= now_us) {
         const std::string line = commands_.front();
         commands_.pop_front();
-        out += execute(line);
+        replies.push_back(execute(line));
         next_answer_us_ = now_us + options_.command_interval_us;
     }
-    return out;
+    return replies;
 }
 
-std::string ScipDevice::turn(const Turn &turn, int64_t device_start_us)
+std::vector<Reply> ScipDevice::turn(const Turn &turn, int64_t device_start_us)
 {
     if (!laser_ || device_start_us < laser_since_us_) {
         return {};
     }
     last_turn_ = turn;
     last_stamp_ms_ = clock_ms(device_start_us);
-    std::string out;
+    std::vector<Reply> replies;
     if (waiting_) {
-        out +=
-            ranges(waiting_->request, waiting_->echo, waiting_->request.protocol == ALE_SCIP_1 ? "0" : "00");
+        const Waiting waiting = *waiting_;
         waiting_.reset();
+        replies.push_back(last_ranges(waiting.request, waiting.echo));
     }
-    return out + stream_frame();
+    if (stream_ && stream_->to_skip > 0) {
+        stream_->to_skip--;
+    } else if (stream_) {
+        replies.push_back(stream_frame());
+    }
+    return replies;
 }
 
-std::string ScipDevice::stream_frame()
+Reply ScipDevice::stream_frame()
 {
-    if (!stream_) {
-        return {};
-    }
-    if (stream_->to_skip > 0) {
-        stream_->to_skip--;
-        return {};
-    }
     ale_scip_request_t &request = stream_->request;
     const bool counted = request.scans > 0;
     request.scans = static_cast<uint8_t>(counted ? request.scans - 1 : 0);
@@ -152,8 +150,7 @@ std::string ScipDevice::stream_frame()
     char text[ALE_SCIP_REQUEST_TEXT];
     ale_scip_request_format(&request, text);
     const std::string echo = text + stream_->suffix;
-    const std::string out =
-        broken_status_.empty() ? ranges(request, echo, "99") : short_reply(echo, broken_status_);
+    Reply out = broken_status_.empty() ? ranges(request, echo, "99") : short_reply(echo, broken_status_);
     if ((counted && request.scans == 0) || !broken_status_.empty()) {
         stream_.reset();
         set_laser(false);
@@ -167,8 +164,7 @@ void ScipDevice::break_stream(const std::string &status)
     broken_status_ = status;
 }
 
-std::string ScipDevice::ranges(const ale_scip_request_t &request, const std::string &echo,
-                               const char *status) const
+Reply ScipDevice::ranges(const ale_scip_request_t &request, const std::string &echo, const char *status) const
 {
     std::vector<int32_t> values;
     const int32_t cluster = std::max<int32_t>(1, request.cluster);
@@ -182,14 +178,14 @@ std::string ScipDevice::ranges(const ale_scip_request_t &request, const std::str
         }
         values.push_back(nearest);
     }
-    ScipReply reply(echo, status);
+    ReplyWriter writer(echo, status);
     if (request.protocol == ALE_SCIP_2) {
-        reply.stamp(last_stamp_ms_);
+        writer.stamp(last_stamp_ms_);
     }
-    return reply.values(request.protocol, values, request.characters).end();
+    return writer.values(request.protocol, values, request.characters).reply(last_turn_->start_us);
 }
 
-std::string ScipDevice::execute(const std::string &line)
+Reply ScipDevice::execute(const std::string &line)
 {
     if (protocol_ == ALE_SCIP_1) {
         return execute_scip1(line);
@@ -207,7 +203,7 @@ std::string ScipDevice::execute(const std::string &line)
     return execute_scip2(line);
 }
 
-std::string ScipDevice::execute_scip2(const std::string &line)
+Reply ScipDevice::execute_scip2(const std::string &line)
 {
     const std::string command = head(line);
     const std::string symbol = command.substr(0, 2);
@@ -254,21 +250,21 @@ std::string ScipDevice::execute_scip2(const std::string &line)
     return short_reply(line, "0E");
 }
 
-std::string ScipDevice::laser_on(const std::string &echo)
+Reply ScipDevice::laser_on(const std::string &echo)
 {
     const bool was_on = laser_;
     set_laser(true);
     return short_reply(echo, was_on ? "02" : "00");
 }
 
-std::string ScipDevice::laser_off(const std::string &echo)
+Reply ScipDevice::laser_off(const std::string &echo)
 {
     set_laser(false);
     stream_.reset();
     return short_reply(echo, "00");
 }
 
-std::string ScipDevice::reset(const std::string &echo)
+Reply ScipDevice::reset(const std::string &echo)
 {
     const int32_t baud = baud_;
     const std::deque<std::string> later = commands_;
@@ -278,7 +274,7 @@ std::string ScipDevice::reset(const std::string &echo)
     return short_reply(echo, "00");
 }
 
-std::string ScipDevice::time_mode(const std::string &echo, const std::string &parameter)
+Reply ScipDevice::time_mode(const std::string &echo, const std::string &parameter)
 {
     if (parameter == "0") {
         const bool was_in = time_mode_;
@@ -288,7 +284,8 @@ std::string ScipDevice::time_mode(const std::string &echo, const std::string &pa
         return short_reply(echo, was_in ? "02" : "00");
     }
     if (parameter == "1") {
-        return time_mode_ ? ScipReply(echo, "00").stamp(clock_ms(now_us_)).end() : short_reply(echo, "04");
+        return time_mode_ ? ReplyWriter(echo, "00").stamp(clock_ms(now_us_)).reply()
+                          : short_reply(echo, "04");
     }
     if (parameter == "2") {
         const bool was_in = time_mode_;
@@ -298,7 +295,7 @@ std::string ScipDevice::time_mode(const std::string &echo, const std::string &pa
     return short_reply(echo, parameter.empty() ? "0C" : "01");
 }
 
-std::string ScipDevice::measure(const std::string &echo, const std::string &command)
+Reply ScipDevice::measure(const std::string &echo, const std::string &command)
 {
     const std::string error = range_error(command);
     if (!error.empty()) {
@@ -318,12 +315,18 @@ std::string ScipDevice::measure(const std::string &echo, const std::string &comm
     if (!laser_) {
         return short_reply(echo, "10");
     }
+    return last_ranges(request, echo);
+}
+
+/* The reply with the last turn's ranges; empty when the first turn has to be waited for. */
+Reply ScipDevice::last_ranges(const ale_scip_request_t &request, const std::string &echo)
+{
     wanted_ = true;
     if (!last_turn_) {
         waiting_ = Waiting{request, echo};
         return {};
     }
-    return ranges(request, echo, "00");
+    return ranges(request, echo, request.protocol == ALE_SCIP_1 ? "0" : "00");
 }
 
 } // namespace sim

@@ -1,9 +1,9 @@
 /* A URG-04LX as seen through its serial line: commands in, replies out, SCIP 1.1 and 2.0. Pure on bytes
  * and times of the caller; no line, no clock, no measurement of its own.
  *
- *   device.receive(bytes, now_us);           what the host sent
- *   host << device.answer(now_us);           what is to be answered by now
- *   host << device.turn(turn, now_us);       a turn is over: stream frames, and replies that waited for it
+ *   device.receive(bytes, now_us);       what the host sent
+ *   device.answer(now_us);               replies that are due by now
+ *   device.turn(turn, start_us);         a turn is over: its stream frame, and replies that waited for it
  *
  * Behaves as firmware 3.1.04 does; what the document leaves open is said in README.md. */
 #ifndef ALE_SIM_SCIP_DEVICE_H
@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sim/scanner.h"
 
@@ -28,6 +29,11 @@ enum class Protocol {
     scip1,      /* powers up in SCIP 1.1, can be switched to 2.0 */
     scip1_only, /* firmware before 3.0: knows nothing else */
     scip2       /* powers up in 2.0 */
+};
+
+struct Reply {
+    std::string bytes;
+    std::optional<int64_t> turn_start_us; /* of the ranges in it, microseconds of play; nothing: none */
 };
 
 class ScipDevice
@@ -47,12 +53,12 @@ class ScipDevice
     void power_up_in_scip1(int64_t now_us);
 
     void receive(std::string_view bytes, int64_t now_us);
-    std::string answer(int64_t now_us);
+    std::vector<Reply> answer(int64_t now_us);
     /* When answer() will have something to say by itself; nothing: not before a command or a turn. */
     std::optional<int64_t> answer_due_us() const;
 
     /* The turn is over; device_start_us is when it began, on the clock of now_us. */
-    std::string turn(const Turn &turn, int64_t device_start_us);
+    std::vector<Reply> turn(const Turn &turn, int64_t device_start_us);
 
     /* The next frame of the stream carries this error status and no data, and the stream is over. */
     void break_stream(const std::string &status);
@@ -81,26 +87,27 @@ class ScipDevice
     void boot(int protocol, int64_t now_us);
     uint32_t clock_ms(int64_t at_us) const;
     void set_laser(bool on);
-    std::string execute(const std::string &line);
-    std::string execute_scip1(const std::string &line);
-    std::string execute_scip2(const std::string &line);
-    std::string version_scip1(const std::string &line) const;
-    std::string switch_laser_scip1(const std::string &line);
-    std::string get_scip1(const std::string &line);
-    std::string set_baud_scip1(const std::string &line);
-    std::string identity(const std::string &echo) const;
-    std::string parameters(const std::string &echo) const;
-    std::string condition(const std::string &echo) const;
-    std::string laser_on(const std::string &echo);
-    std::string laser_off(const std::string &echo);
-    std::string reset(const std::string &echo);
-    std::string time_mode(const std::string &echo, const std::string &parameter);
-    std::string set_baud(const std::string &echo, const std::string &digits);
-    std::string motor_speed(const std::string &echo, const std::string &digits) const;
-    std::string measure(const std::string &echo, const std::string &command);
+    Reply execute(const std::string &line);
+    Reply execute_scip1(const std::string &line);
+    Reply execute_scip2(const std::string &line);
+    Reply version_scip1(const std::string &line) const;
+    Reply switch_laser_scip1(const std::string &line);
+    Reply get_scip1(const std::string &line);
+    Reply set_baud_scip1(const std::string &line);
+    Reply identity(const std::string &echo) const;
+    Reply parameters(const std::string &echo) const;
+    Reply condition(const std::string &echo) const;
+    Reply laser_on(const std::string &echo);
+    Reply laser_off(const std::string &echo);
+    Reply reset(const std::string &echo);
+    Reply time_mode(const std::string &echo, const std::string &parameter);
+    Reply set_baud(const std::string &echo, const std::string &digits);
+    Reply motor_speed(const std::string &echo, const std::string &digits) const;
+    Reply measure(const std::string &echo, const std::string &command);
     std::string range_error(const std::string &command) const;
-    std::string ranges(const ale_scip_request_t &request, const std::string &echo, const char *status) const;
-    std::string stream_frame();
+    Reply last_ranges(const ale_scip_request_t &request, const std::string &echo);
+    Reply ranges(const ale_scip_request_t &request, const std::string &echo, const char *status) const;
+    Reply stream_frame();
 
     Scanner scanner_;
     Options options_;

@@ -4,8 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "sim/scip_device.h"
 
 extern "C" {
 #include "urg/scip_encode.h"
@@ -14,46 +17,47 @@ extern "C" {
 namespace sim
 {
 
-class ScipReply
+class ReplyWriter
 {
   public:
-    ScipReply(const std::string &echo, const std::string &status)
+    ReplyWriter(const std::string &echo, const std::string &status)
     {
         ale_scip_put_echo(&writer_, echo.c_str());
         ale_scip_put_status(&writer_, status.c_str());
     }
-    ScipReply(const ScipReply &) = delete;
-    ScipReply &operator=(const ScipReply &) = delete;
+    ReplyWriter(const ReplyWriter &) = delete;
+    ReplyWriter &operator=(const ReplyWriter &) = delete;
 
-    ScipReply &info(const char *key, const std::string &value)
+    ReplyWriter &info(const char *key, const std::string &value)
     {
         ale_scip_put_info(&writer_, key, value.c_str());
         return *this;
     }
-    ScipReply &info(const char *key, int32_t value)
+    ReplyWriter &info(const char *key, int32_t value)
     {
         return info(key, std::to_string(value));
     }
-    ScipReply &plain(const std::string &text)
+    ReplyWriter &plain(const std::string &text)
     {
         ale_scip_put_plain(&writer_, text.c_str());
         return *this;
     }
-    ScipReply &stamp(uint32_t stamp_ms)
+    ReplyWriter &stamp(uint32_t stamp_ms)
     {
         ale_scip_put_stamp(&writer_, stamp_ms);
         return *this;
     }
-    ScipReply &values(int protocol, const std::vector<int32_t> &values, unsigned characters)
+    ReplyWriter &values(int protocol, const std::vector<int32_t> &values, unsigned characters)
     {
         ale_scip_put_values(&writer_, protocol, values.data(), static_cast<uint32_t>(values.size()),
                             characters);
         return *this;
     }
-    std::string end()
+    /* The whole reply; turn_start_us says whose ranges it holds. */
+    Reply reply(std::optional<int64_t> turn_start_us = std::nullopt)
     {
         ale_scip_put_end(&writer_);
-        return {bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(writer_.used)};
+        return {{bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(writer_.used)}, turn_start_us};
     }
 
   private:
@@ -63,9 +67,9 @@ class ScipReply
 };
 
 /* A reply without lines. */
-inline std::string short_reply(const std::string &echo, const std::string &status)
+inline Reply short_reply(const std::string &echo, const std::string &status)
 {
-    return ScipReply(echo, status).end();
+    return ReplyWriter(echo, status).reply();
 }
 
 } // namespace sim

@@ -56,9 +56,8 @@ void Simulator::listen(int64_t now_us)
     }
     const std::string heard = pty_.read();
     if (now_us >= outage_until_us_) {
-        tally_.commands += heard.size();
         device_.receive(heard, now_us);
-        line_.send(device_.answer(now_us));
+        send(device_.answer(now_us), now_us);
     }
     if (device_.wanted() && !play_start_us_) {
         play_start_us_ = now_us + run_up_us;
@@ -92,19 +91,23 @@ void Simulator::play_turn(const Turn &turn, int64_t now_us)
         tally_.swallowed += device_.streaming() ? 1 : 0;
         return;
     }
-    const std::string frame = device_.turn(turn, *play_start_us_ + turn.start_us);
-    if (!frame.empty()) {
-        send_stream(turn, frame, now_us);
-    }
+    send(device_.turn(turn, *play_start_us_ + turn.start_us), now_us);
 }
 
-void Simulator::send_stream(const Turn &turn, const std::string &frame, int64_t now_us)
+void Simulator::send(const std::vector<Reply> &replies, int64_t now_us)
 {
-    const std::string damaged = faults_.damage(frame, now_us - *play_start_us_, turn.number);
-    tally_.sent++;
-    tally_.damaged += damaged == frame ? 0 : 1;
-    line_.send(damaged);
-    write_truth(turn.start_us);
+    for (const Reply &reply : replies) {
+        if (!reply.turn_start_us) {
+            line_.send(reply.bytes);
+            continue;
+        }
+        const auto number = static_cast<int64_t>(tally_.scans) - 1;
+        const std::string damaged = faults_.damage(reply.bytes, now_us - *play_start_us_, number);
+        tally_.sent++;
+        tally_.damaged += damaged == reply.bytes ? 0 : 1;
+        line_.send(damaged);
+        write_truth(*reply.turn_start_us);
+    }
 }
 
 void Simulator::write_truth(int64_t play_us)

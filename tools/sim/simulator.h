@@ -32,10 +32,9 @@ struct SimulatorOptions {
 /* What has happened so far. */
 struct Tally {
     uint64_t scans = 0;     /* turns of the source */
-    uint64_t sent = 0;      /* that went out as a frame, damaged ones too */
+    uint64_t sent = 0;      /* replies with ranges, damaged ones too */
     uint64_t damaged = 0;   /* of these */
     uint64_t swallowed = 0; /* the line was silent, unplugged or too slow */
-    uint64_t commands = 0;  /* bytes of commands heard */
 };
 
 class Simulator
@@ -56,7 +55,7 @@ class Simulator
   private:
     void play(int64_t now_us);
     void play_turn(const Turn &turn, int64_t now_us);
-    void send_stream(const Turn &turn, const std::string &frame, int64_t now_us);
+    void send(const std::vector<Reply> &replies, int64_t now_us);
     void strike(const Fault &fault, int64_t now_us);
     void listen(int64_t now_us);
     void end_outage(int64_t now_us);
