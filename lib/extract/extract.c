@@ -15,13 +15,18 @@
 #include "extract/segment.h"
 #include "extract/workspace.h"
 
-enum { HIGH_Z = 4, LOW_Z = 1 };
+enum {
+    HIGH_Z = 4,
+    LOW_Z = 1,
+    ROUGH_SHARED = 6 /* shared variances that a wall may be wavy by */
+};
+static const int64_t MAX_SIGMA_ALPHA_NRAD = 122173048; /* 7 degrees: a line of no known direction is none */
 
 ale_extract_config_t ale_extract_default_config(void)
 {
     const ale_extract_config_t config = {
         .noise = ale_noise_default(),
-        .min_points = 8,
+        .min_points = 9,
         .min_length_um = 120000,
         .smooth_span = 7,
         .robust_passes = 2,
@@ -194,7 +199,11 @@ static bool is_line(ale_extractor_t *e, ale_run_t run, const ale_line_t *line)
         e->refused[ALE_REFUSED_SHORT]++;
         return false;
     }
-    const int64_t limit = ((fit.var_q8 * e->chi_high_q8[fit.n]) >> 8) + 2 * fit.shared_q8 * fit.n;
+    const int64_t limit = ((fit.var_q8 * e->chi_high_q8[fit.n]) >> 8) + ROUGH_SHARED * fit.shared_q8 * fit.n;
+    if (line->var_alpha_nrad2 > MAX_SIGMA_ALPHA_NRAD * MAX_SIGMA_ALPHA_NRAD) {
+        e->refused[ALE_REFUSED_SHORT]++;
+        return false;
+    }
     if (fit.sse_q8 > limit) {
         e->refused[ALE_REFUSED_ROUGH]++;
         return false;

@@ -167,7 +167,7 @@ void ale_scan_noise_measure(ale_extractor_t *e, const ale_scan_t *scan)
 /* Blocks of beams whose second difference shows what neighbours share, for an error that is correlated
  * over 12 beams: the block means of pure own noise have 6 / BLOCK own variances, of the shared part
  * SHARED_GAIN_Q8 shared ones. */
-enum { BLOCK = 8, SHARED_GAIN_Q8 = 299, MIN_BLOCKS = 60, RATIO_Q8 = 512 };
+enum { BLOCK = 8, SHARED_GAIN_Q8 = 299, MIN_BLOCKS = 60, RATIO_Q8 = 512, SHARED_LEAST_Q8 = 3 * 256 };
 
 /* Squared second difference of three blocks of points from start on, over what own noise would give; Q8. */
 static int64_t block_ratio_q8(const ale_extractor_t *e, int32_t start, int64_t curvature_q30)
@@ -210,8 +210,9 @@ void ale_scan_noise_measure_shared(ale_extractor_t *e, const ale_scan_t *scan)
             (e->shared_prior_mm2_q36 + e->shared_prior_relative_q36 * range_mm * range_mm) >> 16, 1);
         e->shared_ratio_q8 = ratio_q8;
         if (ratio_q8 > RATIO_Q8) {
-            scale_q8 = ale_clamp64(
-                (ratio_q8 - 256) * 6 * 256 / (BLOCK * SHARED_GAIN_Q8) * own_q20 / model_q20, 256, 16 * 256);
+            scale_q8 =
+                ale_clamp64((ratio_q8 - 256) * 6 * 256 / (BLOCK * SHARED_GAIN_Q8) * own_q20 / model_q20,
+                            SHARED_LEAST_Q8, 16 * 256);
         }
     }
     e->shared_scale_q8 = scale_q8;

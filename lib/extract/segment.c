@@ -4,6 +4,7 @@
 #include "base/trig.h"
 
 enum {
+    SHARED_FACTOR = 5,
     NOISE_FACTOR = 7, /* of one beam's deviation: 5 of the difference of two */
     MAX_GAP_BEAMS = 8 /* beams without a value that a surface may have */
 };
@@ -17,7 +18,9 @@ typedef struct {
 static jump_limit_t jump_limit(const ale_extractor_t *e, const ale_scan_t *scan)
 {
     const jump_limit_t limit = {
-        .constant_um = NOISE_FACTOR * e->noise.sigma_um,
+        .constant_um = SHARED_FACTOR *
+                           ale_round_shift((int64_t)ale_isqrt((uint64_t)e->noise.shared_mm2_q36) * 1000, 18) +
+                       NOISE_FACTOR * e->noise.sigma_um,
         .per_range_q20 = NOISE_FACTOR * e->noise.sigma_per_range_q20,
         .step_q20 =
             ale_round_shift(ale_bam_to_nrad((int32_t)ale_abs64(scan->step_bam)) * 1074, 10 + 0) / 1000000,
