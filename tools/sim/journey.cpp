@@ -65,7 +65,7 @@ void Journey::step()
     odometry_.roll(velocity.v * step_s * grip, velocity.w * step_s * grip);
     const bool touching = options_.collision_radius > 0 && collides();
     if (touching) {
-        robot_.stop_at({before.x, before.y, robot_.pose().theta});
+        robot_.hold_at({before.x, before.y, robot_.pose().theta});
     }
     collisions_ += touching && !touching_ ? 1 : 0;
     touching_ = touching;

@@ -28,10 +28,4 @@ void Robot::step(Twist asked, double dt)
              pose_.theta + turn};
 }
 
-void Robot::stop_at(const Pose &pose)
-{
-    pose_ = pose;
-    velocity_ = {};
-}
-
 } // namespace sim

@@ -30,8 +30,11 @@ class Robot
     /* Drives for dt seconds towards the velocity asked for; the limits cut it. */
     void step(Twist asked, double dt);
 
-    /* Stands where it is, for instance against a wall. */
-    void stop_at(const Pose &pose);
+    /* Something holds it there; its wheels go on turning. */
+    void hold_at(const Pose &pose)
+    {
+        pose_ = pose;
+    }
 
     const Pose &pose() const
     {

@@ -49,6 +49,16 @@ void Route::move_carrot(Point robot)
     }
 }
 
+/* Length of the way from the carrot to the end. */
+double Route::beyond_carrot() const
+{
+    double length = -along_leg_;
+    for (size_t k = leg_; k + 1 < points_.size(); k++) {
+        length += distance(points_[k], points_[k + 1]);
+    }
+    return length;
+}
+
 Twist Route::command(const Robot &robot)
 {
     const Point at = {robot.pose().x, robot.pose().y};
@@ -62,9 +72,8 @@ Twist Route::command(const Robot &robot)
         return {};
     }
     const double straight = std::max(0.0, 1 - std::fabs(error) / widest_driving);
-    const double speed = limits_.speed * straight;
-    const double braking = std::sqrt(2 * limits_.acceleration * ahead);
-    return {last ? std::min(speed, braking) : speed,
+    const double braking = std::sqrt(2 * limits_.acceleration * (ahead + beyond_carrot()));
+    return {std::min(limits_.speed * straight, braking),
             std::clamp(turn_gain * error, -limits_.turn_rate, limits_.turn_rate)};
 }
 

@@ -25,6 +25,7 @@ class Route
 
   private:
     Point carrot() const;
+    double beyond_carrot() const;
     void move_carrot(Point robot);
 
     std::vector<Point> points_;
