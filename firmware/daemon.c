@@ -82,13 +82,13 @@ static int start_tasks(ale_daemon_t *daemon)
     }
     ale_rt_report_t report;
     ale_rt_report(&report);
+    fprintf(stderr, "ale-slamd: %s: %s\n", report.realtime ? "real time" : "real time degraded", report.text);
     if (daemon->acquire) {
         daemon->telemetry = ale_telemetry_start(config, &daemon->exchange, daemon->bus, &report);
     }
     if (!daemon->telemetry) {
         return fail(1, "threads cannot be started");
     }
-    fprintf(stderr, "ale-slamd: %s: %s\n", report.realtime ? "real time" : "real time degraded", report.text);
     return 0;
 }
 

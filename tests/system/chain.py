@@ -1,0 +1,206 @@
+"""The real programs, started and stopped: simulator, firmware, and a listener that keeps all that is published."""
+import bisect
+import math
+import os
+import pathlib
+import signal
+import subprocess
+import threading
+import time
+
+import ale
+import lcm
+
+BINARIES = pathlib.Path(os.environ.get("ALE_BUILD", "build")).resolve() / "bin"
+WORLDS = pathlib.Path(__file__).resolve().parents[2] / "tools" / "worlds"
+TYPES = {"ALE_POSE": ale.pose_t, "ALE_FEATURES": ale.features_t, "ALE_SCAN": ale.scan_t, "ALE_MAP": ale.map_t,
+         "ALE_STATUS": ale.status_t}
+
+
+def wait_until(condition, seconds, what):
+    """Waits for a condition; the time is only there to fail when it never comes."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, f"{what}: not within {seconds} s"
+        time.sleep(0.01)
+
+
+class Program:
+    """One program with its output in files."""
+
+    def __init__(self, folder, name, *words, prefix=()):
+        self.name = name
+        self.out_path = folder / f"{name}.{time.monotonic_ns()}.out"
+        self.err_path = self.out_path.with_suffix(".err")
+        with open(self.out_path, "w", encoding="utf-8") as out, open(self.err_path, "w", encoding="utf-8") as err:
+            self.process = subprocess.Popen([*prefix, BINARIES / name, *map(str, words)], stdout=out, stderr=err,
+                                            stdin=subprocess.DEVNULL)
+
+    def out(self):
+        return self.out_path.read_text(encoding="utf-8", errors="replace")
+
+    def err(self):
+        return self.err_path.read_text(encoding="utf-8", errors="replace")
+
+    def running(self):
+        return self.process.poll() is None
+
+    def wait(self, seconds):
+        return self.process.wait(timeout=seconds)
+
+    def end(self, number=signal.SIGTERM, seconds=10):
+        """Sends a signal; the exit status."""
+        if self.running():
+            self.process.send_signal(number)
+        return self.wait(seconds)
+
+    def kill(self):
+        if self.running():
+            self.process.kill()
+        self.process.wait()
+
+
+class Listener:
+    """Keeps every message of the firmware, in a thread of its own."""
+
+    def __init__(self, url):
+        self.messages = {channel: [] for channel in TYPES}
+        self.bus = lcm.LCM(url)
+        for channel in TYPES:
+            self.bus.subscribe(channel, self._take).set_queue_capacity(0)
+        self.stopping = threading.Event()
+        self.thread = threading.Thread(target=self._listen)
+        self.thread.start()
+
+    def _take(self, channel, data):
+        self.messages[channel].append(TYPES[channel].decode(data))
+
+    def _listen(self):
+        while not self.stopping.is_set():
+            self.bus.handle_timeout(50)
+
+    def stop(self):
+        self.stopping.set()
+        self.thread.join()
+
+    @property
+    def poses(self):
+        return self.messages["ALE_POSE"]
+
+    @property
+    def features(self):
+        return self.messages["ALE_FEATURES"]
+
+    @property
+    def statuses(self):
+        return self.messages["ALE_STATUS"]
+
+    @property
+    def map_parts(self):
+        return self.messages["ALE_MAP"]
+
+    def counters(self):
+        status = self.statuses[-1]
+        return dict(zip(status.counter_name, status.counter_value))
+
+
+class Chain:
+    """A folder, an LCM port, and the programs on them."""
+
+    def __init__(self, folder, url):
+        self.folder = folder
+        self.url = url
+        self.port = folder / "urg"
+        self.truth_path = folder / "truth.tum"
+        self.programs = []
+        self.listener = Listener(url)
+
+    def start(self, name, *words, prefix=()):
+        program = Program(self.folder, name, *words, prefix=prefix)
+        self.programs.append(program)
+        return program
+
+    def simulator(self, *words, speed=1):
+        sim = self.start("ale-sim", "--pty", self.port, "--speed", speed, "--lcm-url", self.url, *words)
+        wait_until(lambda: self.port.exists() or not sim.running(), 10, "the simulated scanner")
+        assert sim.running(), sim.err()
+        return sim
+
+    def drive(self, world, *words, speed=1):
+        """A simulated drive through a world that ends by itself and leaves its truth."""
+        return self.simulator("--world", WORLDS / f"{world}.world", "--truth", self.truth_path, "--once", *words,
+                              speed=speed)
+
+    def firmware(self, config="", *words, speed=1, prefix=()):
+        path = self.folder / "robot.ini"
+        path.write_text(config, encoding="utf-8")
+        return self.start("ale-slamd", "--config", path, "--port", self.port, "--lcm-url", self.url, "--time-scale",
+                          speed, *words, prefix=prefix)
+
+    def stop(self):
+        for program in self.programs:
+            program.kill()
+        self.listener.stop()
+
+
+def tally(simulator):
+    """What the simulator counted: scans, sent, damaged, swallowed."""
+    return {name: int(number) for name, number in (line.split() for line in simulator.out().splitlines())}
+
+
+def wrap(angle):
+    return math.remainder(angle, 2 * math.pi)
+
+
+class Truth:
+    """The robot's true poses, as seen from the first one: the firmware's frame."""
+
+    def __init__(self, path):
+        rows = [[float(word) for word in line.split()] for line in path.read_text(encoding="utf-8").splitlines()
+                if not line.startswith("#")]
+        self.times = [row[0] for row in rows]
+        self.world = [(row[1], row[2], 2 * math.atan2(row[6], row[7])) for row in rows]
+
+    def world_at(self, seconds):
+        """The pose in the world, interpolated; None outside the drive."""
+        k = bisect.bisect(self.times, seconds)
+        if k == 0 or k == len(self.times):
+            return None
+        part = (seconds - self.times[k - 1]) / (self.times[k] - self.times[k - 1])
+        a, b = self.world[k - 1], self.world[k]
+        return (a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]), a[2] + part * wrap(b[2] - a[2]))
+
+    def at(self, seconds, origin):
+        """The pose as seen from the origin, a pose in the world."""
+        here = self.world_at(seconds)
+        if here is None:
+            return None
+        dx, dy = here[0] - origin[0], here[1] - origin[1]
+        c, s = math.cos(origin[2]), math.sin(origin[2])
+        return (c * dx + s * dy, c * dy - s * dx, wrap(here[2] - origin[2]))
+
+
+def trajectory_error(poses, truth):
+    """Root mean square of position (m) and heading (rad) of the map poses, and how many were compared. The first
+    pose is the origin: nothing is aligned."""
+    origin = next(o for o in (truth.world_at(pose.utime * 1e-6) for pose in poses) if o)
+    squares, turns, count = 0.0, 0.0, 0
+    for pose in poses:
+        true = truth.at(pose.utime * 1e-6, origin)
+        if true:
+            squares += (pose.map_x - true[0]) ** 2 + (pose.map_y - true[1]) ** 2
+            turns += wrap(pose.map_theta - true[2]) ** 2
+            count += 1
+    return math.sqrt(squares / count), math.sqrt(turns / count), count
+
+
+def walls_of(world):
+    return [tuple(map(float, line.split())) for line in (WORLDS / f"{world}.world").read_text().splitlines()
+            if line.strip() and not line.startswith("#")]
+
+
+def distance_to_wall(wall, x, y):
+    x1, y1, x2, y2 = wall
+    dx, dy = x2 - x1, y2 - y1
+    along = max(0.0, min(1.0, ((x - x1) * dx + (y - y1) * dy) / (dx * dx + dy * dy)))
+    return math.hypot(x - x1 - along * dx, y - y1 - along * dy)

@@ -1,0 +1,136 @@
+"""ale-slamd as a daemon: signals, no device, wrong configuration, no rights, a restart."""
+import os
+import re
+import shutil
+import signal
+import subprocess
+
+import pytest
+
+from chain import BINARIES, wait_until
+
+
+def ask(*words, prefix=()):
+    """Runs ale-slamd to its end: status, stdout, stderr."""
+    done = subprocess.run([*prefix, BINARIES / "ale-slamd", *map(str, words)], stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=20, check=False)
+    return done.returncode, done.stdout, done.stderr
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_a_signal_ends_it_cleanly_while_it_streams(chain, number):
+    chain.simulator("--world", "tools/worlds/home.world")
+    firmware = chain.firmware()
+    wait_until(lambda: len(chain.listener.poses) > 5, 20, "poses")
+    assert firmware.end(number, seconds=2) == 0
+    assert "streaming" in firmware.err()
+
+
+def test_without_a_device_it_says_so_once_and_takes_it_when_it_comes(chain):
+    firmware = chain.firmware()
+    wait_until(lambda: len(chain.listener.statuses) >= 3, 10, "status messages")
+    assert firmware.running()
+    assert len(re.findall("no scanner", firmware.err())) == 1, firmware.err()
+    assert str(chain.port)[:20] in firmware.err()
+    assert chain.listener.statuses[-1].driver_state.startswith("no scanner: ")
+    assert not chain.listener.poses
+    chain.simulator("--world", "tools/worlds/home.world")
+    wait_until(lambda: len(chain.listener.poses) > 5, 20, "poses")
+    wait_until(lambda: chain.listener.statuses[-1].driver_state == "streaming", 5, "the status")
+    assert firmware.end() == 0
+
+
+def test_a_signal_ends_it_quickly_without_a_device(chain):
+    firmware = chain.firmware()
+    wait_until(lambda: "no scanner" in firmware.err(), 10, "its word")
+    assert firmware.end(seconds=2) == 0
+
+
+def test_it_starts_again_where_another_was_killed(chain):
+    chain.simulator("--world", "tools/worlds/home.world")
+    first = chain.firmware()
+    wait_until(lambda: len(chain.listener.poses) > 5, 20, "poses")
+    first.kill()
+    before = len(chain.listener.poses)
+    boot = chain.listener.statuses[-1].boot if chain.listener.statuses else 0
+    second = chain.firmware()
+    wait_until(lambda: len(chain.listener.poses) > before + 10, 20, "poses again")
+    wait_until(lambda: chain.listener.statuses and chain.listener.statuses[-1].boot != boot, 5, "a status")
+    assert second.end() == 0
+
+
+def test_a_hub_of_hostile_messages_does_not_disturb_it(chain):
+    chain.simulator("--world", "tools/worlds/home.world", "--no-odometry")
+    firmware = chain.firmware()
+    wait_until(lambda: len(chain.listener.poses) > 5, 20, "poses")
+    for length in (0, 1, 8, 20, 28, 60000):
+        chain.listener.bus.publish("ALE_ODOMETRY", b"\xff" * length)
+    wait_until(lambda: chain.listener.statuses and chain.listener.counters()["odometry_refused"] >= 6, 10, "the count")
+    before = len(chain.listener.poses)
+    wait_until(lambda: len(chain.listener.poses) > before + 5, 10, "poses")
+    assert firmware.end() == 0
+
+
+@pytest.mark.parametrize("text, line, key", [
+    ("[sensor]\ntheta = 9\n", 2, "sensor.theta"),
+    ("[sensor]\n\nthetta = 1\n", 3, "sensor.thetta"),
+    ("[extract]\nsmooth_span = 10\n", 2, "extract.smooth_span"),
+    ("[robot]\nmax_speed\n", 2, ""),
+])
+def test_a_bad_configuration_is_one_line_that_names_file_line_and_key(tmp_path, text, line, key):
+    path = tmp_path / "robot.ini"
+    path.write_text(text)
+    status, out, err = ask("--config", path)
+    assert status == 2
+    assert out == ""
+    assert err.count("\n") == 1
+    assert f"{path}:{line}: {key}" in err
+    assert ask("--config", path, "--check-config")[0] == 2
+
+
+def test_the_printed_configuration_is_accepted_and_prints_the_same(tmp_path):
+    status, text, _ = ask("--print-config")
+    assert status == 0
+    path = tmp_path / "robot.ini"
+    path.write_text(text)
+    assert ask("--config", path, "--check-config")[0] == 0
+    assert ask("--config", path, "--print-config")[1] == text
+
+
+@pytest.mark.parametrize("words", [["--lcm-url", "carrier-pigeon://"], ["--lcm-url", "udpm://nowhere:1"]])
+def test_an_lcm_that_cannot_be_opened_is_one_line(words):
+    status, _, err = ask(*words)
+    assert status == 1
+    assert err.count("\n") == 1 and "LCM" in err
+
+
+def test_without_a_multicast_route_it_says_what_to_do():
+    away = ["unshare", "--net"] if os.geteuid() == 0 else ["unshare", "--user", "--net"]
+    if subprocess.run([*away, "true"], stderr=subprocess.DEVNULL, check=False).returncode != 0:
+        pytest.skip("no network namespaces here")
+    status, _, err = ask("--lcm-url", "udpm://239.255.76.67:7667?ttl=0", prefix=away)
+    assert status == 1
+    assert err.count("\n") == 1 and "ip route add" in err
+
+
+def test_a_map_that_cannot_be_read_is_one_line(tmp_path):
+    status, _, err = ask("--map", tmp_path / "none.map", "--lcm-url", "memq://")
+    assert status == 2
+    assert err.count("\n") == 1 and "none.map" in err
+
+
+def test_without_privileges_it_runs_and_says_what_is_missing(chain):
+    prefix = []
+    if os.geteuid() == 0:
+        if not shutil.which("setpriv"):
+            pytest.skip("no setpriv here to drop privileges with")
+        prefix = ["setpriv", "--bounding-set=-all", "--inh-caps=-all", "--reuid=65534", "--clear-groups"]
+        chain.folder.chmod(0o755)
+    firmware = chain.start("ale-slamd", "--port", chain.port, "--lcm-url", chain.url, prefix=prefix)
+    wait_until(lambda: chain.listener.statuses or not firmware.running(), 10, "a status")
+    assert firmware.running(), firmware.err()
+    assert "real time degraded" in firmware.err().splitlines()[0]
+    assert "missing: " in firmware.err().splitlines()[0]
+    assert not chain.listener.statuses[-1].realtime
+    assert "missing: " in chain.listener.statuses[-1].realtime_detail
+    assert firmware.end() == 0

@@ -1,0 +1,102 @@
+"""A whole drive through the bundled home: pose, features and map against the simulated truth."""
+import math
+import statistics
+
+import pytest
+
+from chain import Truth, distance_to_wall, tally, trajectory_error, wait_until, walls_of
+
+SPEED = 4
+ATE_M = 0.030
+ATE_RAD = math.radians(0.5)
+ON_A_WALL_M = 0.060  # noise, mixed pixels and the end of a wall together
+
+
+@pytest.fixture(scope="module", params=["odometry", "no odometry"])
+def drive(request, long_chain):
+    """The chain after the drive, all answers received."""
+    long_chain.listener.messages.update({channel: [] for channel in long_chain.listener.messages})
+    wheels = request.param == "odometry"
+    firmware = long_chain.firmware(f"[odometry]\nuse = {'yes' if wheels else 'no'}\n[lcm]\npublish_scan = yes\n",
+                                   speed=SPEED)
+    sim = long_chain.drive("home", speed=SPEED)
+    assert sim.wait(120) == 0, sim.err()
+    sent = tally(sim)["sent"]
+    wait_until(lambda: len(long_chain.listener.poses) >= sent, 5, "the last pose")
+    assert firmware.end() == 0
+    long_chain.sent = sent
+    return long_chain
+
+
+def test_every_scan_sent_is_answered_by_one_pose(drive):
+    poses = drive.listener.poses
+    assert len(poses) == drive.sent
+    assert [pose.scan for pose in poses] == list(range(drive.sent))
+    assert all(later.utime > earlier.utime for earlier, later in zip(poses, poses[1:]))
+
+
+def test_the_pose_follows_the_truth(drive):
+    metres, radians, count = trajectory_error(drive.listener.poses, Truth(drive.truth_path))
+    print(f"error {metres * 1000:.1f} mm, {math.degrees(radians):.2f} degrees over {count} scans")
+    assert count > 0.95 * drive.sent
+    assert metres <= ATE_M
+    assert radians <= ATE_RAD
+
+
+def test_lines_and_corners_lie_on_true_walls(drive):
+    truth = Truth(drive.truth_path)
+    walls = walls_of("home")
+    distances = []
+    corners = []
+    for message in drive.listener.features[::5]:
+        pose = truth.world_at(message.utime * 1e-6)
+        if pose is None:
+            continue
+        c, s = math.cos(pose[2]), math.sin(pose[2])
+        to_world = lambda x, y: (pose[0] + c * x - s * y, pose[1] + s * x + c * y)  # noqa: E731
+        for line in message.lines:
+            for x, y in ((line.x1, line.y1), (line.x2, line.y2)):
+                distances.append(min(distance_to_wall(wall, *to_world(x, y)) for wall in walls))
+        for corner in message.corners:
+            corners.append(min(distance_to_wall(wall, *to_world(corner.x, corner.y)) for wall in walls))
+    on_walls = sum(distance < ON_A_WALL_M for distance in distances) / len(distances)
+    print(f"{len(distances)} line ends, {100 * on_walls:.1f} % on walls, median "
+          f"{1000 * statistics.median(distances):.1f} mm; {len(corners)} corners")
+    assert len(distances) > 10 * drive.sent / 5
+    assert on_walls > 0.97
+    assert sum(distance < ON_A_WALL_M for distance in corners) > 0.95 * len(corners)
+    assert len(corners) > drive.sent / 5
+
+
+def test_scans_are_published_as_they_were_received(drive):
+    scans = drive.listener.messages["ALE_SCAN"]
+    assert len(scans) == drive.sent
+    assert all(scan.num_ranges == 682 and scan.stamp_beam == -44 for scan in scans)
+    assert all(abs(scan.beam_time_us - 97.656) < 0.5 for scan in scans)
+
+
+def test_the_map_comes_whole(drive):
+    parts = drive.listener.map_parts
+    version = max(part.version for part in parts)
+    newest = [part for part in parts if part.version == version]
+    assert {part.part for part in newest} == set(range(newest[0].parts))
+    assert sum(part.num_lines for part in newest) >= 30
+    assert sum(part.num_corners for part in newest) >= 10
+
+
+def test_nothing_was_dropped_and_the_status_says_so(drive):
+    statuses = drive.listener.statuses
+    assert len(statuses) >= 10
+    counters = drive.listener.counters()
+    for name in ("bad_checksum", "bad_frame", "repeated", "scan_ring_full", "result_ring_full", "overloaded",
+                 "odometry_ring_full", "odometry_refused", "messages_unsent"):
+        assert counters[name] == 0, name
+    assert counters["odometry"] > 100
+    assert statuses[-1].scans == statuses[-1].poses == drive.sent
+    assert "H0" in statuses[-1].device
+
+
+def test_stage_times_are_reported(drive):
+    status = drive.listener.statuses[-1]
+    assert all(0 < p99 <= worst for p99, worst in zip(status.stage_p99_us, status.stage_worst_us))
+    assert all(sum(pose.stage_ns) > 0 for pose in drive.listener.poses)

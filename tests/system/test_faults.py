@@ -1,0 +1,84 @@
+"""Every fault of the line in one drive: the firmware goes on by itself, counts, and the pose makes no leap."""
+import math
+
+import pytest
+
+from chain import tally, wait_until
+
+SPEED = 2
+RECOVERY_S = 3
+MAX_SPEED = 0.6  # what the simulated robot cannot exceed (0.5 m/s, 0.9 rad/s), and some
+MAX_TURN = 1.1
+SIGMAS_M = 0.03
+SIGMAS_RAD = 0.03
+
+# fault, when it begins, how long it lasts (seconds of the drive), the counter that must tell of it
+FAULTS = [
+    ("flip", 4, 0, "bad_checksum"),
+    ("cut", 9, 0, "bad_frame"),
+    ("garbage:300", 14, 0, "garbage_bytes"),
+    ("silence:2", 19, 2, "stream_restarts"),
+    ("unplug:2", 27, 2, "reopens"),
+    ("reset11", 35, 0, "resets"),
+    ("repeat", 42, 0, "repeated"),
+    ("wrap", 47, 0, None),
+]
+
+
+@pytest.fixture(scope="module")
+def drive(long_chain):
+    firmware = long_chain.firmware(f"[robot]\nmax_speed = {MAX_SPEED}\nmax_turn = {MAX_TURN}\n", speed=SPEED)
+    spec = ",".join(f"{name}@{begin}" for name, begin, _, _ in FAULTS)
+    sim = long_chain.drive("home", "--faults", spec, speed=SPEED)
+    assert sim.wait(120) == 0, sim.err()
+    long_chain.tally = tally(sim)
+    wait_until(lambda: not long_chain.listener.statuses or
+               long_chain.listener.statuses[-1].driver_state.startswith("no scanner"), 10, "notice of the end")
+    assert firmware.running(), "it must not end by itself"
+    assert firmware.end() == 0
+    return long_chain
+
+
+def seconds_of_drive(drive):
+    """Poses with their time since the first scan."""
+    poses = drive.listener.poses
+    return [((pose.utime - poses[0].utime) * 1e-6, pose) for pose in poses]
+
+
+@pytest.mark.parametrize("name, begin, duration, counter", FAULTS)
+def test_it_goes_on_by_itself(drive, name, begin, duration, counter):
+    end = begin + duration
+    answered = [t for t, pose in seconds_of_drive(drive) if not pose.predicted and t > end]
+    assert answered, f"nothing after {name}"
+    assert answered[0] - end <= RECOVERY_S, f"{name}: {answered[0] - end:.2f} s"
+    print(f"{name}: first scan used {answered[0] - end:.2f} s after its end")
+
+
+@pytest.mark.parametrize("name, begin, duration, counter", [fault for fault in FAULTS if fault[3]])
+def test_it_counts_what_happened(drive, name, begin, duration, counter):
+    assert drive.listener.counters()[counter] > 0, f"{name} does not show in {counter}"
+
+
+def test_the_smooth_pose_takes_no_step_that_the_robot_could_not(drive):
+    poses = drive.listener.poses
+    for before, after in zip(poses, poses[1:]):
+        dt = (after.utime - before.utime) * 1e-6
+        step = math.hypot(after.x - before.x, after.y - before.y)
+        turn = abs(math.remainder(after.theta - before.theta, 2 * math.pi))
+        assert step <= MAX_SPEED * dt + SIGMAS_M, f"{step:.3f} m in {dt:.3f} s before scan {after.scan}"
+        assert turn <= MAX_TURN * dt + SIGMAS_RAD, f"{turn:.3f} rad in {dt:.3f} s before scan {after.scan}"
+
+
+def test_every_scan_sent_is_answered_by_one_pose_also_the_damaged(drive):
+    poses = drive.listener.poses
+    assert [pose.scan for pose in poses] == list(range(len(poses)))
+    assert all(later.utime > earlier.utime for earlier, later in zip(poses, poses[1:]))
+    assert drive.tally["damaged"] >= 3
+    assert len(poses) >= drive.tally["sent"]
+    assert sum(pose.predicted for pose in poses) >= 2, "a scan that did not survive is answered by prediction"
+
+
+def test_the_pose_is_good_again_at_the_end(drive):
+    assert all(pose.state == 2 for pose in drive.listener.poses[-20:])
+    last = drive.listener.poses[-1]
+    assert math.hypot(last.map_x, last.map_y) < 0.06, "the drive ends where it began"
