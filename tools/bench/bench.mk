@@ -8,7 +8,9 @@ BENCH_PROGRAMS = $(patsubst tools/bench/%.cpp,$(BUILD)/bench/%,$(BENCH_MAINS))
 $(BENCH_PROGRAMS): $(BUILD)/bench/%: $(OBJ)/tools/bench/%.cpp.o $(call objects,$(BENCH_PARTS)) $(BUILD)/libale_drivers.a $(BUILD)/libale.a
 	$(call link)
 
-$(patsubst tests/tools/bench/%.cpp,$(BUILD)/tests/tools/bench/%,$(wildcard tests/tools/bench/test_*.cpp)): $(call objects,$(BENCH_PARTS))
+# Tests of the benchmark, and of the calibration, which use its worlds.
+BENCH_TESTS = $(patsubst %.cpp,$(BUILD)/%,$(wildcard tests/tools/bench/test_*.cpp tests/tools/calibrate/test_*.cpp))
+$(BENCH_TESTS): $(call objects,$(BENCH_PARTS))
 
 .PHONY: bench bench-lines
 bench: bench-lines ## the benchmarks as tables
