@@ -8,6 +8,7 @@
 
 enum {
     REPLY_MS = 400, /* the real firmware answers once a turn of 100 ms */
+    PROVED_TRIES = 6,
     BAUD_SETTLES_MS = 150,
     SPEED_ATTEMPTS = 3
 };
@@ -55,6 +56,7 @@ void ale_urg_probe(ale_urg_t *urg)
 void ale_urg_dialogue_begin(ale_urg_t *urg)
 {
     ale_scip_parser_reset(&urg->parser);
+    urg->port_proved = false;
     urg->due |= ALE_DUE_PARAMETERS;
     if (!urg->identified) {
         /* RS would set the rate of a real line back to what nobody knows: there it is for emergencies. */
@@ -349,9 +351,13 @@ static void on_silent_probe(ale_urg_t *urg)
     ale_urg_probe(urg);
 }
 
-static uint32_t most_tries(ale_urg_phase_t phase)
+static uint32_t most_tries(const ale_urg_t *urg)
 {
-    switch (phase) {
+    switch (urg->phase) {
+    case ALE_PHASE_PROBE:
+        /* What measured a moment ago on this very port may begin again: scans sent meanwhile would be lost
+         * on a closed port. */
+        return urg->port_proved && !ale_port_has_baud(urg->port) ? PROVED_TRIES : 2;
     case ALE_PHASE_VERSION: /* asked again, some units fall silent */
     case ALE_PHASE_STATUS:
     case ALE_PHASE_SPEED:
@@ -403,7 +409,7 @@ void ale_urg_dialogue_time(ale_urg_t *urg)
         urg->poll_at_us = 0;
         urg->tries = 1;
         send_command(urg);
-    } else if (urg->tries < most_tries(urg->phase)) {
+    } else if (urg->tries < most_tries(urg)) {
         urg->tries++;
         send_command(urg);
     } else {

@@ -56,6 +56,7 @@ static int32_t silence_ms(const ale_urg_t *urg)
 static void on_good_frame(ale_urg_t *urg, const ale_scip_event_t *event)
 {
     ale_urg_health_t *h = &urg->health;
+    urg->port_proved = true;
     urg->bad_frames = 0;
     urg->frozen = 0;
     h->last_scan_us = urg->stream.last_stamp_us;

@@ -69,7 +69,8 @@ struct ale_urg {
 
     ale_scip_parser_t parser;
     ale_urg_identity_t identity;
-    bool identified; /* VV was answered once */
+    bool port_proved; /* a scan came since the port was opened */
+    bool identified;  /* VV was answered once */
     ale_urg_stream_t stream;
 
     ale_urg_phase_t phase;
