@@ -6,7 +6,6 @@
 #include "base/trig.h"
 
 enum {
-    NEW_LENGTH_UM = 150000,     /* shorter views sharpen walls but begin none */
     CONFLICT_OFFSET_UM = 50000, /* a wall this near may be the same: better none than a double one */
     CONFLICT_ANGLE_URAD = 120000,
     CONFLICT_SIGMAS = 1000,
@@ -68,25 +67,38 @@ static void update_mark(ale_marks_t *marks, const ale_view_t *view, const ale_fi
     }
 }
 
+/* Joins walls that have turned out to be one: one join a scan, tried at the walls in view. */
+static void tidy(ale_local_map_t *map, uint32_t count, const ale_fit_t *fit)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (fit->match[i].wall != ALE_NO_WALL && ale_local_map_merge_at(map, fit->match[i].wall)) {
+            return;
+        }
+    }
+}
+
 void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t count, const ale_fit_t *fit,
                     uint32_t scan, bool grow)
 {
     const ale_gate_t conflict = {CONFLICT_OFFSET_UM, CONFLICT_ANGLE_URAD, CONFLICT_SIGMAS, 0};
     for (uint32_t i = 0; i < count; i++) {
         const ale_match_t *match = &fit->match[i];
-        if (view[i].kind != ALE_VIEW_WALL) {
+        const int64_t length_um = (int64_t)view[i].end_um - view[i].start_um;
+        if (match->wall == ALE_NO_WALL && (view[i].kind != ALE_VIEW_WALL || length_um < ALE_WALL_LENGTH_UM)) {
             update_mark(&map->marks, &view[i], fit, match, scan, grow);
+            continue;
+        }
+        if (view[i].kind != ALE_VIEW_WALL) {
             continue;
         }
         if (match->wall != ALE_NO_WALL) {
             sharpen(&map->wall[match->wall], &view[i], fit, match, scan);
             continue;
         }
-        const int64_t length_um = (int64_t)view[i].end_um - view[i].start_um;
-        if (grow && length_um >= NEW_LENGTH_UM &&
-            ale_match_view(map, &view[i], fit->motion.pose, NULL, &conflict).wall == ALE_NO_WALL) {
+        if (grow && ale_match_view(map, &view[i], fit->motion.pose, NULL, &conflict).wall == ALE_NO_WALL) {
             begin(map, &view[i], fit, scan);
         }
     }
     map->version++;
+    tidy(map, count, fit);
 }

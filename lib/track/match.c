@@ -3,7 +3,7 @@
 #include "base/fixed.h"
 #include "base/trig.h"
 
-enum { OVERLAP_PERCENT = 40, OVERLAP_LEAST_UM = 60000 };
+enum { OVERLAP_PERCENT = 40, OVERLAP_LEAST_UM = 60000, NEVER_TOO_FAR_UM = 30000, NEVER_TOO_FAR_URAD = 50000 };
 
 int64_t ale_view_offset_var(const ale_view_t *view, const ale_matrix_t *cov)
 {
@@ -48,7 +48,8 @@ static int64_t distance_q8(const ale_wall_t *wall, const ale_view_t *view, const
     const int64_t limit = (int64_t)gate->sigmas * gate->sigmas;
     const int64_t offset2 = e->offset_um * e->offset_um;
     const int64_t angle2 = e->angle_urad * e->angle_urad;
-    if (offset2 > limit * var_offset || angle2 > limit * var_angle) {
+    if ((offset2 > limit * var_offset && ale_abs64(e->offset_um) > NEVER_TOO_FAR_UM) ||
+        (angle2 > limit * var_angle && ale_abs64(e->angle_urad) > NEVER_TOO_FAR_URAD)) {
         return INT64_MAX;
     }
     return (offset2 << 8) / var_offset + (angle2 << 8) / var_angle;

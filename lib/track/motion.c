@@ -4,7 +4,17 @@
 #include "base/trig.h"
 #include "track/ratio.h"
 
-enum { STEP_MAX_US = 2000000, FORWARD = 0, LEFT = 1, TURN = 2, BAM_PER_RAD = 683565276 };
+enum {
+    STEP_MAX_US = 2000000,
+    FORWARD = 0,
+    LEFT = 1,
+    TURN = 2,
+    BAM_PER_RAD = 683565276,
+    FACTOR_LEAST_Q8 = 256,
+    FACTOR_MOST_Q8 = 256 * 64,
+    SURPRISE_MOST_Q8 = 256 * 9,
+    ADAPT_SCANS = 16
+};
 
 /* One sigma of the acceleration of a small robot: um/s^2 forward and sideways, urad/s^2. */
 static const int64_t acceleration[ALE_AXES] = {1500000, 300000, 5000000};
@@ -49,6 +59,31 @@ void ale_motion_init(ale_motion_t *motion, int64_t stamp_us, ale_pose_t pose, in
     motion->cov.m[5][5] = turn * turn + 1;
 }
 
+void ale_liveliness_init(ale_liveliness_t *l)
+{
+    for (int i = 0; i < ALE_AXES; i++) {
+        l->factor_q8[i] = FACTOR_LEAST_Q8;
+    }
+}
+
+void ale_liveliness_learn(ale_liveliness_t *l, const ale_motion_t *predicted, const ale_motion_t *found)
+{
+    const ale_pose_t step = ale_pose_between(predicted->pose, found->pose);
+    const int64_t correction[ALE_AXES] = {step.x_um, step.y_um,
+                                          ale_bam_to_nrad((int32_t)step.theta_bam) / 1000};
+    for (int i = 0; i < ALE_AXES; i++) {
+        const int64_t expected = predicted->cov.m[i][i] - found->cov.m[i][i];
+        if (expected <= 0) {
+            continue;
+        }
+        const int64_t d = ale_clamp64(correction[i], -1000000, 1000000);
+        const int64_t surprise_q8 = ale_min64((d * d << 8) / expected, SURPRISE_MOST_Q8);
+        const int64_t factor =
+            l->factor_q8[i] + (int64_t)l->factor_q8[i] * (surprise_q8 - 256) / (256 * ADAPT_SCANS);
+        l->factor_q8[i] = (int32_t)ale_clamp64(factor, FACTOR_LEAST_Q8, FACTOR_MOST_Q8);
+    }
+}
+
 /* Errors of the old frame as seen from the new one: the adjoint of the inverse displacement. */
 static void carry_pose_error(ale_pose_t d, int64_t f_q20[ALE_STATES][ALE_STATES])
 {
@@ -73,7 +108,12 @@ static void acceleration_noise(int axis, int64_t dt_us, int64_t *way, int64_t *v
     *way = ale_round_shift(*velocity * dt_us, ALE_TICK_BITS + 1);
 }
 
-static void predict_free(ale_motion_t *m, int64_t dt_us)
+static int64_t livelier(const ale_liveliness_t *l, int axis, int64_t var)
+{
+    return ale_mul_shift(var, l->factor_q8[axis], 8);
+}
+
+static void predict_free(ale_motion_t *m, int64_t dt_us, const ale_liveliness_t *l)
 {
     const ale_pose_t d = ale_motion_sweep(m->velocity, dt_us);
     int64_t f_q20[ALE_STATES][ALE_STATES] = {{0}};
@@ -88,10 +128,10 @@ static void predict_free(ale_motion_t *m, int64_t dt_us)
         int64_t way;
         int64_t velocity;
         acceleration_noise(i, dt_us, &way, &velocity);
-        cov.m[i][i] += way * way;
-        cov.m[i][i + 3] += way * velocity;
-        cov.m[i + 3][i] += way * velocity;
-        cov.m[i + 3][i + 3] += velocity * velocity;
+        cov.m[i][i] += livelier(l, i, way * way);
+        cov.m[i][i + 3] += livelier(l, i, way * velocity);
+        cov.m[i + 3][i] += livelier(l, i, way * velocity);
+        cov.m[i + 3][i + 3] += livelier(l, i, velocity * velocity);
     }
     m->pose = ale_pose_compose(m->pose, d);
     m->cov = cov;
@@ -128,7 +168,7 @@ static void measure_velocity(axis_t *a, int64_t velocity, int64_t var)
 
 /* How one axis goes on, from the velocity so far and from the wheels. */
 static axis_t fuse_axis(const ale_motion_t *m, int i, int64_t dt_us, const ale_wheel_motion_t *wheels,
-                        int64_t wheels_way)
+                        int64_t wheels_way, const ale_liveliness_t *l)
 {
     const int64_t var = m->cov.m[i + 3][i + 3];
     const int64_t dt_q20 = ale_round_shift(dt_us << 20, ALE_TICK_BITS);
@@ -139,13 +179,14 @@ static axis_t fuse_axis(const ale_motion_t *m, int i, int64_t dt_us, const ale_w
     a.vv = var + velocity * velocity;
     a.wv = ale_mul_shift(var, dt_q20, 20) + way * velocity;
     a.ww = ale_mul_shift(ale_mul_shift(var, dt_q20, 20), dt_q20, 20) + way * way;
-    measure_way(&a, wheels_way, wheels->displacement_var[i]);
-    measure_velocity(&a, wheels->velocity[i], wheels->velocity_var[i]);
+    measure_way(&a, wheels_way, livelier(l, i, wheels->displacement_var[i]));
+    measure_velocity(&a, wheels->velocity[i], livelier(l, i, wheels->velocity_var[i]));
     return a;
 }
 
 /* With wheels the velocity begins anew: its correlation with the last pose is small and is dropped. */
-static void predict_with_wheels(ale_motion_t *m, int64_t dt_us, const ale_wheel_motion_t *wheels)
+static void predict_with_wheels(ale_motion_t *m, int64_t dt_us, const ale_wheel_motion_t *wheels,
+                                const ale_liveliness_t *l)
 {
     const ale_pose_t d = wheels->displacement;
     const uint32_t half = (uint32_t)((int32_t)d.theta_bam / 2);
@@ -153,7 +194,7 @@ static void predict_with_wheels(ale_motion_t *m, int64_t dt_us, const ale_wheel_
     const int64_t way[ALE_AXES] = {chord.x_um, chord.y_um, ale_bam_to_nrad((int32_t)d.theta_bam) / 1000};
     axis_t a[ALE_AXES];
     for (int i = 0; i < ALE_AXES; i++) {
-        a[i] = fuse_axis(m, i, dt_us, wheels, way[i]);
+        a[i] = fuse_axis(m, i, dt_us, wheels, way[i], l);
     }
     const ale_pose_t turn = ale_pose_of_step(0, 0, a[TURN].way);
     const ale_point_t p = ale_rotate((ale_point_t){(int32_t)a[FORWARD].way, (int32_t)a[LEFT].way},
@@ -190,15 +231,16 @@ static void predict_jump(ale_motion_t *m, const ale_wheel_motion_t *wheels)
     m->cov = cov;
 }
 
-void ale_motion_predict(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_motion_t *wheels)
+void ale_motion_predict(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_motion_t *wheels,
+                        const ale_liveliness_t *l)
 {
     const int64_t dt_us = stamp_us - motion->stamp_us;
     if (dt_us <= 0 || dt_us > STEP_MAX_US) {
         predict_jump(motion, wheels);
     } else if (wheels) {
-        predict_with_wheels(motion, dt_us, wheels);
+        predict_with_wheels(motion, dt_us, wheels, l);
     } else {
-        predict_free(motion, dt_us);
+        predict_free(motion, dt_us, l);
     }
     motion->stamp_us = stamp_us;
 }

@@ -73,6 +73,9 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
     ale_wheels_init(&pipeline->wheels, c->max_speed_mm_s, c->max_turn_mrad_s);
     ale_lag_init(&pipeline->lag, c->odometry_lag_us);
     ale_wheel_scale_init(&pipeline->scale, &noise);
+    ale_liveliness_init(&pipeline->liveliness[0]);
+    ale_liveliness_init(&pipeline->liveliness[1]);
+    ale_pace_init(&pipeline->pace);
     ale_tracker_init(&pipeline->tracker);
     ale_local_map_clear(&pipeline->map);
     ale_motion_init(&pipeline->motion, 0, (ale_pose_t){0, 0, 0}, START_SPEED_MM_S, START_TURN_MRAD_S);
@@ -95,7 +98,7 @@ void ale_pipeline_odometry(ale_pipeline_t *pipeline, const ale_odometry_t *sampl
 static bool predict(ale_pipeline_t *p, int64_t stamp_us, ale_wheel_motion_t *wheels)
 {
     const bool known = ale_wheel_motion(&p->wheels, &p->lag, &p->scale, p->motion.stamp_us, stamp_us, wheels);
-    ale_motion_predict(&p->motion, stamp_us, known ? wheels : NULL);
+    ale_motion_predict(&p->motion, stamp_us, known ? wheels : NULL, &p->liveliness[known]);
     return known;
 }
 
@@ -171,7 +174,8 @@ static void teach_wheels(ale_pipeline_t *p, const ale_motion_t *before, const al
 
 static void begin(ale_pipeline_t *p, const ale_scan_t *scan)
 {
-    ale_motion_init(&p->motion, scan->stamp_us, p->motion.pose, START_SPEED_MM_S, START_TURN_MRAD_S);
+    ale_motion_init(&p->motion, ale_pace_instant(&p->pace, scan->stamp_us), p->motion.pose, START_SPEED_MM_S,
+                    START_TURN_MRAD_S);
     look(p, scan, p->motion.velocity);
     p->fit.motion = p->motion;
     match(p, &p->motion);
@@ -184,15 +188,17 @@ static void begin(ale_pipeline_t *p, const ale_scan_t *scan)
 static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
 {
     const ale_motion_t before = p->motion;
+    const int64_t instant_us = ale_pace_instant(&p->pace, scan->stamp_us);
     ale_wheel_motion_t wheels;
-    const bool counted = predict(p, scan->stamp_us, &wheels);
+    const bool counted = predict(p, instant_us, &wheels);
     const ale_motion_t predicted = p->motion;
     look(p, scan, predicted.velocity);
     match(p, &predicted);
     p->motion = p->fit.motion;
+    ale_liveliness_learn(&p->liveliness[counted], &predicted, &p->motion);
     ale_tracker_judge(&p->tracker, &p->fit);
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);
-    advance_smooth(p, before.pose, predicted.pose, scan->stamp_us - before.stamp_us);
+    advance_smooth(p, before.pose, predicted.pose, instant_us - before.stamp_us);
     teach_wheels(p, &before, counted ? &wheels : NULL);
     if (p->tracker.state != ALE_STATE_LOST) {
         ale_map_update(&p->map, p->view, p->view_count, &p->fit, p->scans,
@@ -233,10 +239,10 @@ static void scan_information(const ale_information_t *sum, int64_t out[6])
     }
 }
 
-static void answer(ale_pipeline_t *p, bool predicted, uint32_t version, ale_estimate_t *out)
+static void answer(ale_pipeline_t *p, int64_t stamp_us, bool predicted, uint32_t version, ale_estimate_t *out)
 {
     memset(out, 0, sizeof *out);
-    out->stamp_us = p->motion.stamp_us;
+    out->stamp_us = stamp_us;
     out->scan = p->scans++;
     out->smooth = p->smooth;
     out->map = p->motion.pose;
@@ -262,7 +268,7 @@ void ale_pipeline_scan(ale_pipeline_t *pipeline, const ale_scan_t *scan, ale_est
     } else {
         begin(pipeline, scan);
     }
-    answer(pipeline, false, version, out);
+    answer(pipeline, scan->stamp_us, false, version, out);
 }
 
 void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estimate_t *out)
@@ -277,7 +283,7 @@ void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estima
     } else {
         pipeline->motion.stamp_us = stamp_us;
     }
-    answer(pipeline, true, pipeline->map.version, out);
+    answer(pipeline, stamp_us, true, pipeline->map.version, out);
 }
 
 const ale_features_t *ale_pipeline_features(const ale_pipeline_t *pipeline)

@@ -7,6 +7,7 @@
 #include "track/local_map.h"
 #include "track/motion.h"
 #include "track/odometry.h"
+#include "track/pace.h"
 #include "track/pipeline.h"
 #include "track/refine.h"
 #include "track/tracker.h"
@@ -21,8 +22,10 @@ struct ale_pipeline {
     ale_wheels_t wheels;
     ale_lag_t lag;
     ale_wheel_scale_t scale;
+    ale_liveliness_t liveliness[2]; /* without wheels, with wheels */
 
     uint32_t scans;
+    ale_pace_t pace;
     bool started; /* the first scan has set the origin */
     ale_motion_t motion;
     ale_tracker_t tracker;

@@ -9,7 +9,7 @@ enum {
     HUBER_SIGMAS = 2,
     LATER_SIGMAS = 4, /* gates of the later iterations */
     LATER_OFFSET_UM = 60000,
-    LATER_ANGLE_URAD = 80000,
+    LATER_ANGLE_URAD = 200000,
     LATER_PIECE_UM = 50000,
     PIECE_ANGLE_URAD = 600000 /* a piece hardly has a direction */
 };
@@ -118,7 +118,10 @@ static ale_match_t find(const ale_scene_t *scene, const ale_view_t *view, const 
                         const ale_matrix_t *cov, const ale_gate_t *gate)
 {
     if (view->kind == ALE_VIEW_WALL) {
-        return ale_match_view(scene->map, view, fit->motion.pose, cov, gate);
+        const ale_match_t wall = ale_match_view(scene->map, view, fit->motion.pose, cov, gate);
+        const bool found =
+            wall.wall != ALE_NO_WALL || (int64_t)view->end_um - view->start_um >= ALE_WALL_LENGTH_UM;
+        return found ? wall : ale_match_mark(scene->map, view, fit->motion.pose, gate->piece_um);
     }
     const ale_gate_t loose = {gate->piece_um, PIECE_ANGLE_URAD, gate->sigmas, 0};
     const ale_match_t match = view->kind == ALE_VIEW_PIECE

@@ -5,7 +5,7 @@
 enum {
     MISFITS_UNTIL_LOST = 5,
     ENOUGH_SHOWN_UM = 1500000, /* walls a scan must show before their misfit means anything */
-    FIT_PERCENT = 35,          /* of the length shown that must be found in the map */
+    FIT_PERCENT = 0,           /* of the length shown that must be found in the map */
     DETERMINED_UM = 30000,     /* the scan alone knows each direction better than this */
     WEAK_SIGMA_UM = 60000,     /* pose sigma above which it is weak whatever the scan shows */
     LOST_SIGMA_UM = 1000000,

@@ -50,7 +50,7 @@ static void view_of(const ale_line_t *line, const ale_scan_t *scan, ale_pose_t s
     out->start_end = forward ? line->first_end : line->last_end;
     out->end_end = forward ? line->last_end : line->first_end;
     const int64_t length_mm = ale_max64((out->end_um - out->start_um) / 1000, 10);
-    const int64_t bend_urad = systematic_um * 2000 / length_mm;
+    const int64_t bend_urad = systematic_um * 4000 / length_mm;
     out->var_offset_um2 = ale_max64(var_um2, 0) + OFFSET_FLOOR_UM2 + systematic_um * systematic_um;
     out->var_angle_urad2 = line->var_alpha_nrad2 / 1000000 + ANGLE_FLOOR_URAD2 + bend_urad * bend_urad;
 }

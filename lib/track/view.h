@@ -14,6 +14,9 @@
 
 #include "extract/extract.h"
 
+/* Shorter lines begin no wall in the map: they leave marks, as pieces do. */
+enum { ALE_WALL_LENGTH_UM = 250000 };
+
 typedef enum {
     ALE_VIEW_WALL = 0,  /* an extracted line */
     ALE_VIEW_PIECE = 1, /* a few beams of a surface that made no line */
