@@ -70,9 +70,20 @@ int ale_recording_odometry(ale_recording_t *recording, int64_t stamp_us, const a
 
 int ale_recording_close(ale_recording_t *recording)
 {
-    const int status = recording->file ? fclose(recording->file) : 0;
+    FILE *file = recording->file;
     recording->file = NULL;
-    return status == 0 ? 0 : -1;
+    if (!file) {
+        return 0;
+    }
+    const bool incomplete = ferror(file) != 0;
+    if (fclose(file) != 0) {
+        return -1;
+    }
+    if (incomplete) {
+        errno = EIO;
+        return -1;
+    }
+    return 0;
 }
 
 bool ale_recording_claims(const uint8_t *bytes, size_t count)

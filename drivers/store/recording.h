@@ -33,7 +33,8 @@ typedef struct {
 } ale_recording_t;
 
 /* Writing. One owner thread; buffered, so a crash loses the last chunks and never the ones before.
- * Each: 0, or -1 with errno set (EINVAL: a payload above ALE_CHUNK_MAX_PAYLOAD). */
+ * Each: 0, or -1 with errno set (EINVAL: a payload above ALE_CHUNK_MAX_PAYLOAD). Closing fails, too, when an
+ * earlier write did: the recording is not whole. */
 int ale_recording_create(ale_recording_t *recording, const char *path);
 int ale_recording_write(ale_recording_t *recording, ale_chunk_kind_t kind, int64_t stamp_us,
                         const void *payload, uint32_t length);

@@ -1,0 +1,147 @@
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+extern "C" {
+#include "store/map_file.h"
+}
+
+namespace
+{
+
+class MapFile : public testing::Test
+{
+  protected:
+    void SetUp() override
+    {
+        folder_ = std::filesystem::path(testing::TempDir()) /
+                  (std::string("ale-map-") + testing::UnitTest::GetInstance()->current_test_info()->name());
+        std::filesystem::create_directories(folder_);
+        path_ = folder_ / "map.ale";
+    }
+    void TearDown() override
+    {
+        std::filesystem::remove_all(folder_);
+    }
+    std::string load_error(const std::string &bytes)
+    {
+        std::ofstream(path_, std::ios::binary) << bytes;
+        error_[0] = '\0';
+        return ale_map_file_load(path_.c_str(), loaded_.get(), error_) < 0 ? error_ : "";
+    }
+    std::string saved(const ale_map_t &map)
+    {
+        EXPECT_EQ(ale_map_file_save(path_.c_str(), &map, error_), 0) << error_;
+        std::ifstream file(path_, std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+
+    std::filesystem::path folder_;
+    std::filesystem::path path_;
+    char error_[ALE_MAP_FILE_ERROR] = "";
+    std::unique_ptr<ale_map_t> loaded_ = std::make_unique<ale_map_t>();
+};
+
+std::unique_ptr<ale_map_t> some_map(uint16_t lines, uint16_t corners)
+{
+    std::mt19937 random(4);
+    const auto word = [&random] { return static_cast<uint32_t>(random()); };
+    const auto any = [&random] { return static_cast<int32_t>(random()); };
+    auto map = std::make_unique<ale_map_t>();
+    map->line_count = lines;
+    map->corner_count = corners;
+    for (int i = 0; i < lines; i++) {
+        map->line[i] = {word(),
+                        {any(), any()},
+                        {any(), any()},
+                        any() & INT32_MAX,
+                        -(any() & INT32_MAX),
+                        any() & INT32_MAX,
+                        word()};
+    }
+    for (int i = 0; i < corners; i++) {
+        map->corner[i] = {{any(), any()}, {any() & INT32_MAX, any(), any() & INT32_MAX},
+                          word(),         word(),
+                          word(),         static_cast<uint8_t>(i % 2)};
+    }
+    return map;
+}
+
+TEST_F(MapFile, AMapComesBackAsItWas)
+{
+    for (const int full : {0, 1}) {
+        const auto map = some_map(full ? ALE_MAP_MAX_LINES : 7, full ? ALE_MAP_MAX_CORNERS : 3);
+        ASSERT_EQ(load_error(saved(*map)), "");
+        ASSERT_EQ(loaded_->line_count, map->line_count);
+        ASSERT_EQ(loaded_->corner_count, map->corner_count);
+        for (int i = 0; i < map->line_count; i++) {
+            const ale_map_line_t &a = map->line[i];
+            const ale_map_line_t &b = loaded_->line[i];
+            ASSERT_TRUE(a.id == b.id && a.start.x_um == b.start.x_um && a.start.y_um == b.start.y_um &&
+                        a.end.x_um == b.end.x_um && a.end.y_um == b.end.y_um && a.seen == b.seen &&
+                        a.var_alpha_nrad2 == b.var_alpha_nrad2 && a.cov_alpha_rho == b.cov_alpha_rho &&
+                        a.var_rho_um2 == b.var_rho_um2)
+                << i;
+        }
+        for (int i = 0; i < map->corner_count; i++) {
+            const ale_map_corner_t &a = map->corner[i];
+            const ale_map_corner_t &b = loaded_->corner[i];
+            ASSERT_TRUE(a.p.x_um == b.p.x_um && a.p.y_um == b.p.y_um && a.cov_um2[0] == b.cov_um2[0] &&
+                        a.cov_um2[1] == b.cov_um2[1] && a.cov_um2[2] == b.cov_um2[2] &&
+                        a.angle_bam == b.angle_bam && a.bisector_bam == b.bisector_bam && a.seen == b.seen &&
+                        a.kind == b.kind)
+                << i;
+        }
+    }
+}
+
+TEST_F(MapFile, AnEmptyMapIsAMap)
+{
+    EXPECT_EQ(load_error(saved(*some_map(0, 0))), "");
+    EXPECT_EQ(loaded_->line_count, 0);
+}
+
+TEST_F(MapFile, AnyFlippedByteIsNoticedAndTheOldMapStays)
+{
+    const std::string good = saved(*some_map(3, 2));
+    loaded_->line_count = 77;
+    for (size_t at = 0; at + 1 < good.size(); at++) {
+        std::string bad = good;
+        bad[at] ^= 0x01;
+        ASSERT_NE(load_error(bad), "") << "byte " << at;
+        ASSERT_EQ(loaded_->line_count, 77);
+    }
+}
+
+TEST_F(MapFile, AnyCutIsNoticed)
+{
+    const std::string good = saved(*some_map(3, 2));
+    for (size_t length = 0; length + 1 < good.size(); length++) {
+        ASSERT_NE(load_error(good.substr(0, length)), "") << length;
+    }
+}
+
+TEST_F(MapFile, ErrorsNameFileLineAndReason)
+{
+    EXPECT_EQ(load_error("ALE-SLAM map 2\n"), path_.string() + ": line 1: not a map of version 1");
+    EXPECT_EQ(load_error("ALE-SLAM map 1\nwall 1 2 3\n"), path_.string() + ": line 2: damaged or too large");
+    EXPECT_EQ(ale_map_file_load((folder_ / "absent").c_str(), loaded_.get(), error_), -1);
+    EXPECT_NE(std::string(error_).find("No such file"), std::string::npos);
+}
+
+TEST_F(MapFile, AFailedSaveLeavesTheOldFileAndNothingElse)
+{
+    const std::string before = saved(*some_map(2, 1));
+    EXPECT_EQ(ale_map_file_save((folder_ / "no/such/map").c_str(), loaded_.get(), error_), -1);
+    std::filesystem::create_directory(folder_ / "folder");
+    EXPECT_EQ(ale_map_file_save((folder_ / "folder").c_str(), loaded_.get(), error_), -1);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 2);
+    EXPECT_EQ(load_error(before), "");
+}
+
+} // namespace
