@@ -1,22 +1,39 @@
 #include "sim/describe.h"
 
-#include <cinttypes>
-#include <cstdio>
+#include <iomanip>
+#include <sstream>
 
 namespace sim
 {
 
+namespace
+{
+
+void print_sensor(const Description &description, std::ostream &out)
+{
+    out << "[sensor]\n" << std::fixed;
+    if (description.has_sensor) {
+        out << std::setprecision(6) << "x = " << description.sensor.x << "\ny = " << description.sensor.y
+            << std::setprecision(9) << "\ntheta = " << wrapped(description.sensor.theta) << "\n";
+    }
+    const char *before = "blind = ";
+    for (const BlindSector &sector : description.blind) {
+        out << std::setprecision(2) << before << sector.from << ":" << sector.to;
+        before = ", ";
+    }
+    out << (description.blind.empty() ? "\n" : "\n\n");
+}
+
+} // namespace
+
 std::string configuration(const Description &description)
 {
-    char sensor[128] = "";
-    if (description.has_sensor) {
-        std::snprintf(sensor, sizeof sensor, "[sensor]\nx = %.6f\ny = %.6f\ntheta = %.9f\n\n",
-                      description.sensor.x, description.sensor.y, wrapped(description.sensor.theta));
-    }
-    char odometry[96];
-    std::snprintf(odometry, sizeof odometry, "[odometry]\nuse = %s\nlag_us = %" PRId64 "\n",
-                  description.has_odometry ? "true" : "false", description.lag_us);
-    return "# " + description.origin + "\n" + sensor + odometry;
+    std::ostringstream out;
+    out << "# " << description.origin << "\n";
+    print_sensor(description, out);
+    out << "[odometry]\nuse = " << (description.has_odometry ? "true" : "false")
+        << "\nlag_us = " << description.lag_us << "\n";
+    return out.str();
 }
 
 } // namespace sim

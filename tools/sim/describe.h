@@ -4,8 +4,9 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
-#include "sim/geometry.h"
+#include "sim/scanner.h"
 
 namespace sim
 {
@@ -14,6 +15,7 @@ struct Description {
     std::string origin; /* for people */
     bool has_sensor = false;
     Pose sensor;
+    std::vector<BlindSector> blind;
     bool has_odometry = false;
     int64_t lag_us = 0;
 };

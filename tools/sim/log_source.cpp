@@ -19,7 +19,8 @@ constexpr int64_t longest_gap_us = 2000000;
 constexpr int64_t usual_gap_us = 100000;
 constexpr int64_t shortest_gap_us = 2000; /* stamps are milliseconds: two scans must not share one */
 constexpr size_t scans_ahead = 4;         /* odometry of a later scan may be due before an earlier scan */
-constexpr double urg_step_bam = 4194304;  /* 1024 steps a turn */
+constexpr double degrees_per_bam = 360 / bam_per_turn;
+constexpr double urg_step_bam = 4194304; /* 1024 steps a turn */
 
 /* The URG-04LX's step of the scan's first beam; nothing when the scan is another scanner's. */
 std::optional<int32_t> urg_first_step(const ale_scan_t &scan)
@@ -61,13 +62,36 @@ int32_t value_of(const ale_scan_t &scan, size_t beam)
     switch (scan.flag[beam]) {
     case ALE_BEAM_VALID:
         return mm;
-    case ALE_BEAM_BLIND:
-        return not_a_step;
     case ALE_BEAM_UNKNOWN:
         return scan.code[beam] != 0 ? scan.code[beam] : 1;
     default:
         return scan.code[beam];
     }
+}
+
+/* The beams at either end that the log's reader knows to see the robot itself. */
+std::vector<BlindSector> blind_ends(const ale_scan_t &scan)
+{
+    int32_t right = 0;
+    int32_t left = scan.beams;
+    while (right < scan.beams && scan.flag[right] == ALE_BEAM_BLIND) {
+        right++;
+    }
+    while (left > right && scan.flag[left - 1] == ALE_BEAM_BLIND) {
+        left--;
+    }
+    const auto edge = [&](int32_t beam) {
+        const double step = degrees_per_bam * scan.step_bam;
+        return degrees_per_bam * ale_bam_diff(scan.first_bearing_bam, 0) + (beam - 0.5) * step;
+    };
+    std::vector<BlindSector> sectors;
+    if (right > 0) {
+        sectors.push_back({edge(0), edge(right)});
+    }
+    if (left < scan.beams) {
+        sectors.push_back({edge(left), edge(scan.beams)});
+    }
+    return sectors;
 }
 
 Pose pose_of(const ale_pose_t &pose)
@@ -127,6 +151,7 @@ void LogSource::take_scan(const ale_scan_t &scan)
 {
     if (scans_ == 0) {
         scanner_ = scanner_of(scan);
+        blind_ = blind_ends(scan);
     }
     const int32_t first_step = urg_first_step(scan).value_or(scanner_.first_step);
     Turn turn;

@@ -34,6 +34,11 @@ class LogSource : public Source
     {
         return std::nullopt;
     }
+    /* Where the robot itself is in the scanner's way, as far as the log's reader knows. */
+    const std::vector<BlindSector> &blind() const
+    {
+        return blind_;
+    }
     const ale_log_info_t &info() const
     {
         return *ale_log_info(log_.get());
@@ -57,6 +62,7 @@ class LogSource : public Source
     std::unique_ptr<ale_log_t, Close> log_;
     std::unique_ptr<ale_log_event_t> event_;
     Scanner scanner_;
+    std::vector<BlindSector> blind_;
     std::deque<Turn> turns_;
     std::deque<OdometryReport> odometry_;
     std::deque<ale_odometry_t> unplaced_; /* read before the scan that says where the stamps stand */

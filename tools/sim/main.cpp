@@ -91,18 +91,21 @@ void describe(const sim::Options &options)
 {
     sim::Description description;
     if (!options.world.empty()) {
-        description = {"world " + options.world, true, world_of(options).sensor, options.odometry,
-                       options.world_source.odometry_lag_us};
+        description.origin = "world " + options.world;
+        description.has_sensor = true;
+        description.sensor = world_of(options).sensor;
+        description.has_odometry = options.odometry;
+        description.lag_us = options.world_source.odometry_lag_us;
     } else {
         const sim::LogSource log(options.log, true);
         const ale_log_info_t &info = log.info();
-        description = {std::string(info.format) + " log " + options.log,
-                       info.has_sensor,
-                       {},
-                       info.has_odometry && options.odometry,
-                       info.lag_prior_us};
+        description.origin = std::string(info.format) + " log " + options.log;
+        description.has_sensor = info.has_sensor;
         description.sensor = {sim::metres(info.sensor.x_um), sim::metres(info.sensor.y_um),
                               sim::radians(info.sensor.theta_bam)};
+        description.blind = log.blind();
+        description.has_odometry = info.has_odometry && options.odometry;
+        description.lag_us = info.lag_prior_us;
     }
     std::fputs(sim::configuration(description).c_str(), stdout);
 }

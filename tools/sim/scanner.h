@@ -41,6 +41,12 @@ struct Scanner {
     }
 };
 
+/* Bearings that see the robot itself, degrees counter-clockwise. */
+struct BlindSector {
+    double from = 0;
+    double to = 0;
+};
+
 /* Code of a step that is outside the field of view. */
 constexpr int32_t not_a_step = 19;
 
