@@ -24,7 +24,7 @@ void Record::pose(const ale::pose_t &pose)
         missing_ += std::max<int64_t>(0, static_cast<int64_t>(pose.scan) - poses_.back().pose.scan - 1);
     }
     predicted_ += pose.predicted != 0 ? 1 : 0;
-    states_[static_cast<size_t>(pose.state)]++;
+    states_[static_cast<unsigned char>(pose.state)]++;
     for (size_t k = 0; k < stage_count; k++) {
         worst_stage_ns_[k] = std::max(worst_stage_ns_[k], pose.stage_ns[k]);
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cinttypes>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -24,6 +25,7 @@ __attribute__((format(printf, 1, 2))) std::string format(const char *pattern, ..
     char text[256];
     va_list values;
     va_start(values, pattern);
+    /* NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): it was started one line above. */
     vsnprintf(text, sizeof text, pattern, values);
     va_end(values);
     return text;
@@ -56,25 +58,24 @@ std::string status_line(const Record &record, double elapsed_s, double silent_s)
         return format("%5.0f s  poses %5d  none yet", elapsed_s, 0);
     }
     const ale::pose_t &pose = record.poses().back().pose;
-    const std::string place = format(
-        "x %7.3f y %7.3f heading %6.1f", static_cast<double>(pose.map_x), static_cast<double>(pose.map_y),
-        std::remainder(static_cast<double>(pose.map_theta) * degrees_per_radian, 360.0));
-    const std::string silence = silent_s >= 1 ? format("  SILENT for %.0f s", silent_s) : "";
+    const double heading_deg =
+        std::remainder(static_cast<double>(pose.map_theta) * degrees_per_radian, 360.0);
     return format("%5.0f s  poses %5zu  %s  ", elapsed_s, record.poses().size(),
-                  state_names[static_cast<size_t>(pose.state)]) +
-           place + "  " + seen(record) + "  " + worst_stage(record) + "  " +
-           format("dropped %lld  ", static_cast<long long>(record.predicted() + record.missing())) +
-           latency(record) + silence;
+                  state_names[static_cast<unsigned char>(pose.state)]) +
+           format("x %7.3f y %7.3f heading %6.1f  ", static_cast<double>(pose.map_x),
+                  static_cast<double>(pose.map_y), heading_deg) +
+           seen(record) + "  " + worst_stage(record) + "  " +
+           format("dropped %" PRId64 "  ", record.predicted() + record.missing()) + latency(record) +
+           (silent_s >= 1 ? format("  SILENT for %.0f s", silent_s) : "");
 }
 
 std::string summary_line(const Record &record, uint64_t malformed)
 {
-    return format(
-        "%zu poses, %lld missing, %lld predicted; good %lld, weak %lld, lost %lld; %llu malformed messages",
-        record.poses().size(), static_cast<long long>(record.missing()),
-        static_cast<long long>(record.predicted()), static_cast<long long>(record.in_state(2)),
-        static_cast<long long>(record.in_state(1)), static_cast<long long>(record.in_state(0)),
-        static_cast<unsigned long long>(malformed));
+    return format("%zu poses, %" PRId64 " missing, %" PRId64 " predicted; ", record.poses().size(),
+                  record.missing(), record.predicted()) +
+           format("good %" PRId64 ", weak %" PRId64 ", lost %" PRId64 "; ", record.in_state(2),
+                  record.in_state(1), record.in_state(0)) +
+           format("%" PRIu64 " malformed messages", malformed);
 }
 
 void write_trajectory(const Record &record, const std::string &path)

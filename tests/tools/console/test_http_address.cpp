@@ -1,0 +1,70 @@
+// Where the console listens and which pages may talk to it.
+#include "console/http_address.h"
+
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+using console::origin_is_ours;
+using console::parse_http_address;
+
+TEST(HttpAddress, AddressAndPortAreTakenApart)
+{
+    const auto address = parse_http_address("127.0.0.1:8080");
+    EXPECT_EQ(address.host, "127.0.0.1");
+    EXPECT_EQ(address.port, 8080);
+    EXPECT_EQ(address.url(), "http://127.0.0.1:8080/");
+}
+
+TEST(HttpAddress, AnIpv6AddressWearsBrackets)
+{
+    const auto address = parse_http_address("[::1]:90");
+    EXPECT_EQ(address.host, "::1");
+    EXPECT_TRUE(address.ipv6);
+    EXPECT_EQ(address.url(), "http://[::1]:90/");
+}
+
+TEST(HttpAddress, WhatIsNoAddressIsRefusedWithItsName)
+{
+    for (const char *text : {"", ":80", "127.0.0.1", "127.0.0.1:", "127.0.0.1:-1", "127.0.0.1:65536",
+                             "127.0.0.1:8 ", "127.0.0.1:0x50", "127.0.0.1:99999999999999999999"}) {
+        try {
+            parse_http_address(text);
+            ADD_FAILURE() << text;
+        } catch (const std::invalid_argument &error) {
+            EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+        }
+    }
+}
+
+TEST(HttpAddress, ThePageOfThisConsoleIsOurs)
+{
+    EXPECT_TRUE(origin_is_ours("http://127.0.0.1:8080", "127.0.0.1:8080", "robot"));
+    EXPECT_TRUE(origin_is_ours("http://[::1]:8080", "[::1]:8080", "robot"));
+    EXPECT_TRUE(origin_is_ours("http://localhost:8080", "localhost:8080", "robot"));
+    EXPECT_TRUE(origin_is_ours("http://192.168.1.7", "192.168.1.7", "robot"));
+    EXPECT_TRUE(origin_is_ours("http://robot:8080", "robot:8080", "robot"));
+    EXPECT_TRUE(origin_is_ours("http://robot.local:8080", "robot.local:8080", "robot"));
+}
+
+TEST(HttpAddress, AProgramThatIsNoBrowserHasNoOrigin)
+{
+    EXPECT_TRUE(origin_is_ours("", "127.0.0.1:8080", "robot"));
+}
+
+TEST(HttpAddress, AForeignPageIsNotOurs)
+{
+    EXPECT_FALSE(origin_is_ours("http://evil.example", "127.0.0.1:8080", "robot"));
+    EXPECT_FALSE(origin_is_ours("http://127.0.0.1:8081", "127.0.0.1:8080", "robot"));
+    EXPECT_FALSE(origin_is_ours("https://127.0.0.1:8080", "127.0.0.1:8080", "robot"));
+    EXPECT_FALSE(origin_is_ours("http://127.0.0.1:8080.evil.example", "127.0.0.1:8080", "robot"));
+    EXPECT_FALSE(origin_is_ours("null", "127.0.0.1:8080", "robot"));
+    EXPECT_FALSE(origin_is_ours("file://", "127.0.0.1:8080", "robot"));
+}
+
+TEST(HttpAddress, AForeignNameMadeToResolveToUsIsNotOurs)
+{
+    EXPECT_FALSE(origin_is_ours("http://evil.example:8080", "evil.example:8080", "robot"));
+    EXPECT_FALSE(origin_is_ours("http://robot.evil.example", "robot.evil.example", "robot"));
+    EXPECT_FALSE(origin_is_ours("http://:8080", ":8080", ""));
+}
