@@ -37,23 +37,42 @@ constexpr std::array<const char *, ALE_REFUSALS> refusal_names{
     "too few points", "too short", "too sparse",  "rougher than the noise",
     "curved",         "grazing",   "no room left"};
 
-/* From the sensor's frame in metres to pixels: x forward is up, y left is left. */
+SvgPoint place_of(const ale_scan_t &scan, int beam)
+{
+    const double turn = static_cast<int32_t>(ale_scan_bearing(&scan, beam)) * 3.14159265358979 / 0x1p31;
+    const double range = scan.range_um[beam] * 1e-6;
+    return {range * std::cos(turn), range * std::sin(turn)};
+}
+
+/* From the sensor's frame in metres to pixels: x forward is up, y left is left. All that was measured fits.
+ */
 class View
 {
   public:
     explicit View(const ale_scan_t &scan)
     {
         double reach = 0.5;
+        double low_x = 0;
+        double high_x = 0;
+        double low_y = 0;
+        double high_y = 0;
         for (int k = 0; k < scan.beams; k++) {
             if (scan.flag[k] == ALE_BEAM_VALID) {
-                reach = std::max(reach, scan.range_um[k] * 1e-6);
+                const SvgPoint p = place_of(scan, k);
+                low_x = std::min(low_x, p.x);
+                high_x = std::max(high_x, p.x);
+                low_y = std::min(low_y, p.y);
+                high_y = std::max(high_y, p.y);
             }
         }
-        scale_ = map_size / (2 * reach * 1.03);
+        reach = std::max({reach, high_x - low_x, high_y - low_y});
+        scale_ = map_size / (reach * 1.06);
+        middle_ = {(low_x + high_x) / 2, (low_y + high_y) / 2};
     }
     SvgPoint operator()(double x, double y) const
     {
-        return {border + map_size / 2 - y * scale_, head + map_size / 2 - x * scale_};
+        return {border + map_size / 2 - (y - middle_.y) * scale_,
+                head + map_size / 2 - (x - middle_.x) * scale_};
     }
     SvgPoint operator()(const ale_point_t &p) const
     {
@@ -66,14 +85,8 @@ class View
 
   private:
     double scale_;
+    SvgPoint middle_;
 };
-
-SvgPoint measured(const View &view, const ale_scan_t &scan, int beam)
-{
-    const double turn = static_cast<int32_t>(ale_scan_bearing(&scan, beam)) * 3.14159265358979 / 0x1p31;
-    const double range = scan.range_um[beam] * 1e-6;
-    return view(range * std::cos(turn), range * std::sin(turn));
-}
 
 void draw_scale(SvgDrawing &drawing)
 {
@@ -94,12 +107,13 @@ void draw_points(SvgDrawing &drawing, const View &view, const ale_scan_t &scan, 
 {
     for (int k = 0; k < scan.beams; k++) {
         if (scan.flag[k] == ALE_BEAM_VALID) {
-            drawing.circle(measured(view, scan, k), 2.4, raw_colour, 0.8);
+            const SvgPoint p = place_of(scan, k);
+            drawing.circle(view(p.x, p.y), 2.4, raw_colour, 0.8);
         }
     }
     size_t segment = 0;
     for (int k = 0; k < trace.points; k++) {
-        drawing.dot(view({trace.x_um[k], trace.y_um[k]}), 1.4,
+        drawing.dot(view(ale_point_t{trace.x_um[k], trace.y_um[k]}), 1.4,
                     segment_colours[segment % segment_colours.size()]);
         segment += trace.segment_ends[k];
     }
@@ -122,8 +136,8 @@ void draw_refused(SvgDrawing &drawing, const View &view, const inspect_trace_t &
         if (became_a_feature(trace, trace.beam[run.first], trace.beam[run.last])) {
             continue;
         }
-        drawing.line(view({trace.x_um[run.first], trace.y_um[run.first]}),
-                     view({trace.x_um[run.last], trace.y_um[run.last]}), refused_colour, 2);
+        drawing.line(view(ale_point_t{trace.x_um[run.first], trace.y_um[run.first]}),
+                     view(ale_point_t{trace.x_um[run.last], trace.y_um[run.last]}), refused_colour, 2);
     }
 }
 
@@ -156,7 +170,7 @@ void draw_curves(SvgDrawing &drawing, const View &view, const inspect_trace_t &t
         std::vector<SvgPoint> along;
         for (int k = 0; k < trace.points; k++) {
             if (trace.beam[k] >= curve.first && trace.beam[k] <= curve.last) {
-                along.push_back(view({trace.x_um[k], trace.y_um[k]}));
+                along.push_back(view(ale_point_t{trace.x_um[k], trace.y_um[k]}));
             }
         }
         drawing.polyline(along, curve_colour, 2);
