@@ -96,8 +96,8 @@ static bool end_reply(ale_scip_parser_t *p, ale_scip_event_t *event)
     ale_scip_event_t *reply = &p->reply;
     p->state = IDLE;
     reply->last_us = p->now_us;
-    /* With an unreadable status and nothing behind it, it was no scan. */
-    const bool refusal = reply->status[0] == '\0' && p->body_lines < 2;
+    /* With an unreadable status and then the end, it was no scan. */
+    const bool refusal = reply->status[0] == '\0' && p->body_lines < 2 && reply->loss != ALE_SCIP_CUT;
     if (p->has_data && !refusal) {
         if (p->stamp_due || p->partial_count > 0 || reply->value_count != p->expected) {
             damage(p, ALE_SCIP_BAD_COUNT);
@@ -167,7 +167,9 @@ static ale_scip_loss_t read_data(ale_scip_parser_t *p)
     for (uint32_t k = 0; k < count && loss == ALE_SCIP_INTACT; k++) {
         loss = read_data_character(p, p->line.bytes + k);
     }
-    return loss;
+    /* Only the last line may be short. */
+    const bool short_of_values = p->ended && p->reply.value_count != p->expected;
+    return loss == ALE_SCIP_INTACT && short_of_values ? ALE_SCIP_BAD_COUNT : loss;
 }
 
 /* Takes ";" and sum off an information line and judges the sum; the text stays in line[]. */
@@ -227,10 +229,11 @@ static bool read_body_line(ale_scip_parser_t *p, ale_scip_event_t *event)
         return end_reply(p, event);
     }
     ale_scip_request_t request;
+    const bool echo_at_end = ale_scip_line_request(&p->line, &request) >= 0;
+    if (!p->has_data && !echo_at_end) {
+        return read_info(p, event);
+    }
     if (!p->has_data) {
-        if (ale_scip_line_request(&p->line, &request) < 0) {
-            return read_info(p, event);
-        }
         keep_candidate(p);
         return false;
     }
@@ -243,6 +246,9 @@ static bool read_body_line(ale_scip_parser_t *p, ale_scip_event_t *event)
     }
     if (loss != ALE_SCIP_INTACT) {
         damage(p, loss);
+    }
+    /* The cut piece of a line and an echo behind it may by chance have a right sum. */
+    if (loss != ALE_SCIP_INTACT || echo_at_end) {
         keep_candidate(p);
     }
     return false;
