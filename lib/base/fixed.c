@@ -43,10 +43,7 @@ static wide_t wide_add(wide_t a, uint64_t high, uint64_t low)
 uint32_t ale_isqrt(uint64_t v)
 {
     uint64_t root = 0;
-    uint64_t bit = (uint64_t)1 << 62;
-    while (bit > v) {
-        bit >>= 2;
-    }
+    uint64_t bit = v > 0 ? (uint64_t)1 << ((ale_bit_length(v) - 1) & ~1u) : 0;
     while (bit != 0) {
         if (v >= root + bit) {
             v -= root + bit;
@@ -78,6 +75,24 @@ int64_t ale_mul_shift(int64_t a, int64_t b, unsigned shift)
     return signed_saturated((p.high << (64 - shift)) | (p.low >> shift), negative);
 }
 
+/* Next 32 bits of a quotient: (high * 2^32 + low) / divisor for high < divisor, divisor normalised (highest
+ * bit set); *high becomes the remainder. Knuth, volume 2, 4.3.1, algorithm D: at most two corrections. */
+static uint64_t quotient_digit(uint64_t *high, uint64_t low, uint64_t divisor)
+{
+    const uint64_t top = divisor >> 32;
+    const uint64_t bottom = divisor & UINT32_MAX;
+    uint64_t digit = *high / top;
+    uint64_t rest = *high - digit * top;
+    for (int correction = 0; correction < 2; correction++) {
+        if (rest >> 32 == 0 && (digit >> 32 != 0 || digit * bottom > ((rest << 32) | low))) {
+            digit--;
+            rest += top;
+        }
+    }
+    *high = ((*high << 32) | low) - digit * divisor;
+    return digit;
+}
+
 int64_t ale_mul_div(int64_t a, int64_t b, int64_t c)
 {
     const uint64_t divisor = magnitude(c);
@@ -86,16 +101,10 @@ int64_t ale_mul_div(int64_t a, int64_t b, int64_t c)
     if (p.high >= divisor) {
         return signed_saturated(UINT64_MAX, negative);
     }
-    uint64_t remainder = p.high;
-    uint64_t quotient = 0;
-    for (int bit = 63; bit >= 0; bit--) {
-        const bool carry = (remainder >> 63) != 0;
-        remainder = (remainder << 1) | ((p.low >> bit) & 1u);
-        quotient <<= 1;
-        if (carry || remainder >= divisor) {
-            remainder -= divisor;
-            quotient |= 1u;
-        }
-    }
-    return signed_saturated(quotient, negative);
+    const unsigned shift = 64 - ale_bit_length(divisor);
+    const uint64_t low = p.low << shift;
+    uint64_t high = shift > 0 ? (p.high << shift) | (p.low >> (64 - shift)) : p.high;
+    const uint64_t upper = quotient_digit(&high, low >> 32, divisor << shift);
+    const uint64_t lower = quotient_digit(&high, low & UINT32_MAX, divisor << shift);
+    return signed_saturated((upper << 32) | lower, negative);
 }

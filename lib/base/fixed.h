@@ -59,7 +59,7 @@ uint32_t ale_isqrt(uint64_t v);
 int64_t ale_mul_shift(int64_t a, int64_t b, unsigned shift);
 
 /* a * b / c with a 128-bit product, rounded half away from zero, saturated to int64. c != 0.
- * 128 shift-and-subtract steps at most: for set-up and per-feature work, not for per-beam work. */
+ * Two long-division steps. */
 int64_t ale_mul_div(int64_t a, int64_t b, int64_t c);
 
 #endif

@@ -7,7 +7,8 @@
 enum {
     SHARED_SHARE = 2, /* shared variances that a point may add in the mean, */
     SHARED_PEAK = 6,  /* and those that are in error together on top of it */
-    GRID = 12,        /* places at which a run is tried for a break */
+    WIDEST_STEP = 8,
+    GRID = 12, /* places at which a run is tried for a break */
     MIN_SPLIT_POINTS = 16,
     PROMISING_Q8 = 100 /* part of the gain wanted that a place of the grid must show */
 };
@@ -17,22 +18,31 @@ static ale_fit_t fit_between(const ale_extractor_t *e, int32_t a, int32_t b)
     return a <= b ? ale_moments_fit(e, a, b) : ale_moments_fit(e, b, a);
 }
 
-/* Squared residuals that n points of a true line may add: chi square of the own noise, and the shared
+/* Squared residuals that n points of a true line may have: chi square of the own noise, and the shared
  * error, of which n points have only one draw for every 2 * shared_beams of them. */
-static int64_t allowed_q8(const ale_extractor_t *e, const ale_fit_t *fit, int32_t n)
+static int64_t allowed_q8(const ale_extractor_t *e, const ale_fit_t *fit, int32_t n, int64_t chi_q8)
 {
     const int64_t together = ale_min64(n, 2 * e->config.noise.shared_beams);
     const int64_t shared = fit->shared_q8 * (SHARED_SHARE * n + SHARED_PEAK * together);
-    return ((fit->var_q8 * e->chi_high_q8[n]) >> 8) + shared;
+    return ((fit->var_q8 * chi_q8) >> 8) + shared;
 }
 
+/* Threshold of the search, as chi square of n points: it floats with the fit accepted last, between the
+ * bounds that the noise model sets. */
+static int64_t floating_chi_q8(const ale_extractor_t *e, const ale_fit_t *accepted, int32_t n)
+{
+    const int64_t expected_q8 = ale_max64(2 * e->chi_high_q8[accepted->n], 1);
+    const int64_t scaled_q8 = ale_fit_chi_q8(accepted) * 3 * e->chi_high_q8[n] / expected_q8;
+    return ale_clamp64(scaled_q8, e->chi_low_q8[n], e->chi_high_q8[n]);
+}
+
+/* Step 5 of the paper's listing: the value of the error is below its threshold, and its rate of increase,
+ * which is the error per point added since the fit accepted last, is no more than noise makes it. */
 static bool acceptable(const ale_extractor_t *e, const ale_fit_t *fit, const ale_fit_t *accepted)
 {
-    if (fit->sse_q8 > allowed_q8(e, fit, fit->n)) {
-        return false;
-    }
-    const int32_t added = fit->n - accepted->n;
-    return fit->sse_q8 - accepted->sse_q8 <= allowed_q8(e, fit, added + 2);
+    const int32_t added = fit->n - accepted->n + 2;
+    return fit->sse_q8 <= allowed_q8(e, fit, fit->n, floating_chi_q8(e, accepted, fit->n)) &&
+           fit->sse_q8 - accepted->sse_q8 <= allowed_q8(e, fit, added, e->chi_high_q8[added]);
 }
 
 int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to)
@@ -44,7 +54,7 @@ int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to)
         return from;
     }
     ale_fit_t accepted = fit_between(e, from, from + direction * low);
-    if (accepted.sse_q8 > allowed_q8(e, &accepted, accepted.n)) {
+    if (accepted.sse_q8 > allowed_q8(e, &accepted, accepted.n, e->chi_high_q8[accepted.n])) {
         return from;
     }
     while (high - low > 1) {
@@ -60,32 +70,38 @@ int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to)
     return from + direction * low;
 }
 
-static int64_t joint_chi_q8(const ale_extractor_t *e, int32_t first, int32_t split, int32_t last)
+/* Squared residuals of the two lines that meet after split, each in its own variance; Q8. */
+static int64_t joint_chi_q8(const ale_extractor_t *e, ale_run_t run, int32_t split, int64_t var_a_q8,
+                            int64_t var_b_q8)
 {
-    const ale_fit_t a = ale_moments_fit(e, first, split);
-    const ale_fit_t b = ale_moments_fit(e, split + 1, last);
-    return ale_fit_chi_q8(&a) + ale_fit_chi_q8(&b);
+    return (ale_moments_sse_q8(e, run.first, split) << 8) / var_a_q8 +
+           (ale_moments_sse_q8(e, split + 1, run.last) << 8) / var_b_q8;
 }
 
-int32_t ale_break_place(const ale_extractor_t *e, ale_run_t a, ale_run_t b, int32_t direction)
+int32_t ale_break_place(const ale_extractor_t *e, ale_run_t a, ale_run_t b, ale_run_t bounds, int32_t start,
+                        int32_t direction)
 {
-    const int32_t lowest = a.first + ALE_MIN_RUN - 2;
-    const int32_t highest = b.last - ALE_MIN_RUN + 1;
-    int32_t best = a.last;
+    const ale_run_t run = {a.first, b.last, false};
+    const int32_t lowest =
+        bounds.first < a.first + ALE_MIN_RUN - 1 ? a.first + ALE_MIN_RUN - 1 : bounds.first;
+    const int32_t highest = bounds.last > b.last - ALE_MIN_RUN + 1 ? b.last - ALE_MIN_RUN : bounds.last - 1;
     if (lowest > highest) {
-        return best;
+        return start;
     }
-    best = (int32_t)ale_clamp64(best, lowest, highest);
-    int64_t best_chi = joint_chi_q8(e, a.first, best, b.last);
-    for (int32_t step = 8; step > 0; step /= 2) {
+    const int64_t var_a_q8 = ale_moments_fit(e, a.first, a.last).var_q8;
+    const int64_t var_b_q8 = ale_moments_fit(e, b.first, b.last).var_q8;
+    int32_t best = (int32_t)ale_clamp64(start, lowest, highest);
+    int64_t best_chi = joint_chi_q8(e, run, best, var_a_q8, var_b_q8);
+    int32_t came_from = 0;
+    for (int32_t step = WIDEST_STEP; step > 0; step /= 2) {
         for (int32_t tries = 0; tries < 4; tries++) {
             const int32_t centre = best;
-            for (int32_t side = -1; side <= 1; side += 2) {
-                const int32_t k = centre + side * direction * step;
-                if (k < lowest || k > highest) {
+            for (int32_t side = -direction; side == direction || side == -direction; side += 2 * direction) {
+                const int32_t k = centre + side * step;
+                if (k < lowest || k > highest || k == came_from) {
                     continue;
                 }
-                const int64_t chi = joint_chi_q8(e, a.first, k, b.last);
+                const int64_t chi = joint_chi_q8(e, run, k, var_a_q8, var_b_q8);
                 if (chi < best_chi) {
                     best_chi = chi;
                     best = k;
@@ -94,40 +110,41 @@ int32_t ale_break_place(const ale_extractor_t *e, ale_run_t a, ale_run_t b, int3
             if (best == centre) {
                 break;
             }
+            came_from = centre;
         }
     }
     return best;
 }
 
 /* The break after which the joint fit is best, of the places of a grid that is the same in both directions;
- * -1 when the run has no room for two. *gain_q8: chi square of the two less that of the one. */
-static int32_t coarse_break(const ale_extractor_t *e, ale_run_t run, int32_t direction, int64_t *gain_q8)
+ * -1 when the run has no room for two. *sse_q8: squared residuals of the two lines. */
+static int32_t coarse_break(const ale_extractor_t *e, ale_run_t run, int32_t direction, int64_t *sse_q8)
 {
     const int32_t n = run.last + 1 - run.first;
-    const ale_fit_t one = ale_moments_fit(e, run.first, run.last);
-    int64_t best_chi = INT64_MAX;
     int32_t best = -1;
+    *sse_q8 = INT64_MAX;
     for (int32_t j = 1; j < GRID; j++) {
         const int32_t near_part = 2 * j <= GRID ? n * j / GRID : n - n * (GRID - j) / GRID;
         if (near_part < ALE_MIN_RUN || n - near_part < ALE_MIN_RUN) {
             continue;
         }
         const int32_t split = direction > 0 ? run.first + near_part - 1 : run.last - near_part;
-        const int64_t chi = joint_chi_q8(e, run.first, split, run.last);
-        if (chi < best_chi) {
-            best_chi = chi;
+        const int64_t sse =
+            ale_moments_sse_q8(e, run.first, split) + ale_moments_sse_q8(e, split + 1, run.last);
+        if (sse < *sse_q8) {
+            *sse_q8 = sse;
             best = split;
         }
     }
-    *gain_q8 = best < 0 ? 0 : best_chi - ale_fit_chi_q8(&one);
     return best;
 }
 
 int64_t ale_break_gain_q8(const ale_extractor_t *e, ale_run_t run)
 {
-    int64_t gain_q8;
-    coarse_break(e, run, 1, &gain_q8);
-    return gain_q8;
+    const ale_fit_t one = ale_moments_fit(e, run.first, run.last);
+    int64_t sse_q8;
+    const int32_t split = coarse_break(e, run, 1, &sse_q8);
+    return split < 0 ? 0 : ((sse_q8 - one.sse_q8) << 8) / one.var_q8;
 }
 
 static int64_t ratio_at(const ale_extractor_t *e, ale_run_t run, int32_t split)
@@ -142,13 +159,13 @@ int32_t ale_break_find(const ale_extractor_t *e, ale_run_t run, int32_t directio
     if (run.last - run.first + 1 < MIN_SPLIT_POINTS) {
         return -1;
     }
-    int64_t gain_q8;
-    const int32_t coarse = coarse_break(e, run, direction, &gain_q8);
+    int64_t sse_q8;
+    const int32_t coarse = coarse_break(e, run, direction, &sse_q8);
     if (coarse < 0 || ratio_at(e, run, coarse) < PROMISING_Q8) {
         return -1;
     }
     const ale_run_t a = {run.first, (uint16_t)coarse, false};
     const ale_run_t b = {(uint16_t)(coarse + 1), run.last, false};
-    const int32_t split = ale_break_place(e, a, b, direction);
+    const int32_t split = ale_break_place(e, a, b, run, coarse, direction);
     return ratio_at(e, run, split) >= 256 ? split : -1;
 }

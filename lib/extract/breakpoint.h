@@ -9,8 +9,10 @@
 int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to);
 
 /* The break between two neighbouring runs by the best joint fit: the last point of the first of them.
- * Points between a.last and b.first are given to either. A pattern search: O(log n) fits. */
-int32_t ale_break_place(const ale_extractor_t *e, ale_run_t a, ale_run_t b, int32_t direction);
+ * Points between a.last and b.first are given to either.
+ * The break is sought from `start` on, within bounds. A pattern search: O(log n) fits. */
+int32_t ale_break_place(const ale_extractor_t *e, ale_run_t a, ale_run_t b, ale_run_t bounds, int32_t start,
+                        int32_t direction);
 
 /* The break that splits a run in two lines which explain it better than one by more than noise would
  * (merge.h), or -1. The same break in both directions. O(log n) fits. */

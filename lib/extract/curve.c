@@ -4,6 +4,7 @@
 #include "extract/breakpoint.h"
 #include "extract/circle.h"
 #include "extract/moments.h"
+#include "extract/segment.h"
 
 enum {
     MIN_POINTS = 6,
@@ -45,18 +46,18 @@ static shape_t shape_of(const ale_extractor_t *e, ale_run_t run)
     const ale_fit_t fit = ale_moments_fit(e, run.first, run.last);
     const int64_t dx = (b.x_q8 - a.x_q8) / 16;
     const int64_t dy = (b.y_q8 - a.y_q8) / 16;
-    const int64_t length_q4 = ale_max64(ale_isqrt((uint64_t)(dx * dx + dy * dy)), 1);
-    const int64_t bulge_q8 = (dx * (m.y_q8 - a.y_q8) - dy * (m.x_q8 - a.x_q8)) / length_q4;
+    const int64_t cross_q12 = dx * (m.y_q8 - a.y_q8) - dy * (m.x_q8 - a.x_q8);
     const int64_t var_q8 =
         fit.var_q8 / (n - 2 * third) + fit.var_q8 / (2 * third) + ((fit.shared_q8 * SHARED_PART_Q8) >> 8);
-    const int64_t sigma_q8 = ale_max64(ale_isqrt((uint64_t)var_q8 << 8), 1);
-    const shape_t shape = {dx, dy, (bulge_q8 << 8) / sigma_q8};
+    const int64_t length2_mm2 = (dx * dx + dy * dy) >> (2 * ALE_POINT_SHIFT);
+    const int64_t sigma_length_q4 = ale_max64(ale_isqrt((uint64_t)(ale_max64(var_q8, 1) * length2_mm2)), 1);
+    const shape_t shape = {dx, dy, cross_q12 / sigma_length_q4};
     return shape;
 }
 
 static bool adjoin(const ale_extractor_t *e, ale_run_t a, ale_run_t b)
 {
-    return b.first - a.last <= MAX_GAP_POINTS && e->segment_of[a.last] == e->segment_of[b.first];
+    return b.first - a.last <= MAX_GAP_POINTS && ale_segment_joins(e, a.last, b.first);
 }
 
 /* Sign of the turn from a to b when it is one of a chain of chords: 3 to 50 degrees; else 0. */

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "base/fixed.h"
-#include "extract/breakpoint.h"
 #include "extract/corner.h"
 #include "extract/curve.h"
 #include "extract/line_fit.h"
@@ -11,13 +10,14 @@
 #include "extract/moments.h"
 #include "extract/outlier.h"
 #include "extract/points.h"
+#include "extract/runs.h"
 #include "extract/scan_noise.h"
 #include "extract/segment.h"
 #include "extract/workspace.h"
 
 enum {
     HIGH_Z = 4,
-    LOW_Z = 1,
+    LOW_Z = 3,
     ROUGH_SHARED = 6 /* shared variances that a wall may be wavy by */
 };
 static const int64_t MAX_SIGMA_ALPHA_NRAD = 122173048; /* 7 degrees: a line of no known direction is none */
@@ -73,117 +73,6 @@ int ale_extractor_init(ale_extractor_t *e, const ale_extract_config_t *config)
 void ale_extractor_set_hook(ale_extractor_t *e, const ale_stage_hook_t *hook)
 {
     e->hook = hook ? *hook : (ale_stage_hook_t){0};
-}
-
-static void add_run(ale_extractor_t *e, int32_t a, int32_t b)
-{
-    if (e->run_count >= ALE_MAX_RUNS) {
-        e->refused[ALE_REFUSED_CAPACITY]++;
-        return;
-    }
-    e->run[e->run_count].first = (uint16_t)(a < b ? a : b);
-    e->run[e->run_count].last = (uint16_t)(a < b ? b : a);
-    e->run[e->run_count].curved = false;
-    e->run_count++;
-}
-
-/* A segment is read from its nearer end, so that both directions of a scan give the same lines. */
-static int32_t reading_direction(const ale_extractor_t *e, int32_t first, int32_t last)
-{
-    for (int32_t a = first, b = last; a < b; a++, b--) {
-        if (e->range_um[a] != e->range_um[b]) {
-            return e->range_um[a] < e->range_um[b] ? 1 : -1;
-        }
-    }
-    return 1;
-}
-
-static void reverse_runs(ale_extractor_t *e, int32_t from)
-{
-    for (int32_t a = from, b = e->run_count - 1; a < b; a++, b--) {
-        const ale_run_t run = e->run[a];
-        e->run[a] = e->run[b];
-        e->run[b] = run;
-    }
-}
-
-static void search_segment(ale_extractor_t *e, int32_t first, int32_t last)
-{
-    if (last - first + 1 < ALE_MIN_RUN) {
-        e->refused[ALE_REFUSED_FEW_POINTS]++;
-        return;
-    }
-    const int32_t direction = reading_direction(e, first, last);
-    const int32_t stop = direction > 0 ? last : first;
-    const int32_t first_run = e->run_count;
-    int32_t from = direction > 0 ? first : last;
-    while ((stop - from) * direction + 1 >= ALE_MIN_RUN) {
-        const int32_t to = ale_break_search(e, from, stop);
-        if (to != from) {
-            add_run(e, from, to);
-        }
-        from = to + direction;
-    }
-    if (direction < 0) {
-        reverse_runs(e, first_run);
-    }
-}
-
-static void place_breaks(ale_extractor_t *e)
-{
-    for (int32_t k = 0; k + 1 < e->run_count; k++) {
-        ale_run_t *a = &e->run[k];
-        ale_run_t *b = &e->run[k + 1];
-        if (b->first - a->last > 4 || e->segment_of[a->last] != e->segment_of[b->first] || a->curved ||
-            b->curved) {
-            continue;
-        }
-        const int32_t split = ale_break_place(e, *a, *b, 1);
-        a->last = (uint16_t)split;
-        b->first = (uint16_t)(split + 1);
-    }
-}
-
-static void insert_run(ale_extractor_t *e, int32_t k, int32_t split)
-{
-    for (int32_t i = e->run_count; i > k; i--) {
-        e->run[i] = e->run[i - 1];
-    }
-    e->run[k + 1] = e->run[k];
-    e->run[k + 1].first = (uint16_t)(split + 1);
-    e->run[k].last = (uint16_t)split;
-    e->run_count++;
-}
-
-static void split_runs(ale_extractor_t *e)
-{
-    int32_t k = 0;
-    while (k < e->run_count && e->run_count < ALE_MAX_RUNS) {
-        const int32_t split =
-            e->run[k].curved
-                ? -1
-                : ale_break_find(e, e->run[k], reading_direction(e, e->run[k].first, e->run[k].last));
-        if (split >= 0) {
-            insert_run(e, k, split);
-        } else {
-            k++;
-        }
-    }
-}
-
-static void search_all(ale_extractor_t *e)
-{
-    int32_t first = 0;
-    uint16_t segment = 0;
-    e->run_count = 0;
-    for (int32_t i = 0; i < e->count; i++) {
-        e->segment_of[i] = segment;
-        if (e->jump_after[i]) {
-            search_segment(e, first, i);
-            first = i + 1;
-            segment++;
-        }
-    }
 }
 
 static bool is_line(ale_extractor_t *e, ale_run_t run, const ale_line_t *line)
@@ -256,24 +145,24 @@ __attribute__((noinline)) void ale_extract_scan(ale_extractor_t *e, const ale_sc
     ale_scan_noise_measure(e, scan);
     ale_outlier_remove_spikes(e);
     ale_segment(e, scan);
-    ale_outlier_remove(e);
-    ale_segment(e, scan);
+    if (ale_outlier_remove_strays(e)) {
+        ale_segment(e, scan);
+    }
     ale_points_place(e, scan, bearing_bam);
     ale_stage_end(&e->hook, ALE_STAGE_SMOOTH);
     ale_moments_build(e);
-    e->shared_prior_mm2_q36 = e->noise.shared_mm2_q36;
-    e->shared_prior_relative_q36 = e->noise.shared_relative_q36;
-    e->noise.shared_mm2_q36 *= 2;
-    e->noise.shared_relative_q36 *= 2;
-    search_all(e);
-    ale_scan_noise_measure_shared(e, scan);
-    search_all(e);
+    ale_runs_search(e);
+    if (ale_scan_noise_measure_shared(e, scan)) {
+        ale_runs_search(e);
+    } else {
+        ale_scan_noise_refine_own(e);
+    }
     ale_merge_runs(e);
-    place_breaks(e);
+    ale_runs_place(e);
     ale_curve_find(e);
-    split_runs(e);
+    ale_runs_split(e);
     ale_merge_runs(e);
-    place_breaks(e);
+    ale_runs_place(e);
     ale_curve_find(e);
     write_lines(e, out);
     ale_corner_find(out);

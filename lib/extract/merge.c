@@ -2,6 +2,7 @@
 
 #include "base/fixed.h"
 #include "extract/moments.h"
+#include "extract/segment.h"
 
 enum { PENALTY = 20, SHARED_PEAK = 3, MAX_GAP_BEAMS = 8, MAX_GAP_POINTS = 4 };
 
@@ -14,7 +15,7 @@ int64_t ale_merge_ratio_q8(const ale_extractor_t *e, ale_run_t a, ale_run_t b)
         ale_max64(one.var_q8, (fit_a.var_q8 * fit_a.n + fit_b.var_q8 * fit_b.n) / (fit_a.n + fit_b.n));
     const int64_t shared = ale_max64(one.shared_q8, (fit_a.shared_q8 * fit_a.n + fit_b.shared_q8 * fit_b.n) /
                                                         (fit_a.n + fit_b.n));
-    const bool one_surface = e->segment_of[a.last] == e->segment_of[b.first];
+    const bool one_surface = ale_segment_joins(e, a.last, b.first);
     const int64_t together =
         one_surface ? SHARED_PEAK * ale_min64(one.n, 2 * e->config.noise.shared_beams) : 0;
     const int64_t gain = one.sse_q8 - fit_a.sse_q8 - fit_b.sse_q8;

@@ -3,19 +3,17 @@
 #include "base/fixed.h"
 
 enum {
+    OWN_SCALED_BITS = 37,
     SCATTER_BITS = 30, /* centred moments are scaled to this many bits: their products fit int64 */
     VAR_FLOOR_Q8 = 16  /* (0.25 mm)^2: no range is known better than its quantum of 1 mm */
 };
 
-static int64_t relative_own_var_q36(const ale_scan_noise_t *noise, int64_t range_um)
-{
-    const int64_t range_mm = ale_max64(range_um / 1000, 1);
-    return noise->own_mm2_q36 / (range_mm * range_mm) + noise->own_relative_q36;
-}
-
 void ale_moments_build(ale_extractor_t *e)
 {
     ale_moments_t total = {0};
+    /* own_mm2 / range^2 from 2^44 / range: its square >> 34, times this, >> 26, is Q36 */
+    const int64_t own_scaled =
+        ale_min64(((e->noise.own_mm2_q36 >> 10) * 15625) >> 12, (int64_t)1 << OWN_SCALED_BITS);
     e->inverse_sum[0] = 0;
     for (int32_t i = 0; i < e->count; i++) {
         e->sum[i] = total;
@@ -27,7 +25,8 @@ void ale_moments_build(ale_extractor_t *e)
         total.xx += x * x;
         total.yy += y * y;
         total.xy += x * y;
-        total.noise_q36 += relative_own_var_q36(&e->noise, e->range_um[i]);
+        const int64_t inverse = e->inverse_q44[i];
+        total.noise_q36 += ((inverse * inverse >> 34) * own_scaled >> 26) + e->noise.own_relative_q36;
     }
     e->sum[e->count] = total;
 }
@@ -47,7 +46,7 @@ static scatter_t scatter_of(int64_t n, const ale_moments_t *s)
     const int64_t c = n * s->yy - s->y * s->y;
     const unsigned bits = ale_bit_length((uint64_t)(a + c));
     const unsigned shift = bits > SCATTER_BITS ? bits - SCATTER_BITS : 0;
-    scatter_t m = {a >> shift, ale_round_shift(b, shift), c >> shift, 0, shift};
+    scatter_t m = {a >> shift, b < 0 ? -(-b >> shift) : b >> shift, c >> shift, 0, shift};
     const int64_t det = ale_max64(m.a * m.c - m.b * m.b, 0);
     const int64_t trace = m.a + m.c;
     if (trace > 0) {
@@ -80,8 +79,9 @@ static ale_moments_t sums_of(const ale_extractor_t *e, int32_t first, int32_t la
     return s;
 }
 
-static ale_fit_t fit_of(const ale_scan_noise_t *noise, int64_t n, const ale_moments_t *s, const scatter_t *m)
+static ale_fit_t fit_of(const ale_extractor_t *e, int64_t n, const ale_moments_t *s, const scatter_t *m)
 {
+    const ale_scan_noise_t *noise = &e->noise;
     const int64_t rho2 = squared_rho_mm2(m, s->x / (n << ALE_POINT_SHIFT), s->y / (n << ALE_POINT_SHIFT));
     const int64_t range2 = ((s->xx + s->yy) >> (2 * ALE_POINT_SHIFT)) / n;
     const int64_t own = rho2 * (s->noise_q36 / n) + ale_max64(range2 - rho2, 0) * noise->bearing_rad2_q36;
@@ -89,10 +89,21 @@ static ale_fit_t fit_of(const ale_scan_noise_t *noise, int64_t n, const ale_mome
     const ale_fit_t fit = {
         .n = (int32_t)n,
         .sse_q8 = (m->lambda << m->shift) / n,
-        .var_q8 = ale_max64(own >> 28, VAR_FLOOR_Q8),
+        .var_q8 = ale_max64((own >> 28) * noise->own_scale_q8 >> 8, VAR_FLOOR_Q8),
         .shared_q8 = shared >> 28,
     };
     return fit;
+}
+
+int64_t ale_moments_sse_q8(const ale_extractor_t *e, int32_t first, int32_t last)
+{
+    const ale_moments_t *p = &e->sum[first];
+    const ale_moments_t *q = &e->sum[last + 1];
+    const int64_t n = last + 1 - first;
+    const ale_moments_t s = {
+        .x = q->x - p->x, .y = q->y - p->y, .xx = q->xx - p->xx, .yy = q->yy - p->yy, .xy = q->xy - p->xy};
+    const scatter_t m = scatter_of(n, &s);
+    return (m.lambda << m.shift) / n;
 }
 
 ale_fit_t ale_moments_fit(const ale_extractor_t *e, int32_t first, int32_t last)
@@ -100,7 +111,7 @@ ale_fit_t ale_moments_fit(const ale_extractor_t *e, int32_t first, int32_t last)
     const int64_t n = last + 1 - first;
     const ale_moments_t s = sums_of(e, first, last);
     const scatter_t m = scatter_of(n, &s);
-    return fit_of(&e->noise, n, &s, &m);
+    return fit_of(e, n, &s, &m);
 }
 
 ale_spread_t ale_moments_spread(const ale_extractor_t *e, int32_t first, int32_t last)
@@ -109,7 +120,7 @@ ale_spread_t ale_moments_spread(const ale_extractor_t *e, int32_t first, int32_t
     const ale_moments_t s = sums_of(e, first, last);
     const scatter_t m = scatter_of(n, &s);
     const ale_spread_t spread = {
-        .fit = fit_of(&e->noise, n, &s, &m),
+        .fit = fit_of(e, n, &s, &m),
         .a = m.a,
         .b = m.b,
         .c = m.c,

@@ -19,6 +19,9 @@ void ale_moments_build(ale_extractor_t *e);
 /* Fit over the points first..last, first <= last. Constant time. */
 ale_fit_t ale_moments_fit(const ale_extractor_t *e, int32_t first, int32_t last);
 
+/* Its squared residuals alone, mm^2 Q8. Constant time. */
+int64_t ale_moments_sse_q8(const ale_extractor_t *e, int32_t first, int32_t last);
+
 /* The same with what the final line needs. */
 typedef struct {
     ale_fit_t fit;

@@ -1,14 +1,14 @@
-/* Stray points: gross errors, mixed pixels at depth edges. They go before segments are cut. */
+/* Stray points: gross errors, mixed pixels at depth edges. They go before segments are cut for good. */
 #ifndef ALE_EXTRACT_OUTLIER_H
 #define ALE_EXTRACT_OUTLIER_H
 
 #include "extract/workspace.h"
 
-/* Removes from the points every piece of one or two beams between jumps (e->jump_after as set by
- * ale_segment, which is to be called again afterwards). Sets e->outliers. O(points). */
-void ale_outlier_remove(ale_extractor_t *e);
-
-/* Removes points within a segment that stand out from both neighbours. Adds to e->outliers. O(points). */
+/* Removes the points that stand out from neighbours which agree. Adds to e->outliers. O(points). */
 void ale_outlier_remove_spikes(ale_extractor_t *e);
+
+/* Removes every segment (as ale_segment left them) of so few points that it is no surface. True when there
+ * were any: then segments are to be cut anew. Adds to e->outliers. O(points). */
+bool ale_outlier_remove_strays(ale_extractor_t *e);
 
 #endif

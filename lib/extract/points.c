@@ -3,6 +3,8 @@
 #include "base/fixed.h"
 #include "base/trig.h"
 
+static const int64_t per_mille_q34 = 17179869; /* 2^34 / 1000 */
+
 static void cache_directions(ale_extractor_t *e, const ale_scan_t *scan)
 {
     if (e->direction_beams == scan->beams && e->direction_first_bam == scan->first_bearing_bam &&
@@ -34,30 +36,25 @@ void ale_points_list(ale_extractor_t *e, const ale_scan_t *scan)
     e->outliers = 0;
 }
 
+static void place_point(ale_extractor_t *e, int32_t i, int64_t c_q30, int64_t s_q30)
+{
+    const int64_t range_mm_q12 = (e->range_um[i] * per_mille_q34) >> 22;
+    e->x_q4[i] = (int32_t)ale_round_shift(range_mm_q12 * c_q30, 38);
+    e->y_q4[i] = (int32_t)ale_round_shift(range_mm_q12 * s_q30, 38);
+}
+
 void ale_points_place(ale_extractor_t *e, const ale_scan_t *scan, const uint32_t *bearing_bam)
 {
+    if (bearing_bam) {
+        for (int32_t i = 0; i < e->count; i++) {
+            const uint32_t bearing = bearing_bam[e->beam[i]];
+            place_point(e, i, ale_cos_q30(bearing), ale_sin_q30(bearing));
+        }
+        return;
+    }
     cache_directions(e, scan);
     for (int32_t i = 0; i < e->count; i++) {
         const uint16_t k = e->beam[i];
-        const int64_t c = bearing_bam ? ale_cos_q30(bearing_bam[k]) : e->cos_q30[k];
-        const int64_t s = bearing_bam ? ale_sin_q30(bearing_bam[k]) : e->sin_q30[k];
-        const int64_t range_mm_q12 = ale_round_div((int64_t)e->range_um[i] * 4096, 1000);
-        e->x_q4[i] = (int32_t)ale_round_shift(range_mm_q12 * c, 38);
-        e->y_q4[i] = (int32_t)ale_round_shift(range_mm_q12 * s, 38);
+        place_point(e, i, e->cos_q30[k], e->sin_q30[k]);
     }
-}
-
-void ale_points_drop(ale_extractor_t *e, const bool *drop)
-{
-    int32_t n = 0;
-    for (int32_t i = 0; i < e->count; i++) {
-        if (!drop[i]) {
-            e->beam[n] = e->beam[i];
-            e->range_um[n] = e->range_um[i];
-            e->inverse_q44[n] = e->inverse_q44[i];
-            n++;
-        }
-    }
-    e->outliers = (uint16_t)(e->count - n);
-    e->count = (uint16_t)n;
 }

@@ -10,7 +10,4 @@ void ale_points_list(ale_extractor_t *e, const ale_scan_t *scan);
 /* x_q4, y_q4 of the listed points. bearing_bam as in ale_extract_scan. */
 void ale_points_place(ale_extractor_t *e, const ale_scan_t *scan, const uint32_t *bearing_bam);
 
-/* Removes the points flagged in drop (by point); sets e->outliers. */
-void ale_points_drop(ale_extractor_t *e, const bool *drop);
-
 #endif

@@ -14,24 +14,18 @@ enum {
 };
 static const int64_t micro_q36 = 68719; /* 2^36 / 10^6 */
 
-/* Logarithmic bin of a value, four to the octave. */
+/* Logarithmic bin of a value, four to the octave (nearly linear below 4). */
 static uint32_t log_bin(uint64_t v)
 {
-    if (v < 4) {
-        return (uint32_t)v;
-    }
-    const unsigned bits = ale_bit_length(v);
-    return ((bits - 2) << BINS_PER_OCTAVE_SHIFT) + (uint32_t)((v >> (bits - 3)) & 3u);
+    const unsigned bits = ale_bit_length(v + 4);
+    const uint32_t bin = ((bits - 3) << BINS_PER_OCTAVE_SHIFT) + (uint32_t)((v + 4) >> (bits - 3)) - 4;
+    return bin < ALE_NOISE_BINS ? bin : ALE_NOISE_BINS - 1;
 }
 
 /* Lower end of a bin. */
 static int64_t bin_value(uint32_t bin)
 {
-    if (bin < 4) {
-        return bin;
-    }
-    const unsigned bits = (bin >> BINS_PER_OCTAVE_SHIFT) + 2;
-    return (int64_t)(4u + (bin & 3u)) << (bits - 3);
+    return ((int64_t)(4u + (bin & 3u)) << (bin >> BINS_PER_OCTAVE_SHIFT)) - 4;
 }
 
 /* Quantile of a histogram, linear within its bin. */
@@ -58,9 +52,19 @@ typedef struct {
 static int64_t second_difference_um(const ale_extractor_t *e, int32_t i, int64_t curvature_q30)
 {
     const int64_t q = e->inverse_q44[i];
-    const int64_t d =
-        e->inverse_q44[i - 1] + e->inverse_q44[i + 1] - 2 * q + ale_round_shift(q * curvature_q30, 30);
+    const int64_t d = e->inverse_q44[i - 1] + e->inverse_q44[i + 1] - 2 * q + (q * curvature_q30 >> 30);
     return ale_abs64(d) * e->range_um[i] / q;
+}
+
+static inline void count_difference(ale_extractor_t *e, int32_t i, int64_t curvature_q30,
+                                    octave_t octave[OCTAVES])
+{
+    if (e->beam[i + 1] - e->beam[i - 1] == 2) {
+        const uint32_t k = ale_bit_length((uint64_t)e->range_um[i]) - 1 - OCTAVE_BASE;
+        e->histogram[k][log_bin((uint64_t)second_difference_um(e, i, curvature_q30))]++;
+        octave[k].samples++;
+        octave[k].range_um += e->range_um[i];
+    }
 }
 
 static int32_t collect(ale_extractor_t *e, int64_t curvature_q30, octave_t octave[OCTAVES])
@@ -68,13 +72,7 @@ static int32_t collect(ale_extractor_t *e, int64_t curvature_q30, octave_t octav
     memset(e->histogram, 0, sizeof e->histogram);
     memset(octave, 0, OCTAVES * sizeof *octave);
     for (int32_t i = 1; i + 1 < e->count; i++) {
-        if (e->beam[i + 1] - e->beam[i - 1] != 2) {
-            continue;
-        }
-        const uint32_t k = ale_bit_length((uint64_t)e->range_um[i]) - 1 - OCTAVE_BASE;
-        e->histogram[k][log_bin((uint64_t)second_difference_um(e, i, curvature_q30))]++;
-        octave[k].samples++;
-        octave[k].range_um += e->range_um[i];
+        count_difference(e, i, curvature_q30, octave);
     }
     int32_t used = 0;
     for (uint32_t k = 0; k < OCTAVES; k++) {
@@ -150,9 +148,12 @@ void ale_scan_noise_measure(ale_extractor_t *e, const ale_scan_t *scan)
     const ale_noise_t *prior = &e->config.noise;
     const int64_t bearing_urad = prior->bearing_nrad / 1000;
     e->noise.own_mm2_q36 = (int64_t)prior->own_um * prior->own_um * micro_q36;
+    e->noise.own_scale_q8 = 256;
     e->noise.own_relative_q36 = (int64_t)prior->own_ppm * prior->own_ppm * micro_q36 / 1000000;
     e->noise.shared_mm2_q36 = (int64_t)prior->shared_um * prior->shared_um * micro_q36;
     e->noise.shared_relative_q36 = (int64_t)prior->shared_ppm * prior->shared_ppm * micro_q36 / 1000000;
+    e->shared_prior_mm2_q36 = e->noise.shared_mm2_q36;
+    e->shared_prior_relative_q36 = e->noise.shared_relative_q36;
     e->noise.bearing_rad2_q36 = bearing_urad * bearing_urad * micro_q36 / 1000000;
     octave_t octave[OCTAVES];
     const int64_t curvature_q30 = 2 * (((int64_t)1 << 30) - ale_cos_q30((uint32_t)scan->step_bam));
@@ -167,7 +168,17 @@ void ale_scan_noise_measure(ale_extractor_t *e, const ale_scan_t *scan)
 /* Blocks of beams whose second difference shows what neighbours share, for an error that is correlated
  * over 12 beams: the block means of pure own noise have 6 / BLOCK own variances, of the shared part
  * SHARED_GAIN_Q8 shared ones. */
-enum { BLOCK = 8, SHARED_GAIN_Q8 = 299, MIN_BLOCKS = 60, RATIO_Q8 = 512, SHARED_LEAST_Q8 = 3 * 256 };
+enum {
+    BLOCK = 8,
+    STRIDE = 3, /* from one window of three blocks to the next */
+    SHARED_GAIN_Q8 = 299,
+    MIN_BLOCKS = 20,
+    RATIO_Q8 = 2 * 256, /* of what own noise gives: up to 1.4 are measured where there is no shared error */
+    SHARED_LEAST_Q8 = 3 * 256, /* once there is a shared error it is at least so large, */
+    SHARED_MOST_Q8 = 16 * 256, /* and at most */
+    OWN_PRIOR_POINTS = 100,    /* weight of the second differences beside the residuals of the runs */
+    OWN_RUN_POINTS = 20
+};
 
 /* Squared second difference of three blocks of points from start on, over what own noise would give; Q8. */
 static int64_t block_ratio_q8(const ale_extractor_t *e, int32_t start, int64_t curvature_q30)
@@ -182,7 +193,34 @@ static int64_t block_ratio_q8(const ale_extractor_t *e, int32_t start, int64_t c
     return d_um * d_um * (BLOCK << 8) / ale_max64((own_q20 * 6000000) >> 20, 1);
 }
 
-void ale_scan_noise_measure_shared(ale_extractor_t *e, const ale_scan_t *scan)
+static void count_block(const ale_extractor_t *e, int32_t start, int64_t curvature_q30, uint16_t *bins,
+                        int32_t *samples, int64_t *range_mm)
+{
+    if (e->beam[start + 3 * BLOCK - 1] - e->beam[start] == 3 * BLOCK - 1) {
+        const uint32_t bin = log_bin((uint64_t)block_ratio_q8(e, start, curvature_q30));
+        bins[bin]++;
+        *range_mm += e->range_um[start] / 1000;
+        (*samples)++;
+    }
+}
+
+/* The shared variance in units of the configured one, Q8: 256 where blocks show no more than own noise. */
+static int64_t shared_scale_q8(const ale_extractor_t *e, const uint16_t *bins, int32_t samples,
+                               int64_t range_mm)
+{
+    const int64_t range_mm2 = range_mm * range_mm;
+    const int64_t own_q20 = (e->noise.own_mm2_q36 + e->noise.own_relative_q36 * range_mm2) >> 16;
+    const int64_t model_q20 = (e->shared_prior_mm2_q36 + e->shared_prior_relative_q36 * range_mm2) >> 16;
+    /* the median of chi square of one degree is 0.455 */
+    const int64_t ratio_q8 = histogram_quantile(bins, samples, 50) * 1000 / 455;
+    if (ratio_q8 <= RATIO_Q8) {
+        return 256;
+    }
+    const int64_t excess_q8 = (ratio_q8 - 256) * 6 * 256 / (BLOCK * SHARED_GAIN_Q8);
+    return ale_clamp64(excess_q8 * own_q20 / ale_max64(model_q20, 1), SHARED_LEAST_Q8, SHARED_MOST_Q8);
+}
+
+bool ale_scan_noise_measure_shared(ale_extractor_t *e, const ale_scan_t *scan)
 {
     const int64_t curvature_q30 = 2 * (((int64_t)1 << 30) - ale_cos_q30((uint32_t)scan->step_bam * BLOCK));
     uint16_t *bins = e->histogram[0];
@@ -190,32 +228,31 @@ void ale_scan_noise_measure_shared(ale_extractor_t *e, const ale_scan_t *scan)
     int32_t samples = 0;
     int64_t range_mm = 0;
     for (int32_t k = 0; k < e->run_count; k++) {
-        for (int32_t i = e->run[k].first; i + 3 * BLOCK - 1 <= e->run[k].last; i++) {
-            if (e->beam[i + 3 * BLOCK - 1] - e->beam[i] == 3 * BLOCK - 1) {
-                const uint32_t bin = log_bin((uint64_t)block_ratio_q8(e, i, curvature_q30));
-                bins[bin < ALE_NOISE_BINS ? bin : ALE_NOISE_BINS - 1]++;
-                range_mm += e->range_um[i] / 1000;
-                samples++;
+        const int32_t windows = e->run[k].last + 1 - e->run[k].first - 3 * BLOCK + 1;
+        for (int32_t o = 0; 2 * o < windows; o += STRIDE) {
+            count_block(e, e->run[k].first + o, curvature_q30, bins, &samples, &range_mm);
+            if (2 * o + 1 < windows) {
+                count_block(e, e->run[k].first + windows - 1 - o, curvature_q30, bins, &samples, &range_mm);
             }
         }
     }
-    int64_t scale_q8 = 256;
-    e->shared_ratio_q8 = 0;
-    if (samples >= MIN_BLOCKS) {
-        range_mm /= samples;
-        const int64_t ratio_q8 = histogram_quantile(bins, samples, 50) * 1000 / 455;
-        const int64_t own_q20 =
-            (e->noise.own_mm2_q36 + e->noise.own_relative_q36 * range_mm * range_mm) >> 16;
-        const int64_t model_q20 = ale_max64(
-            (e->shared_prior_mm2_q36 + e->shared_prior_relative_q36 * range_mm * range_mm) >> 16, 1);
-        e->shared_ratio_q8 = ratio_q8;
-        if (ratio_q8 > RATIO_Q8) {
-            scale_q8 =
-                ale_clamp64((ratio_q8 - 256) * 6 * 256 / (BLOCK * SHARED_GAIN_Q8) * own_q20 / model_q20,
-                            SHARED_LEAST_Q8, 16 * 256);
+    e->shared_scale_q8 = samples < MIN_BLOCKS ? 256 : shared_scale_q8(e, bins, samples, range_mm / samples);
+    e->noise.shared_mm2_q36 = (e->shared_prior_mm2_q36 * e->shared_scale_q8) >> 8;
+    e->noise.shared_relative_q36 = (e->shared_prior_relative_q36 * e->shared_scale_q8) >> 8;
+    return e->shared_scale_q8 > 256;
+}
+
+void ale_scan_noise_refine_own(ale_extractor_t *e)
+{
+    int64_t chi_q8 = OWN_PRIOR_POINTS * 256;
+    int64_t freedom = OWN_PRIOR_POINTS;
+    for (int32_t k = 0; k < e->run_count; k++) {
+        const ale_fit_t fit = ale_moments_fit(e, e->run[k].first, e->run[k].last);
+        const int64_t fit_chi_q8 = ale_fit_chi_q8(&fit);
+        if (fit.n >= OWN_RUN_POINTS && fit_chi_q8 < e->chi_high_q8[fit.n]) {
+            chi_q8 += fit_chi_q8;
+            freedom += fit.n - 2;
         }
     }
-    e->shared_scale_q8 = scale_q8;
-    e->noise.shared_mm2_q36 = (e->shared_prior_mm2_q36 * scale_q8) >> 8;
-    e->noise.shared_relative_q36 = (e->shared_prior_relative_q36 * scale_q8) >> 8;
+    e->noise.own_scale_q8 = ale_clamp64(chi_q8 / freedom, 180, 360);
 }

@@ -8,7 +8,11 @@
  * median in octaves of the range; where the scan has too few, the configured model serves. O(points). */
 void ale_scan_noise_measure(ale_extractor_t *e, const ale_scan_t *scan);
 
-/* Scales the shared part of e->noise to what blocks of beams of one segment show. O(points). */
-void ale_scan_noise_measure_shared(ale_extractor_t *e, const ale_scan_t *scan);
+/* Scales the shared part of e->noise to what the blocks of beams of e->run show. True when there is more of
+ * it than configured: then the runs were cut too short. O(points). */
+bool ale_scan_noise_measure_shared(ale_extractor_t *e, const ale_scan_t *scan);
+
+/* Refines the own noise by the residuals of e->run (where no shared error hides it). O(runs). */
+void ale_scan_noise_refine_own(ale_extractor_t *e);
 
 #endif

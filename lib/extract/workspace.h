@@ -48,6 +48,7 @@ typedef struct {
 typedef struct {
     int64_t own_mm2_q36;
     int64_t own_relative_q36;
+    int64_t own_scale_q8; /* correction of both, from residuals */
     int64_t shared_mm2_q36;
     int64_t shared_relative_q36;
     int64_t bearing_rad2_q36;
@@ -73,14 +74,15 @@ struct ale_extractor {
     int32_t range_um[ALE_MAX_BEAMS];
     int32_t inverse_q44[ALE_MAX_BEAMS]; /* 2^44 / range_um */
     bool jump_after[ALE_MAX_BEAMS];     /* the surface does not go on to the next point */
-    uint16_t segment_of[ALE_MAX_BEAMS];
     int32_t x_q4[ALE_MAX_BEAMS];
     int32_t y_q4[ALE_MAX_BEAMS];
     ale_moments_t sum[ALE_MAX_BEAMS + 1];
 
+    uint16_t segment_count;
+    ale_run_t segment[ALE_MAX_BEAMS];
+
     ale_scan_noise_t noise;
     int64_t shared_scale_q8;
-    int64_t shared_ratio_q8;
     int64_t inverse_sum[ALE_MAX_BEAMS + 1];
     int64_t shared_prior_mm2_q36;
     int64_t shared_prior_relative_q36;

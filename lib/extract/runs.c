@@ -1,0 +1,124 @@
+#include "extract/runs.h"
+
+#include "extract/breakpoint.h"
+#include "extract/segment.h"
+
+enum { MAX_GAP_POINTS = 4 };
+
+static void add_run(ale_extractor_t *e, int32_t a, int32_t b)
+{
+    if (e->run_count >= ALE_MAX_RUNS) {
+        e->refused[ALE_REFUSED_CAPACITY]++;
+        return;
+    }
+    e->run[e->run_count].first = (uint16_t)(a < b ? a : b);
+    e->run[e->run_count].last = (uint16_t)(a < b ? b : a);
+    e->run[e->run_count].curved = false;
+    e->run_count++;
+}
+
+/* A segment is read from its nearer end, so that both directions of a scan give the same lines. */
+static int32_t reading_direction(const ale_extractor_t *e, int32_t first, int32_t last)
+{
+    for (int32_t a = first, b = last; a < b; a++, b--) {
+        if (e->range_um[a] != e->range_um[b]) {
+            return e->range_um[a] < e->range_um[b] ? 1 : -1;
+        }
+    }
+    return 1;
+}
+
+static void reverse_runs(ale_extractor_t *e, int32_t from)
+{
+    for (int32_t a = from, b = e->run_count - 1; a < b; a++, b--) {
+        const ale_run_t run = e->run[a];
+        e->run[a] = e->run[b];
+        e->run[b] = run;
+    }
+}
+
+static void search_segment(ale_extractor_t *e, int32_t first, int32_t last)
+{
+    if (last - first + 1 < ALE_MIN_RUN) {
+        e->refused[ALE_REFUSED_FEW_POINTS]++;
+        return;
+    }
+    const int32_t direction = reading_direction(e, first, last);
+    const int32_t stop = direction > 0 ? last : first;
+    const int32_t first_run = e->run_count;
+    int32_t from = direction > 0 ? first : last;
+    while ((stop - from) * direction + 1 >= ALE_MIN_RUN) {
+        const int32_t to = ale_break_search(e, from, stop);
+        if (to != from) {
+            add_run(e, from, to);
+        }
+        from = to + direction;
+    }
+    if (direction < 0) {
+        reverse_runs(e, first_run);
+    }
+}
+
+/* The best break between two neighbouring runs; of the places in between it may come as near to their far
+ * ends as the middle of each, so that all breaks can be placed at the same time. */
+static int32_t break_between(const ale_extractor_t *e, ale_run_t a, ale_run_t b)
+{
+    const int32_t direction = reading_direction(e, a.first, b.last);
+    const int32_t start = direction > 0 ? a.last : b.first - 1;
+    const ale_run_t bounds = {(uint16_t)(a.first + (a.last - a.first) / 2),
+                              (uint16_t)(b.last - (b.last - b.first) / 2), false};
+    return ale_break_place(e, a, b, bounds, start, direction);
+}
+
+void ale_runs_place(ale_extractor_t *e)
+{
+    int32_t split[ALE_MAX_RUNS];
+    for (int32_t k = 0; k + 1 < e->run_count; k++) {
+        const ale_run_t a = e->run[k];
+        const ale_run_t b = e->run[k + 1];
+        const bool meet = b.first - a.last <= MAX_GAP_POINTS && !a.curved && !b.curved &&
+                          ale_segment_joins(e, a.last, b.first);
+        split[k] = meet ? break_between(e, a, b) : -1;
+    }
+    for (int32_t k = 0; k + 1 < e->run_count; k++) {
+        if (split[k] >= 0) {
+            e->run[k].last = (uint16_t)split[k];
+            e->run[k + 1].first = (uint16_t)(split[k] + 1);
+        }
+    }
+}
+
+static void insert_run(ale_extractor_t *e, int32_t k, int32_t split)
+{
+    for (int32_t i = e->run_count; i > k; i--) {
+        e->run[i] = e->run[i - 1];
+    }
+    e->run[k + 1] = e->run[k];
+    e->run[k + 1].first = (uint16_t)(split + 1);
+    e->run[k].last = (uint16_t)split;
+    e->run_count++;
+}
+
+void ale_runs_split(ale_extractor_t *e)
+{
+    int32_t k = 0;
+    while (k < e->run_count && e->run_count < ALE_MAX_RUNS) {
+        const int32_t split =
+            e->run[k].curved
+                ? -1
+                : ale_break_find(e, e->run[k], reading_direction(e, e->run[k].first, e->run[k].last));
+        if (split >= 0) {
+            insert_run(e, k, split);
+        } else {
+            k++;
+        }
+    }
+}
+
+void ale_runs_search(ale_extractor_t *e)
+{
+    e->run_count = 0;
+    for (int32_t k = 0; k < e->segment_count; k++) {
+        search_segment(e, e->segment[k].first, e->segment[k].last);
+    }
+}

@@ -1,0 +1,16 @@
+/* The runs of a scan: searched, split, their ends placed. */
+#ifndef ALE_EXTRACT_RUNS_H
+#define ALE_EXTRACT_RUNS_H
+
+#include "extract/workspace.h"
+
+/* Cuts every segment into runs by the binary search of ALE. O(lines log points) fits. */
+void ale_runs_search(ale_extractor_t *e);
+
+/* Splits the runs that two lines explain better than one. O(lines log points) fits. */
+void ale_runs_split(ale_extractor_t *e);
+
+/* Places the breaks between neighbouring runs by the best joint fit, all from the same state. */
+void ale_runs_place(ale_extractor_t *e);
+
+#endif
