@@ -125,7 +125,7 @@ static ale_wall_error_t between_walls(const ale_wall_t *wall, const ale_wall_t *
                                 .normal_bam = other->normal_bam,
                                 .start_um = other->start_um,
                                 .end_um = other->end_um};
-    return ale_wall_error(wall, &as_view, (ale_pose_t){0, 0, 0});
+    return ale_wall_error(wall, &as_view);
 }
 
 /* The same wall: side by side for a while, and no farther apart than their errors. */

@@ -45,6 +45,7 @@ static bool wall_of(const ale_map_line_t *line, ale_wall_t *out)
                      .cov_um_urad = line->cov_alpha_rho / NRAD_PER_URAD,
                      .var_angle_urad2 = ale_max64(line->var_alpha_nrad2 / (NRAD_PER_URAD * NRAD_PER_URAD), 1),
                      .seen = line->seen};
+    ale_wall_set_normal(out, tangent_bam + ALE_BAM_QUARTER_TURN);
     return half_um * 2 >= SHORTEST_UM;
 }
 

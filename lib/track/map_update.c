@@ -31,14 +31,15 @@ static void begin(ale_local_map_t *map, const ale_view_t *view, const ale_fit_t 
     ale_view_rows_t rows;
     int64_t offset_um = 0;
     int64_t angle_urad = 0;
-    ale_wall_from_view(&wall, view, fit->motion.pose);
+    const ale_view_t moved = ale_view_from(view, fit->motion.pose);
+    ale_wall_from_view(&wall, &moved);
     ale_view_rows(view, fit->motion.pose.theta_bam, wall.normal_bam, &rows);
     for (int i = 0; i < 3; i++) {
         offset_um += ale_mul_shift(rows.offset_row_q14[i + 3], fit->velocity_change[i], ALE_ROW_BITS);
         angle_urad += ale_mul_shift(rows.angle_row_q14[i + 3], fit->velocity_change[i], ALE_ROW_BITS);
     }
     wall.anchor = ale_plus(wall.anchor, ale_polar(offset_um, wall.normal_bam));
-    wall.normal_bam += (uint32_t)ale_nrad_to_bam(angle_urad * 1000);
+    ale_wall_set_normal(&wall, wall.normal_bam + (uint32_t)ale_nrad_to_bam(angle_urad * 1000));
     wall.var_offset_um2 += ale_view_offset_var(view, &fit->motion.cov);
     wall.var_angle_urad2 += ale_view_angle_var(&fit->motion.cov);
     wall.seen = 1;

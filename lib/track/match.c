@@ -61,14 +61,15 @@ ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, a
     ale_match_t best = {.wall = ALE_NO_WALL, .mark = ALE_NO_MARK};
     int64_t least = INT64_MAX;
     int64_t pose_var[2] = {cov ? ale_view_offset_var(view, cov) : 0, cov ? ale_view_angle_var(cov) : 0};
-    const int32_t bucket = ale_local_map_bucket(view->normal_bam + pose.theta_bam);
+    const ale_view_t moved = ale_view_from(view, pose);
+    const int32_t bucket = ale_local_map_bucket(moved.normal_bam);
     for (int32_t b = bucket - 2; b <= bucket + 2; b++) {
         uint16_t first;
         uint16_t last;
         ale_local_map_facing(map, b, &first, &last);
         for (uint16_t k = first; k < last; k++) {
             const ale_wall_t *wall = &map->wall[map->near[k]];
-            const ale_wall_error_t e = ale_wall_error(wall, view, pose);
+            const ale_wall_error_t e = ale_wall_error(wall, &moved);
             const int64_t d = distance_q8(wall, view, &e, pose_var, gate);
             if (d < least) {
                 least = d;

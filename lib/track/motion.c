@@ -11,7 +11,7 @@ enum {
     TURN = 2,
     BAM_PER_RAD = 683565276,
     FACTOR_LEAST_Q8 = 256,
-    FACTOR_MOST_Q8 = 256 * 64,
+    FACTOR_MOST_Q8 = 256 * 4,
     SURPRISE_MOST_Q8 = 256 * 9,
     ADAPT_SCANS = 16
 };

@@ -18,6 +18,14 @@ int64_t ale_along(ale_point_t v, uint32_t direction_bam)
         (int64_t)v.x_um * ale_cos_q30(direction_bam) + (int64_t)v.y_um * ale_sin_q30(direction_bam), 30);
 }
 
+ale_view_t ale_view_from(const ale_view_t *view, ale_pose_t pose)
+{
+    ale_view_t moved = *view;
+    moved.centre = ale_pose_apply(pose, view->centre);
+    moved.normal_bam = view->normal_bam + pose.theta_bam;
+    return moved;
+}
+
 /* Position along the line, from the foot of the normal, where offset and angle are uncorrelated. */
 static int64_t centre_of(const ale_line_t *line, int64_t from_um, int64_t to_um)
 {

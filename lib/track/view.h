@@ -44,6 +44,9 @@ typedef struct {
 uint32_t ale_views_of(const ale_features_t *features, const ale_scan_t *scan, ale_pose_t sensor,
                       int32_t systematic_um, ale_view_t out[]);
 
+/* The view as it lies in the frame of a pose that is given in it. */
+ale_view_t ale_view_from(const ale_view_t *view, ale_pose_t pose);
+
 /* The tangent that belongs to a normal (a quarter turn clockwise), as a direction. */
 static inline uint32_t ale_tangent_bam(uint32_t normal_bam)
 {

@@ -12,23 +12,31 @@ static int64_t urad_of(int32_t angle_bam)
     return ale_bam_to_nrad(angle_bam) / 1000;
 }
 
-void ale_wall_from_view(ale_wall_t *wall, const ale_view_t *view, ale_pose_t pose)
+void ale_wall_set_normal(ale_wall_t *wall, uint32_t normal_bam)
 {
-    *wall = (ale_wall_t){.anchor = ale_pose_apply(pose, view->centre),
-                         .normal_bam = view->normal_bam + pose.theta_bam,
+    wall->normal_bam = normal_bam;
+    wall->normal_x_q30 = ale_cos_q30(normal_bam);
+    wall->normal_y_q30 = ale_sin_q30(normal_bam);
+}
+
+void ale_wall_from_view(ale_wall_t *wall, const ale_view_t *view)
+{
+    *wall = (ale_wall_t){.anchor = view->centre,
                          .start_um = view->start_um,
                          .end_um = view->end_um,
                          .var_offset_um2 = view->var_offset_um2,
                          .var_angle_urad2 = view->var_angle_urad2};
+    ale_wall_set_normal(wall, view->normal_bam);
 }
 
-ale_wall_error_t ale_wall_error(const ale_wall_t *wall, const ale_view_t *view, ale_pose_t pose)
+ale_wall_error_t ale_wall_error(const ale_wall_t *wall, const ale_view_t *view)
 {
-    const ale_point_t d = ale_minus(ale_pose_apply(pose, view->centre), wall->anchor);
+    const int64_t x = (int64_t)view->centre.x_um - wall->anchor.x_um;
+    const int64_t y = (int64_t)view->centre.y_um - wall->anchor.y_um;
     ale_wall_error_t e;
-    e.offset_um = ale_along(d, wall->normal_bam);
-    e.t_um = ale_along(d, ale_tangent_bam(wall->normal_bam));
-    e.angle_urad = urad_of(ale_bam_diff(view->normal_bam + pose.theta_bam, wall->normal_bam));
+    e.offset_um = ale_round_shift(x * wall->normal_x_q30 + y * wall->normal_y_q30, 30);
+    e.t_um = ale_round_shift(x * wall->normal_y_q30 - y * wall->normal_x_q30, 30);
+    e.angle_urad = urad_of(ale_bam_diff(view->normal_bam, wall->normal_bam));
     e.overlap_um =
         ale_min64(wall->end_um, e.t_um + view->end_um) - ale_max64(wall->start_um, e.t_um + view->start_um);
     return e;
@@ -76,7 +84,7 @@ void ale_wall_observe(ale_wall_t *wall, const ale_wall_error_t *error, int64_t v
     measure(wall, left_urad, wall->cov_um_urad, wall->var_angle_urad2,
             wall->var_angle_urad2 + var_angle_urad2, step);
     wall->anchor = ale_plus(wall->anchor, ale_polar(step[0], wall->normal_bam));
-    wall->normal_bam += (uint32_t)ale_nrad_to_bam(step[1] * 1000);
+    ale_wall_set_normal(wall, wall->normal_bam + (uint32_t)ale_nrad_to_bam(step[1] * 1000));
 }
 
 void ale_wall_extend(ale_wall_t *wall, int64_t from_um, int64_t to_um)

@@ -16,6 +16,8 @@
 typedef struct {
     ale_point_t anchor; /* map frame */
     uint32_t normal_bam;
+    int32_t normal_x_q30; /* its cosine and sine, kept because every match asks for them */
+    int32_t normal_y_q30;
     int32_t start_um;
     int32_t end_um;
     int64_t var_offset_um2;
@@ -27,7 +29,7 @@ typedef struct {
     uint16_t missed;    /* scans that looked through it since */
 } ale_wall_t;
 
-/* How a view lies to a wall, the robot being at a pose: errors view minus wall at t along the wall. */
+/* How a view lies to a wall: errors view minus wall at t along the wall. */
 typedef struct {
     int64_t offset_um;
     int64_t angle_urad;
@@ -35,9 +37,13 @@ typedef struct {
     int64_t overlap_um; /* common length; negative: gap between them */
 } ale_wall_error_t;
 
-void ale_wall_from_view(ale_wall_t *wall, const ale_view_t *view, ale_pose_t pose);
+/* A new wall where a view lies. The view is in the map's frame here and below (see ale_view_from). */
+void ale_wall_from_view(ale_wall_t *wall, const ale_view_t *view);
 
-ale_wall_error_t ale_wall_error(const ale_wall_t *wall, const ale_view_t *view, ale_pose_t pose);
+/* Gives the wall a normal and what goes with it. */
+void ale_wall_set_normal(ale_wall_t *wall, uint32_t normal_bam);
+
+ale_wall_error_t ale_wall_error(const ale_wall_t *wall, const ale_view_t *view);
 
 /* Variance of the wall's offset at t along it, and its covariance with the angle there. */
 int64_t ale_wall_offset_var(const ale_wall_t *wall, int64_t t_um);
