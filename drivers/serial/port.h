@@ -29,7 +29,8 @@ int ale_port_set_baud(ale_port_t *port, int32_t baud);
 int ale_port_read(ale_port_t *port, uint8_t *bytes, size_t capacity);
 /* All of the bytes within timeout_ms, or a negative status. */
 int ale_port_write(ale_port_t *port, const uint8_t *bytes, size_t count, int32_t timeout_ms);
-/* Waits for bytes: 1 readable, 0 time-out, negative status. port NULL: only lets the time pass. */
+/* Waits for bytes: 1 readable, 0 time-out, negative status; some kernels call a port readable that has hung
+ * up, reading then tells. port NULL: only lets the time pass. */
 int ale_port_wait(ale_port_t *port, int32_t timeout_ms);
 /* True when a change of the rate has an effect (a real RS-232 port); false for pseudo terminals and USB. */
 bool ale_port_has_baud(const ale_port_t *port);

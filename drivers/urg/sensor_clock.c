@@ -66,13 +66,14 @@ static void add_sample(ale_sensor_clock_t *clock, int64_t sample_us)
     }
 }
 
-/* Slope of the least samples by least squares, about the newest block; times in milliseconds so that
- * 16 blocks of 4 s squared stay far below 2^63. */
+/* Slope of the full blocks' least samples by least squares; the block that has just begun holds one sample
+ * that nothing speaks for. Times in milliseconds so that 16 blocks of 4 s squared stay far below 2^63. */
 static void estimate_rate(ale_sensor_clock_t *clock)
 {
     const uint64_t begin = oldest_block(clock);
-    const int64_t n = (int64_t)(clock->blocks_seen - begin);
-    if (n < ALE_CLOCK_RATE_BLOCKS + 1) {
+    const uint64_t end = clock->blocks_seen - 1;
+    const int64_t n = (int64_t)(end - begin);
+    if (n < ALE_CLOCK_RATE_BLOCKS) {
         return;
     }
     const ale_clock_block_t origin = *block_at(clock, begin);
@@ -80,7 +81,7 @@ static void estimate_rate(ale_sensor_clock_t *clock)
     int64_t so = 0;
     int64_t stt = 0;
     int64_t sto = 0;
-    for (uint64_t k = begin; k < clock->blocks_seen; k++) {
+    for (uint64_t k = begin; k < end; k++) {
         const ale_clock_block_t *b = block_at(clock, k);
         const int64_t t_ms = (b->time_us - origin.time_us) / 1000;
         const int64_t o_us = b->offset_us - origin.offset_us;
