@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdlib>
+#include <stdexcept>
 
 #include "export/map_image.h"
 
@@ -11,6 +12,7 @@ namespace
 
 constexpr int32_t cell_um = ScanCloud::cell_um;
 constexpr int32_t border = 10; /* cells */
+constexpr int64_t most_cells = 250000000;
 constexpr char occupied = 0;
 constexpr char unknown = static_cast<char>(205);
 constexpr char free_space = static_cast<char>(254);
@@ -24,12 +26,16 @@ int32_t floor_cell(int32_t um)
 class Grid
 {
   public:
+    /* Throws std::runtime_error when the map is too large for a picture of its cells. */
     explicit Grid(const Extent &extent)
         : left_(floor_cell(extent.left_um) - border), bottom_(floor_cell(extent.bottom_um) - border),
           columns_(floor_cell(extent.right_um) + border + 1 - left_),
-          rows_(floor_cell(extent.top_um) + border + 1 - bottom_),
-          value_(static_cast<size_t>(columns_) * static_cast<size_t>(rows_), unknown)
+          rows_(floor_cell(extent.top_um) + border + 1 - bottom_)
     {
+        if (int64_t{columns_} * rows_ > most_cells) {
+            throw std::runtime_error("the map is too large for an occupancy grid of 5 cm");
+        }
+        value_.assign(static_cast<size_t>(columns_) * static_cast<size_t>(rows_), unknown);
     }
     void fill(const ScanCloud &cloud);
     void draw(const ale_point_t &from, const ale_point_t &to);
