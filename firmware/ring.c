@@ -89,7 +89,7 @@ void ale_ring_release(ale_ring_t *ring)
 
 uint32_t ale_ring_committed(const ale_ring_t *ring)
 {
-    return atomic_load_explicit(&ring->committed, memory_order_relaxed);
+    return atomic_load_explicit(&ring->committed, memory_order_acquire);
 }
 
 uint32_t ale_ring_refused(const ale_ring_t *ring)

@@ -145,10 +145,16 @@ static void send_map(ale_telemetry_t *telemetry, int64_t now_ns)
     }
 }
 
-static bool result_awaited(const ale_exchange_t *exchange)
+/* How long until a result is there: not at all when one is, a look when a scan is on its way to become one.
+ * What is on its way is read first: a result that comes in between is then seen as ready. */
+static int64_t result_wait_ns(const ale_exchange_t *exchange, int64_t otherwise_ns)
 {
-    return ale_ring_committed(exchange->scans) !=
-           ale_ring_committed(exchange->results) + ale_ring_refused(exchange->results);
+    const bool under_way = ale_ring_committed(exchange->scans) !=
+                           ale_ring_committed(exchange->results) + ale_ring_refused(exchange->results);
+    if (ale_ring_ready(exchange->results) > 0) {
+        return 0;
+    }
+    return under_way ? ale_min64(otherwise_ns, LOOK_NS) : otherwise_ns;
 }
 
 static void wait_for_work(ale_telemetry_t *telemetry)
@@ -160,9 +166,7 @@ static void wait_for_work(ale_telemetry_t *telemetry)
     if (map_under_way(telemetry)) {
         wait_ns = ale_min64(wait_ns, PART_NS);
     }
-    if (result_awaited(exchange)) {
-        wait_ns = ale_min64(wait_ns, LOOK_NS);
-    }
+    wait_ns = result_wait_ns(exchange, wait_ns);
     const struct timespec wait = {.tv_sec = wait_ns / NS_PER_S, .tv_nsec = wait_ns % NS_PER_S};
     ppoll(sources, 2, &wait, NULL);
     eventfd_t announced = 0;
@@ -187,6 +191,9 @@ static void work(ale_telemetry_t *telemetry)
 static void run(ale_rt_task_t *self, void *user)
 {
     ale_telemetry_t *telemetry = user;
+    if (ale_bus_on_odometry(telemetry->bus, take_odometry, telemetry) < 0) {
+        fputs("ale-slamd: LCM refuses the subscription of odometry: going on without\n", stderr);
+    }
     while (!ale_rt_task_stopping(self)) {
         wait_for_work(telemetry);
         work(telemetry);
@@ -217,10 +224,8 @@ ale_telemetry_t *ale_telemetry_start(const ale_config_t *config, ale_exchange_t 
     telemetry->realtime = *realtime;
     telemetry->boot = boot_nonce();
     telemetry->next_status_ns = ale_rt_now_ns() + STATUS_PERIOD_NS;
-    if (ale_bus_on_odometry(bus, take_odometry, telemetry) == 0) {
-        telemetry->task = ale_rt_task_start(&(ale_rt_task_config_t){
-            .name = "ale-telemetry", .kind = ALE_RT_ORDINARY, .body = run, .user = telemetry});
-    }
+    telemetry->task = ale_rt_task_start(&(ale_rt_task_config_t){
+        .name = "ale-telemetry", .kind = ALE_RT_ORDINARY, .body = run, .user = telemetry});
     if (!telemetry->task) {
         free(telemetry);
         return NULL;

@@ -13,8 +13,9 @@
 
 typedef struct ale_telemetry ale_telemetry_t;
 
-/* Takes the bus over as its only user. Its receive thread is started by this call's thread. NULL: no memory,
- * no threads, or LCM refuses. config and exchange must outlive it. */
+/* Takes the bus over as its only user. LCM's receive thread is started by this one: it shares locks with it,
+ * so it must not wait behind other programs with a lower priority. NULL: no memory or no threads. config and
+ * exchange must outlive it. */
 ale_telemetry_t *ale_telemetry_start(const ale_config_t *config, ale_exchange_t *exchange, ale_bus_t *bus,
                                      const ale_rt_report_t *realtime);
 
