@@ -62,7 +62,7 @@ static void list_near(ale_local_map_t *map)
 
 void ale_local_map_approach(ale_local_map_t *map, ale_point_t centre, int32_t reach_um)
 {
-    const int32_t radius_um = reach_um + NEAR_MARGIN_UM;
+    const int32_t radius_um = (int32_t)ale_min64((int64_t)reach_um + NEAR_MARGIN_UM, INT32_MAX);
     const bool moved = ale_abs64((int64_t)centre.x_um - map->near_centre.x_um) > NEAR_STEP_UM ||
                        ale_abs64((int64_t)centre.y_um - map->near_centre.y_um) > NEAR_STEP_UM;
     if (!moved && map->near_radius_um == radius_um) {

@@ -90,6 +90,7 @@ void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t coun
             continue;
         }
         if (view[i].kind != ALE_VIEW_WALL) {
+            map->wall[match->wall].last_scan = scan; /* it is there, but a piece is too short to sharpen it */
             continue;
         }
         if (match->wall != ALE_NO_WALL) {

@@ -89,7 +89,7 @@ static void carry_pose_error(ale_pose_t d, int64_t f_q20[ALE_STATES][ALE_STATES]
 {
     const int64_t c = ale_round_shift(ale_cos_q30(d.theta_bam), 10);
     const int64_t s = ale_round_shift(ale_sin_q30(d.theta_bam), 10);
-    const int64_t x_m_q20 = ale_round_div((int64_t)d.x_um << 20, 1000000);
+    const int64_t x_m_q20 = ale_round_div((int64_t)d.x_um * (1 << 20), 1000000);
     const int64_t y_m_q20 = ale_round_div((int64_t)d.y_um * (1 << 20), 1000000);
     f_q20[0][0] = c;
     f_q20[0][1] = s;
@@ -250,5 +250,16 @@ void ale_motion_correct(ale_motion_t *motion, const int64_t delta[ALE_STATES])
     motion->pose = ale_pose_compose(motion->pose, ale_pose_of_step(delta[0], delta[1], delta[2]));
     for (int i = 0; i < ALE_AXES; i++) {
         motion->velocity[i] += (int32_t)delta[i + 3];
+    }
+}
+
+void ale_motion_widen(ale_motion_t *motion, int64_t sigma_um, int64_t sigma_urad)
+{
+    const int64_t var[ALE_AXES] = {sigma_um * sigma_um, sigma_um * sigma_um, sigma_urad * sigma_urad};
+    for (int i = 0; i < ALE_AXES; i++) {
+        for (int j = 0; j < ALE_STATES; j++) {
+            motion->cov.m[i][j] = motion->cov.m[j][i] = 0;
+        }
+        motion->cov.m[i][i] = var[i];
     }
 }

@@ -59,6 +59,9 @@ void ale_motion_predict(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_
 /* Applies an error in the robot's frame to the state: pose, then velocity. */
 void ale_motion_correct(ale_motion_t *motion, const int64_t delta[ALE_STATES]);
 
+/* Forgets how well the pose is known: sigma in both directions and of the heading; keeps the velocity's. */
+void ale_motion_widen(ale_motion_t *motion, int64_t sigma_um, int64_t sigma_urad);
+
 /* Motion of a constant velocity over a time, in the frame of its beginning. |time| up to 2 s. */
 ale_pose_t ale_motion_sweep(const int32_t velocity[ALE_AXES], int64_t time_us);
 

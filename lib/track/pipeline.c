@@ -19,6 +19,10 @@ enum {
     START_TURN_MRAD_S = 500,
     LEARN_DETERMINED_UM = 10000, /* scans that know the way well enough to teach the wheels */
     LEARN_LAG_VAR_UM2 = 4000000, /* and a lag that could not have made (2 mm)^2 of it */
+    WHOLE_MAP_UM = 2000000000,   /* a reach beyond any map */
+    SEARCH_PERCENT = 60,         /* of what is shown must lie on walls before a place is looked at closer */
+    SEARCH_SIGMA_UM = 100000,
+    SEARCH_SIGMA_URAD = 50000,
     SCAN_PERIOD_MAX_US = 2000000
 };
 
@@ -81,6 +85,8 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
     ale_motion_init(&pipeline->motion, 0, (ale_pose_t){0, 0, 0}, START_SPEED_MM_S, START_TURN_MRAD_S);
     pipeline->smooth = (ale_pose_t){0, 0, 0};
     pipeline->scans = 0;
+    pipeline->fade.next = 0;
+    pipeline->search = (ale_search_t){0, 0};
     pipeline->started = false;
     pipeline->view_count = 0;
     memset(&pipeline->features, 0, sizeof pipeline->features);
@@ -112,6 +118,11 @@ static ale_noise_t measured_noise(const ale_pipeline_t *p)
     return noise;
 }
 
+static const uint32_t *bearings(const ale_pipeline_t *p)
+{
+    return p->straightened ? p->bearing_bam : NULL;
+}
+
 /* Straightens the scan with a velocity, extracts, and turns lines and what is left into views. */
 static void look(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t velocity[ALE_AXES])
 {
@@ -129,12 +140,12 @@ static void look(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t velocit
         ale_pieces_of(&p->features, &p->scan, bearing_bam, p->config.sensor, &noise, &p->view[p->view_count]);
 }
 
-static void match(ale_pipeline_t *p, const ale_motion_t *predicted)
+static void match(ale_pipeline_t *p, const ale_motion_t *predicted, int32_t reach_um)
 {
     const ale_gate_t gate = {ACQUIRE_OFFSET_UM, ACQUIRE_ANGLE_URAD, ACQUIRE_SIGMAS, ACQUIRE_PIECE_UM};
     const ale_scene_t scene = {&p->map, p->view, p->view_count};
     const ale_point_t centre = {predicted->pose.x_um, predicted->pose.y_um};
-    ale_local_map_approach(&p->map, centre, p->scan.range_max_um);
+    ale_local_map_approach(&p->map, centre, reach_um);
     ale_refine(predicted, &scene, &gate, &p->fit);
 }
 
@@ -178,11 +189,57 @@ static void begin(ale_pipeline_t *p, const ale_scan_t *scan)
                     START_TURN_MRAD_S);
     look(p, scan, p->motion.velocity);
     p->fit.motion = p->motion;
-    match(p, &p->motion);
+    match(p, &p->motion, p->scan.range_max_um);
     p->fit.motion = p->motion;
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);
     ale_map_update(&p->map, p->view, p->view_count, &p->fit, p->scans, true);
     p->started = p->view_count > 0;
+}
+
+/* Asks the near walls that were not matched whether they are there; those that are not fade. */
+static ale_sights_t look_around(ale_pipeline_t *p)
+{
+    const ale_pose_t sensor = ale_pose_compose(p->motion.pose, p->config.sensor);
+    return ale_fade(&p->fade, &p->map, &p->scan, bearings(p), sensor, p->scans,
+                    p->tracker.state == ALE_STATE_GOOD);
+}
+
+/* Tracks: matches where the prediction puts the robot, judges the result, and takes it into the map. */
+static void track(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted,
+                  const ale_wheel_motion_t *wheels)
+{
+    match(p, predicted, p->scan.range_max_um);
+    p->motion = p->fit.motion;
+    ale_liveliness_learn(&p->liveliness[wheels != NULL], predicted, &p->motion);
+    teach_wheels(p, before, wheels);
+    ale_stage_end(&p->hook, ALE_STAGE_MATCH);
+    if (p->tracker.state != ALE_STATE_LOST) {
+        ale_map_update(&p->map, p->view, p->view_count, &p->fit, p->scans,
+                       ale_tracker_may_map(&p->tracker, &p->fit));
+        ale_local_map_approach(&p->map, (ale_point_t){p->motion.pose.x_um, p->motion.pose.y_um},
+                               p->scan.range_max_um);
+    }
+    const ale_sights_t sights = look_around(p);
+    ale_tracker_judge(&p->tracker, &p->fit, &sights);
+}
+
+/* Lost: looks for the place that fits, a bounded number of hypotheses a scan, and leaves the map alone. */
+static void search(ale_pipeline_t *p)
+{
+    const ale_point_t anywhere = {0, 0};
+    ale_local_map_approach(&p->map, anywhere, WHOLE_MAP_UM);
+    const ale_hypothesis_t best = ale_search(&p->search, &p->map, p->view, p->view_count);
+    if (best.score_um * 100 > best.shown_um * SEARCH_PERCENT && best.score_um > best.second_um) {
+        ale_motion_t there = p->motion;
+        there.pose = best.pose;
+        ale_motion_widen(&there, SEARCH_SIGMA_UM, SEARCH_SIGMA_URAD);
+        match(p, &there, WHOLE_MAP_UM);
+        if (ale_tracker_believes(&p->fit)) {
+            p->motion = p->fit.motion;
+            ale_tracker_found(&p->tracker);
+        }
+    }
+    ale_stage_end(&p->hook, ALE_STAGE_MATCH);
 }
 
 static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
@@ -193,17 +250,12 @@ static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
     const bool counted = predict(p, instant_us, &wheels);
     const ale_motion_t predicted = p->motion;
     look(p, scan, predicted.velocity);
-    match(p, &predicted);
-    p->motion = p->fit.motion;
-    ale_liveliness_learn(&p->liveliness[counted], &predicted, &p->motion);
-    ale_tracker_judge(&p->tracker, &p->fit);
-    ale_stage_end(&p->hook, ALE_STAGE_MATCH);
-    advance_smooth(p, before.pose, predicted.pose, instant_us - before.stamp_us);
-    teach_wheels(p, &before, counted ? &wheels : NULL);
-    if (p->tracker.state != ALE_STATE_LOST) {
-        ale_map_update(&p->map, p->view, p->view_count, &p->fit, p->scans,
-                       ale_tracker_may_map(&p->tracker, &p->fit));
+    if (p->tracker.state == ALE_STATE_LOST) {
+        search(p);
+    } else {
+        track(p, &before, &predicted, counted ? &wheels : NULL);
     }
+    advance_smooth(p, before.pose, predicted.pose, instant_us - before.stamp_us);
     ale_stage_end(&p->hook, ALE_STAGE_MAP);
 }
 
@@ -303,4 +355,5 @@ void ale_pipeline_load_map(ale_pipeline_t *pipeline, const ale_map_t *map, ale_p
     ale_motion_init(&pipeline->motion, 0, pose, START_SPEED_MM_S, START_TURN_MRAD_S);
     pipeline->smooth = pose;
     pipeline->tracker.state = known ? ALE_STATE_WEAK : ALE_STATE_LOST;
+    pipeline->started = pipeline->map.count > 0;
 }

@@ -3,6 +3,8 @@
 #define ALE_TRACK_PIPELINE_STATE_H
 
 #include "extract/workspace.h"
+#include "track/fade.h"
+#include "track/hypothesis.h"
 #include "track/lag.h"
 #include "track/local_map.h"
 #include "track/motion.h"
@@ -31,10 +33,13 @@ struct ale_pipeline {
     ale_tracker_t tracker;
     ale_pose_t smooth;
     ale_local_map_t map;
+    ale_fade_t fade;
+    ale_search_t search;
 
     /* the scan at hand */
     ale_scan_t scan;
     uint32_t bearing_bam[ALE_MAX_BEAMS];
+    bool straightened; /* bearing_bam holds */
     ale_features_t features;
     ale_view_t view[ALE_MAX_VIEWS];
     uint32_t view_count;

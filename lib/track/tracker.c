@@ -3,11 +3,14 @@
 #include "base/fixed.h"
 
 enum {
-    MISFITS_UNTIL_LOST = 5,
-    ENOUGH_SHOWN_UM = 1500000, /* walls a scan must show before their misfit means anything */
-    FIT_PERCENT = 0,           /* of the length shown that must be found in the map */
-    DETERMINED_UM = 30000,     /* the scan alone knows each direction better than this */
-    WEAK_SIGMA_UM = 60000,     /* pose sigma above which it is weak whatever the scan shows */
+    MISFITS_UNTIL_LOST = 8,
+    THROUGH_LEAST = 3,    /* walls seen through that make a contradiction, if they also are */
+    THROUGH_TO_FOUND = 2, /* so many times those that are where they should be */
+    BELIEVE_SHOWN_UM = 2500000,
+    BELIEVE_WALLS = 4,
+    BELIEVE_PERCENT = 70,
+    DETERMINED_UM = 30000, /* the scan alone knows each direction better than this */
+    WEAK_SIGMA_UM = 60000, /* pose sigma above which it is weak whatever the scan shows */
     LOST_SIGMA_UM = 1000000,
     MAP_SIGMA_UM = 40000, /* pose sigmas up to which walls may be added */
     MAP_SIGMA_URAD = 25000
@@ -33,19 +36,22 @@ static ale_state_t by_variance(const ale_motion_t *m)
     return position_var(m) > square(LOST_SIGMA_UM) ? ALE_STATE_LOST : ALE_STATE_WEAK;
 }
 
-ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit)
+static bool contradicts(const ale_fit_t *fit, const ale_sights_t *sights)
 {
-    const bool enough = fit->shown_um >= ENOUGH_SHOWN_UM;
-    const bool fits = fit->matched_um * 100 >= fit->shown_um * FIT_PERCENT;
-    tracker->blind = 0;
-    if (enough && !fits) {
+    const uint32_t found = (uint32_t)fit->matched + sights->supported;
+    return sights->through >= THROUGH_LEAST && sights->through > THROUGH_TO_FOUND * found;
+}
+
+ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit, const ale_sights_t *sights)
+{
+    if (contradicts(fit, sights)) {
         tracker->misfits++;
-    } else if (fits && fit->matched > 1) {
-        tracker->misfits = 0;
+    } else if (tracker->misfits > 0) {
+        tracker->misfits--;
     }
     if (tracker->misfits >= MISFITS_UNTIL_LOST) {
         tracker->state = ALE_STATE_LOST;
-    } else if (tracker->misfits == 0 && position_var(&fit->motion) < square(WEAK_SIGMA_UM) &&
+    } else if (position_var(&fit->motion) < square(WEAK_SIGMA_UM) &&
                ale_information_determines(&fit->information, DETERMINED_UM)) {
         tracker->state = ALE_STATE_GOOD;
     } else {
@@ -54,9 +60,20 @@ ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit)
     return tracker->state;
 }
 
+bool ale_tracker_believes(const ale_fit_t *fit)
+{
+    return fit->matched >= BELIEVE_WALLS && fit->shown_um >= BELIEVE_SHOWN_UM &&
+           fit->matched_um * 100 >= fit->shown_um * BELIEVE_PERCENT;
+}
+
+void ale_tracker_found(ale_tracker_t *tracker)
+{
+    tracker->state = ALE_STATE_WEAK;
+    tracker->misfits = MISFITS_UNTIL_LOST / 2; /* on probation */
+}
+
 ale_state_t ale_tracker_skip(ale_tracker_t *tracker, const ale_motion_t *predicted)
 {
-    tracker->blind++;
     if (tracker->state != ALE_STATE_LOST) {
         tracker->state = by_variance(predicted);
     }

@@ -1,14 +1,16 @@
 /* Good, weak or lost: how far the pose can be trusted, from what the last scans showed.
  *
  * Good: the scan fits the map and, with the prediction, determines every direction. Weak: part of the pose
- * rests on the prediction (a corridor, a hall out of reach). Lost: what the scans show does not fit
- * the map, for several scans that showed enough. Constant time. */
+ * rests on the prediction (a corridor, a hall out of reach). Lost: scan after scan looks through walls that
+ * should be there, or nothing has held the pose for so long that it may be anywhere. A place that is merely
+ * new is not a reason. Constant time. */
 #ifndef ALE_TRACK_TRACKER_H
 #define ALE_TRACK_TRACKER_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "track/fade.h"
 #include "track/pipeline.h"
 #include "track/refine.h"
 
@@ -20,10 +22,17 @@ typedef struct {
 
 void ale_tracker_init(ale_tracker_t *tracker);
 
-/* Judges a fitted scan and returns the new state. */
-ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit);
+/* Judges a fitted scan and what it says of the walls that were not matched; returns the new state. */
+ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit, const ale_sights_t *sights);
 
-/* A scan that was dropped: nothing was seen. */
+/* Whether a fit found while lost may be believed: most of what is shown lies on walls, and enough is shown.
+ */
+bool ale_tracker_believes(const ale_fit_t *fit);
+
+/* The robot was found again, or put somewhere: weak until the next scans agree. */
+void ale_tracker_found(ale_tracker_t *tracker);
+
+/* A scan that was dropped, or showed nothing. */
 ale_state_t ale_tracker_skip(ale_tracker_t *tracker, const ale_motion_t *predicted);
 
 /* Whether the pose is known well enough to add to the map. */

@@ -1,0 +1,42 @@
+#include "track/fade.h"
+
+#include "base/fixed.h"
+#include "track/visibility.h"
+
+enum {
+    MISSES = 4,        /* scans that must look through a wall that was hardly ever seen */
+    SEEN_PER_MISS = 4, /* and one more for so many scans that saw it */
+    MISSES_MOST = 60
+};
+
+static bool has_faded(const ale_wall_t *wall)
+{
+    return wall->missed > ale_min64(MISSES + wall->seen / SEEN_PER_MISS, MISSES_MOST);
+}
+
+ale_sights_t ale_fade(ale_fade_t *fade, ale_local_map_t *map, const ale_scan_t *taken,
+                      const uint32_t *bearing_bam, ale_pose_t sensor, uint32_t scan, bool forget)
+{
+    ale_sights_t sights = {0, 0};
+    const uint32_t count = map->near_first[ALE_MAP_DIRECTIONS];
+    uint16_t gone = ALE_NO_WALL;
+    for (uint32_t n = 0; n < ALE_FADE_WALLS && n < count; n++) {
+        fade->next = fade->next + 1 < count ? fade->next + 1 : 0;
+        const uint16_t index = map->near[fade->next];
+        ale_wall_t *wall = &map->wall[index];
+        if (wall->last_scan == scan) {
+            continue;
+        }
+        const ale_sight_t sight = ale_wall_sight(wall, taken, bearing_bam, sensor);
+        sights.supported = (uint16_t)(sights.supported + (sight == ALE_SIGHT_SUPPORTED));
+        sights.through = (uint16_t)(sights.through + (sight == ALE_SIGHT_THROUGH));
+        if (forget && sight != ALE_SIGHT_NONE) {
+            wall->missed = sight == ALE_SIGHT_SUPPORTED ? 0 : (uint16_t)(wall->missed + 1);
+            gone = has_faded(wall) ? index : gone;
+        }
+    }
+    if (gone != ALE_NO_WALL) {
+        ale_local_map_remove(map, gone);
+    }
+    return sights;
+}

@@ -1,0 +1,43 @@
+/* Where could the robot be? The paper's section IV: adopt one corner in the scan and one in the map, rotate
+ * for overlap, and if the result does not satisfy check the next; of two similar ones take the better.
+ *
+ * A corner is two walls that meet at an angle: two views of the scan and two walls of the map that enclose
+ * the same angle give a pose, which is scored by the length of the scan's lines that then lie on walls. The
+ * pairs of the map are gone through a bounded number at a time, scan after scan, as long as it takes. */
+#ifndef ALE_TRACK_HYPOTHESIS_H
+#define ALE_TRACK_HYPOTHESIS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "track/local_map.h"
+#include "track/view.h"
+
+enum {
+    ALE_MAX_HYPOTHESES = 24,    /* scored in one scan */
+    ALE_HYPOTHESIS_PAIRS = 4096 /* pairs of walls looked at in one scan */
+};
+
+typedef struct {
+    uint16_t first; /* pair of walls to go on at */
+    uint16_t second;
+} ale_search_t;
+
+typedef struct {
+    ale_pose_t pose;
+    int64_t score_um;  /* length of the scan's lines that lie on walls */
+    int64_t second_um; /* the same for the best pose elsewhere: how unique the answer is */
+    int64_t shown_um;  /* length of all lines */
+    uint16_t views;    /* lines that lie on walls */
+} ale_hypothesis_t;
+
+/* The pose that puts two views on two walls, least squares in the angle. False when the walls enclose too
+ * small an angle. */
+bool ale_pose_of_pair(const ale_view_t *a, const ale_view_t *b, const ale_wall_t *wall_a,
+                      const ale_wall_t *wall_b, ale_pose_t *out);
+
+/* Goes on with the search for the views of this scan. The near list of the map must hold all walls. */
+ale_hypothesis_t ale_search(ale_search_t *search, const ale_local_map_t *map, const ale_view_t view[],
+                            uint32_t count);
+
+#endif

@@ -1,0 +1,72 @@
+#include "track/visibility.h"
+
+#include "base/fixed.h"
+#include "base/trig.h"
+
+enum {
+    TOLERANCE_UM = 120000, /* how far a point may lie before or behind its wall, and per mille of the range */
+    TOLERANCE_PER_MILLE = 30,
+    GRAZING_Q30 = 278000000, /* cosine of 75 degrees */
+    NOT_IN_VIEW = -1
+};
+
+/* The beam that points in a direction of the sensor's frame. Straightening moves beams by a few steps:
+ * the regular place is corrected twice. */
+static int32_t beam_towards(const ale_scan_t *scan, const uint32_t *bearing_bam, uint32_t direction_bam)
+{
+    const bool reversed = scan->step_bam < 0;
+    const uint32_t step = reversed ? 0u - (uint32_t)scan->step_bam : (uint32_t)scan->step_bam;
+    const uint32_t from_first =
+        reversed ? scan->first_bearing_bam - direction_bam : direction_bam - scan->first_bearing_bam;
+    if (step == 0 || from_first / step >= scan->beams) {
+        return NOT_IN_VIEW;
+    }
+    int32_t beam = (int32_t)(from_first / step);
+    for (int i = 0; bearing_bam && i < 2; i++) {
+        const int32_t error = ale_bam_diff(direction_bam, bearing_bam[beam]);
+        const int64_t next = beam + ale_round_div(reversed ? -(int64_t)error : error, step);
+        if (next < 0 || next >= scan->beams) {
+            return NOT_IN_VIEW;
+        }
+        beam = (int32_t)next;
+    }
+    return beam;
+}
+
+static ale_sight_t point_sight(const ale_wall_t *wall, ale_point_t p, const ale_scan_t *scan,
+                               const uint32_t *bearing_bam, ale_pose_t sensor)
+{
+    const int64_t x = (int64_t)sensor.x_um - p.x_um;
+    const int64_t y = (int64_t)sensor.y_um - p.y_um;
+    const int64_t range_um = ale_isqrt((uint64_t)(x * x + y * y));
+    const int64_t height_um = ale_round_shift(x * wall->normal_x_q30 + y * wall->normal_y_q30, 30);
+    if (height_um < ale_mul_shift(range_um, GRAZING_Q30, 30) || range_um <= scan->range_min_um ||
+        range_um > scan->range_max_um) {
+        return ALE_SIGHT_NONE;
+    }
+    const int32_t beam = beam_towards(scan, bearing_bam, ale_atan2_bam(-y, -x) - sensor.theta_bam);
+    if (beam == NOT_IN_VIEW || scan->flag[beam] != ALE_BEAM_VALID) {
+        return ALE_SIGHT_NONE;
+    }
+    const int64_t tolerance_um = TOLERANCE_UM + range_um * TOLERANCE_PER_MILLE / 1000;
+    const int64_t beyond_um = scan->range_um[beam] - range_um;
+    if (beyond_um > tolerance_um) {
+        return ALE_SIGHT_THROUGH;
+    }
+    return beyond_um < -tolerance_um ? ALE_SIGHT_NONE : ALE_SIGHT_SUPPORTED;
+}
+
+ale_sight_t ale_wall_sight(const ale_wall_t *wall, const ale_scan_t *scan, const uint32_t *bearing_bam,
+                           ale_pose_t sensor)
+{
+    int32_t through = 0;
+    for (int32_t k = 1; k <= 5; k += 2) {
+        const int64_t t_um = wall->start_um + ((int64_t)wall->end_um - wall->start_um) * k / 6;
+        const ale_sight_t sight = point_sight(wall, ale_wall_point(wall, t_um), scan, bearing_bam, sensor);
+        if (sight == ALE_SIGHT_SUPPORTED) {
+            return ALE_SIGHT_SUPPORTED;
+        }
+        through += sight == ALE_SIGHT_THROUGH;
+    }
+    return through >= 2 ? ALE_SIGHT_THROUGH : ALE_SIGHT_NONE;
+}

@@ -1,0 +1,24 @@
+/* Whether a scan sees a wall of the map, sees through where it should be, or cannot tell.
+ *
+ * What is seen through again and again is no longer there: it fades from the map. And a robot that sees
+ * through most of what it should see is not where it believes to be. Constant work a wall. */
+#ifndef ALE_TRACK_VISIBILITY_H
+#define ALE_TRACK_VISIBILITY_H
+
+#include <stdint.h>
+
+#include "base/scan.h"
+#include "track/wall.h"
+
+typedef enum {
+    ALE_SIGHT_NONE,      /* out of view, too grazing, hidden, or no value in the beams */
+    ALE_SIGHT_SUPPORTED, /* something stands where the wall is */
+    ALE_SIGHT_THROUGH    /* the beams go on beyond it */
+} ale_sight_t;
+
+/* What a straightened scan, taken by a sensor at a pose of the map, says of a wall. bearing_bam as for
+ * ale_extract_scan. Three points of the wall are asked; two must be seen through. */
+ale_sight_t ale_wall_sight(const ale_wall_t *wall, const ale_scan_t *scan, const uint32_t *bearing_bam,
+                           ale_pose_t sensor);
+
+#endif
