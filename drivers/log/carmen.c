@@ -115,12 +115,12 @@ static bool take_ranges(ale_log_t *log, ale_span_t *line, ale_scan_t *scan)
     for (uint16_t k = 0; k < scan->beams; k++) {
         ale_span_t word;
         if (!ale_text_word(line, &word)) {
-            ale_log_bad_line(log, "ends after %u of %u ranges", k, scan->beams);
+            ale_log_cut_line(log, k, scan->beams, "ranges");
             return false;
         }
         int64_t range_um = 0;
         if (!is_nothing(word) && !ale_text_decimal(word, 6, &range_um)) {
-            ale_log_bad_line(log, "range %u of %u is not a number", k, scan->beams);
+            ale_log_bad_line(log, "a range that is not a number");
             return false;
         }
         ale_geometry_set_range(scan, k, (int32_t)ale_clamp64(range_um, 0, INT32_MAX));

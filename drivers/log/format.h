@@ -56,7 +56,10 @@ struct ale_log {
 const ale_log_format_t *ale_log_detect(ale_log_t *log, const char **reason);
 
 /* Counts the line last taken as bad and remembers why. */
-__attribute__((format(printf, 2, 3))) void ale_log_bad_line(ale_log_t *log, const char *format, ...);
+void ale_log_bad_line(ale_log_t *log, const char *what);
+
+/* The same for a line that holds another number of something than it must. */
+void ale_log_cut_line(ale_log_t *log, uint32_t count, uint32_t wanted, const char *of_what);
 
 /* Counts a damaged part of a binary log, at about log->text.at, and remembers what it was. */
 void ale_log_bad_chunk(ale_log_t *log, const char *what);

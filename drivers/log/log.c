@@ -1,6 +1,5 @@
 #include "log/log.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,15 +15,18 @@ static int fail(ale_log_error_t *error, const char *path, const char *reason)
     return -1;
 }
 
-void ale_log_bad_line(ale_log_t *log, const char *format, ...)
+void ale_log_bad_line(ale_log_t *log, const char *what)
 {
-    const int head = snprintf(log->last_error, sizeof log->last_error, "%s: line %llu: ", log->path,
-                              (unsigned long long)log->text.line);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(log->last_error + head, sizeof log->last_error - (size_t)head, format, arguments);
-    va_end(arguments);
+    snprintf(log->last_error, sizeof log->last_error, "%s: line %llu: %s", log->path,
+             (unsigned long long)log->text.line, what);
     log->statistics.bad_lines++;
+}
+
+void ale_log_cut_line(ale_log_t *log, uint32_t count, uint32_t wanted, const char *of_what)
+{
+    char what[64];
+    snprintf(what, sizeof what, "%u %s instead of %u", count, of_what, wanted);
+    ale_log_bad_line(log, what);
 }
 
 void ale_log_bad_chunk(ale_log_t *log, const char *what)

@@ -61,7 +61,7 @@ static bool take_laser(ale_log_t *log, ale_span_t line, ale_scan_t *scan)
     for (uint16_t k = 0; k < scan->beams; k++) {
         int64_t range_um = 0;
         if (!ale_text_word(&line, &word) || !ale_text_decimal(word, 6, &range_um)) {
-            ale_log_bad_line(log, "%u of %u ranges", k, scan->beams);
+            ale_log_cut_line(log, k, scan->beams, "ranges");
             return false;
         }
         ale_geometry_set_range(scan, k, (int32_t)ale_clamp64(range_um, 0, INT32_MAX));

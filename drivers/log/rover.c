@@ -137,14 +137,14 @@ static bool take_ranges(ale_span_t *line, ale_scan_t *scan)
 {
     ale_geometry_urg(scan, FIRST_STEP, BEAMS);
     scan->stamp_beam = BEAM_AHEAD;
-    for (uint16_t k = 0; k < BEAMS; k++) {
+    for (int32_t k = 0; k < scan->beams; k++) {
         ale_span_t word;
         int32_t value_mm = 0;
         if (!ale_text_word(line, &word) || !ale_text_decimal32(word, 0, &value_mm)) {
             return false;
         }
-        ale_scan_set_urg(scan, k, (int32_t)ale_clamp64(value_mm, 0, UINT16_MAX));
-        if (scan->flag[k] == ALE_BEAM_NO_RETURN && (k < BODY_RIGHT || k >= BODY_LEFT)) {
+        ale_scan_set_urg(scan, (uint16_t)k, (int32_t)ale_clamp64(value_mm, 0, UINT16_MAX));
+        if ((k < BODY_RIGHT || k >= BODY_LEFT) && scan->flag[k] == ALE_BEAM_NO_RETURN) {
             scan->flag[k] = ALE_BEAM_BLIND;
         }
     }
@@ -159,7 +159,7 @@ static bool take_line(ale_log_t *log, ale_span_t line, ale_log_record_t *record)
         return false;
     }
     if (words != layout->words) {
-        ale_log_bad_line(log, "%u numbers instead of %u", words, layout->words);
+        ale_log_cut_line(log, words, layout->words, "numbers");
         return false;
     }
     ale_log_event_t *event = &record->event;

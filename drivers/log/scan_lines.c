@@ -30,7 +30,7 @@ static bool take_scan(ale_span_t line, ale_log_event_t *event)
     ale_geometry_urg(&event->scan, 0, BEAMS);
     event->scan.stamp_us = event->stamp_us;
     event->scan.stamp_beam = 0;
-    for (uint16_t k = 0; k < BEAMS; k++) {
+    for (uint16_t k = 0; k < event->scan.beams; k++) {
         int32_t value_mm = 0;
         if (!ale_text_word(&line, &word) || !ale_text_decimal32(word, 0, &value_mm)) {
             return false;
@@ -50,8 +50,8 @@ static bool next(ale_log_t *log, ale_log_record_t *record)
             return true;
         }
         if (words > 0) {
-            ale_log_bad_line(log, words == WORDS ? "a word that is not a number" : "not a time and %d ranges",
-                             BEAMS);
+            ale_log_bad_line(log,
+                             words == WORDS ? "a word that is not a number" : "not a time and 726 ranges");
         }
     }
     return false;
