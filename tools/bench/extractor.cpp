@@ -71,15 +71,35 @@ struct Textbook {
     const char *function;
     Method method;
     Threshold tuned;
+    Threshold fixed;
+    const char *fixed_name;
 };
 
-constexpr Threshold fixed{0.03, 0};
 const std::vector<Textbook> textbook_methods{
-    {"split-merge", "split and merge", "split_and_merge", textbook::split_and_merge, {0.03, 0.025}},
-    {"incremental", "incremental", "incremental", textbook::incremental, {0.03, 0.025}},
-    {"ransac", "RANSAC", "ransac", textbook::ransac, {0.008, 0.012}},
-    {"hough", "Hough", "hough", textbook::hough, {0.015, 0.015}},
-    {"regression", "line regression", "line_regression", textbook::line_regression, {0.03, 0.03}},
+    {"split-merge",
+     "split and merge",
+     "split_and_merge",
+     textbook::split_and_merge,
+     {0.03, 0.025},
+     {0.03, 0},
+     "30mm"},
+    {"incremental", "incremental", "incremental", textbook::incremental, {0.03, 0.025}, {0.03, 0}, "30mm"},
+    {"ransac", "RANSAC", "ransac", textbook::ransac, {0.008, 0.012}, {0.03, 0}, "30mm"},
+    {"hough", "Hough", "hough", textbook::hough, {0.015, 0.015}, {0.03, 0}, "30mm"},
+    {"regression",
+     "line regression",
+     "line_regression",
+     textbook::line_regression,
+     {0.03, 0.03},
+     {0.03, 0},
+     "30mm"},
+    {"static-ale",
+     "ALE, static threshold",
+     "static_ale",
+     textbook::static_ale,
+     {0.005, 0.008},
+     {0.0037, 0},
+     "3.7mm"},
 };
 
 Extractor from_textbook(const Textbook &entry, const std::string &variant, const Threshold &threshold)
@@ -104,7 +124,7 @@ std::vector<Extractor> extractors(const std::optional<Threshold> &replaced)
     std::vector<Extractor> all{{"ale", "ALE (libale)", "ale_extract_scan", ale}};
     for (const Textbook &entry : textbook_methods) {
         all.push_back(from_textbook(entry, "tuned", replaced.value_or(entry.tuned)));
-        all.push_back(from_textbook(entry, "30mm", fixed));
+        all.push_back(from_textbook(entry, entry.fixed_name, entry.fixed));
     }
     return all;
 }

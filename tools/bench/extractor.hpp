@@ -1,4 +1,4 @@
-// The extractors under comparison: libale and five of the textbook, behind one call.
+// The extractors under comparison: libale and those of the textbook, behind one call.
 #pragma once
 
 #include <functional>
@@ -41,8 +41,8 @@ struct Threshold {
     double proportional;
 };
 
-// All of them: libale, and each of the textbook's once with 30 mm and once with what suits it best on the
-// noise "urg". A threshold given here replaces the latter.
+// All of them: libale, and each of the textbook's once with a fixed threshold and once with what suits it
+// best on the noise "urg". A threshold given here replaces the latter.
 std::vector<Extractor> extractors(const std::optional<Threshold> &replaced = {});
 
 } // namespace bench

@@ -1,4 +1,4 @@
-// Five line extractors as the literature describes them, written plainly: no noise model, thresholds in
+// Line extractors as the literature describes them, written plainly: no noise model, thresholds in
 // metres. After V. Nguyen, A. Martinelli, N. Tomatis, R. Siegwart, "A comparison of line extraction
 // algorithms using 2D laser rangefinder for indoor mobile robotics", IROS 2005, and the sources it names.
 //
@@ -18,7 +18,7 @@ extern "C" {
 namespace bench::textbook
 {
 
-// Common to all five. How the numbers in use were found is told in the README.
+// Common to all. How the numbers in use were found is told in the README.
 struct Setting {
     double threshold = 0.03;  // farthest a point may lie from its line ...
     double proportional = 0;  // ... or this share of its range, if that is more
@@ -76,6 +76,8 @@ std::vector<Line> split_and_merge(const ale_scan_t &scan, const Setting &setting
 std::vector<Line> incremental(const ale_scan_t &scan, const Setting &setting);
 std::vector<Line> ransac(const ale_scan_t &scan, const Setting &setting);
 std::vector<Line> hough(const ale_scan_t &scan, const Setting &setting);
+// Here the threshold bounds the root mean square, not the farthest point.
+std::vector<Line> static_ale(const ale_scan_t &scan, const Setting &setting);
 std::vector<Line> line_regression(const ale_scan_t &scan, const Setting &setting);
 
 } // namespace bench::textbook
