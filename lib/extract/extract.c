@@ -28,7 +28,7 @@ ale_extract_config_t ale_extract_default_config(void)
         .noise = ale_noise_default(),
         .min_points = 9,
         .min_length_um = 120000,
-        .smooth_span = 7,
+        .smooth_span = 1,
         .robust_passes = 2,
     };
     return config;
@@ -109,8 +109,10 @@ static uint8_t end_kind(const ale_extractor_t *e, int32_t end, int32_t beyond)
     return jump && e->range_um[beyond] < e->range_um[end] ? ALE_END_OCCLUDED : ALE_END_EDGE;
 }
 
-static void write_lines(ale_extractor_t *e, ale_features_t *out)
+static void write_features(ale_extractor_t *e, ale_features_t *out)
 {
+    out->line_count = 0;
+    out->curve_count = 0;
     for (int32_t k = 0; k < e->run_count; k++) {
         if (e->run[k].curved) {
             e->refused[ALE_REFUSED_CURVED]++;
@@ -133,14 +135,14 @@ static void write_lines(ale_extractor_t *e, ale_features_t *out)
         line.last_end = end_kind(e, run.last, run.last + 1);
         out->line[out->line_count++] = line;
     }
+    ale_corner_find(out);
+    out->outliers = e->outliers;
+    memcpy(out->refused, e->refused, sizeof out->refused);
 }
 
-__attribute__((noinline)) void ale_extract_scan(ale_extractor_t *e, const ale_scan_t *scan,
-                                                const uint32_t *bearing_bam, ale_features_t *out)
+/* Points whose surfaces are told apart: stray ones removed, segments cut, noise measured. */
+static void prepare_points(ale_extractor_t *e, const ale_scan_t *scan)
 {
-    memset(e->refused, 0, sizeof e->refused);
-    out->line_count = 0;
-    out->curve_count = 0;
     ale_points_list(e, scan);
     ale_scan_noise_measure(e, scan);
     ale_outlier_remove_spikes(e);
@@ -148,15 +150,33 @@ __attribute__((noinline)) void ale_extract_scan(ale_extractor_t *e, const ale_sc
     if (ale_outlier_remove_strays(e)) {
         ale_segment(e, scan);
     }
-    ale_points_place(e, scan, bearing_bam);
-    ale_stage_end(&e->hook, ALE_STAGE_SMOOTH);
-    ale_moments_build(e);
+}
+
+/* Lowess of 1 / range, segment by segment; the points move to the smoothed ranges. */
+static void smooth_points(ale_extractor_t *e)
+{
+    const ale_lowess_config_t config = {e->config.smooth_span, e->config.robust_passes, 1};
+    for (int32_t k = 0; k < e->segment_count; k++) {
+        const ale_run_t s = e->segment[k];
+        ale_lowess(&config, &e->beam[s.first], &e->inverse_q44[s.first], s.last + 1 - s.first,
+                   &e->smooth_q44[s.first], &e->lowess);
+    }
+    ale_points_place_smoothed(e);
+}
+
+static void search_runs(ale_extractor_t *e, const ale_scan_t *scan)
+{
     ale_runs_search(e);
     if (ale_scan_noise_measure_shared(e, scan)) {
         ale_runs_search(e);
     } else {
         ale_scan_noise_refine_own(e);
     }
+}
+
+/* What the search found, made good on the raw points. */
+static void improve_runs(ale_extractor_t *e)
+{
     ale_merge_runs(e);
     ale_runs_place(e);
     ale_curve_find(e);
@@ -164,9 +184,26 @@ __attribute__((noinline)) void ale_extract_scan(ale_extractor_t *e, const ale_sc
     ale_merge_runs(e);
     ale_runs_place(e);
     ale_curve_find(e);
-    write_lines(e, out);
-    ale_corner_find(out);
-    out->outliers = e->outliers;
-    memcpy(out->refused, e->refused, sizeof out->refused);
+}
+
+__attribute__((noinline)) void ale_extract_scan(ale_extractor_t *e, const ale_scan_t *scan,
+                                                const uint32_t *bearing_bam, ale_features_t *out)
+{
+    const bool smoothed = e->config.smooth_span > 1;
+    memset(e->refused, 0, sizeof e->refused);
+    prepare_points(e, scan);
+    ale_points_place(e, scan, bearing_bam);
+    if (smoothed) {
+        smooth_points(e);
+    }
+    ale_stage_end(&e->hook, ALE_STAGE_SMOOTH);
+    ale_moments_build(e);
+    search_runs(e, scan);
+    if (smoothed) {
+        ale_points_place(e, scan, bearing_bam);
+        ale_moments_build(e);
+    }
+    improve_runs(e);
+    write_features(e, out);
     ale_stage_end(&e->hook, ALE_STAGE_EXTRACT);
 }

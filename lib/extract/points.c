@@ -58,3 +58,12 @@ void ale_points_place(ale_extractor_t *e, const ale_scan_t *scan, const uint32_t
         place_point(e, i, e->cos_q30[k], e->sin_q30[k]);
     }
 }
+
+void ale_points_place_smoothed(ale_extractor_t *e)
+{
+    for (int32_t i = 0; i < e->count; i++) {
+        const int64_t ratio_q30 = ((int64_t)e->inverse_q44[i] << 30) / ale_max64(e->smooth_q44[i], 1);
+        e->x_q4[i] = (int32_t)ale_round_shift(e->x_q4[i] * ratio_q30, 30);
+        e->y_q4[i] = (int32_t)ale_round_shift(e->y_q4[i] * ratio_q30, 30);
+    }
+}

@@ -10,4 +10,7 @@ void ale_points_list(ale_extractor_t *e, const ale_scan_t *scan);
 /* x_q4, y_q4 of the listed points. bearing_bam as in ale_extract_scan. */
 void ale_points_place(ale_extractor_t *e, const ale_scan_t *scan, const uint32_t *bearing_bam);
 
+/* Moves the placed points along their beams to the smoothed ranges, 1 / e->smooth_q44. O(points). */
+void ale_points_place_smoothed(ale_extractor_t *e);
+
 #endif

@@ -4,6 +4,7 @@
 
 #include "base/fixed.h"
 #include "base/trig.h"
+#include "extract/histogram.h"
 #include "extract/moments.h"
 
 enum {
@@ -13,34 +14,6 @@ enum {
     BINS_PER_OCTAVE_SHIFT = 2
 };
 static const int64_t micro_q36 = 68719; /* 2^36 / 10^6 */
-
-/* Logarithmic bin of a value, four to the octave (nearly linear below 4). */
-static uint32_t log_bin(uint64_t v)
-{
-    const unsigned bits = ale_bit_length(v + 4);
-    const uint32_t bin = ((bits - 3) << BINS_PER_OCTAVE_SHIFT) + (uint32_t)((v + 4) >> (bits - 3)) - 4;
-    return bin < ALE_NOISE_BINS ? bin : ALE_NOISE_BINS - 1;
-}
-
-/* Lower end of a bin. */
-static int64_t bin_value(uint32_t bin)
-{
-    return ((int64_t)(4u + (bin & 3u)) << (bin >> BINS_PER_OCTAVE_SHIFT)) - 4;
-}
-
-/* Quantile of a histogram, linear within its bin. */
-static int64_t histogram_quantile(const uint16_t *bins, int32_t samples, int32_t percent)
-{
-    int32_t below = 0;
-    for (uint32_t b = 0; b < ALE_NOISE_BINS - 1; b++) {
-        if (100 * (below + bins[b]) >= samples * percent && bins[b] > 0) {
-            const int64_t width = bin_value(b + 1) - bin_value(b);
-            return bin_value(b) + width * (samples * percent - 100 * below) / (100 * bins[b]);
-        }
-        below += bins[b];
-    }
-    return bin_value(ALE_NOISE_BINS - 1);
-}
 
 typedef struct {
     int64_t samples;
@@ -61,7 +34,7 @@ static inline void count_difference(ale_extractor_t *e, int32_t i, int64_t curva
 {
     if (e->beam[i + 1] - e->beam[i - 1] == 2) {
         const uint32_t k = ale_bit_length((uint64_t)e->range_um[i]) - 1 - OCTAVE_BASE;
-        e->histogram[k][log_bin((uint64_t)second_difference_um(e, i, curvature_q30))]++;
+        e->histogram[k][ale_histogram_bin((uint64_t)second_difference_um(e, i, curvature_q30))]++;
         octave[k].samples++;
         octave[k].range_um += e->range_um[i];
     }
@@ -79,7 +52,7 @@ static int32_t collect(ale_extractor_t *e, int64_t curvature_q30, octave_t octav
         if (octave[k].samples >= MIN_SAMPLES) {
             /* median of |d| is 0.6745 sqrt(6) sigma */
             octave[used].sigma_um = ale_max64(
-                ale_round_div(histogram_quantile(e->histogram[k], (int32_t)octave[k].samples, 50) * 1000,
+                ale_round_div(ale_histogram_quantile(e->histogram[k], (int32_t)octave[k].samples, 50) * 1000,
                               1652),
                 ALE_SIGMA_FLOOR_UM);
             octave[used].range_um = octave[k].range_um / octave[k].samples;
@@ -197,7 +170,7 @@ static void count_block(const ale_extractor_t *e, int32_t start, int64_t curvatu
                         int32_t *samples, int64_t *range_mm)
 {
     if (e->beam[start + 3 * BLOCK - 1] - e->beam[start] == 3 * BLOCK - 1) {
-        const uint32_t bin = log_bin((uint64_t)block_ratio_q8(e, start, curvature_q30));
+        const uint32_t bin = ale_histogram_bin((uint64_t)block_ratio_q8(e, start, curvature_q30));
         bins[bin]++;
         *range_mm += e->range_um[start] / 1000;
         (*samples)++;
@@ -212,7 +185,7 @@ static int64_t shared_scale_q8(const ale_extractor_t *e, const uint16_t *bins, i
     const int64_t own_q20 = (e->noise.own_mm2_q36 + e->noise.own_relative_q36 * range_mm2) >> 16;
     const int64_t model_q20 = (e->shared_prior_mm2_q36 + e->shared_prior_relative_q36 * range_mm2) >> 16;
     /* the median of chi square of one degree is 0.455 */
-    const int64_t ratio_q8 = histogram_quantile(bins, samples, 50) * 1000 / 455;
+    const int64_t ratio_q8 = ale_histogram_quantile(bins, samples, 50) * 1000 / 455;
     if (ratio_q8 <= RATIO_Q8) {
         return 256;
     }

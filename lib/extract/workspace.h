@@ -6,6 +6,8 @@
 #define ALE_EXTRACT_WORKSPACE_H
 
 #include "extract/extract.h"
+#include "extract/histogram.h"
+#include "extract/lowess.h"
 
 /* Points are 1/16 mm: Q4. The largest product of the fits is 2 n^2 max^2 (see moments.h). */
 #define ALE_POINT_SHIFT 4
@@ -16,12 +18,8 @@ _Static_assert(2.0 * ALE_MAX_BEAMS * ALE_MAX_BEAMS * ALE_POINT_MAX_Q4 * ALE_POIN
 /* Nearer than this no scanner measures, and 2^44 / range would not fit. */
 #define ALE_MIN_RANGE_UM 16384
 
-/* Logarithmic bins of the second differences, and the least noise that is believed. */
-#define ALE_NOISE_BINS 112
+/* The least own noise that is believed. */
 #define ALE_SIGMA_FLOOR_UM 400
-
-/* Widest window of the smoother. */
-#define ALE_MAX_SPAN 31
 
 /* Fewest points that ALE fits a line to while it searches; shorter runs say nothing about a line. */
 #define ALE_MIN_RUN 5
@@ -74,6 +72,8 @@ struct ale_extractor {
     int32_t range_um[ALE_MAX_BEAMS];
     int32_t inverse_q44[ALE_MAX_BEAMS]; /* 2^44 / range_um */
     bool jump_after[ALE_MAX_BEAMS];     /* the surface does not go on to the next point */
+    int32_t smooth_q44[ALE_MAX_BEAMS];  /* inverse_q44 smoothed, where that is asked for */
+    ale_lowess_work_t lowess;
     int32_t x_q4[ALE_MAX_BEAMS];
     int32_t y_q4[ALE_MAX_BEAMS];
     ale_moments_t sum[ALE_MAX_BEAMS + 1];
@@ -86,7 +86,7 @@ struct ale_extractor {
     int64_t inverse_sum[ALE_MAX_BEAMS + 1];
     int64_t shared_prior_mm2_q36;
     int64_t shared_prior_relative_q36;
-    uint16_t histogram[14][ALE_NOISE_BINS];
+    uint16_t histogram[14][ALE_HISTOGRAM_BINS];
 
     /* Largest chi square that a true line of n points has, Q8: bounds of the floating threshold. */
     int32_t chi_low_q8[ALE_MAX_BEAMS + 1];
