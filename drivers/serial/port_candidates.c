@@ -31,7 +31,7 @@ static uint32_t add_matches(char out[][ALE_PORT_PATH], uint32_t count, const cha
         for (size_t k = 0; k < found.gl_pathc && count < ALE_PORT_CANDIDATES; k++) {
             const char *path = found.gl_pathv[k];
             if (strlen(path) < ALE_PORT_PATH && !listed(out, count, path)) {
-                strcpy(out[count++], path);
+                memcpy(out[count++], path, strlen(path) + 1);
             }
         }
     }

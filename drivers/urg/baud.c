@@ -35,10 +35,10 @@ static bool fits(const ale_scip_request_t *request, int32_t baud, int32_t period
 void ale_baud_fit(ale_scip_request_t *request, int32_t baud, int32_t period_us)
 {
     const ale_scip_request_t wish = *request;
-    for (uint8_t skip = wish.skip; skip <= MOST_SKIP; skip++) {
+    for (int32_t skip = wish.skip; skip <= MOST_SKIP; skip++) {
         for (uint8_t cluster = 1; cluster <= 2; cluster++) {
             for (uint8_t characters = wish.characters; characters >= 2; characters--) {
-                request->skip = skip;
+                request->skip = (uint8_t)skip;
                 request->cluster = wish.cluster > cluster ? wish.cluster : cluster;
                 request->characters = characters;
                 if (fits(request, baud, period_us)) {

@@ -289,6 +289,7 @@ static void on_reply(ale_urg_t *urg, const ale_scip_event_t *reply)
     case ALE_PHASE_STATUS:
         urg->health.hardware_faults += strncmp(urg->identity.status, "Trouble", strlen("Trouble")) == 0;
         ale_urg_say(urg, urg->identity.status);
+        adopt_identity(urg);
         done(urg, ALE_DUE_STATUS);
         break;
     case ALE_PHASE_START:

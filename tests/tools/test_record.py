@@ -1,0 +1,175 @@
+"""ale-record on a pseudo terminal: what the sensor sends is recorded, through every fault of the line."""
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools" / "python"))
+
+from lcm_url import NoMulticast, ensure_multicast, free_lcm_url  # noqa: E402
+
+BIN = pathlib.Path(os.environ.get("ALE_BUILD", "build")).resolve() / "bin"
+ROOM = "-1 -2 3 -2\n3 -2 3 1\n3 1 -1 1\n-1 1 -1 -2\n"
+SPEED = 4
+
+
+def counts(text):
+    return {name: int(value) for name, value in (line.split() for line in text.splitlines())}
+
+
+class Bench:
+    """A simulated sensor and the recorder on it."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.link = folder / "urg"
+        self.out = folder / "drive.scip"
+        self.programs = []
+        (folder / "room.world").write_text(ROOM, encoding="utf-8")
+
+    def program(self, name, *words):
+        process = subprocess.Popen([BIN / name, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.programs.append(process)
+        return process
+
+    def sensor(self, *words):
+        process = self.program("ale-sim", "--world", self.folder / "room.world", "--pty", self.link, "--speed", SPEED, *words)
+        end = time.monotonic() + 10
+        while not self.link.exists():
+            assert process.poll() is None, process.stderr.read()
+            assert time.monotonic() < end, "no pseudo terminal"
+            time.sleep(0.005)
+        return process
+
+    def recorder(self, *words):
+        return self.program("ale-record", "--port", self.link, "--out", self.out, "--time-scale", SPEED, *words)
+
+    def poses(self):
+        poses = self.folder / "poses.jsonl"
+        subprocess.run([BIN / "ale-replay", self.out, "--poses", poses], check=True, capture_output=True, timeout=60)
+        return [json.loads(line) for line in poses.read_text(encoding="utf-8").splitlines()]
+
+
+@pytest.fixture
+def bench(tmp_path):
+    made = Bench(tmp_path)
+    yield made
+    for process in made.programs:
+        process.kill()
+        process.communicate()
+
+
+def finished(process, code=0):
+    out, err = process.communicate(timeout=30)
+    assert process.returncode == code, err
+    return out
+
+
+def stopped(process):
+    process.send_signal(signal.SIGTERM)
+    return counts(finished(process))
+
+
+def test_every_scan_that_the_sensor_sent_is_in_the_recording(bench):
+    sensor = bench.sensor("--no-odometry")
+    recorded = counts(finished(bench.recorder("--no-lcm", "--seconds", 2)))
+    assert recorded["scans"] > 50
+    assert recorded["lost"] == 0
+    assert stopped(sensor)["sent"] == recorded["scans"]
+    assert len(bench.poses()) == recorded["scans"]
+
+
+def test_signal_ends_the_recording_cleanly_and_leaves_the_sensor_quiet(bench):
+    sensor = bench.sensor("--no-odometry")
+    recorder = bench.recorder("--no-lcm")
+    end = time.monotonic() + 10
+    while not bench.out.exists() or bench.out.stat().st_size < 50000:
+        assert time.monotonic() < end
+        time.sleep(0.02)
+    recorder.send_signal(signal.SIGINT)
+    recorded = counts(finished(recorder))
+    before = bench.out.stat().st_size
+    assert recorded["bytes"] <= before
+    sent = stopped(sensor)["sent"]
+    assert sent - recorded["scans"] <= 1, "nothing is measured for nobody"
+
+
+# Fault, most scans that it may cost, longest time without a scan in seconds of the sensor.
+FAULTS = [("flip", 1, 0.25), ("cut", 1, 0.25), ("garbage:300", 1, 0.25), ("repeat", 0, 0.15), ("silence:2", 0, 5.0),
+          ("unplug:2", 0, 5.0), ("reset11", 0, 3.0), ("hardware:55", 0, 3.0), ("wrap", 0, 0.15)]
+
+
+@pytest.mark.parametrize("fault, cost, longest_s", FAULTS, ids=[fault for fault, _, _ in FAULTS])
+def test_sensor_is_heard_again_within_three_seconds_after(bench, fault, cost, longest_s):
+    sensor = bench.sensor("--no-odometry", "--faults", f"{fault}@2")
+    recorded = counts(finished(bench.recorder("--no-lcm", "--seconds", 2)))
+    sent = stopped(sensor)["sent"]
+    assert recorded["lost"] <= cost
+    # What is in flight when the line is pulled dies with it.
+    assert 0 <= sent - recorded["scans"] - recorded["lost"] <= (1 if fault.startswith("unplug") else 0)
+    times = [pose["t"] for pose in bench.poses()]
+    gaps = [after - before for before, after in zip(times, times[1:])]
+    assert max(gaps) < longest_s
+    assert times[-1] - times[0] > 6, "it went on to the end"
+
+
+def test_odometry_is_recorded_in_the_time_of_the_scans(bench):
+    try:
+        ensure_multicast()
+    except NoMulticast as error:
+        pytest.skip(str(error))
+    url = free_lcm_url()
+    bench.sensor("--lcm-url", url)
+    recorded = counts(finished(bench.recorder("--lcm-url", url, "--seconds", 1)))
+    assert recorded["odometry"] > recorded["scans"] / 2
+    done = subprocess.run([BIN / "ale-replay", bench.out, "--poses", bench.folder / "with.jsonl"], check=True,
+                          capture_output=True, text=True, timeout=60)
+    assert "scans" in done.stderr
+
+
+def test_sensor_that_never_comes_is_named_and_fails(bench):
+    recorder = bench.recorder("--no-lcm", "--seconds", 1)
+    out, err = recorder.communicate(timeout=30)
+    assert recorder.returncode == 1
+    assert counts(out)["scans"] == 0
+    assert str(bench.link)[:50] in err and "no such serial device" in err
+
+
+def test_recording_that_cannot_be_written_fails_at_once(bench):
+    recorder = bench.program("ale-record", "--port", bench.link, "--no-lcm", "--out", bench.folder / "no" / "where.scip")
+    assert "No such file or directory" in finished_with_error(recorder, 1)
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")
+def test_full_disk_ends_the_recording(bench):
+    bench.sensor("--no-odometry")
+    recorder = bench.program("ale-record", "--port", bench.link, "--no-lcm", "--out", "/dev/full", "--time-scale", SPEED)
+    assert "No space left" in finished_with_error(recorder, 1)
+
+
+def finished_with_error(process, code):
+    _, err = process.communicate(timeout=30)
+    assert process.returncode == code, err
+    return err
+
+
+@pytest.mark.parametrize("words", [(), ("--port", "x"), ("--out", "y"), ("--port", "x", "--out", "y", "--seconds", "0"),
+                                   ("--port", "x", "--out", "y", "--seconds", "soon"), ("--nonsense",),
+                                   ("--port", "x", "--out", "y", "extra"),
+                                   ("--port", "x", "--out", "y", "--time-scale", "1000"),
+                                   ("--port", "x", "--out", "y", "--lcm-url", "u", "--no-lcm")])
+def test_wrong_use_is_told_in_a_line(words):
+    done = subprocess.run([BIN / "ale-record", *words], capture_output=True, text=True, timeout=10, check=False)
+    assert done.returncode == 2
+    assert done.stderr.startswith(("ale-record: ", str(BIN))) and done.stderr.count("\n") == 1
+
+
+def test_help_and_version_go_to_stdout():
+    for word, start in (("--help", "usage: ale-record"), ("--version", "ale-record ")):
+        done = subprocess.run([BIN / "ale-record", word], capture_output=True, text=True, timeout=10, check=False)
+        assert done.returncode == 0 and done.stdout.startswith(start) and done.stderr == ""
