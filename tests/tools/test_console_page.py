@@ -214,3 +214,18 @@ def test_a_scan_taken_while_turning_is_straightened(page, robot):
         }));""")
     assert len(distances) > 300
     assert max(distances) < 0.004  # as sent in whole millimetres; bent, it would be centimetres
+
+
+def test_numbers_and_codes_are_put_in_words(page):
+    words = page.run("""
+        return import("/words.js").then((w) => ({
+          small: w.metres(-0.0001), nothing: w.metres(null), heading: [w.heading(-0.0001), w.heading(4), w.heading(-4)],
+          times: [w.duration(12.4), w.duration(1234), w.duration(99949), w.duration(2.5e6), w.duration(null)],
+          codes: [w.codesInWords([]), w.codesInWords([[0, 3], [0x81, 4], [2, 1]]), w.codesInWords([[18, 2], [11, 1]])],
+          drops: w.countDrops([{name: "scans_lost", value: 2}, {name: "odometry", value: 90}, {name: "overloaded", value: 1}]),
+        }));""")
+    assert words["small"] == "0.000 m" and words["nothing"] == "–"
+    assert words["heading"] == ["0.0°", "-130.8°", "130.8°"]
+    assert words["times"] == ["12 µs", "1.23 ms", "99.9 ms", "2.5 s", "–"]
+    assert words["codes"] == ["none", "7 nothing in reach, 1 too weak", "2 dazzled by something shiny, 1 disturbed"]
+    assert words["drops"] == 3

@@ -1,7 +1,9 @@
 // Numbers and codes in an operator's words.
 
-export const metres = (v) => (v === null ? "–" : `${v.toFixed(3)} m`);
-export const degrees = (rad, digits = 1) => (rad === null ? "–" : `${((rad * 180) / Math.PI).toFixed(digits)}°`);
+// Adding zero turns a negative zero into zero.
+const fixed = (v, digits) => (Number(v.toFixed(digits)) + 0).toFixed(digits);
+export const metres = (v) => (v === null ? "–" : `${fixed(v, 3)} m`);
+export const degrees = (rad, digits = 1) => (rad === null ? "–" : `${fixed((rad * 180) / Math.PI, digits)}°`);
 export const millimetres = (m) => (Number.isFinite(m) ? `${(m * 1000).toFixed(1)} mm` : "–");
 
 export function duration(us) {
