@@ -1,0 +1,116 @@
+"""ale-calibrate and ale-inspect as a user calls them."""
+import math
+import os
+import pathlib
+import random
+import re
+import subprocess
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BIN = pathlib.Path(os.environ.get("ALE_BUILD", ROOT / "build")) / "bin"
+STEP = 2 * math.pi / 1024
+KEYS = {"own_um", "own_ppm", "shared_um", "shared_ppm", "shared_beams", "surface_um", "bearing_nrad"}
+
+
+def run(program, *words):
+    return subprocess.run([BIN / program, *map(str, words)], check=False, capture_output=True, text=True)
+
+
+def room(bearing):
+    """A room with a chair leg in it."""
+    if abs(bearing + 0.3) < 0.02:
+        return 0.8
+    return min(side / c for side, c in ((2.0, math.cos(bearing)), (1.5, math.sin(bearing)),
+                                        (1.0, -math.sin(bearing))) if c > 1e-9)
+
+
+@pytest.fixture(scope="module")
+def log(tmp_path_factory):
+    """40 scans at rest with 4 mm of noise of each beam's own."""
+    path = tmp_path_factory.mktemp("log") / "rest.log"
+    draw = random.Random(3)
+    with path.open("w") as out:
+        for scan in range(40):
+            ranges = " ".join(f"{room((k - 340) * STEP) + draw.gauss(0, 0.004):.3f}" for k in range(682))
+            out.write(f"ROBOTLASER1 2 {-340 * STEP:.9f} {681 * STEP:.9f} {STEP:.9f} 4.094 0.01 0 682 {ranges}"
+                      f" 0 0 0 0 0 0 0 0 0 0 0 0 {scan / 10} test {scan / 10}\n")
+    return path
+
+
+def well_formed(text):
+    return ElementTree.fromstring(text).tag.endswith("svg")
+
+
+def test_the_fit_is_a_noise_section_on_standard_output(log):
+    done = run("ale-calibrate", log)
+    assert done.returncode == 0, done.stderr
+    values = dict(re.findall(r"^(\w+) = (\d+)$", done.stdout, re.M))
+    assert set(values) == KEYS
+    assert "[noise]" in done.stdout
+    at_two_metres = math.hypot(int(values["own_um"]), 2 * int(values["own_ppm"]))
+    assert at_two_metres == pytest.approx(4000, rel=0.1)
+
+
+def test_the_fit_and_its_plot_go_to_files(log, tmp_path):
+    done = run("ale-calibrate", log, "--out", tmp_path / "noise.ini", "--plot", tmp_path / "fit.svg")
+    assert done.returncode == 0 and done.stdout == ""
+    assert "own_um" in (tmp_path / "noise.ini").read_text()
+    assert well_formed((tmp_path / "fit.svg").read_text())
+
+
+def test_a_scan_is_drawn_with_its_lines_corners_and_search(log):
+    done = run("ale-inspect", log, 7)
+    assert done.returncode == 0, done.stderr
+    assert well_formed(done.stdout)
+    assert re.search(r"[34] lines", done.stdout)
+    assert "2 corners" in done.stdout
+    assert "binary search" in done.stdout
+    assert done.stdout.count("#2ca02c") > 3 and done.stdout.count("#d62728") > 3
+
+
+def test_a_configuration_changes_what_is_decided(log, tmp_path):
+    config = tmp_path / "robot.ini"
+    config.write_text("[extract]\nmin_points = 400\n")
+    done = run("ale-inspect", log, 7, "--config", config)
+    assert done.returncode == 0, done.stderr
+    assert "0 lines" in done.stdout
+    assert "too few points" in done.stdout
+
+
+@pytest.mark.parametrize("program", ["ale-calibrate", "ale-inspect"])
+def test_help_and_version(program):
+    assert "usage: " + program in run(program, "--help").stdout
+    assert re.match(program + r" \d+\.\d+", run(program, "--version").stdout)
+
+
+@pytest.mark.parametrize("words", [["ale-calibrate"], ["ale-calibrate", "a", "b"], ["ale-calibrate", "--colour"],
+                                   ["ale-calibrate", "a", "--out"], ["ale-inspect", "a"], ["ale-inspect", "a", "x"],
+                                   ["ale-inspect", "a", "-1"], ["ale-inspect", "a", "1", "2"]])
+def test_wrong_use_exits_2_with_one_line(words):
+    done = run(*words)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+
+
+def test_files_that_cannot_be_used_are_named(log, tmp_path):
+    missing = run("ale-calibrate", tmp_path / "none.log")
+    assert missing.returncode == 1 and "none.log" in missing.stderr
+    beyond = run("ale-inspect", log, 40)
+    assert beyond.returncode == 1 and "has 40 scans, there is no scan 40" in beyond.stderr
+    unwritable = run("ale-inspect", log, 1, "--out", tmp_path / "no" / "where.svg")
+    assert unwritable.returncode == 1 and "where.svg" in unwritable.stderr
+
+
+def test_a_real_recording_at_rest_is_calibrated():
+    path = pathlib.Path(os.environ.get("ALE_SHARED") or "/nonexistent") / "data/urg04lx/obstacle_demo_front.scan.gz"
+    if not path.exists():
+        pytest.skip("the recording is not here")
+    done = run("ale-calibrate", path)
+    assert done.returncode == 0, done.stderr
+    values = {key: int(value) for key, value in re.findall(r"^(\w+) = (\d+)$", done.stdout, re.M)}
+    scatter_mm = math.hypot(values["own_um"], 3 * values["own_ppm"]) / 1000
+    assert 3 <= scatter_mm <= 6  # what the recording's description states
+    assert values["shared_um"] + 2 * values["shared_ppm"] > 4000  # straight walls are wavy
