@@ -4,7 +4,10 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include "base/fixed.h"
 #include "urg/urg_device.h"
+
+#define LOOK_NS 250000
 
 int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock)
 {
@@ -39,4 +42,15 @@ void ale_exchange_close(ale_exchange_t *exchange)
     }
     memset(exchange, 0, sizeof *exchange);
     exchange->under_way = -1;
+}
+
+/* What is on its way is read first: a result that comes in between is then seen as ready. */
+int64_t ale_exchange_result_wait_ns(const ale_exchange_t *exchange, int64_t otherwise_ns)
+{
+    const bool on_its_way = ale_ring_committed(exchange->scans) !=
+                            ale_ring_committed(exchange->results) + ale_ring_refused(exchange->results);
+    if (ale_ring_ready(exchange->results) > 0) {
+        return 0;
+    }
+    return on_its_way ? ale_min64(otherwise_ns, LOOK_NS) : otherwise_ns;
 }

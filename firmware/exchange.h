@@ -59,4 +59,8 @@ typedef struct {
 int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock);
 void ale_exchange_close(ale_exchange_t *exchange);
 
+/* Telemetry: how long it may sleep for the sake of results. Not at all when one is ready, a quarter of a
+ * millisecond while a scan is on its way to become one, else `otherwise_ns`. */
+int64_t ale_exchange_result_wait_ns(const ale_exchange_t *exchange, int64_t otherwise_ns);
+
 #endif

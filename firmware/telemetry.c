@@ -14,7 +14,6 @@
 #define NS_PER_S 1000000000
 #define STATUS_PERIOD_NS NS_PER_S
 #define WHOLE_MAP_PERIOD_NS (10LL * NS_PER_S)
-#define LOOK_NS 250000  /* while a result is awaited */
 #define PART_NS 1000000 /* between bursts of map parts */
 
 enum { PARTS_AT_ONCE = 8 };
@@ -145,18 +144,6 @@ static void send_map(ale_telemetry_t *telemetry, int64_t now_ns)
     }
 }
 
-/* How long until a result is there: not at all when one is, a look when a scan is on its way to become one.
- * What is on its way is read first: a result that comes in between is then seen as ready. */
-static int64_t result_wait_ns(const ale_exchange_t *exchange, int64_t otherwise_ns)
-{
-    const bool under_way = ale_ring_committed(exchange->scans) !=
-                           ale_ring_committed(exchange->results) + ale_ring_refused(exchange->results);
-    if (ale_ring_ready(exchange->results) > 0) {
-        return 0;
-    }
-    return under_way ? ale_min64(otherwise_ns, LOOK_NS) : otherwise_ns;
-}
-
 static void wait_for_work(ale_telemetry_t *telemetry)
 {
     ale_exchange_t *exchange = telemetry->exchange;
@@ -166,7 +153,7 @@ static void wait_for_work(ale_telemetry_t *telemetry)
     if (map_under_way(telemetry)) {
         wait_ns = ale_min64(wait_ns, PART_NS);
     }
-    wait_ns = result_wait_ns(exchange, wait_ns);
+    wait_ns = ale_exchange_result_wait_ns(exchange, wait_ns);
     const struct timespec wait = {.tv_sec = wait_ns / NS_PER_S, .tv_nsec = wait_ns % NS_PER_S};
     ppoll(sources, 2, &wait, NULL);
     eventfd_t announced = 0;

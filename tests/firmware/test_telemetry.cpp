@@ -94,7 +94,7 @@ class Telemetry : public testing::Test
         }
     }
     /* A result as the estimate task would leave it. */
-    void push_result(uint32_t number, bool has_scan, bool wake = true)
+    void push_result(uint32_t number, bool has_scan)
     {
         auto *result = static_cast<ale_result_t *>(ale_ring_reserve(exchange.results));
         ASSERT_NE(result, nullptr);
@@ -110,9 +110,7 @@ class Telemetry : public testing::Test
         result->scan.range_max_um = 5600000;
         result->total_ns = 1000 * static_cast<int32_t>(number + 1);
         ale_ring_commit(exchange.results);
-        if (wake) {
-            eventfd_write(exchange.under_way, 1);
-        }
+        eventfd_write(exchange.under_way, 1);
     }
 
     ale_config_t config{};
@@ -146,26 +144,6 @@ TEST_F(Telemetry, EveryResultGivesOnePoseAndScansTheirFeatures)
     EXPECT_EQ(features.messages[0].num_lines, 2);
     EXPECT_TRUE(scans.messages.empty()) << "scans are sent only when asked for";
     EXPECT_TRUE(lidars.messages.empty());
-}
-
-/* A result that comes while the thread decides how long to sleep must not wait for the next event. */
-TEST_F(Telemetry, NoResultIsSleptOver)
-{
-    constexpr uint32_t kRounds = 400;
-    constexpr int64_t kSleptOverUs = 400000;
-    start();
-    for (uint32_t k = 0; k < kRounds; k++) {
-        ASSERT_NE(ale_ring_reserve(exchange.scans), nullptr);
-        ale_ring_commit(exchange.scans);
-        eventfd_write(exchange.under_way, 1);
-        const int64_t until = ale_rt_now_ns() + (k % 40) * 15000;
-        while (ale_rt_now_ns() < until) {
-        }
-        push_result(k, false, false);
-        ale_ring_release(exchange.scans);
-        receive_until([&] { return poses.messages.size() == k + 1; });
-        EXPECT_LT(poses.messages[k].age_us - 100000, kSleptOverUs) << "round " << k;
-    }
 }
 
 TEST_F(Telemetry, ScansAndTheWorldsUsualMessagesGoOutWhenAskedFor)
