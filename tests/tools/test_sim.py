@@ -17,15 +17,16 @@ STREAM = "MD0044072501000"
 
 
 class Simulator:
-    def __init__(self, folder, *words, world=ROOM):
+    def __init__(self, folder, *words, world=ROOM, odometry=False):
         self.folder = folder
         self.link = folder / "urg"
         source = ()
         if world is not None:
             (folder / "room.world").write_text(world, encoding="utf-8")
             source = ("--world", folder / "room.world")
-        self.process = subprocess.Popen([str(word) for word in (SIM, *source, "--pty", self.link, "--no-odometry", *words)],
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        words = (SIM, *source, "--pty", self.link, *([] if odometry else ["--no-odometry"]), *words)
+        self.process = subprocess.Popen([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                        text=True)
         self.wait_for_link()
 
     def wait_for_link(self, seconds=10):

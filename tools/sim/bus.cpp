@@ -5,8 +5,11 @@
 
 #include <poll.h>
 
-#include "ale/drive_t.hpp"
 #include "sim/units.h"
+
+extern "C" {
+#include "lcmtypes_ale_drive_t.h"
+}
 
 namespace sim
 {
@@ -49,10 +52,11 @@ int DriveIn::descriptor() const
 void DriveIn::take(const lcm_recv_buf_t *message, const char *, void *self)
 {
     auto &drive = *static_cast<DriveIn *>(self);
-    ale::drive_t set_point = {};
+    /* The C type: the generated C++ reads floats through integers, which an optimiser may take apart. */
+    lcmtypes_ale_drive_t set_point = {};
     const int size = static_cast<int>(message->data_size);
-    if (set_point.decode(message->data, 0, size) == size && std::isfinite(set_point.v) &&
-        std::isfinite(set_point.w)) {
+    if (lcmtypes_ale_drive_t_decode(message->data, 0, size, &set_point) == size &&
+        std::isfinite(set_point.v) && std::isfinite(set_point.w)) {
         drive.command_ = {set_point.v, set_point.w};
         drive.taken_us_ = drive.now_us_;
     }

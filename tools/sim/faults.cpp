@@ -153,7 +153,8 @@ std::string Faults::damage_by(const Fault &fault, const std::string &frame)
     switch (fault.kind) {
     case FaultKind::flip: {
         const int last = static_cast<int>(frame.size()) - 1;
-        out[static_cast<size_t>(random_.integer(0, last))] ^= static_cast<char>(1 << random_.integer(0, 6));
+        char &byte = out[static_cast<size_t>(random_.integer(0, last))];
+        byte = static_cast<char>(static_cast<unsigned>(byte) ^ 1U << random_.integer(0, 6));
         return out;
     }
     case FaultKind::cut:

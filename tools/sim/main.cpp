@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "sim/bus.h"
 #include "sim/describe.h"
@@ -142,27 +143,28 @@ void play(const sim::Options &options)
 {
     OutFile truth(options.truth);
     std::unique_ptr<sim::DriveIn> drive;
-    std::unique_ptr<sim::WorldSource> world;
-    std::unique_ptr<sim::Source> log;
+    std::unique_ptr<sim::Source> source;
+    const sim::WorldSource *driven = nullptr;
     if (options.drive) {
         drive = std::make_unique<sim::DriveIn>(options.lcm_url);
-        world = driven_world(options, *drive);
+        auto world = driven_world(options, *drive);
+        driven = world.get();
+        source = std::move(world);
     } else if (!options.world.empty()) {
-        world = std::make_unique<sim::WorldSource>(world_of(options), options.world_source);
+        source = std::make_unique<sim::WorldSource>(world_of(options), options.world_source);
     } else {
-        log = std::make_unique<sim::LogSource>(options.log, options.once);
+        source = std::make_unique<sim::LogSource>(options.log, options.once);
     }
-    sim::Source &source = world ? *world : *log;
     std::unique_ptr<sim::OdometryOut> odometry;
     if (options.odometry) {
         odometry = std::make_unique<sim::OdometryOut>(options.lcm_url);
     }
-    sim::Simulator simulator(source, options.simulator, odometry.get(), drive.get(), truth.get());
+    sim::Simulator simulator(*source, options.simulator, odometry.get(), drive.get(), truth.get());
     simulator.run(stop);
     truth.finish();
     print_tally(simulator.tally());
-    if (world && options.drive) {
-        std::printf("collisions %" PRIu32 "\n", world->collisions());
+    if (driven) {
+        std::printf("collisions %" PRIu32 "\n", driven->collisions());
     }
 }
 

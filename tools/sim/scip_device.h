@@ -112,22 +112,22 @@ class ScipDevice
     Scanner scanner_;
     Options options_;
     int protocol_ = 2;
+    int32_t baud_ = 19200;
     int64_t clock_origin_us_ = 0;
     int64_t now_us_ = 0; /* of the command that is being executed */
-    bool laser_ = false;
     int64_t laser_since_us_ = 0;
-    bool time_mode_ = false;
-    int32_t baud_ = 19200;
-    bool wanted_ = false;
+    int64_t next_answer_us_ = 0;
     std::optional<Stream> stream_;
     std::string broken_status_;
     std::optional<Waiting> waiting_; /* a request for the last scan, before there is one */
     std::optional<Turn> last_turn_;  /* measured whole since the laser is on */
-    uint32_t last_stamp_ms_ = 0;
     std::string line_;
-    bool line_too_long_ = false;
     std::deque<std::string> commands_;
-    int64_t next_answer_us_ = 0;
+    uint32_t last_stamp_ms_ = 0;
+    bool line_too_long_ = false;
+    bool laser_ = false;
+    bool time_mode_ = false;
+    bool wanted_ = false;
 };
 
 } // namespace sim

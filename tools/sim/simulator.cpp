@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim/progress.h"
 #include "sim/tum.h"
 
 namespace sim
@@ -33,12 +34,14 @@ Simulator::Simulator(Source &source, const SimulatorOptions &options, OdometryOu
 
 void Simulator::run(const volatile bool &stop)
 {
+    Progress progress;
     while (!stop && !over_) {
         const int64_t now_us = clock_.now_us();
         end_outage(now_us);
         listen(now_us);
         if (play_start_us_) {
             play(now_us);
+            progress.show(now_us - *play_start_us_, tally_.sent);
         }
         line_.pump(pty_, clock_.now_us(), clock_.host_us());
         const int64_t wait_us = std::min(longest_wait_us, next_us(now_us) - clock_.now_us());

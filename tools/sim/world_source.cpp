@@ -13,7 +13,7 @@ constexpr int64_t rest_us = 1000000; /* the robot stands so long before it is al
 
 } // namespace
 
-WorldSource::WorldSource(World world, const Options &options)
+WorldSource::WorldSource(const World &world, const Options &options)
     : WorldSource(world, options, route_pilot(world, options.journey.limits))
 {
 }
@@ -54,7 +54,7 @@ Turn WorldSource::measure(uint32_t number)
     turn.number = number;
     turn.start_us = number * scanner_.period_us();
     const int32_t first = scanner_.first_step;
-    const auto beams = static_cast<size_t>(scanner_.last_step - first + 1);
+    const size_t beams = static_cast<size_t>(scanner_.last_step - first) + 1;
     const std::vector<double> errors = noise_.bearing_errors(number, beams);
     const Pose centre = compose(journey_.truth(turn.start_us), world_.sensor);
     const Surroundings near(world_.walls, {centre.x, centre.y}, scanner_.max_mm / 1000.0);

@@ -20,7 +20,7 @@ class WorldSource : public Source
         int64_t odometry_lag_us = 0; /* odometry tells where the wheels will be so much later */
     };
 
-    WorldSource(World world, const Options &options);
+    WorldSource(const World &world, const Options &options);
     WorldSource(World world, const Options &options, Pilot pilot);
     WorldSource(const WorldSource &) = delete;
     WorldSource &operator=(const WorldSource &) = delete;

@@ -1,10 +1,8 @@
 #include "sim/write_log.h"
 
 #include <algorithm>
-#include <cinttypes>
 
-#include <unistd.h>
-
+#include "sim/progress.h"
 #include "sim/tum.h"
 
 namespace sim
@@ -14,7 +12,6 @@ namespace
 {
 
 constexpr int32_t smallest_range_mm = 20;
-constexpr uint32_t progress_every = 50; /* scans */
 
 void write_pose(std::FILE *log, const Pose &pose)
 {
@@ -52,7 +49,7 @@ void write_scan(WorldSource &source, const Turn &turn, int64_t stamp_us, std::FI
 uint32_t write_log(WorldSource &source, std::FILE *log, std::FILE *truth)
 {
     const Scanner &scanner = source.scanner();
-    const bool show = isatty(STDERR_FILENO) != 0;
+    Progress progress;
     uint32_t scans = 0;
     write_header(scanner, log);
     while (source.due_us()) {
@@ -67,13 +64,7 @@ uint32_t write_log(WorldSource &source, std::FILE *log, std::FILE *truth)
             write_tum(truth, stamp_us, source.truth(stamp_us).value_or(Pose{}));
         }
         scans++;
-        if (show && scans % progress_every == 0) {
-            std::fprintf(stderr, "\rale-sim: %u scans, %.1f s driven", scans,
-                         static_cast<double>(stamp_us) / 1e6);
-        }
-    }
-    if (show) {
-        std::fputs("\n", stderr);
+        progress.show(stamp_us, scans);
     }
     return scans;
 }
