@@ -6,7 +6,7 @@
 #include "urg/scan_fill.h"
 
 enum {
-    REGULAR_MS = 3,     /* the motor's turns differ by a millisecond; more is no whole turn */
+    REGULAR_US = 3000,  /* the motor's turns differ by a millisecond; more is no whole turn */
     REGULAR_ENOUGH = 3, /* intervals in a row before a gap is taken for lost scans */
     IRREGULAR = -20,    /* recorded logs that are played back have other intervals: there no gap is a loss */
     MOST_GAPS = 30,     /* more than that is an interruption */
@@ -62,7 +62,7 @@ static int64_t whole_turns(const ale_urg_stream_t *stream, int64_t interval_us)
     const int64_t turn_us = ale_urg_stream_turn_us(stream);
     const int64_t turns = ale_round_div(interval_us, turn_us);
     const int64_t off_us = ale_abs64(interval_us - turns * turn_us);
-    return off_us <= REGULAR_MS * 1000 ? turns : 0;
+    return off_us <= REGULAR_US ? turns : 0;
 }
 
 static void follow_period(ale_urg_stream_t *stream, int64_t interval_us, int64_t turns)
