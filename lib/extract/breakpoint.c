@@ -78,19 +78,18 @@ static int64_t joint_chi_q8(const ale_extractor_t *e, ale_run_t run, int32_t spl
            (ale_moments_sse_q8(e, split + 1, run.last) << 8) / var_b_q8;
 }
 
-int32_t ale_break_place(const ale_extractor_t *e, ale_run_t a, ale_run_t b, ale_run_t bounds, int32_t start,
-                        int32_t direction)
+int32_t ale_break_place(const ale_extractor_t *e, ale_run_t a, ale_run_t b, const ale_break_range_t *range)
 {
     const ale_run_t run = {a.first, b.last, false};
-    const int32_t lowest =
-        bounds.first < a.first + ALE_MIN_RUN - 1 ? a.first + ALE_MIN_RUN - 1 : bounds.first;
-    const int32_t highest = bounds.last > b.last - ALE_MIN_RUN + 1 ? b.last - ALE_MIN_RUN : bounds.last - 1;
+    const int32_t lowest = range->lowest;
+    const int32_t highest = range->highest;
+    const int32_t direction = range->direction;
     if (lowest > highest) {
-        return start;
+        return range->start;
     }
     const int64_t var_a_q8 = ale_moments_fit(e, a.first, a.last).var_q8;
     const int64_t var_b_q8 = ale_moments_fit(e, b.first, b.last).var_q8;
-    int32_t best = (int32_t)ale_clamp64(start, lowest, highest);
+    int32_t best = (int32_t)ale_clamp64(range->start, lowest, highest);
     int64_t best_chi = joint_chi_q8(e, run, best, var_a_q8, var_b_q8);
     int32_t came_from = 0;
     for (int32_t step = WIDEST_STEP; step > 0; step /= 2) {
@@ -166,6 +165,7 @@ int32_t ale_break_find(const ale_extractor_t *e, ale_run_t run, int32_t directio
     }
     const ale_run_t a = {run.first, (uint16_t)coarse, false};
     const ale_run_t b = {(uint16_t)(coarse + 1), run.last, false};
-    const int32_t split = ale_break_place(e, a, b, run, coarse, direction);
+    const ale_break_range_t range = {run.first + ALE_MIN_RUN - 1, run.last - ALE_MIN_RUN, coarse, direction};
+    const int32_t split = ale_break_place(e, a, b, &range);
     return ratio_at(e, run, split) >= 256 ? split : -1;
 }

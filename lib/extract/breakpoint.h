@@ -8,11 +8,19 @@
  * begins at `from`. Returns it, or from when not even the shortest run is a line. O(log n) fits. */
 int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to);
 
-/* The break between two neighbouring runs by the best joint fit: the last point of the first of them.
- * Points between a.last and b.first are given to either.
- * The break is sought from `start` on, within bounds. A pattern search: O(log n) fits. */
-int32_t ale_break_place(const ale_extractor_t *e, ale_run_t a, ale_run_t b, ale_run_t bounds, int32_t start,
-                        int32_t direction);
+/* Where a break may lie (last point of the first run), where the search for it starts, and in which
+ * direction the points are read: that decides between equals. */
+typedef struct {
+    int32_t lowest;
+    int32_t highest;
+    int32_t start;
+    int32_t direction;
+} ale_break_range_t;
+
+/* The break between two neighbouring runs by the best joint fit, each in its own variance. Points between
+ * a.last and b.first are given to either; range->start where the range is empty. A pattern search:
+ * 33 joint fits at most. */
+int32_t ale_break_place(const ale_extractor_t *e, ale_run_t a, ale_run_t b, const ale_break_range_t *range);
 
 /* The break that splits a run in two lines which explain it better than one by more than noise would
  * (merge.h), or -1. The same break in both directions. O(log n) fits. */

@@ -169,8 +169,8 @@ static void search_runs(ale_extractor_t *e, const ale_scan_t *scan)
     ale_runs_search(e);
     if (ale_scan_noise_measure_shared(e, scan)) {
         ale_runs_search(e);
-    } else {
-        ale_scan_noise_refine_own(e);
+    } else if (e->config.smooth_span == 1) {
+        ale_scan_noise_refine_own(e); /* smoothed residuals would tell of no noise */
     }
 }
 

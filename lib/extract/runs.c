@@ -59,15 +59,23 @@ static void search_segment(ale_extractor_t *e, int32_t first, int32_t last)
     }
 }
 
-/* The best break between two neighbouring runs; of the places in between it may come as near to their far
- * ends as the middle of each, so that all breaks can be placed at the same time. */
+/* How many points a run may lose at one end, so that both ends may be moved at the same time. */
+static int32_t spare_points(ale_run_t run)
+{
+    const int32_t spare = run.last + 1 - run.first - ALE_MIN_RUN;
+    return spare > 0 ? spare / 2 : 0;
+}
+
 static int32_t break_between(const ale_extractor_t *e, ale_run_t a, ale_run_t b)
 {
     const int32_t direction = reading_direction(e, a.first, b.last);
-    const int32_t start = direction > 0 ? a.last : b.first - 1;
-    const ale_run_t bounds = {(uint16_t)(a.first + (a.last - a.first) / 2),
-                              (uint16_t)(b.last - (b.last - b.first) / 2), false};
-    return ale_break_place(e, a, b, bounds, start, direction);
+    const ale_break_range_t range = {
+        .lowest = a.last - spare_points(a),
+        .highest = b.first - 1 + spare_points(b),
+        .start = direction > 0 ? a.last : b.first - 1,
+        .direction = direction,
+    };
+    return ale_break_place(e, a, b, &range);
 }
 
 void ale_runs_place(ale_extractor_t *e)
