@@ -1,4 +1,4 @@
-"""The arithmetic behind the figures: criteria, expected error, smoothing."""
+"""The arithmetic behind the figures: criteria and expected error."""
 import pathlib
 import sys
 
@@ -7,7 +7,6 @@ import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools/figures"))
 import criteria  # noqa: E402
-import smoothing  # noqa: E402
 
 
 def test_points_on_a_line_have_no_residual_of_either_kind():
@@ -49,24 +48,3 @@ def test_the_normal_form_is_the_corrected_one_over_one_plus_the_slope_squared():
         along_y = criteria.expected_mse(slope, 2.0, 0.7, 0.008, 0.002)
         along_normal = criteria.expected_normal_mse(np.arctan2(1, -slope), 2.0, 0.7, 0.008, 0.002)
         assert along_normal * (1 + slope**2) == pytest.approx(along_y)
-
-
-def test_lowess_leaves_a_straight_line_as_it_is():
-    x = np.linspace(0, 1, 30)
-    assert smoothing.lowess(x, 3 * x + 1, 9) == pytest.approx(3 * x + 1)
-
-
-def test_robust_lowess_ignores_a_stray_value_that_plain_lowess_follows():
-    x = np.linspace(0, 1, 41)
-    y = 2 * x + 0.02 * np.random.default_rng(6).standard_normal(x.size)
-    y[20] += 1
-    plain = np.abs(smoothing.lowess(x, y, 11) - 2 * x).max()
-    robust = np.abs(smoothing.robust_lowess(x, y, 11, 3, 0.02) - 2 * x).max()
-    assert plain > 0.15
-    assert robust < 0.05
-
-
-def test_equal_values_do_not_divide_by_zero():
-    weights, deviation = smoothing.bisquare(np.zeros(5), 1e-4)
-    assert deviation == 1e-4
-    assert weights == pytest.approx(np.ones(5))

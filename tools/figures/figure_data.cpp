@@ -8,6 +8,7 @@
 #include "bench/textbook/textbook.hpp"
 
 extern "C" {
+#include "extract/lowess.h"
 #include "figures/growth.h"
 #include "inspect/trace.h"
 }
@@ -127,6 +128,51 @@ json growth_of(const ale_scan_t &scan)
     return all;
 }
 
+constexpr int smoothed_beams = 41;
+constexpr int stray_beam = 20;
+constexpr double stray_by = 0.06;
+constexpr double inverse_unit = 17592186.044416; // 2^44 / um, as the extractor has 1 / range
+
+std::vector<double> smoothed(const std::vector<double> &ranges, std::uint8_t passes)
+{
+    constexpr ale_lowess_config_t one_pass{11, 0, 400};
+    ale_lowess_config_t config = one_pass;
+    config.passes = passes;
+    std::vector<std::uint16_t> beams(ranges.size());
+    std::vector<std::int32_t> values(ranges.size());
+    std::vector<std::int32_t> smooth(ranges.size());
+    for (std::size_t k = 0; k < ranges.size(); k++) {
+        beams[k] = static_cast<std::uint16_t>(k);
+        values[k] = static_cast<std::int32_t>(std::lround(inverse_unit / ranges[k]));
+    }
+    const auto work = std::make_unique<ale_lowess_work_t>();
+    ale_lowess(&config, beams.data(), values.data(), static_cast<std::int32_t>(values.size()), smooth.data(),
+               work.get());
+    std::vector<double> result;
+    for (const std::int32_t s : smooth) {
+        result.push_back(inverse_unit / s);
+    }
+    return result;
+}
+
+// A slanted wall with one stray value.
+json smoothing()
+{
+    Random random(4);
+    std::vector<double> wall;
+    std::vector<double> measured;
+    for (int k = 0; k < smoothed_beams; k++) {
+        wall.push_back(2.0 / std::cos(k * urg_step - radians(20)));
+        measured.push_back(wall.back() + 0.003 * random.normal() + (k == stray_beam ? stray_by : 0));
+    }
+    return {{"wall", wall},
+            {"measured", measured},
+            {"plain", smoothed(measured, 0)},
+            {"robust", smoothed(measured, 3)},
+            {"stray_by", stray_by},
+            {"stray_beam", stray_beam}};
+}
+
 // The beam at which the true walls change.
 json true_breaks(const SimulatedScan &simulated)
 {
@@ -153,7 +199,8 @@ int main()
         std::cerr << "figure_data: the extractor does not take its configuration\n";
         return 1;
     }
-    std::cout << json{{"points", points_of(*trace)},
+    std::cout << json{{"smoothing", smoothing()},
+                      {"points", points_of(*trace)},
                       {"true_breaks", true_breaks(simulated)},
                       {"steps", steps_of(*trace)},
                       {"growth", growth_of(*simulated.scan)},

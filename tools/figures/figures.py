@@ -15,7 +15,6 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 import criteria  # noqa: E402
-import smoothing  # noqa: E402
 
 plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.color": "0.9", "axes.axisbelow": True,
                      "legend.frameon": False, "savefig.dpi": 80, "savefig.bbox": "tight"})
@@ -30,24 +29,17 @@ def save(figure, folder, name):
     plt.close(figure)
 
 
-def figure_1(folder):
-    """An outlier on a wall: plain lowess, residuals against six median absolute deviations, robust lowess."""
-    random = np.random.default_rng(4)
-    bearing = np.radians(np.arange(0, 40) * 0.36)
-    wall = 2.0 / np.cos(bearing - np.radians(20))
-    measured = wall + 0.003 * random.standard_normal(bearing.size)
-    measured[19] += 0.06
-    span, floor = 11, 1e-4
-    plain = smoothing.lowess(bearing, 1 / measured, span)
-    robust = smoothing.robust_lowess(bearing, 1 / measured, span, 3, floor)
-    residual = 1 / measured - plain
-    _, deviation = smoothing.bisquare(residual, floor)
+def figure_1(folder, data):
+    """An outlier on a wall: libale's plain lowess, residuals against six median absolute deviations, robust lowess."""
+    wall, measured, plain, robust = (np.array(data[key]) for key in ("wall", "measured", "plain", "robust"))
+    degrees = np.arange(wall.size) * 360 / 1024
+    residual = 1 / measured - 1 / plain
+    deviation = np.median(np.abs(residual))
     figure, (a, b, c) = plt.subplots(1, 3, figsize=(11, 3.2))
-    degrees = np.degrees(bearing)
     for axes, smooth, title in ((a, plain, "(a) lowess of 1/r"), (c, robust, "(c) robust lowess of 1/r")):
         axes.plot(degrees, measured, ".", color=GREY, label="measured")
         axes.plot(degrees, wall, color=GREEN, label="true wall")
-        axes.plot(degrees, 1 / smooth, color=BLUE, label="smoothed")
+        axes.plot(degrees, smooth, color=BLUE, label="smoothed by libale")
         axes.set(title=title, xlabel="bearing, degrees", ylabel="range, m")
         axes.legend()
     b.plot(degrees, residual, ".", color=GREY)
@@ -56,10 +48,11 @@ def figure_1(folder):
     b.legend()
     figure.tight_layout()
     save(figure, folder, "figure_1")
-    near = slice(15, 24)
-    worst = [1e3 * np.abs(1 / s[near] - wall[near]).max() for s in (plain, robust)]
-    print(f"- Figure 1: one stray value of 60 mm moves the smoothed wall by {worst[0]:.1f} mm with plain lowess, "
-          f"by {worst[1]:.1f} mm with robust lowess (span {span}, noise 3 mm).")
+    near = slice(data["stray_beam"] - 5, data["stray_beam"] + 6)
+    worst = [1e3 * np.abs(s[near] - wall[near]).max() for s in (plain, robust)]
+    print(f"- Figure 1: one stray value of {1e3 * data['stray_by']:.0f} mm moves the smoothed wall by up to {worst[0]:.1f} mm "
+          f"with plain lowess, {worst[1]:.1f} mm with robust lowess (span 11, noise 3 mm); it lies "
+          f"{np.abs(residual).max() / deviation:.0f} MAD off.")
 
 
 def draw_points(axes, data):
@@ -290,7 +283,7 @@ def main():
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     data = json.loads(subprocess.run([options.data], check=True, stdout=subprocess.PIPE, text=True).stdout)
-    figure_1(options.out)
+    figure_1(options.out, data["smoothing"])
     figure_2(options.out, data)
     figure_3(options.out)
     figure_4(options.out)
