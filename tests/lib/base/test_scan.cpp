@@ -1,0 +1,85 @@
+// lib/base/scan.c: time of a beam, blind sectors, meaning of range values.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+
+extern "C" {
+#include "base/scan.h"
+#include "base/trig.h"
+}
+
+namespace
+{
+
+std::unique_ptr<ale_scan_t> urg()
+{
+    auto scan = std::make_unique<ale_scan_t>();
+    scan->beams = 682;
+    scan->step_bam = 1 << 22;
+    scan->first_bearing_bam = static_cast<uint32_t>(-340 * (1 << 22));
+    scan->range_min_um = 60000;
+    scan->range_max_um = 5600000;
+    scan->beam_time_ns = 97656;
+    scan->stamp_beam = -44;
+    return scan;
+}
+
+TEST(Scan, BeamTimesAreCountedFromTheStampedBeam)
+{
+    const auto scan = urg();
+    EXPECT_EQ(ale_scan_beam_offset_us(scan.get(), -44), 0);
+    EXPECT_EQ(ale_scan_beam_offset_us(scan.get(), 0), 4297);
+    EXPECT_EQ(ale_scan_beam_offset_us(scan.get(), 681), 70801);
+}
+
+TEST(Scan, ABlindSectorMayWrapAndBlindsNothingElse)
+{
+    const auto scan = urg();
+    const ale_sector_t sector = {static_cast<uint32_t>(10 * (1 << 22)),
+                                 static_cast<uint32_t>(-10 * (1 << 22))};
+    ale_scan_mask(scan.get(), &sector, 1);
+    for (int k = 0; k < 682; k++) {
+        const bool ahead = k > 330 && k < 350;
+        EXPECT_EQ(scan->flag[k] == ALE_BEAM_BLIND, !ahead) << k;
+    }
+}
+
+TEST(Scan, BearingsMayRunClockwise)
+{
+    const auto scan = urg();
+    scan->step_bam = -(1 << 22);
+    EXPECT_EQ(ale_bam_diff(ale_scan_bearing(scan.get(), 3), ale_scan_bearing(scan.get(), 4)), 1 << 22);
+}
+
+TEST(Scan, RangesOutsideTheSensorsReachAreFlagged)
+{
+    const auto scan = urg();
+    ale_scan_set_range(scan.get(), 0, 2000000);
+    ale_scan_set_range(scan.get(), 1, 0);
+    ale_scan_set_range(scan.get(), 2, 5600000);
+    ale_scan_set_range(scan.get(), 3, 59999);
+    ale_scan_set_range(scan.get(), 4, -5);
+    EXPECT_EQ(scan->flag[0], ALE_BEAM_VALID);
+    EXPECT_EQ(scan->range_um[0], 2000000);
+    EXPECT_EQ(scan->flag[1], ALE_BEAM_NO_RETURN);
+    EXPECT_EQ(scan->flag[2], ALE_BEAM_NO_RETURN);
+    EXPECT_EQ(scan->flag[3], ALE_BEAM_TOO_NEAR);
+    EXPECT_EQ(scan->flag[4], ALE_BEAM_NO_RETURN);
+}
+
+TEST(Scan, UrgCodesAreNotRanges)
+{
+    const auto scan = urg();
+    for (int value = 0; value < 20; value++) {
+        ale_scan_set_urg(scan.get(), 0, value);
+        EXPECT_NE(scan->flag[0], ALE_BEAM_VALID) << value;
+        EXPECT_EQ(scan->code[0], value);
+    }
+    ale_scan_set_urg(scan.get(), 0, 1234);
+    EXPECT_EQ(scan->flag[0], ALE_BEAM_VALID);
+    EXPECT_EQ(scan->range_um[0], 1234000);
+    EXPECT_EQ(scan->code[0], 0);
+}
+
+} // namespace
