@@ -36,18 +36,28 @@ static void begin(ale_log_t *log, scip_t *scip)
     log->info.urg_noise = true;
 }
 
-/* A request for ranges begins a stream; the same single request again goes on with it. */
+/* Follows the driver: a request for ranges begins a stream, the same single request again goes on with it,
+ * and QT ends it, or asks a sensor that fell silent whether it is there. */
+static void take_command(scip_t *scip, ale_span_t command)
+{
+    ale_scip_request_t request;
+    if (ale_text_is(command, "QT")) {
+        ale_urg_stream_interrupt(&scip->stream);
+    } else if (ale_scip_request_parse((const uint8_t *)command.at, (size_t)(command.end - command.at),
+                                      &request) &&
+               (request.stream || !ale_scip_request_same_ranges(&request, &scip->stream.request))) {
+        ale_urg_stream_begin(&scip->stream, &request);
+    }
+}
+
 static void take_sent(scip_t *scip, const ale_chunk_t *chunk)
 {
     ale_text_t text = ale_text(chunk->payload, chunk->length);
     ale_span_t line;
-    ale_span_t word;
-    ale_scip_request_t request;
+    ale_span_t command;
     while (ale_text_line(&text, &line)) {
-        if (ale_text_word(&line, &word) &&
-            ale_scip_request_parse((const uint8_t *)word.at, (size_t)(word.end - word.at), &request) &&
-            (request.stream || !ale_scip_request_same_ranges(&request, &scip->stream.request))) {
-            ale_urg_stream_begin(&scip->stream, &request);
+        if (ale_text_word(&line, &command)) {
+            take_command(scip, command);
         }
     }
 }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <new>
+#include <optional>
 
 #include "export/map_image.h"
 #include "export/scan_cloud.h"
@@ -22,9 +23,11 @@ namespace ale
 namespace
 {
 
-template <class T> std::unique_ptr<T> open_if_named(const std::string &path)
+template <class T> void open_if_named(std::optional<T> &file, const std::string &path)
 {
-    return path.empty() ? nullptr : std::make_unique<T>(path);
+    if (!path.empty()) {
+        file.emplace(path);
+    }
 }
 
 /* An object of the core whose size only the core knows. */
@@ -67,11 +70,11 @@ class Replay
     std::unique_ptr<ale_extractor_t, Free> extractor_;
     bool begun_ = false;
 
-    std::unique_ptr<FeaturesFile> features_file_;
-    std::unique_ptr<PosesFile> poses_file_;
-    std::unique_ptr<TextFile> live_file_;
-    std::unique_ptr<TextFile> trajectory_file_;
-    std::unique_ptr<TimingFile> timing_file_;
+    std::optional<FeaturesFile> features_file_;
+    std::optional<PosesFile> poses_file_;
+    std::optional<TextFile> live_file_;
+    std::optional<TextFile> trajectory_file_;
+    std::optional<TimingFile> timing_file_;
 
     std::vector<ScanPose> track_;
     StageClock clock_;
@@ -81,13 +84,13 @@ class Replay
     ale_estimate_t estimate_{};
 };
 
-Replay::Replay(const ReplayOptions &options)
-    : options_(options), log_(options.log), features_file_(open_if_named<FeaturesFile>(options.features)),
-      poses_file_(open_if_named<PosesFile>(options.poses)),
-      live_file_(open_if_named<TextFile>(options.trajectory_live)),
-      trajectory_file_(open_if_named<TextFile>(options.trajectory)),
-      timing_file_(open_if_named<TimingFile>(options.timing))
+Replay::Replay(const ReplayOptions &options) : options_(options), log_(options.log)
 {
+    open_if_named(features_file_, options.features);
+    open_if_named(poses_file_, options.poses);
+    open_if_named(live_file_, options.trajectory_live);
+    open_if_named(trajectory_file_, options.trajectory);
+    open_if_named(timing_file_, options.timing);
 }
 
 /* Sets the core up, once it is known what with: before the first scan or odometry. */

@@ -51,13 +51,13 @@ void print_summary(const std::string &path, const LogReader &log, const ReplayCo
         static_cast<unsigned long long>(counts.lost), static_cast<double>(counts.lines) / scans,
         static_cast<double>(counts.corners) / scans, static_cast<double>(counts.cpu_ns) * 1e-6 / scans,
         static_cast<double>(counts.worst_ns) * 1e-6);
-    const uint64_t skipped = statistics.bad_lines + statistics.bad_chunks + statistics.too_many_beams;
-    if (skipped > 0) {
+    const unsigned long long bad = statistics.bad_lines + statistics.bad_chunks;
+    const unsigned long long too_large = statistics.too_many_beams;
+    if (bad + too_large > 0) {
         std::fprintf(
             stderr,
-            "ale-replay: skipped %llu bad lines or chunks and %llu scans of too many beams; last: %s\n",
-            static_cast<unsigned long long>(statistics.bad_lines + statistics.bad_chunks),
-            static_cast<unsigned long long>(statistics.too_many_beams), log.last_error().c_str());
+            "ale-replay: skipped %llu bad lines or chunks and %llu scans of too many beams; last: %s\n", bad,
+            too_large, log.last_error().c_str());
     }
     if (statistics.cut_short) {
         std::fprintf(stderr, "ale-replay: %s: the gzip file is cut short or damaged; read what came before\n",

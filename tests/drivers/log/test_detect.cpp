@@ -75,7 +75,8 @@ TEST_F(LogFile, AGzipFileThatWasCutYieldsWhatCameBefore)
     std::mt19937 random(3);
     std::string text;
     for (int k = 0; k < 2000; k++) {
-        text += "FLASER 3 1 2 3 0 0 0 0 0 " + std::to_string(random() % 1000) + " " + std::to_string(k) + " h 1\n";
+        text += "FLASER 3 1 2 3 0 0 0 0 0 " + std::to_string(random() % 1000) + " " + std::to_string(k) +
+                " h 1\n";
     }
     const std::string packed = gzip(text);
     const auto log = read_bytes(packed.substr(0, packed.size() / 2));

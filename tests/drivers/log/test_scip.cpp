@@ -133,6 +133,25 @@ TEST(Scip, ADamagedScanIsALostOne)
     EXPECT_EQ(log.events[3].kind, ALE_LOG_SCAN);
 }
 
+TEST(Scip, ScansMissingByTheirStampsAreLostOnesUnlessTheStreamWasInterrupted)
+{
+    for (const bool interrupted : {false, true}) {
+        Recording recording;
+        begin_stream(recording);
+        for (int k = 0; k < 25; k++) {
+            if (k < 20 || k > 22) {
+                recording.put(ALE_CHUNK_RECEIVED, arrival_us(k), frame(k, 1000));
+            }
+            if (k == 22 && interrupted) {
+                recording.put(ALE_CHUNK_SENT, arrival_us(k), "\nQT\n");
+            }
+        }
+        const auto log = read_bytes(recording.bytes());
+        EXPECT_EQ(log.scans().size(), 22U);
+        EXPECT_EQ(log.events.size(), interrupted ? 22U : 25U);
+    }
+}
+
 TEST(Scip, ARecordingThatBeginsInMidStreamIsFollowed)
 {
     Recording recording;
