@@ -166,10 +166,15 @@ static void on_probe(ale_urg_t *urg, const ale_scip_event_t *reply)
     if (reply->protocol == 1) {
         ale_urg_stream_forget_clock(&urg->stream);
         enter(urg, ALE_PHASE_SWITCH, "SCIP2.0");
-    } else if (strcmp(reply->status, "0E") == 0) {
+    } else if (strcmp(reply->status, "00") == 0) {
+        urg->led_out = false;
+        advance(urg);
+    } else if (!urg->led_out) {
+        urg->led_out = true;
         enter(urg, ALE_PHASE_LEAVE_TM, "TM2");
     } else {
-        advance(urg);
+        urg->led_out = false;
+        ale_urg_fail(urg, "the sensor refuses to stop measuring");
     }
 }
 

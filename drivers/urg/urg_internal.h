@@ -69,6 +69,7 @@ struct ale_urg {
 
     ale_scip_parser_t parser;
     ale_urg_identity_t identity;
+    bool led_out;     /* TM2 was tried on a sensor that refuses QT */
     bool port_proved; /* a scan came since the port was opened */
     bool identified;  /* VV was answered once */
     ale_urg_stream_t stream;
