@@ -125,6 +125,18 @@ bool shared_end(const Wall &a, const Wall &b, Point &where)
     return false;
 }
 
+// Pieces of one wall share its corners: each is listed once.
+void add_corner(Truth &truth, const TrueCorner &corner)
+{
+    for (TrueCorner &known : truth.corners) {
+        if ((known.p - corner.p).norm() < 1e-9) {
+            known.counts = known.counts || corner.counts;
+            return;
+        }
+    }
+    truth.corners.push_back(corner);
+}
+
 // A corner counts where both of its walls do and adjoin in the scan. Others may be found, but need not.
 void find_corners(Truth &truth, const World &world)
 {
@@ -142,7 +154,7 @@ void find_corners(Truth &truth, const World &world)
             const bool adjoining = b.first - a.last <= corner_gap_beams && b.first > a.last;
             const bool clear = turn > least_corner_angle && turn < pi - least_corner_angle;
             corner.counts = a.counts && b.counts && adjoining && clear;
-            truth.corners.push_back(corner);
+            add_corner(truth, corner);
         }
     }
 }

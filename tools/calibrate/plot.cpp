@@ -73,7 +73,7 @@ void plot_correlation(ale::SvgDrawing &drawing, const Calibration &c)
     std::map<int, std::pair<double, double>> by_lag;
     for (const Product &p : c.products) {
         const Beam &a = beam_of(c, p);
-        const Beam &b = c.beams[static_cast<size_t>(p.beam + p.lag)];
+        const Beam &b = c.beams[static_cast<size_t>(p.beam) + static_cast<size_t>(p.lag)];
         const double own = p.lag == 0 ? fit.own_of(a) : 0;
         auto &[product, shared] = by_lag[p.lag];
         product += p.mean - own;

@@ -123,7 +123,7 @@ Deviations deviations_of(const Recording &recording, const std::vector<Beam> &be
 Eigen::RowVectorXd coefficients(const std::vector<Beam> &beams, const Product &p, double length)
 {
     const Beam &a = beams[static_cast<size_t>(p.beam)];
-    const Beam &b = beams[static_cast<size_t>(p.beam + p.lag)];
+    const Beam &b = beams[static_cast<size_t>(p.beam) + static_cast<size_t>(p.lag)];
     const double alike = std::exp(-p.lag / length);
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(5);
     if (p.lag == 0) {
@@ -142,7 +142,7 @@ double model_variance(const TemporalFit &fit, const Beam &beam)
 double product_sigma(const TemporalFit &fit, const std::vector<Beam> &beams, const Product &p)
 {
     const Beam &a = beams[static_cast<size_t>(p.beam)];
-    const Beam &b = beams[static_cast<size_t>(p.beam + p.lag)];
+    const Beam &b = beams[static_cast<size_t>(p.beam) + static_cast<size_t>(p.lag)];
     double together = fit.shared_between(a.mean, b.mean) * std::exp(-p.lag / fit.length);
     if (p.lag == 0) {
         together = model_variance(fit, a);
@@ -211,7 +211,7 @@ std::vector<Product> deviation_products(const Recording &recording, const std::v
     for (int k = 0; k < recording.beams(); k++) {
         for (int lag = 0; lag <= longest_lag && k + lag < recording.beams(); lag++) {
             const Beam &a = beams[static_cast<size_t>(k)];
-            const Beam &b = beams[static_cast<size_t>(k + lag)];
+            const Beam &b = beams[static_cast<size_t>(k) + static_cast<size_t>(lag)];
             if (!a.usable || !b.usable || a.surface != b.surface) {
                 continue;
             }

@@ -41,7 +41,7 @@ def figure_1(folder, data):
         axes.plot(degrees, wall, color=GREEN, label="true wall")
         axes.plot(degrees, smooth, color=BLUE, label="smoothed by libale")
         axes.set(title=title, xlabel="bearing, degrees", ylabel="range, m")
-        axes.legend()
+        axes.legend(loc="lower left")
     b.plot(degrees, residual, ".", color=GREY)
     b.axhspan(-6 * deviation, 6 * deviation, color=BLUE, alpha=0.15, label="within 6 MAD")
     b.set(title="(b) residuals of (a)", xlabel="bearing, degrees", ylabel="1/m")

@@ -80,6 +80,17 @@ TEST(Score, every_kind_of_world_has_lines_to_find)
     }
 }
 
+TEST(Score, a_corner_is_listed_once_though_something_hides_a_piece_of_its_wall)
+{
+    for_each_case(noise_kind("3mm"), 4, 3, [&](const Case &c) {
+        for (std::size_t i = 0; i < c.truth.corners.size(); i++) {
+            for (std::size_t j = i + 1; j < c.truth.corners.size(); j++) {
+                EXPECT_GT((c.truth.corners[i].p - c.truth.corners[j].p).norm(), 1e-3) << "scan " << c.number;
+            }
+        }
+    });
+}
+
 TEST(Score, nothing_extracted_finds_nothing_and_is_not_wrong)
 {
     const Tally tally = score(one_wall(), {});
