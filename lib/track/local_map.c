@@ -7,6 +7,7 @@ enum {
     NEAR_MARGIN_UM = 2000000, /* list made for more than the reach: it holds for the next metre */
     NEAR_STEP_UM = 1000000,
     BUCKET_SHIFT = 26,
+    BUCKET_URAD = 98175,
     MERGE_ANGLE_URAD = 35000,
     MERGE_OFFSET_UM = 25000,
     MERGE_GATE = 9 /* squared sigmas */
@@ -20,11 +21,17 @@ void ale_local_map_clear(ale_local_map_t *map)
     map->refused = 0;
     map->near_radius_um = 0;
     ale_marks_clear(&map->marks);
+    ale_map_corners_clear(&map->corners);
 }
 
 int32_t ale_local_map_bucket(uint32_t normal_bam)
 {
     return (int32_t)(normal_bam >> BUCKET_SHIFT);
+}
+
+int32_t ale_local_map_buckets(int32_t angle_urad)
+{
+    return angle_urad / BUCKET_URAD + 1;
 }
 
 /* Whether some of the wall lies within the square of half width `reach` around the centre. */

@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "track/map_corner.h"
 #include "track/marks.h"
 #include "track/pipeline.h"
 #include "track/wall.h"
@@ -26,6 +27,7 @@ typedef struct {
     uint32_t version;
     uint32_t refused;  /* walls that found no room */
     ale_marks_t marks; /* where there are no walls */
+    ale_map_corners_t corners;
 
     uint16_t near[ALE_MAP_MAX_LINES]; /* walls around near_centre, by direction of their normal */
     uint16_t near_first[ALE_MAP_DIRECTIONS + 1];
@@ -43,6 +45,9 @@ void ale_local_map_approach(ale_local_map_t *map, ale_point_t centre, int32_t re
 /* Range first..last-1 of near[] that holds the walls facing in the bucket's direction (any integer). */
 void ale_local_map_facing(const ale_local_map_t *map, int32_t bucket, uint16_t *first, uint16_t *last);
 int32_t ale_local_map_bucket(uint32_t normal_bam);
+
+/* How many buckets to either side hold all directions within an angle. */
+int32_t ale_local_map_buckets(int32_t angle_urad);
 
 /* Adds a wall and gives it an id. When the map is full the oldest unconfirmed wall makes room; when there
  * is none the wall is refused and counted. Returns its index or ALE_NO_WALL. */

@@ -22,10 +22,15 @@ void ale_map_hand_out(const ale_local_map_t *map, ale_map_t *out)
 {
     memset(out, 0, sizeof *out);
     out->version = map->version;
-    out->refused = map->refused;
+    out->refused = map->refused + map->corners.refused;
     for (uint16_t i = 0; i < map->count; i++) {
         if (map->wall[i].seen >= ALE_MAP_CONFIRMED) {
             out->line[out->line_count++] = line_of(&map->wall[i]);
+        }
+    }
+    for (uint16_t i = 0; i < map->corners.count; i++) {
+        if (map->corners.corner[i].seen >= ALE_CORNER_CONFIRMED) {
+            out->corner[out->corner_count++] = map->corners.corner[i];
         }
     }
 }
@@ -58,5 +63,7 @@ void ale_map_take_in(ale_local_map_t *map, const ale_map_t *from)
             ale_local_map_add(map, &wall);
         }
     }
+    map->corners.count = (uint16_t)ale_min64(from->corner_count, ALE_MAP_MAX_CORNERS);
+    memcpy(map->corners.corner, from->corner, map->corners.count * sizeof from->corner[0]);
     map->version = from->version + 1;
 }

@@ -25,7 +25,8 @@ static void sharpen(ale_wall_t *wall, const ale_view_t *view, const ale_fit_t *f
 }
 
 /* The wall as the view shows it, moved by what the change of velocity says. */
-static void begin(ale_local_map_t *map, const ale_view_t *view, const ale_fit_t *fit, uint32_t scan)
+static void begin(ale_local_map_t *map, const ale_view_t *view, const ale_fit_t *fit, ale_drift_t here,
+                  uint32_t scan)
 {
     ale_wall_t wall;
     ale_view_rows_t rows;
@@ -42,6 +43,7 @@ static void begin(ale_local_map_t *map, const ale_view_t *view, const ale_fit_t 
     ale_wall_set_normal(&wall, wall.normal_bam + (uint32_t)ale_nrad_to_bam(angle_urad * 1000));
     wall.var_offset_um2 += ale_view_offset_var(view, &fit->motion.cov);
     wall.var_angle_urad2 += ale_view_angle_var(&fit->motion.cov);
+    wall.drift = ale_drift_of_new_wall(here, &fit->motion.cov);
     wall.seen = 1;
     wall.last_scan = scan;
     ale_local_map_add(map, &wall);
@@ -79,7 +81,7 @@ static void tidy(ale_local_map_t *map, uint32_t count, const ale_fit_t *fit)
 }
 
 void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t count, const ale_fit_t *fit,
-                    uint32_t scan, bool grow)
+                    ale_drift_t here, uint32_t scan, bool grow)
 {
     const ale_gate_t conflict = {CONFLICT_OFFSET_UM, CONFLICT_ANGLE_URAD, CONFLICT_SIGMAS, 0};
     for (uint32_t i = 0; i < count; i++) {
@@ -98,7 +100,7 @@ void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t coun
             continue;
         }
         if (grow && ale_match_view(map, &view[i], fit->motion.pose, NULL, &conflict).wall == ALE_NO_WALL) {
-            begin(map, &view[i], fit, scan);
+            begin(map, &view[i], fit, here, scan);
         }
     }
     map->version++;

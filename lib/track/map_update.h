@@ -9,11 +9,13 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "track/drift.h"
 #include "track/local_map.h"
 #include "track/refine.h"
 
-/* Takes the views of a scan, matched at fit->motion, into the map. grow = false: no new walls. */
+/* Takes the views of a scan, matched at fit->motion, into the map. `here` is the drift at this place. grow =
+ * false: no new walls. */
 void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t count, const ale_fit_t *fit,
-                    uint32_t scan, bool grow);
+                    ale_drift_t here, uint32_t scan, bool grow);
 
 #endif

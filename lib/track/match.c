@@ -63,7 +63,8 @@ ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, a
     int64_t pose_var[2] = {cov ? ale_view_offset_var(view, cov) : 0, cov ? ale_view_angle_var(cov) : 0};
     const ale_view_t moved = ale_view_from(view, pose);
     const int32_t bucket = ale_local_map_bucket(moved.normal_bam);
-    for (int32_t b = bucket - 2; b <= bucket + 2; b++) {
+    const int32_t reach = ale_local_map_buckets(gate->angle_urad);
+    for (int32_t b = bucket - reach; b <= bucket + reach; b++) {
         uint16_t first;
         uint16_t last;
         ale_local_map_facing(map, b, &first, &last);

@@ -11,6 +11,13 @@ static int64_t scaled(int64_t v, int32_t bits)
                     : ale_mul_shift(v, (int64_t)1 << ale_min64(bits, 62), 0);
 }
 
+/* Entries of a scaled positive matrix are at most one; rounding may have made it otherwise. */
+static int64_t within(int64_t v_q60)
+{
+    const int64_t most = (int64_t)1 << (UNIT_BITS + 1);
+    return ale_clamp64(v_q60, -most, most);
+}
+
 static void set_pivot(ale_factors_t *out, int j, int64_t pivot)
 {
     const unsigned bits = ale_bit_length((uint64_t)pivot);
@@ -28,19 +35,17 @@ uint32_t ale_matrix_factor(const ale_matrix_t *a, ale_factors_t *out)
     }
     for (int j = 0; j < ALE_STATES; j++) {
         for (int i = j; i < ALE_STATES; i++) {
-            int64_t v = scaled(a->m[i][j], UNIT_BITS - out->scale_bits[i] - out->scale_bits[j]);
+            int64_t v = within(scaled(a->m[i][j], UNIT_BITS - out->scale_bits[i] - out->scale_bits[j]));
             for (int k = 0; k < j; k++) {
-                v -= ale_mul_shift(out->lower_q40[i][k], c_q60[j][k], LOWER_BITS);
+                v = within(v - within(ale_mul_shift(out->lower_q40[i][k], c_q60[j][k], LOWER_BITS)));
             }
             c_q60[i][j] = v;
         }
-        int64_t pivot = c_q60[j][j];
-        if (pivot < (int64_t)1 << SMALLEST_PIVOT_BITS) {
-            pivot = (int64_t)1 << SMALLEST_PIVOT_BITS;
-            lifted++;
-        }
-        set_pivot(out, j, pivot);
+        const bool weak = c_q60[j][j] < (int64_t)1 << SMALLEST_PIVOT_BITS;
+        set_pivot(out, j, weak ? (int64_t)1 << SMALLEST_PIVOT_BITS : c_q60[j][j]);
+        lifted += weak ? 1 : 0;
         for (int i = j + 1; i < ALE_STATES; i++) {
+            c_q60[i][j] = weak ? 0 : c_q60[i][j];
             out->lower_q40[i][j] = ale_mul_shift(c_q60[i][j], out->reciprocal[j],
                                                  (unsigned)out->reciprocal_bits[j] - LOWER_BITS);
         }

@@ -24,7 +24,8 @@ typedef struct {
 } ale_factors_t;
 
 /* Factors a symmetric positive matrix (lower half is read). Pivots below 2^-30 of their diagonal are
- * lifted to that; returns how many were: 0 for a matrix that is well determined. Diagonal >= 0. */
+ * lifted to that, and what hangs on them is left out; returns how many were: 0 for a matrix that is well
+ * determined. Diagonal >= 0. */
 uint32_t ale_matrix_factor(const ale_matrix_t *a, ale_factors_t *out);
 
 /* x * 2^shift with a x = b; shift 0..60. Saturates instead of overflowing. */

@@ -19,6 +19,11 @@ enum {
 /* One sigma of the acceleration of a small robot: um/s^2 forward and sideways, urad/s^2. */
 static const int64_t acceleration[ALE_AXES] = {1500000, 300000, 5000000};
 
+/* No more is unknown than 3 m, 1.5 rad, and what is fast for a small robot; and nothing is faster. */
+static const int64_t most_var[ALE_STATES] = {9000000000000, 9000000000000, 2250000000000,
+                                             400000000000,  400000000000,  1600000000000};
+static const int64_t most_velocity[ALE_AXES] = {1310720, 655360, 1310720}; /* 10 m/s, 5 m/s, 10 rad/s */
+
 /* Position and turn that are given up when time says nothing: a robot may have driven this far. */
 static const int64_t unknown_step[ALE_AXES] = {200000, 200000, 200000};
 static const int64_t unknown_velocity[ALE_AXES] = {60000, 20000, 120000};
@@ -208,14 +213,14 @@ static void predict_with_wheels(ale_motion_t *m, int64_t dt_us, const ale_wheel_
         cov.m[i][i] += a[i].ww;
         cov.m[i][i + 3] = cov.m[i + 3][i] = a[i].wv;
         cov.m[i + 3][i + 3] = a[i].vv + 1;
-        m->velocity[i] = (int32_t)a[i].velocity;
+        m->velocity[i] = (int32_t)ale_clamp64(a[i].velocity, -most_velocity[i], most_velocity[i]);
     }
     m->pose = ale_pose_compose(m->pose, step);
     m->cov = cov;
 }
 
 /* Wheels alone: no velocity goes into the step or comes out of it. */
-static void predict_jump(ale_motion_t *m, const ale_wheel_motion_t *wheels)
+static void predict_jump(ale_motion_t *m, const ale_wheel_motion_t *wheels, const ale_liveliness_t *l)
 {
     const ale_pose_t d = wheels ? wheels->displacement : (ale_pose_t){0, 0, 0};
     int64_t f_q20[ALE_STATES][ALE_STATES] = {{0}};
@@ -223,7 +228,8 @@ static void predict_jump(ale_motion_t *m, const ale_wheel_motion_t *wheels)
     carry_pose_error(d, f_q20);
     ale_matrix_congruence(f_q20, &m->cov, &cov);
     for (int i = 0; i < ALE_AXES; i++) {
-        cov.m[i][i] += wheels ? wheels->displacement_var[i] : unknown_step[i] * unknown_step[i];
+        cov.m[i][i] +=
+            wheels ? livelier(l, i, wheels->displacement_var[i]) : unknown_step[i] * unknown_step[i];
         cov.m[i + 3][i + 3] = unknown_velocity[i] * unknown_velocity[i];
         m->velocity[i] = 0;
     }
@@ -231,25 +237,44 @@ static void predict_jump(ale_motion_t *m, const ale_wheel_motion_t *wheels)
     m->cov = cov;
 }
 
+/* Keeps the numbers within what the formats are made for: an error that has grown beyond its bound is as
+ * good as any, and no longer correlated with the others. */
+static void bound(ale_motion_t *m)
+{
+    for (int i = 0; i < ALE_STATES; i++) {
+        if (m->cov.m[i][i] > most_var[i]) {
+            for (int j = 0; j < ALE_STATES; j++) {
+                m->cov.m[i][j] = m->cov.m[j][i] = 0;
+            }
+            m->cov.m[i][i] = most_var[i];
+        }
+    }
+    for (int i = 0; i < ALE_AXES; i++) {
+        m->velocity[i] = (int32_t)ale_clamp64(m->velocity[i], -most_velocity[i], most_velocity[i]);
+    }
+}
+
 void ale_motion_predict(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_motion_t *wheels,
                         const ale_liveliness_t *l)
 {
     const int64_t dt_us = stamp_us - motion->stamp_us;
     if (dt_us <= 0 || dt_us > STEP_MAX_US) {
-        predict_jump(motion, wheels);
+        predict_jump(motion, wheels, l);
     } else if (wheels) {
         predict_with_wheels(motion, dt_us, wheels, l);
     } else {
         predict_free(motion, dt_us, l);
     }
     motion->stamp_us = stamp_us;
+    bound(motion);
 }
 
 void ale_motion_correct(ale_motion_t *motion, const int64_t delta[ALE_STATES])
 {
     motion->pose = ale_pose_compose(motion->pose, ale_pose_of_step(delta[0], delta[1], delta[2]));
     for (int i = 0; i < ALE_AXES; i++) {
-        motion->velocity[i] += (int32_t)delta[i + 3];
+        motion->velocity[i] =
+            (int32_t)ale_clamp64(motion->velocity[i] + delta[i + 3], -most_velocity[i], most_velocity[i]);
     }
 }
 

@@ -16,7 +16,7 @@
 enum {
     ALE_WHEELS_SAMPLES = 128,           /* 1.28 s of wheels at 100 Hz, 12 s at 10 Hz */
     ALE_WHEELS_EXTRAPOLATE_US = 150000, /* longest look beyond the newest sample */
-    ALE_WHEELS_GAP_US = 1000000         /* samples farther apart say nothing about what lies between */
+    ALE_WHEELS_GAP_US = 60000000        /* samples farther apart say nothing about what lies between */
 };
 
 typedef struct {

@@ -11,8 +11,8 @@
 #include "track/pipeline_state.h"
 
 enum {
-    ACQUIRE_OFFSET_UM = 300000, /* how far a wall may lie from where the prediction puts it */
-    ACQUIRE_ANGLE_URAD = 200000,
+    ACQUIRE_OFFSET_UM = 600000, /* how far a wall may lie from where the prediction puts it */
+    ACQUIRE_ANGLE_URAD = 300000,
     ACQUIRE_SIGMAS = 4,
     ACQUIRE_PIECE_UM = 100000,
     START_SPEED_MM_S = 300,
@@ -85,6 +85,7 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
     ale_motion_init(&pipeline->motion, 0, (ale_pose_t){0, 0, 0}, START_SPEED_MM_S, START_TURN_MRAD_S);
     pipeline->smooth = (ale_pose_t){0, 0, 0};
     pipeline->scans = 0;
+    pipeline->drift = (ale_drift_t){0, 0};
     pipeline->fade.next = 0;
     pipeline->search = (ale_search_t){0, 0};
     pipeline->started = false;
@@ -161,6 +162,7 @@ static void advance_smooth(ale_pipeline_t *p, ale_pose_t from, ale_pose_t predic
     const int64_t reach_urad = dt_ms * p->config.max_turn_mrad_s + sigma_urad;
     const int64_t turn_urad = ale_abs64(ale_bam_to_nrad((int32_t)way.theta_bam)) / 1000;
     const bool possible =
+        ale_abs64(way.x_um) <= reach_um && ale_abs64(way.y_um) <= reach_um &&
         (int64_t)way.x_um * way.x_um + (int64_t)way.y_um * way.y_um <= reach_um * reach_um &&
         turn_urad <= reach_urad;
     p->smooth = ale_pose_compose(p->smooth, possible ? way : ale_pose_between(from, predicted));
@@ -183,6 +185,14 @@ static void teach_wheels(ale_pipeline_t *p, const ale_motion_t *before, const al
     }
 }
 
+/* The scan goes into the map. */
+static void take_in(ale_pipeline_t *p, bool grow)
+{
+    const ale_pose_t sensor = ale_pose_compose(p->fit.motion.pose, p->config.sensor);
+    ale_map_update(&p->map, p->view, p->view_count, &p->fit, p->drift, p->scans, grow);
+    p->matched_corners = ale_map_corners_update(&p->map.corners, &p->features, sensor, grow);
+}
+
 static void begin(ale_pipeline_t *p, const ale_scan_t *scan)
 {
     ale_motion_init(&p->motion, ale_pace_instant(&p->pace, scan->stamp_us), p->motion.pose, START_SPEED_MM_S,
@@ -192,7 +202,7 @@ static void begin(ale_pipeline_t *p, const ale_scan_t *scan)
     match(p, &p->motion, p->scan.range_max_um);
     p->fit.motion = p->motion;
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);
-    ale_map_update(&p->map, p->view, p->view_count, &p->fit, p->scans, true);
+    take_in(p, true);
     p->started = p->view_count > 0;
 }
 
@@ -210,15 +220,13 @@ static void track(ale_pipeline_t *p, const ale_motion_t *before, const ale_motio
 {
     match(p, predicted, p->scan.range_max_um);
     p->motion = p->fit.motion;
+    p->drift = ale_drift_here(&p->map, p->view, p->view_count, &p->fit, p->drift);
     ale_liveliness_learn(&p->liveliness[wheels != NULL], predicted, &p->motion);
     teach_wheels(p, before, wheels);
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);
-    if (p->tracker.state != ALE_STATE_LOST) {
-        ale_map_update(&p->map, p->view, p->view_count, &p->fit, p->scans,
-                       ale_tracker_may_map(&p->tracker, &p->fit));
-        ale_local_map_approach(&p->map, (ale_point_t){p->motion.pose.x_um, p->motion.pose.y_um},
-                               p->scan.range_max_um);
-    }
+    take_in(p, ale_tracker_may_map(&p->tracker, &p->fit));
+    ale_local_map_approach(&p->map, (ale_point_t){p->motion.pose.x_um, p->motion.pose.y_um},
+                           p->scan.range_max_um);
     const ale_sights_t sights = look_around(p);
     ale_tracker_judge(&p->tracker, &p->fit, &sights);
 }
@@ -264,8 +272,9 @@ static int32_t per_second(int32_t per_tick)
     return (int32_t)ale_round_shift((int64_t)per_tick * 1000000, ALE_TICK_BITS);
 }
 
-/* Covariance of the pose turned from the robot's frame into the map's: um^2, um nrad, nrad^2. */
-static void map_covariance(const ale_motion_t *m, int64_t out[9])
+/* Covariance of the pose, with the map's own drift, turned from the robot's frame into the map's: um^2, um
+ * nrad, nrad^2. */
+static void map_covariance(const ale_motion_t *m, ale_drift_t drift, int64_t out[9])
 {
     const int64_t c = ale_round_shift(ale_cos_q30(m->pose.theta_bam), 10);
     const int64_t s = ale_round_shift(ale_sin_q30(m->pose.theta_bam), 10);
@@ -273,6 +282,9 @@ static void map_covariance(const ale_motion_t *m, int64_t out[9])
     const int64_t f_q20[ALE_STATES][ALE_STATES] = {{c, -s, 0}, {s, c, 0}, {0, 0, one}};
     ale_matrix_t turned;
     ale_matrix_congruence(f_q20, &m->cov, &turned);
+    turned.m[0][0] += drift.var_um2;
+    turned.m[1][1] += drift.var_um2;
+    turned.m[2][2] += drift.var_urad2;
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
             const int64_t to_nrad = (i == 2 ? 1000 : 1) * (j == 2 ? 1000 : 1);
@@ -298,10 +310,11 @@ static void answer(ale_pipeline_t *p, int64_t stamp_us, bool predicted, uint32_t
     out->scan = p->scans++;
     out->smooth = p->smooth;
     out->map = p->motion.pose;
-    map_covariance(&p->motion, out->cov);
+    map_covariance(&p->motion, p->drift, out->cov);
     if (!predicted) {
         scan_information(&p->fit.information, out->information);
         out->matched_lines = p->fit.matched;
+        out->matched_corners = p->matched_corners;
     }
     out->velocity_x_um_s = per_second(p->motion.velocity[0]);
     out->velocity_y_um_s = per_second(p->motion.velocity[1]);

@@ -3,6 +3,7 @@
 #define ALE_TRACK_PIPELINE_STATE_H
 
 #include "extract/workspace.h"
+#include "track/drift.h"
 #include "track/fade.h"
 #include "track/hypothesis.h"
 #include "track/lag.h"
@@ -33,6 +34,7 @@ struct ale_pipeline {
     ale_tracker_t tracker;
     ale_pose_t smooth;
     ale_local_map_t map;
+    ale_drift_t drift; /* of the map around the robot */
     ale_fade_t fade;
     ale_search_t search;
 
@@ -44,6 +46,7 @@ struct ale_pipeline {
     ale_view_t view[ALE_MAX_VIEWS];
     uint32_t view_count;
     ale_fit_t fit;
+    uint16_t matched_corners;
 };
 
 #endif

@@ -196,6 +196,9 @@ void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const a
                 ale_fit_t *out)
 {
     const ale_gate_t later = {LATER_OFFSET_UM, LATER_ANGLE_URAD, LATER_SIGMAS, LATER_PIECE_UM};
+    const ale_gate_t second = {(gate->offset_um + LATER_OFFSET_UM) / 3, gate->angle_urad, LATER_SIGMAS,
+                               gate->piece_um};
+    const ale_gate_t *const gates[ALE_REFINE_ITERATIONS] = {gate, &second, &later, &later, &later};
     ale_factors_t factors;
     ale_matrix_t prior;
     int64_t total[ALE_STATES] = {0};
@@ -208,8 +211,7 @@ void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const a
     int64_t size = INT64_MAX;
     for (out->iterations = 0; out->iterations < ALE_REFINE_ITERATIONS && size > CONVERGED_UM;
          out->iterations++) {
-        gather(scene, out->iterations == 0 ? &predicted->cov : &out->motion.cov,
-               out->iterations == 0 ? gate : &later, out);
+        gather(scene, out->iterations == 0 ? &predicted->cov : &out->motion.cov, gates[out->iterations], out);
         size = step(&prior, total, out);
     }
     /* errors at the pose that was found, for the map */

@@ -13,6 +13,13 @@
 #include "base/pose.h"
 #include "track/view.h"
 
+/* Variance of where this part of the map lies to the map's origin, see drift.h. */
+#define ALE_DRIFT_MOST ((int64_t)1000000000000)
+typedef struct {
+    int64_t var_um2;
+    int64_t var_urad2;
+} ale_drift_t;
+
 typedef struct {
     ale_point_t anchor; /* map frame */
     uint32_t normal_bam;
@@ -23,6 +30,7 @@ typedef struct {
     int64_t var_offset_um2;
     int64_t cov_um_urad;
     int64_t var_angle_urad2;
+    ale_drift_t drift;
     uint32_t id;
     uint32_t seen;      /* scans that supported it */
     uint32_t last_scan; /* number of the last one */

@@ -26,6 +26,9 @@ void ale_wheel_scale_init(ale_wheel_scale_t *scale, const ale_wheel_noise_t *noi
 void ale_wheel_scale_learn(ale_wheel_scale_t *scale, int64_t found_um, int64_t counted_um)
 {
     const int64_t sign = counted_um < 0 ? -1 : 1;
+    if (ale_abs64(found_um - counted_um) > ale_abs64(counted_um) / 3 + LEARN_SIGMA_UM) {
+        return; /* wheels that spin, or a wrong match */
+    }
     scale->found_um += sign * found_um;
     scale->counted_um += sign * counted_um;
     if (scale->counted_um > LEARN_MEMORY_UM) {
@@ -38,6 +41,9 @@ int64_t ale_wheel_scale_sigma_ppm(const ale_wheel_scale_t *scale)
 {
     return ale_max64((int64_t)LEARN_SIGMA_UM * 1000000 / scale->counted_um, SCALE_FLOOR_PPM);
 }
+
+/* (10 m)^2: beyond that wheels say nothing. */
+static const int64_t var_most = 100000000000000;
 
 static int32_t rescaled(const ale_wheel_scale_t *scale, int64_t v)
 {
@@ -125,9 +131,9 @@ static bool velocity_at(const ale_wheels_t *wheels, const ale_lag_t *lag, const 
     const int64_t change[ALE_AXES] = {ACCELERATION_UM_S2, ACCELERATION_UM_S2 / 5, TURN_ACCELERATION_URAD_S2};
     for (int i = 0; i < ALE_AXES; i++) {
         out->velocity[i] = (int32_t)ale_round_div(way[i] * ALE_TICK_US, WINDOW_US);
-        out->velocity_var[i] =
-            ale_mul_div(var[i] + lag_var[i], ALE_TICK_US * ALE_TICK_US, (int64_t)WINDOW_US * WINDOW_US) +
-            square(change[i] / 1000 * behind_us / 1000 * ALE_TICK_US / 1000000);
+        out->velocity_var[i] = ale_mul_div(ale_min64(var[i] + lag_var[i], var_most),
+                                           ALE_TICK_US * ALE_TICK_US, (int64_t)WINDOW_US * WINDOW_US) +
+                               square(change[i] / 1000 * behind_us / 1000 * ALE_TICK_US / 1000000);
     }
     return true;
 }
@@ -148,7 +154,7 @@ bool ale_wheel_motion(const ale_wheels_t *wheels, const ale_lag_t *lag, const al
     add_extrapolation_variance(beyond_us, out->displacement_var);
     lag_variance(wheels, lag->sigma_us, from, to, d, lag_var);
     for (int i = 0; i < ALE_AXES; i++) {
-        out->displacement_var[i] += lag_var[i];
+        out->displacement_var[i] = ale_min64(out->displacement_var[i] + lag_var[i], var_most);
     }
     out->counted_um = d.x_um;
     out->lag_var_um2 = lag_var[0];
