@@ -18,6 +18,10 @@ constexpr int32_t longest_side = 1500; /* pixels, without the margins */
 constexpr int32_t margin = 50;
 constexpr int32_t footer = 60; /* for the scale bar */
 
+/* Where the way ends at its start, the start shows around the end. */
+constexpr int32_t start_radius = 10 * sub_pixels;
+constexpr int32_t end_radius = 7 * sub_pixels;
+
 constexpr Colour grid_colour = {228, 232, 238};
 constexpr Colour point_colour = {92, 128, 168};
 constexpr Colour wall_colour = {24, 31, 46};
@@ -122,17 +126,17 @@ void draw_path(Canvas &canvas, const Sheet &sheet, const Trajectory &trajectory)
 }
 
 /* A disc with a white rim and a nose that points ahead. */
-void draw_robot(Canvas &canvas, const Sheet &sheet, const ale_pose_t &pose, Colour colour)
+void draw_robot(Canvas &canvas, const Sheet &sheet, const ale_pose_t &pose, Colour colour, int32_t radius)
 {
     const Spot centre = sheet.spot({pose.x_um, pose.y_um});
-    constexpr int32_t nose = 13 * sub_pixels;
+    const int32_t nose = 2 * radius;
     const Spot ahead = {
         centre.x + static_cast<int32_t>(ale_round_shift(int64_t{nose} * ale_cos_q30(pose.theta_bam), 30)),
         centre.y - static_cast<int32_t>(ale_round_shift(int64_t{nose} * ale_sin_q30(pose.theta_bam), 30))};
     for (const bool rim : {true, false}) {
         Layer layer = canvas.layer();
         const int32_t wider = rim ? 32 : 0;
-        layer.disc(centre, 112 + wider);
+        layer.disc(centre, radius + wider);
         layer.stroke(centre, ahead, 40 + wider);
         canvas.paint(layer, rim ? white : colour);
     }
@@ -166,8 +170,8 @@ void write_png(const std::string &path, const MapScene &scene)
     draw_path(canvas, sheet, scene.trajectory);
     draw_walls(canvas, sheet, *scene.map);
     if (!scene.trajectory.empty()) {
-        draw_robot(canvas, sheet, scene.trajectory.front().pose, start_colour);
-        draw_robot(canvas, sheet, scene.trajectory.back().pose, path_colour);
+        draw_robot(canvas, sheet, scene.trajectory.front().pose, start_colour, start_radius);
+        draw_robot(canvas, sheet, scene.trajectory.back().pose, path_colour, end_radius);
     }
     draw_scale_bar(canvas, sheet, scale.bar_um);
     canvas.write_png(path);

@@ -130,9 +130,9 @@ void put_walls(SvgFile &svg, const ale_map_t &map, const Style &style)
     svg.put("</g>\n");
 }
 
-void put_robot(SvgFile &svg, const char *id, const char *colour, const ale_pose_t &pose, const Style &style)
+void put_robot(SvgFile &svg, const char *id, const char *colour, const ale_pose_t &pose, int64_t radius_um,
+               const Style &style)
 {
-    const int64_t radius_um = 6 * style.stroke_um;
     const ale_point_t nose = ale_pose_apply(pose, {static_cast<int32_t>(2 * radius_um), 0});
     const ale_point_t centre = {pose.x_um, pose.y_um};
     svg.put("<g id=\"").put(id).put("\"><circle cx=\"").put_length(centre.x_um).put("\" cy=\"");
@@ -179,8 +179,8 @@ void write_svg(const std::string &path, const MapScene &scene)
     put_path(svg, scene.trajectory, style);
     put_walls(svg, *scene.map, style);
     if (!scene.trajectory.empty()) {
-        put_robot(svg, "start", "#269654", scene.trajectory.front().pose, style);
-        put_robot(svg, "end", "#de5230", scene.trajectory.back().pose, style);
+        put_robot(svg, "start", "#269654", scene.trajectory.front().pose, 7 * style.stroke_um, style);
+        put_robot(svg, "end", "#de5230", scene.trajectory.back().pose, 5 * style.stroke_um, style);
     }
     put_scale_bar(svg, extent, style);
     svg.put("</svg>\n").close();
