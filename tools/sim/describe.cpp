@@ -11,6 +11,9 @@ namespace
 
 void print_sensor(const Description &description, std::ostream &out)
 {
+    if (!description.has_sensor && description.blind.empty()) {
+        return;
+    }
     out << "[sensor]\n" << std::fixed;
     if (description.has_sensor) {
         out << std::setprecision(6) << "x = " << description.sensor.x << "\ny = " << description.sensor.y
