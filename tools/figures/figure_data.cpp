@@ -149,6 +149,7 @@ std::vector<double> smoothed(const std::vector<double> &ranges, std::uint8_t pas
     ale_lowess(&config, beams.data(), values.data(), static_cast<std::int32_t>(values.size()), smooth.data(),
                work.get());
     std::vector<double> result;
+    result.reserve(smooth.size());
     for (const std::int32_t s : smooth) {
         result.push_back(inverse_unit / s);
     }
@@ -161,6 +162,8 @@ json smoothing()
     Random random(4);
     std::vector<double> wall;
     std::vector<double> measured;
+    wall.reserve(smoothed_beams);
+    measured.reserve(smoothed_beams);
     for (int k = 0; k < smoothed_beams; k++) {
         wall.push_back(2.0 / std::cos(k * urg_step - radians(20)));
         measured.push_back(wall.back() + 0.003 * random.normal() + (k == stray_beam ? stray_by : 0));
