@@ -25,6 +25,7 @@ static void copy_points(const ale_extractor_t *e, inspect_trace_t *trace)
 }
 
 /* A bisection's steps follow from where it ended: it accepted exactly the guesses up to there. */
+/* A bisection's steps follow from where it ended: it accepted exactly the guesses up to there. */
 static void add_steps(inspect_trace_t *trace, int32_t from, int32_t direction, int32_t size, int32_t found)
 {
     int32_t left = ALE_MIN_RUN - 1;
