@@ -2,7 +2,7 @@
 BENCH_MAINS = tools/bench/lines.cpp
 BENCH_PARTS = $(filter-out $(BENCH_MAINS),$(wildcard tools/bench/*.cpp tools/bench/textbook/*.cpp))
 BENCH_SCANS ?= 20
-BENCH_COUNTED_SCANS ?= 5
+BENCH_COUNTED_SCANS ?= 1
 
 BENCH_PROGRAMS = $(patsubst tools/bench/%.cpp,$(BUILD)/bench/%,$(BENCH_MAINS))
 $(BENCH_PROGRAMS): $(BUILD)/bench/%: $(OBJ)/tools/bench/%.cpp.o $(call objects,$(BENCH_PARTS)) $(BUILD)/libale_drivers.a $(BUILD)/libale.a

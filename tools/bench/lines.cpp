@@ -4,8 +4,8 @@
 //   lines run --extractor NAME [--scans N]     only extracts, over the urg suite: for profilers
 //   lines rest LOG                             repeatability on a recording
 //   lines write DIR [--scans N] [--noise NAME] scans.log and truth.jsonl
-#include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -114,9 +114,9 @@ json rows_of(const Noise &noise, const Options &options, const Extractor &extrac
     double seconds = 0;
     int scans = 0;
     for_each_case(noise, options.scans, options.seed, [&](const Case &c) {
-        const auto begun = std::chrono::steady_clock::now();
+        const std::clock_t begun = std::clock();
         const Extraction extraction = extractor.extract(*c.simulated.scan);
-        seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+        seconds += static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
         scans++;
         const Tally tally = score(c.truth, extraction);
         all.add(tally);

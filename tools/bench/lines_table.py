@@ -93,7 +93,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", required=True)
     parser.add_argument("--scans", type=int, default=20, help="of each kind of world and noise")
-    parser.add_argument("--counted", type=int, default=5, help="the same, where instructions are counted")
+    parser.add_argument("--counted", type=int, default=1, help="the same, where instructions are counted")
     parser.add_argument("--recording", action="append", default=[], metavar="NAME=LOG")
     options = parser.parse_args()
     recordings = [entry.split("=", 1) for entry in options.recording]
