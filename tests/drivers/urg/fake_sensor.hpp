@@ -163,7 +163,7 @@ class FakeSensor
     std::deque<Frame> frames_;
     int64_t clock_zero_us_ = 5000000;
     int64_t next_turn_us_ = 5100000;
-    int turns_ = 0, skip_ = 0, skipped_ = 0, left_ = 0;
+    int turns_ = 0, skip_ = 0, skipped_ = 0;
     bool was_plugged_ = true;
 
     int64_t next_event_us() const
