@@ -37,7 +37,7 @@ $(VENV)/ready: tests/requirements.txt
 venv: $(VENV)/ready
 
 system: programs lcm-types venv ## tests of the real programs over pseudo terminals and LCM (T=word selects)
-	@$(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(if $(T),-k $(T))
+	@$(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(if $(T),-k "$(T)")
 
 # Coverage-guided fuzzing with clang's libFuzzer, one program a harness.
 FUZZ_SECONDS ?= 600
