@@ -29,7 +29,7 @@ static ale_urg_config_t device_config(const ale_config_t *config, const ale_cloc
         .last_step = config->last_step,
         .time_scale = (double)clock->scale_ppm / ALE_CLOCK_REAL,
         .now_us = robot_clock,
-        .now_user = (void *)(uintptr_t)clock,
+        .now_user = (void *)clock,
     };
 }
 

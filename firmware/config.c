@@ -3,7 +3,6 @@
 #include <errno.h>
 #include <ini.h>
 #include <inttypes.h>
-#include <stdarg.h>
 #include <string.h>
 
 #include "base/fixed.h"
@@ -19,6 +18,7 @@ typedef struct {
     bool seen[ALE_CONFIG_MAX_KEYS];
     int line;
     int error_line; /* 0: none yet; later errors are not of interest */
+    char what[ALE_CONFIG_MESSAGE / 2];
     ale_config_error_t *error;
 } reading_t;
 
@@ -34,21 +34,18 @@ ale_config_t ale_config_default(void)
     return config;
 }
 
-__attribute__((format(printf, 2, 3))) static int fail(reading_t *reading, const char *format, ...)
+/* The first error counts; its text was written to reading->what. */
+static int fail(reading_t *reading)
 {
-    if (reading->error_line != 0) {
-        return -1;
+    if (reading->error_line == 0) {
+        reading->error_line = reading->line;
+        snprintf(reading->error->message, sizeof reading->error->message, "%.150s:%d: %s", reading->name,
+                 reading->line, reading->what);
     }
-    reading->error_line = reading->line;
-    char what[ALE_CONFIG_MESSAGE / 2];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(what, sizeof what, format, arguments);
-    va_end(arguments);
-    snprintf(reading->error->message, sizeof reading->error->message, "%.150s:%d: %s", reading->name,
-             reading->line, what);
     return -1;
 }
+
+#define FAIL(reading, ...) (snprintf((reading)->what, sizeof(reading)->what, __VA_ARGS__), fail(reading))
 
 static int fail_range(reading_t *reading, const ale_config_key_t *key, const char *text)
 {
@@ -56,7 +53,7 @@ static int fail_range(reading_t *reading, const ale_config_key_t *key, const cha
     char high[ALE_DECIMAL_TEXT];
     ale_decimal_print(key->min, key->digits, low);
     ale_decimal_print(key->max, key->digits, high);
-    return fail(reading, "%s.%s: %.40s is not a number from %s to %s%s", key->section, key->key, text, low,
+    return FAIL(reading, "%s.%s: %.40s is not a number from %s to %s%s", key->section, key->key, text, low,
                 high, key->kind == ALE_KEY_ODD ? ", odd" : "");
 }
 
@@ -97,16 +94,15 @@ static int read_bool(reading_t *reading, const ale_config_key_t *key, bool *fiel
             return 0;
         }
     }
-    return fail(reading, "%s.%s: %.40s is neither yes nor no", key->section, key->key, text);
+    return FAIL(reading, "%s.%s: %.40s is neither yes nor no", key->section, key->key, text);
 }
 
 static int read_text(reading_t *reading, const ale_config_key_t *key, char *field, const char *text)
 {
     if (strlen(text) >= key->size) {
-        return fail(reading, "%s.%s: longer than %zu characters", key->section, key->key, key->size - 1);
+        return FAIL(reading, "%s.%s: longer than %zu characters", key->section, key->key, key->size - 1);
     }
-    memset(field, 0, key->size);
-    memcpy(field, text, strlen(text));
+    snprintf(field, key->size, "%s", text);
     return 0;
 }
 
@@ -143,11 +139,11 @@ static int read_sectors(reading_t *reading, const ale_config_key_t *key, const c
     char *rest = NULL;
     for (char *word = strtok_r(copy, ",", &rest); word; word = strtok_r(NULL, ",", &rest)) {
         if (pipeline->blind_count == ALE_MAX_BLIND_SECTORS) {
-            return fail(reading, "%s.%s: more than %d sectors", key->section, key->key,
+            return FAIL(reading, "%s.%s: more than %d sectors", key->section, key->key,
                         ALE_MAX_BLIND_SECTORS);
         }
         if (parse_sector(word, &pipeline->blind[pipeline->blind_count]) < 0) {
-            return fail(reading, "%s.%s: a sector is from:to in degrees, -360 to 360", key->section,
+            return FAIL(reading, "%s.%s: a sector is from:to in degrees, -360 to 360", key->section,
                         key->key);
         }
         pipeline->blind_count++;
@@ -189,10 +185,10 @@ static int take_entry(void *user, const char *section, const char *name, const c
     reading_t *reading = user;
     const int k = find_key(section, name);
     if (k < 0) {
-        return fail(reading, "%.60s.%.60s: no such key", section, name) == 0;
+        return FAIL(reading, "%.60s.%.60s: no such key", section, name) == 0;
     }
     if (reading->seen[k]) {
-        return fail(reading, "%s.%s: given twice", section, name) == 0;
+        return FAIL(reading, "%s.%s: given twice", section, name) == 0;
     }
     reading->seen[k] = true;
     return read_value(reading, &ale_config_keys[k], value) == 0;
@@ -208,7 +204,7 @@ static char *next_line(char *buffer, int size, void *stream)
     }
     reading->line++;
     if (strlen(buffer) + 1 == (size_t)size && buffer[size - 2] != '\n') {
-        fail(reading, "longer than %d characters", size - 2);
+        FAIL(reading, "longer than %d characters", size - 2);
         for (int c = fgetc(reading->file); c != EOF && c != '\n';) {
             c = fgetc(reading->file);
         }
@@ -221,7 +217,7 @@ static char *next_line(char *buffer, int size, void *stream)
 static int check_steps(reading_t *reading)
 {
     if (reading->config.first_step > reading->config.last_step) {
-        return fail(reading, "sensor.last_step: %d is below sensor.first_step %d", reading->config.last_step,
+        return FAIL(reading, "sensor.last_step: %d is below sensor.first_step %d", reading->config.last_step,
                     reading->config.first_step);
     }
     return 0;
@@ -234,7 +230,7 @@ static int read_stream(reading_t *reading, ale_config_t *config)
     if (bad_line > 0 && (reading->error_line == 0 || bad_line < reading->error_line)) {
         reading->error_line = 0;
         reading->line = bad_line;
-        fail(reading, "neither [section], key = value, nor comment");
+        FAIL(reading, "neither [section], key = value, nor comment");
     }
     if (reading->error_line == 0) {
         check_steps(reading);
@@ -267,8 +263,7 @@ int ale_config_parse(const char *text, const char *name, ale_config_t *config, a
     if (*text == '\0') {
         return 0;
     }
-    reading_t reading = {
-        .name = name, .error = error, .file = fmemopen((void *)(uintptr_t)text, strlen(text), "r")};
+    reading_t reading = {.name = name, .error = error, .file = fmemopen((void *)text, strlen(text), "r")};
     if (!reading.file) {
         snprintf(error->message, sizeof error->message, "%.150s: %s", name, strerror(errno));
         return -1;

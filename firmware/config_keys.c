@@ -3,12 +3,12 @@
 #include "config.h"
 
 #define FIELD(member) offsetof(ale_config_t, member), sizeof(((ale_config_t *)0)->member)
-#define TEXT(member) ALE_KEY_TEXT, FIELD(member), 0, 0, 0
-#define BOOL(member) ALE_KEY_BOOL, FIELD(member), 0, 0, 0
-#define NUMBER(member, digits, min, max) ALE_KEY_NUMBER, FIELD(member), digits, min, max
-#define ODD(member, min, max) ALE_KEY_ODD, FIELD(member), 0, min, max
-#define ANGLE(member) ALE_KEY_ANGLE, FIELD(member), 9, -3141592653, 3141592653
-#define SECTORS ALE_KEY_SECTORS, FIELD(pipeline.blind), 0, 0, 0
+#define TEXT(member) ALE_KEY_TEXT, 0, FIELD(member), 0, 0
+#define BOOL(member) ALE_KEY_BOOL, 0, FIELD(member), 0, 0
+#define NUMBER(member, digits, min, max) ALE_KEY_NUMBER, digits, FIELD(member), min, max
+#define ODD(member, min, max) ALE_KEY_ODD, 0, FIELD(member), min, max
+#define ANGLE(member) ALE_KEY_ANGLE, 9, FIELD(member), -3141592653, 3141592653
+#define SECTORS ALE_KEY_SECTORS, 0, FIELD(pipeline.blind), 0, 0
 
 const ale_config_key_t ale_config_keys[] = {
     {"sensor", "port", TEXT(port),

@@ -19,10 +19,10 @@ typedef struct {
     const char *section;
     const char *key;
     ale_key_kind_t kind;
+    unsigned digits;
     size_t offset; /* in ale_config_t */
     size_t size;   /* bytes of the field */
-    unsigned digits;
-    int64_t min; /* in units of the field, inclusive; of an angle: nanoradians */
+    int64_t min;   /* in units of the field, inclusive; of an angle: nanoradians */
     int64_t max;
     const char *comment;
 } ale_config_key_t;

@@ -130,8 +130,7 @@ static bool override(const char *option, const char *word, char *field, size_t s
         return false;
     }
     if (word) {
-        memset(field, 0, size);
-        memcpy(field, word, strlen(word));
+        snprintf(field, size, "%s", word);
     }
     return true;
 }

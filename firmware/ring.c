@@ -6,15 +6,19 @@
 
 enum { CACHE_LINE = 64 };
 
-/* Counters run freely and wrap; their difference is the fill. Each lies on its own cache line with its
- * writer. */
+/* A counter on a cache line of its own: its writer does not disturb the other side. */
+typedef struct {
+    _Alignas(CACHE_LINE) atomic_uint count;
+} lone_counter_t;
+
+/* Counters run freely and wrap; their difference is the fill. */
 struct ale_ring {
+    lone_counter_t committed; /* written by the producer */
+    lone_counter_t refused;   /* by the producer */
+    lone_counter_t released;  /* by the consumer */
+    uint8_t *memory;
     uint32_t slot_bytes;
     uint32_t slots;
-    uint8_t *memory;
-    _Alignas(CACHE_LINE) atomic_uint committed; /* producer's */
-    atomic_uint refused;
-    _Alignas(CACHE_LINE) atomic_uint released; /* consumer's */
 };
 
 static void *slot_at(const ale_ring_t *ring, uint32_t counter)
@@ -55,10 +59,10 @@ void ale_ring_destroy(ale_ring_t *ring)
 
 void *ale_ring_reserve(ale_ring_t *ring)
 {
-    const uint32_t committed = atomic_load_explicit(&ring->committed, memory_order_relaxed);
-    const uint32_t released = atomic_load_explicit(&ring->released, memory_order_acquire);
+    const uint32_t committed = atomic_load_explicit(&ring->committed.count, memory_order_relaxed);
+    const uint32_t released = atomic_load_explicit(&ring->released.count, memory_order_acquire);
     if (committed - released == ring->slots) {
-        atomic_fetch_add_explicit(&ring->refused, 1, memory_order_relaxed);
+        atomic_fetch_add_explicit(&ring->refused.count, 1, memory_order_relaxed);
         return NULL;
     }
     return slot_at(ring, committed);
@@ -66,33 +70,33 @@ void *ale_ring_reserve(ale_ring_t *ring)
 
 void ale_ring_commit(ale_ring_t *ring)
 {
-    const uint32_t committed = atomic_load_explicit(&ring->committed, memory_order_relaxed);
-    atomic_store_explicit(&ring->committed, committed + 1, memory_order_release);
+    const uint32_t committed = atomic_load_explicit(&ring->committed.count, memory_order_relaxed);
+    atomic_store_explicit(&ring->committed.count, committed + 1, memory_order_release);
 }
 
 uint32_t ale_ring_ready(const ale_ring_t *ring)
 {
-    const uint32_t released = atomic_load_explicit(&ring->released, memory_order_relaxed);
-    return atomic_load_explicit(&ring->committed, memory_order_acquire) - released;
+    const uint32_t released = atomic_load_explicit(&ring->released.count, memory_order_relaxed);
+    return atomic_load_explicit(&ring->committed.count, memory_order_acquire) - released;
 }
 
 void *ale_ring_at(ale_ring_t *ring, uint32_t k)
 {
-    return slot_at(ring, atomic_load_explicit(&ring->released, memory_order_relaxed) + k);
+    return slot_at(ring, atomic_load_explicit(&ring->released.count, memory_order_relaxed) + k);
 }
 
 void ale_ring_release(ale_ring_t *ring)
 {
-    const uint32_t released = atomic_load_explicit(&ring->released, memory_order_relaxed);
-    atomic_store_explicit(&ring->released, released + 1, memory_order_release);
+    const uint32_t released = atomic_load_explicit(&ring->released.count, memory_order_relaxed);
+    atomic_store_explicit(&ring->released.count, released + 1, memory_order_release);
 }
 
 uint32_t ale_ring_committed(const ale_ring_t *ring)
 {
-    return atomic_load_explicit(&ring->committed, memory_order_acquire);
+    return atomic_load_explicit(&ring->committed.count, memory_order_acquire);
 }
 
 uint32_t ale_ring_refused(const ale_ring_t *ring)
 {
-    return atomic_load_explicit(&ring->refused, memory_order_relaxed);
+    return atomic_load_explicit(&ring->refused.count, memory_order_relaxed);
 }

@@ -10,21 +10,21 @@ void ale_statistics_add(ale_statistics_t *statistics, const ale_result_t *result
         return;
     }
     for (int k = 0; k < ALE_STAGES; k++) {
-        ale_histogram_add(&statistics->stage[k], result->stage_ns[k]);
+        ale_durations_add(&statistics->stage[k], result->stage_ns[k]);
     }
-    ale_histogram_add(&statistics->stage[ALE_STAGES], result->total_ns);
-    ale_histogram_add(&statistics->latency, latency_ns);
+    ale_durations_add(&statistics->stage[ALE_STAGES], result->total_ns);
+    ale_durations_add(&statistics->latency, latency_ns);
 }
 
 void ale_statistics_report(const ale_statistics_t *statistics, ale_status_report_t *report)
 {
     for (int k = 0; k < ALE_STATUS_STAGES; k++) {
         report->stage_last_ns[k] = statistics->stage[k].last_ns;
-        report->stage_p99_ns[k] = ale_histogram_quantile(&statistics->stage[k], 990);
+        report->stage_p99_ns[k] = ale_durations_quantile(&statistics->stage[k], 990);
         report->stage_worst_ns[k] = statistics->stage[k].worst_ns;
     }
-    report->latency_p50_ns = ale_histogram_quantile(&statistics->latency, 500);
-    report->latency_p99_ns = ale_histogram_quantile(&statistics->latency, 990);
+    report->latency_p50_ns = ale_durations_quantile(&statistics->latency, 500);
+    report->latency_p99_ns = ale_durations_quantile(&statistics->latency, 990);
     report->latency_worst_ns = statistics->latency.worst_ns;
     report->deadline_misses = statistics->late;
     report->poses = statistics->poses;

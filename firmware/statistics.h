@@ -2,14 +2,14 @@
 #ifndef ALE_FIRMWARE_STATISTICS_H
 #define ALE_FIRMWARE_STATISTICS_H
 
+#include "durations.h"
 #include "exchange.h"
-#include "histogram.h"
 #include "lcm/report.h"
 #include "urg/urg_device.h"
 
 typedef struct {
-    ale_histogram_t stage[ALE_STATUS_STAGES]; /* the last: all stages together */
-    ale_histogram_t latency;                  /* last byte of a scan to its pose on the wire */
+    ale_durations_t stage[ALE_STATUS_STAGES]; /* the last: all stages together */
+    ale_durations_t latency;                  /* last byte of a scan to its pose on the wire */
     uint32_t poses;
     uint32_t overloaded;
     uint32_t late;

@@ -68,7 +68,7 @@ void ale_convert_pose(const ale_pose_report_t *report, lcmtypes_ale_pose_t *mess
         .vy = ale_to_metres(estimate->velocity_y_um_s),
         .omega = ale_to_metres(estimate->velocity_theta_urad_s),
         .state = (int8_t)estimate->state,
-        .predicted = estimate->predicted,
+        .predicted = estimate->predicted ? 1 : 0,
         .lag_us = estimate->lag_us,
         .age_us = (int32_t)ale_clamp64(report->sent_us - estimate->stamp_us, 0, INT32_MAX),
         .first_beam_utime = report->first_beam_us,
@@ -263,10 +263,10 @@ void ale_convert_status(const ale_status_report_t *report, ale_status_buffer_t *
         .latency_p99_us = (float)((double)report->latency_p99_ns * 1e-3),
         .latency_worst_us = (float)((double)report->latency_worst_ns * 1e-3),
         .deadline_misses = (int32_t)report->deadline_misses,
-        .realtime = report->realtime,
-        .realtime_detail = (char *)(uintptr_t)report->realtime_detail,
-        .driver_state = (char *)(uintptr_t)report->driver_state,
-        .device = (char *)(uintptr_t)report->device,
+        .realtime = report->realtime ? 1 : 0,
+        .realtime_detail = (char *)report->realtime_detail,
+        .driver_state = (char *)report->driver_state,
+        .device = (char *)report->device,
         .scan_rate_hz = report->scan_period_us > 0 ? 1e6f / (float)report->scan_period_us : 0,
         .num_counters = (int32_t)report->counters,
         .counter_name = buffer->name,
@@ -276,7 +276,7 @@ void ale_convert_status(const ale_status_report_t *report, ale_status_buffer_t *
     convert_times(report->stage_p99_ns, message->stage_p99_us);
     convert_times(report->stage_worst_ns, message->stage_worst_us);
     for (uint32_t k = 0; k < report->counters; k++) {
-        buffer->name[k] = (char *)(uintptr_t)report->counter[k].name;
+        buffer->name[k] = (char *)report->counter[k].name;
         buffer->value[k] = (int64_t)report->counter[k].value;
     }
 }

@@ -1,4 +1,4 @@
-#include "histogram.h"
+#include "durations.h"
 
 #include "base/fixed.h"
 
@@ -11,7 +11,7 @@ static uint32_t bucket_of(int64_t time_ns)
     }
     const unsigned shift = ale_bit_length((uint64_t)time_ns) - 4;
     const int64_t bucket = 8 * (int64_t)shift + (time_ns >> shift);
-    return (uint32_t)ale_min64(bucket, ALE_HISTOGRAM_BUCKETS - 1);
+    return (uint32_t)ale_min64(bucket, ALE_DURATIONS_BUCKETS - 1);
 }
 
 static int64_t upper_end(uint32_t bucket)
@@ -23,23 +23,23 @@ static int64_t upper_end(uint32_t bucket)
     return ((int64_t)(bucket % 8 + 9) << shift) - 1;
 }
 
-void ale_histogram_add(ale_histogram_t *histogram, int64_t time_ns)
+void ale_durations_add(ale_durations_t *durations, int64_t time_ns)
 {
-    histogram->count++;
-    histogram->last_ns = time_ns;
-    histogram->worst_ns = ale_max64(histogram->worst_ns, time_ns);
-    histogram->bucket[bucket_of(time_ns)]++;
+    durations->count++;
+    durations->last_ns = time_ns;
+    durations->worst_ns = ale_max64(durations->worst_ns, time_ns);
+    durations->bucket[bucket_of(time_ns)]++;
 }
 
-int64_t ale_histogram_quantile(const ale_histogram_t *histogram, uint32_t permille)
+int64_t ale_durations_quantile(const ale_durations_t *durations, uint32_t permille)
 {
-    const uint64_t wanted = ((uint64_t)histogram->count * permille + 999) / 1000;
+    const uint64_t wanted = ((uint64_t)durations->count * permille + 999) / 1000;
     uint64_t seen = 0;
-    for (uint32_t k = 0; k < ALE_HISTOGRAM_BUCKETS; k++) {
-        seen += histogram->bucket[k];
+    for (uint32_t k = 0; k < ALE_DURATIONS_BUCKETS; k++) {
+        seen += durations->bucket[k];
         if (seen >= wanted) {
-            return ale_min64(upper_end(k), histogram->worst_ns);
+            return ale_min64(upper_end(k), durations->worst_ns);
         }
     }
-    return histogram->worst_ns;
+    return durations->worst_ns;
 }
