@@ -143,7 +143,7 @@ int64_t ale_break_gain_q8(const ale_extractor_t *e, ale_run_t run)
     const ale_fit_t one = ale_moments_fit(e, run.first, run.last);
     int64_t sse_q8;
     const int32_t split = coarse_break(e, run, 1, &sse_q8);
-    return split < 0 ? 0 : ((sse_q8 - one.sse_q8) << 8) / one.var_q8;
+    return split < 0 ? 0 : (sse_q8 - one.sse_q8) * 256 / one.var_q8;
 }
 
 static int64_t ratio_at(const ale_extractor_t *e, ale_run_t run, int32_t split)

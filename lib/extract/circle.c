@@ -2,7 +2,12 @@
 
 #include "base/fixed.h"
 
-enum { MAX_RADIUS_Q4 = 10000 << ALE_POINT_SHIFT, SUM_BITS = 29 };
+enum {
+    MAX_RADIUS_Q4 = 10000 << ALE_POINT_SHIFT,
+    MAX_EXTENT_Q4 = 1 << 18,
+    MAX_DISTANCE_Q4 = 1 << 20,
+    SUM_BITS = 29
+};
 
 typedef struct {
     int64_t uu;
@@ -17,8 +22,8 @@ static circle_sums_t sums_about(const ale_extractor_t *e, int32_t first, int32_t
 {
     circle_sums_t s = {0};
     for (int32_t i = first; i <= last; i++) {
-        const int64_t u = e->x_q4[i] - x;
-        const int64_t v = e->y_q4[i] - y;
+        const int64_t u = ale_clamp64(e->x_q4[i] - x, -MAX_EXTENT_Q4, MAX_EXTENT_Q4);
+        const int64_t v = ale_clamp64(e->y_q4[i] - y, -MAX_EXTENT_Q4, MAX_EXTENT_Q4);
         const int64_t z = ale_round_shift(u * u + v * v, ALE_POINT_SHIFT);
         s.uu += u * u;
         s.uv += u * v;
@@ -75,7 +80,8 @@ int64_t ale_circle_sse_q8(const ale_extractor_t *e, const ale_circle_t *circle, 
         const int64_t u = e->x_q4[i] - circle->x_q4;
         const int64_t v = e->y_q4[i] - circle->y_q4;
         const int64_t d = (u * u + v * v - circle->radius_q4 * circle->radius_q4) / (2 * circle->radius_q4);
-        sum += d * d;
+        const int64_t bounded = ale_clamp64(d, -MAX_DISTANCE_Q4, MAX_DISTANCE_Q4);
+        sum += bounded * bounded;
     }
     return sum;
 }

@@ -82,7 +82,7 @@ static int64_t circle_excess_q8(const ale_extractor_t *e, int32_t first, int32_t
     for (int32_t k = first; k <= last; k++) {
         const ale_fit_t fit = ale_moments_fit(e, e->run[k].first, e->run[k].last);
         const int64_t sse = ale_circle_sse_q8(e, &circle, e->run[k].first, e->run[k].last);
-        excess += ((sse - fit.sse_q8) << 8) / fit.var_q8;
+        excess += (sse - fit.sse_q8) * 256 / fit.var_q8;
     }
     return excess;
 }

@@ -109,16 +109,34 @@ static uint8_t end_kind(const ale_extractor_t *e, int32_t end, int32_t beyond)
     return jump && e->range_um[beyond] < e->range_um[end] ? ALE_END_OCCLUDED : ALE_END_EDGE;
 }
 
-static void write_features(ale_extractor_t *e, ale_features_t *out)
+static void turn_line(ale_line_t *line, uint32_t frame_bam)
+{
+    line->alpha_bam += frame_bam;
+    line->start = ale_rotate(line->start, frame_bam);
+    line->end = ale_rotate(line->end, frame_bam);
+}
+
+static void write_curve(ale_extractor_t *e, ale_run_t run, uint32_t frame_bam, ale_features_t *out)
+{
+    e->refused[ALE_REFUSED_CURVED]++;
+    if (out->curve_count == ALE_MAX_CURVES) {
+        e->refused[ALE_REFUSED_CAPACITY]++;
+        return;
+    }
+    ale_curve_t *curve = &out->curve[out->curve_count++];
+    ale_curve_fit(e, run, curve);
+    curve->centre = ale_rotate(curve->centre, frame_bam);
+}
+
+/* Fits the runs and gives them out in the sensor's frame; frame_bam: direction of the points' x axis in it.
+ */
+static void write_features(ale_extractor_t *e, uint32_t frame_bam, ale_features_t *out)
 {
     out->line_count = 0;
     out->curve_count = 0;
     for (int32_t k = 0; k < e->run_count; k++) {
         if (e->run[k].curved) {
-            e->refused[ALE_REFUSED_CURVED]++;
-            if (out->curve_count < ALE_MAX_CURVES) {
-                ale_curve_fit(e, e->run[k], &out->curve[out->curve_count++]);
-            }
+            write_curve(e, e->run[k], frame_bam, out);
             continue;
         }
         ale_line_t line;
@@ -133,6 +151,7 @@ static void write_features(ale_extractor_t *e, ale_features_t *out)
         }
         line.first_end = end_kind(e, run.first, run.first - 1);
         line.last_end = end_kind(e, run.last, run.last + 1);
+        turn_line(&line, frame_bam);
         out->line[out->line_count++] = line;
     }
     ale_corner_find(out);
@@ -204,6 +223,6 @@ __attribute__((noinline)) void ale_extract_scan(ale_extractor_t *e, const ale_sc
         ale_moments_build(e);
     }
     improve_runs(e);
-    write_features(e, out);
+    write_features(e, ale_points_frame_bam(e, scan), out);
     ale_stage_end(&e->hook, ALE_STAGE_EXTRACT);
 }

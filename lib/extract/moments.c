@@ -2,7 +2,11 @@
 
 #include "base/fixed.h"
 
+_Static_assert(2.0 * ALE_MAX_BEAMS * ALE_MAX_BEAMS * ALE_POINT_MAX_Q4 * ALE_POINT_MAX_Q4 < 9.2e18,
+               "centred moments of the largest scan must fit int64");
+
 enum {
+    MOST_RELATIVE_Q36 = 1 << 29, /* no error is believed to exceed 9 % of the range */
     OWN_SCALED_BITS = 37,
     SCATTER_BITS = 30, /* centred moments are scaled to this many bits: their products fit int64 */
     VAR_FLOOR_Q8 = 16  /* (0.25 mm)^2: no range is known better than its quantum of 1 mm */
@@ -84,13 +88,15 @@ static ale_fit_t fit_of(const ale_extractor_t *e, int64_t n, const ale_moments_t
     const ale_scan_noise_t *noise = &e->noise;
     const int64_t rho2 = squared_rho_mm2(m, s->x / (n << ALE_POINT_SHIFT), s->y / (n << ALE_POINT_SHIFT));
     const int64_t range2 = ((s->xx + s->yy) >> (2 * ALE_POINT_SHIFT)) / n;
-    const int64_t own = rho2 * (s->noise_q36 / n) + ale_max64(range2 - rho2, 0) * noise->bearing_rad2_q36;
-    const int64_t shared = rho2 * (noise->shared_mm2_q36 / ale_max64(range2, 1) + noise->shared_relative_q36);
+    const int64_t own_q36 = ale_min64(s->noise_q36 / n, MOST_RELATIVE_Q36);
+    const int64_t own = rho2 * own_q36 + ale_max64(range2 - rho2, 0) * noise->bearing_rad2_q36;
+    const int64_t shared_q36 = ale_min64(
+        noise->shared_mm2_q36 / ale_max64(range2, 1) + noise->shared_relative_q36, MOST_RELATIVE_Q36);
     const ale_fit_t fit = {
         .n = (int32_t)n,
         .sse_q8 = (m->lambda << m->shift) / n,
         .var_q8 = ale_max64((own >> 28) * noise->own_scale_q8 >> 8, VAR_FLOOR_Q8),
-        .shared_q8 = shared >> 28,
+        .shared_q8 = rho2 * shared_q36 >> 28,
     };
     return fit;
 }
@@ -125,21 +131,8 @@ ale_spread_t ale_moments_spread(const ale_extractor_t *e, int32_t first, int32_t
         .b = m.b,
         .c = m.c,
         .along2_q8 = ((m.a + m.c - m.lambda) << m.shift) / n,
-        .mean_x_q4 = ale_round_div(s.x, n),
-        .mean_y_q4 = ale_round_div(s.y, n),
         .mean_x_um = ale_round_div(s.x * 1000, n << ALE_POINT_SHIFT),
         .mean_y_um = ale_round_div(s.y * 1000, n << ALE_POINT_SHIFT),
     };
     return spread;
-}
-
-ale_normal_t ale_moments_normal(const ale_spread_t *m)
-{
-    const int64_t lambda = m->a * m->c > m->b * m->b ? (m->a * m->c - m->b * m->b) / (m->a + m->c) : 0;
-    const bool steep = m->c > m->a;
-    const int64_t x = steep ? m->c - lambda : -m->b;
-    const int64_t y = steep ? -m->b : m->a - lambda;
-    const int64_t length = ale_max64(ale_isqrt((uint64_t)(x * x + y * y)), 1);
-    const ale_normal_t normal = {(x << 30) / length, (y << 30) / length};
-    return normal;
 }

@@ -16,7 +16,8 @@ typedef struct {
 /* Fills e->sum from e->x_q4, y_q4, range_um and e->noise. O(points). */
 void ale_moments_build(ale_extractor_t *e);
 
-/* Fit over the points first..last, first <= last. Constant time. */
+/* Fit over the points first..last, first <= last. Constant time. The squared residuals are exact to
+ * 2^-28 of the squares along the line and to their own share of those, squared. */
 ale_fit_t ale_moments_fit(const ale_extractor_t *e, int32_t first, int32_t last);
 
 /* Its squared residuals alone, mm^2 Q8. Constant time. */
@@ -29,21 +30,11 @@ typedef struct {
     int64_t b;
     int64_t c;
     int64_t along2_q8; /* squared distances from the mean along the line, mm^2 Q8 */
-    int64_t mean_x_q4;
-    int64_t mean_y_q4;
     int64_t mean_x_um;
     int64_t mean_y_um;
 } ale_spread_t;
 
 ale_spread_t ale_moments_spread(const ale_extractor_t *e, int32_t first, int32_t last);
-
-typedef struct {
-    int64_t x_q30;
-    int64_t y_q30;
-} ale_normal_t;
-
-/* Unit normal of the fitted line, of either sign. */
-ale_normal_t ale_moments_normal(const ale_spread_t *spread);
 
 /* Squared residuals in units of the own variance, Q8. */
 static inline int64_t ale_fit_chi_q8(const ale_fit_t *fit)

@@ -51,10 +51,10 @@ static int32_t collect(ale_extractor_t *e, int64_t curvature_q30, octave_t octav
     for (uint32_t k = 0; k < OCTAVES; k++) {
         if (octave[k].samples >= MIN_SAMPLES) {
             /* median of |d| is 0.6745 sqrt(6) sigma */
-            octave[used].sigma_um = ale_max64(
+            octave[used].sigma_um = ale_clamp64(
                 ale_round_div(ale_histogram_quantile(e->histogram[k], (int32_t)octave[k].samples, 50) * 1000,
                               1652),
-                ALE_SIGMA_FLOOR_UM);
+                ALE_SIGMA_FLOOR_UM, ALE_SIGMA_MOST_UM);
             octave[used].range_um = octave[k].range_um / octave[k].samples;
             octave[used].samples = octave[k].samples;
             used++;

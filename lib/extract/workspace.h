@@ -12,14 +12,13 @@
 /* Points are 1/16 mm: Q4. The largest product of the fits is 2 n^2 max^2 (see moments.h). */
 #define ALE_POINT_SHIFT 4
 #define ALE_POINT_MAX_Q4 ((int64_t)(ALE_MAX_RANGE_UM / 1000) << ALE_POINT_SHIFT)
-_Static_assert(2.0 * ALE_MAX_BEAMS * ALE_MAX_BEAMS * ALE_POINT_MAX_Q4 * ALE_POINT_MAX_Q4 < 9.2e18,
-               "centred moments of the largest scan must fit int64");
 
 /* Nearer than this no scanner measures, and 2^44 / range would not fit. */
 #define ALE_MIN_RANGE_UM 16384
 
-/* The least own noise that is believed. */
+/* The least and the most own noise that is believed. */
 #define ALE_SIGMA_FLOOR_UM 400
+#define ALE_SIGMA_MOST_UM 100000
 
 /* Fewest points that ALE fits a line to while it searches; shorter runs say nothing about a line. */
 #define ALE_MIN_RUN 5
@@ -58,12 +57,11 @@ struct ale_extractor {
     ale_extract_config_t config;
     ale_stage_hook_t hook;
 
-    /* Directions of the beams, kept as long as the scanner stays the same. */
-    uint16_t direction_beams;
-    uint32_t direction_first_bam;
+    /* Directions of the multiples of half a step, kept as long as the scanner stays the same. */
+    bool direction_known;
     int32_t direction_step_bam;
-    int32_t cos_q30[ALE_MAX_BEAMS];
-    int32_t sin_q30[ALE_MAX_BEAMS];
+    int32_t cos_q30[2 * ALE_MAX_BEAMS + 1];
+    int32_t sin_q30[2 * ALE_MAX_BEAMS + 1];
 
     /* The points. */
     uint16_t count;

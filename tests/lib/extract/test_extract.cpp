@@ -1,0 +1,416 @@
+// lib/extract as its users see it: lines, corners, curves and refusals of whole scans.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "lib/extract/scene.h"
+
+namespace
+{
+
+using scene::box;
+using scene::empty_scan;
+using scene::see;
+
+constexpr double pi = scene::pi;
+
+double alpha_of(const ale_line_t &line)
+{
+    return line.alpha_bam * (2 * pi / 4294967296.0);
+}
+
+void expect_line(const ale_line_t &line, double alpha, double rho_mm, double bound_deg, double bound_mm)
+{
+    EXPECT_NEAR(std::remainder(alpha_of(line) - alpha, 2 * pi) * 180 / pi, 0, bound_deg);
+    EXPECT_NEAR(line.rho_um / 1000.0, rho_mm, bound_mm);
+}
+
+// What must hold of the result of any scan.
+void expect_sane(const ale_scan_t &scan, const ale_features_t &f)
+{
+    EXPECT_LE(f.line_count, ALE_MAX_LINES);
+    EXPECT_LE(f.corner_count, ALE_MAX_CORNERS);
+    EXPECT_LE(f.curve_count, ALE_MAX_CURVES);
+    for (int k = 0; k < f.line_count; k++) {
+        const ale_line_t &l = f.line[k];
+        EXPECT_LT(l.first, l.last);
+        EXPECT_LT(l.last, scan.beams);
+        EXPECT_LE(l.points, l.last - l.first + 1);
+        EXPECT_GE(l.rho_um, 0);
+        EXPECT_GT(l.var_alpha_nrad2, 0);
+        EXPECT_GT(l.var_rho_um2, 0);
+        if (k > 0) {
+            EXPECT_GT(l.first, f.line[k - 1].last);
+        }
+    }
+    for (int k = 0; k < f.corner_count; k++) {
+        EXPECT_LT(f.corner[k].second_line, f.line_count);
+        EXPECT_EQ(f.corner[k].first_line + 1, f.corner[k].second_line);
+        EXPECT_LE(f.corner[k].angle_bam, 0x80000000u);
+    }
+}
+
+TEST(Extract, AScanWithoutBeamsHasNothing)
+{
+    scene::extractor extract;
+    const auto scan = empty_scan(0);
+    const ale_features_t &f = extract(*scan);
+    EXPECT_EQ(f.line_count + f.corner_count + f.curve_count + f.outliers, 0);
+}
+
+TEST(Extract, OneBeamIsNoLine)
+{
+    scene::extractor extract;
+    const auto scan = empty_scan(1);
+    ale_scan_set_range(scan.get(), 0, 1000000);
+    EXPECT_EQ(extract(*scan).line_count, 0);
+}
+
+TEST(Extract, AScanWithoutAnyReturnHasNothing)
+{
+    scene::extractor extract;
+    const auto scan = empty_scan();
+    EXPECT_EQ(extract(*scan).line_count, 0);
+    for (int k = 0; k < scan->beams; k++) {
+        scan->range_um[k] = 1000000;
+        scan->flag[k] = ALE_BEAM_UNKNOWN;
+    }
+    EXPECT_EQ(extract(*scan).line_count, 0);
+}
+
+TEST(Extract, OneWallIsOneLineWithItsEnds)
+{
+    scene::extractor extract;
+    const auto scan = empty_scan();
+    see(*scan, {{-1, 2, 1.5, 2}}, 3, 1);
+    const ale_features_t &f = extract(*scan);
+    ASSERT_EQ(f.line_count, 1);
+    expect_line(f.line[0], pi / 2, 2000, 0.2, 2);
+    EXPECT_NEAR(f.line[0].start.x_um, 1500000, 20000);
+    EXPECT_NEAR(f.line[0].end.x_um, -1000000, 20000);
+    EXPECT_EQ(f.line[0].first_end, ALE_END_LIMIT);
+    EXPECT_EQ(f.corner_count, 0);
+}
+
+TEST(Extract, TwoWallsMeetInAConcaveCorner)
+{
+    scene::extractor extract;
+    const auto scan = empty_scan();
+    see(*scan, {{2, -1.5, 2, 1}, {2, 1, -0.5, 1}}, 3, 2);
+    const ale_features_t &f = extract(*scan);
+    ASSERT_EQ(f.line_count, 2);
+    expect_line(f.line[0], 0, 2000, 0.3, 3);
+    expect_line(f.line[1], pi / 2, 1000, 0.3, 3);
+    ASSERT_EQ(f.corner_count, 1);
+    EXPECT_NEAR(f.corner[0].p.x_um, 2000000, 4000);
+    EXPECT_NEAR(f.corner[0].p.y_um, 1000000, 4000);
+    EXPECT_EQ(f.corner[0].kind, ALE_CORNER_CONCAVE);
+    EXPECT_NEAR(f.corner[0].angle_bam * (360 / 4294967296.0), 90, 0.5);
+    EXPECT_NEAR(std::remainder(f.corner[0].bisector_bam * (360 / 4294967296.0) + 135, 360), 0, 0.5);
+}
+
+TEST(Extract, ABoxEdgeIsAConvexCornerAndHidesTheWallBehind)
+{
+    scene::extractor extract;
+    const auto scan = empty_scan();
+    auto walls = box(1.2, -0.2, 2.0, 0.9);
+    walls.push_back({3, -2, 3, 2});
+    see(*scan, walls, 3, 3);
+    const ale_features_t &f = extract(*scan);
+    const auto behind =
+        std::find_if(f.line, f.line + f.line_count, [](const ale_line_t &l) { return l.rho_um > 2900000; });
+    ASSERT_NE(behind, f.line + f.line_count);
+    EXPECT_EQ(behind->last_end, ALE_END_OCCLUDED);
+    EXPECT_EQ((behind + 1)->first_end, ALE_END_EDGE);
+}
+
+TEST(Extract, ConvexCornersPointTowardsTheSensor)
+{
+    scene::extractor extract;
+    const auto scan = empty_scan();
+    see(*scan, {{1.5, 0, 2.5, 1.2}, {1.5, 0, 2.5, -1.2}}, 3, 4);
+    const ale_features_t &f = extract(*scan);
+    ASSERT_EQ(f.corner_count, 1);
+    EXPECT_EQ(f.corner[0].kind, ALE_CORNER_CONVEX);
+    EXPECT_NEAR(std::remainder(f.corner[0].bisector_bam * (360 / 4294967296.0) - 180, 360), 0, 2);
+}
+
+TEST(Extract, ExactGridValuesGiveExactWalls)
+{
+    scene::extractor extract;
+    const auto scan = empty_scan();
+    see(*scan, box(-2, -1.5, 2, 1.5), 0, 0, 0.001);
+    const ale_features_t &f = extract(*scan);
+    ASSERT_EQ(f.line_count, 3); // the field of view ends before the wall behind
+    for (int k = 0; k < f.line_count; k++) {
+        EXPECT_LE(f.line[k].rmse_um, 200);
+    }
+    EXPECT_EQ(f.corner_count, 2);
+}
+
+TEST(Extract, TheLargestScanIsTakenWhole)
+{
+    scene::extractor extract;
+    const auto scan = empty_scan(ALE_MAX_BEAMS, -135 * pi / 180, 0.25 * pi / 180);
+    see(*scan, box(-20, -15, 60, 30), 10, 5);
+    const ale_features_t &f = extract(*scan);
+    expect_sane(*scan, f);
+    ASSERT_GE(f.line_count, 4);
+    for (int k = 0; k < f.line_count; k++) {
+        const double nearest = std::min(std::fabs(std::remainder(alpha_of(f.line[k]), pi / 2)), 1.0);
+        EXPECT_LT(nearest, 0.01);
+    }
+}
+
+TEST(Extract, AFullTurnHasItsWallsWhereverItBegins)
+{
+    for (const double first : {0.0, 1.0, 2.5}) {
+        scene::extractor extract;
+        const auto scan = empty_scan(1024, first);
+        see(*scan, box(-2, -1.5, 2, 1.5), 3, 6);
+        const ale_features_t &f = extract(*scan);
+        EXPECT_GE(f.line_count, 4);
+        EXPECT_LE(f.line_count, 5); // one wall may be cut where the turn begins
+    }
+}
+
+TEST(Extract, EveryNoiseLevelIsServedByOneSetting)
+{
+    scene::extractor extract;
+    for (const double sigma : {1.0, 3.0, 10.0, 20.0}) {
+        for (unsigned seed = 0; seed < 20; seed++) {
+            const auto scan = empty_scan(1024, -pi);
+            see(*scan, box(-2.2, -1.3, 2, 1.7), sigma, seed);
+            const ale_features_t &f = extract(*scan);
+            EXPECT_GE(f.line_count, 4) << sigma << " mm, seed " << seed;
+            EXPECT_LE(f.line_count, 5) << sigma << " mm, seed " << seed;
+        }
+    }
+}
+
+TEST(Extract, AStepOfFourCentimetresIsTwoWalls)
+{
+    scene::extractor extract;
+    for (unsigned seed = 0; seed < 20; seed++) {
+        const auto scan = empty_scan();
+        see(*scan, {{1.5, -1.5, 1.5, 0}, {1.54, 0, 1.54, 1.5}}, 5, seed);
+        const ale_features_t &f = extract(*scan);
+        ASSERT_EQ(f.line_count, 2) << seed;
+        EXPECT_NEAR(f.line[0].last, 340, 2) << seed;
+    }
+}
+
+TEST(Extract, ARoundColumnIsACurveAndNoLine)
+{
+    scene::extractor extract;
+    std::vector<scene::wall> column;
+    for (int k = 0; k < 360; k++) {
+        const double a = k * pi / 180;
+        const double b = (k + 1) * pi / 180;
+        column.push_back(
+            {1.2 + 0.4 * std::cos(a), 0.4 * std::sin(a), 1.2 + 0.4 * std::cos(b), 0.4 * std::sin(b)});
+    }
+    const auto scan = empty_scan();
+    see(*scan, column, 3, 7);
+    const ale_features_t &f = extract(*scan);
+    EXPECT_EQ(f.line_count, 0);
+    ASSERT_GE(f.curve_count, 1);
+    EXPECT_NEAR(f.curve[0].radius_um, 400000, 40000);
+    EXPECT_NEAR(f.curve[0].centre.x_um, 1200000, 40000);
+    EXPECT_GT(f.refused[ALE_REFUSED_CURVED], 0);
+}
+
+TEST(Extract, StrayPointsDoNotCutAWall)
+{
+    scene::extractor extract;
+    const auto scan = empty_scan();
+    see(*scan, {{2, -2, 2, 2}}, 3, 8);
+    for (const int k : {250, 300, 301, 355, 400}) {
+        ale_scan_set_range(scan.get(), static_cast<uint16_t>(k), 900000);
+    }
+    const ale_features_t &f = extract(*scan);
+    ASSERT_EQ(f.line_count, 1);
+    EXPECT_EQ(f.outliers, 5);
+    expect_line(f.line[0], 0, 2000, 0.1, 1);
+}
+
+TEST(Extract, AMirroredScanGivesTheMirroredLines)
+{
+    scene::extractor extract;
+    std::mt19937 engine(9);
+    for (unsigned seed = 0; seed < 100; seed++) {
+        const double x = 1.5 + static_cast<double>(engine() % 1000) * 1e-3;
+        const auto walls = box(-x, -1.2, 2.2, x + 0.3);
+        const auto scan = empty_scan(681);
+        see(*scan, walls, 1 + seed % 12, seed);
+        const auto mirrored = empty_scan(681);
+        for (int k = 0; k < 681; k++) {
+            mirrored->range_um[k] = scan->range_um[680 - k];
+            mirrored->flag[k] = scan->flag[680 - k];
+        }
+        const ale_features_t a = extract(*scan);
+        const ale_features_t &b = extract(*mirrored);
+        ASSERT_EQ(a.line_count, b.line_count) << seed;
+        for (int k = 0; k < a.line_count; k++) {
+            const ale_line_t &l = a.line[k];
+            const ale_line_t &m = b.line[a.line_count - 1 - k];
+            EXPECT_EQ(l.first, 680 - m.last) << seed;
+            EXPECT_EQ(l.last, 680 - m.first) << seed;
+            EXPECT_NEAR(static_cast<int32_t>(l.alpha_bam + m.alpha_bam), 0, 4) << seed;
+            EXPECT_NEAR(l.rho_um, m.rho_um, 2) << seed;
+        }
+    }
+}
+
+TEST(Extract, AReversedScannerGivesTheMirroredLines)
+{
+    scene::extractor extract;
+    const auto scan = empty_scan(681);
+    see(*scan, box(-1.7, -1.2, 2.2, 2.3), 5, 10);
+    const ale_features_t a = extract(*scan);
+    scan->step_bam = -scan->step_bam;
+    scan->first_bearing_bam = 0u - scan->first_bearing_bam;
+    const ale_features_t &b = extract(*scan);
+    ASSERT_EQ(a.line_count, b.line_count);
+    for (int k = 0; k < a.line_count; k++) {
+        EXPECT_EQ(a.line[k].first, b.line[k].first);
+        EXPECT_EQ(a.line[k].last, b.line[k].last);
+        EXPECT_NEAR(static_cast<int32_t>(a.line[k].alpha_bam + b.line[k].alpha_bam), 0, 4);
+    }
+}
+
+TEST(Extract, AScanTurnedByWholeBeamsGivesTheSameLinesTurned)
+{
+    scene::extractor extract;
+    for (const int beams : {1, 90, 256, 511}) {
+        const auto scan = empty_scan(681);
+        see(*scan, box(-1.7, -1.2, 2.2, 2.3), 5, 11);
+        const ale_features_t a = extract(*scan);
+        scan->first_bearing_bam += static_cast<uint32_t>(beams) << 22;
+        const ale_features_t &b = extract(*scan);
+        ASSERT_EQ(a.line_count, b.line_count) << beams;
+        for (int k = 0; k < a.line_count; k++) {
+            const double sigma = std::sqrt(static_cast<double>(a.line[k].var_alpha_nrad2)) * 1e-9;
+            EXPECT_EQ(a.line[k].first, b.line[k].first);
+            EXPECT_EQ(a.line[k].last, b.line[k].last);
+            const double turned = alpha_of(a.line[k]) + beams * scene::urg_step;
+            EXPECT_NEAR(std::remainder(alpha_of(b.line[k]) - turned, 2 * pi), 0, 0.1 * sigma);
+        }
+    }
+}
+
+TEST(Extract, BearingsOfAStraightenedScanAreUsed)
+{
+    scene::extractor extract;
+    const auto scan = empty_scan();
+    see(*scan, {{2, -1.5, 2, 1.5}}, 3, 12);
+    std::vector<uint32_t> bearing;
+    for (int k = 0; k < scan->beams; k++) {
+        bearing.push_back(ale_scan_bearing(scan.get(), k) + (30u << 22));
+    }
+    const ale_features_t a = extract(*scan);
+    const ale_features_t &b = extract(*scan, bearing.data());
+    ASSERT_EQ(a.line_count, 1);
+    ASSERT_EQ(b.line_count, 1);
+    EXPECT_NEAR(static_cast<int32_t>(b.line[0].alpha_bam - a.line[0].alpha_bam - (30u << 22)), 0, 20000);
+}
+
+TEST(Extract, SmoothingMayBeSwitchedOn)
+{
+    ale_extract_config_t config = ale_extract_default_config();
+    config.smooth_span = 7;
+    scene::extractor extract(config);
+    const auto scan = empty_scan(1024, -pi);
+    see(*scan, box(-2.2, -1.3, 2, 1.7), 5, 13);
+    const ale_features_t &f = extract(*scan);
+    EXPECT_GE(f.line_count, 4);
+    EXPECT_LE(f.line_count, 5);
+}
+
+TEST(Extract, CovarianceIsCalibratedInSimulation)
+{
+    scene::extractor extract;
+    double alpha2 = 0;
+    double rho2 = 0;
+    int lines = 0;
+    for (unsigned seed = 0; seed < 400; seed++) {
+        const auto scan = empty_scan();
+        see(*scan, {{2, -1.6, 2, 1.1}}, 8, seed, 0.001);
+        const ale_features_t &f = extract(*scan);
+        if (f.line_count == 1) {
+            const ale_line_t &l = f.line[0];
+            alpha2 += std::pow(std::remainder(alpha_of(l), 2 * pi), 2) * 1e18 /
+                      static_cast<double>(l.var_alpha_nrad2);
+            rho2 += std::pow(l.rho_um - 2e6, 2) / static_cast<double>(l.var_rho_um2);
+            lines++;
+        }
+    }
+    ASSERT_GE(lines, 390);
+    // The tolerated shared error makes the stated variance larger than that of independent noise, never
+    // smaller.
+    EXPECT_GT(alpha2 / lines, 0.2);
+    EXPECT_LT(alpha2 / lines, 1.2);
+    EXPECT_GT(rho2 / lines, 0.2);
+    EXPECT_LT(rho2 / lines, 1.2);
+}
+
+TEST(Extract, AnyInputGivesASaneResult)
+{
+    scene::extractor extract;
+    std::mt19937 engine(14);
+    for (int trial = 0; trial < 1500; trial++) {
+        const int beams = static_cast<int>(engine() % (ALE_MAX_BEAMS + 1));
+        const auto scan = empty_scan(beams, static_cast<double>(engine() % 1000) * 0.006,
+                                     (static_cast<double>(engine() % 200) - 100) * 1e-4);
+        const unsigned kind = engine() % 4;
+        int64_t range = 1000000;
+        for (int k = 0; k < beams; k++) {
+            if (kind == 0 || engine() % 40 == 0) {
+                range = static_cast<int64_t>(engine() % ALE_MAX_RANGE_UM);
+            }
+            range += kind == 1 ? static_cast<int64_t>(engine() % 20001) - 10000 : 0;
+            range = std::clamp<int64_t>(range, -5, ALE_MAX_RANGE_UM + int64_t{5});
+            scan->range_um[k] =
+                static_cast<int32_t>(kind == 3 ? INT32_MAX - static_cast<int32_t>(engine() % 9) : range);
+            scan->flag[k] = engine() % 9 == 0 ? ALE_BEAM_UNKNOWN : ALE_BEAM_VALID;
+        }
+        expect_sane(*scan, extract(*scan));
+    }
+}
+
+TEST(Extract, TheSameScanGivesTheSameBytesWhateverCameBefore)
+{
+    scene::extractor used;
+    scene::extractor fresh;
+    const auto scan = empty_scan();
+    for (unsigned seed = 0; seed < 5; seed++) {
+        see(*scan, box(-2, -1.3 - 0.1 * seed, 2, 1.7), 5, seed);
+        used(*scan);
+    }
+    const ale_features_t &a = used(*scan);
+    const ale_features_t &b = fresh(*scan);
+    ASSERT_EQ(a.line_count, b.line_count);
+    for (int k = 0; k < a.line_count; k++) {
+        EXPECT_EQ(a.line[k].alpha_bam, b.line[k].alpha_bam);
+        EXPECT_EQ(a.line[k].var_rho_um2, b.line[k].var_rho_um2);
+    }
+}
+
+TEST(Extract, AConfigurationOutOfRangeIsRefused)
+{
+    scene::extractor extract;
+    for (int field = 0; field < 5; field++) {
+        ale_extract_config_t config = ale_extract_default_config();
+        config.noise.own_um = field == 0 ? -1 : config.noise.own_um;
+        config.smooth_span = static_cast<uint16_t>(field == 1 ? 4 : config.smooth_span);
+        config.min_points = static_cast<uint16_t>(field == 2 ? 2 : config.min_points);
+        config.min_length_um = field == 3 ? -1 : config.min_length_um;
+        config.noise.shared_beams = field == 4 ? 0 : config.noise.shared_beams;
+        EXPECT_EQ(ale_extractor_init(extract.get(), &config), -1) << field;
+    }
+}
+
+} // namespace

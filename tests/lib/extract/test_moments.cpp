@@ -1,0 +1,156 @@
+// lib/extract/moments.c and line_fit.c against the twin in double.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "lib/extract/scene.h"
+#include "reference/total_least_squares.h"
+
+extern "C" {
+#include "extract/line_fit.h"
+#include "extract/moments.h"
+}
+
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+
+// Puts points (mm) into an extractor as its stages leave them.
+void load(ale_extractor_t *e, const std::vector<Eigen::Vector2d> &points_mm)
+{
+    e->count = static_cast<uint16_t>(points_mm.size());
+    for (size_t i = 0; i < points_mm.size(); i++) {
+        e->beam[i] = static_cast<uint16_t>(i);
+        e->x_q4[i] = static_cast<int32_t>(std::lround(points_mm[i].x() * 16));
+        e->y_q4[i] = static_cast<int32_t>(std::lround(points_mm[i].y() * 16));
+        e->range_um[i] = static_cast<int32_t>(std::lround(points_mm[i].norm() * 1000));
+        e->inverse_q44[i] = static_cast<int32_t>((int64_t{1} << 44) / e->range_um[i]);
+    }
+    e->noise = {};
+    e->noise.own_mm2_q36 = int64_t{25} << 36; // 5 mm
+    e->noise.own_scale_q8 = 256;
+    ale_moments_build(e);
+}
+
+std::vector<Eigen::Vector2d> grid_of(const ale_extractor_t *e, int first, int last)
+{
+    std::vector<Eigen::Vector2d> points;
+    for (int i = first; i <= last; i++) {
+        points.emplace_back(e->x_q4[i] / 16.0, e->y_q4[i] / 16.0);
+    }
+    return points;
+}
+
+std::vector<Eigen::Vector2d> noisy_wall(std::mt19937 &engine, int n, double reach_mm)
+{
+    std::uniform_real_distribution<double> angle(-pi, pi);
+    std::uniform_real_distribution<double> unit(0.05, 1.0);
+    std::normal_distribution<double> gauss(0, 5);
+    const double alpha = angle(engine);
+    const double rho = reach_mm * 0.5 * unit(engine);
+    const double from = -reach_mm * 0.4 * unit(engine);
+    const double length = reach_mm * 0.8 * unit(engine);
+    std::vector<Eigen::Vector2d> points;
+    for (int i = 0; i < n; i++) {
+        const double t = from + length * i / n;
+        const double r = rho + gauss(engine);
+        points.emplace_back(r * std::cos(alpha) - t * std::sin(alpha),
+                            r * std::sin(alpha) + t * std::cos(alpha));
+    }
+    return points;
+}
+
+TEST(Moments, SquaredResidualsOfAnyRunAgreeWithTheTwin)
+{
+    scene::extractor extractor;
+    std::mt19937 engine(1);
+    for (const double reach : {500.0, 5600.0, 30000.0, 80000.0}) {
+        for (int trial = 0; trial < 200; trial++) {
+            const int n = 5 + static_cast<int>(engine() % 600);
+            load(extractor.get(), noisy_wall(engine, n, reach));
+            const int first = static_cast<int>(engine() % static_cast<unsigned>(n - 4));
+            const int last = first + 3 + static_cast<int>(engine() % static_cast<unsigned>(n - first - 3));
+            const auto twin = reference::total_least_squares(grid_of(extractor.get(), first, last));
+            const ale_fit_t fit = ale_moments_fit(extractor.get(), first, last);
+            const double points = last + 1 - first;
+            // the scatter has 30 bits: its small eigenvalue is known to 2^-28 of the large one; one step of
+            // the iteration for it leaves the square of their ratio
+            const double bound = 0.02 * points + 4e-9 * twin.along2 + 1e-4 * twin.sse +
+                                 1.5 * twin.sse * std::pow(twin.sse / twin.along2, 2);
+            EXPECT_NEAR(static_cast<double>(fit.sse_q8) / 256, twin.sse, bound) << reach << " mm, " << points;
+            EXPECT_EQ(fit.sse_q8, ale_moments_sse_q8(extractor.get(), first, last));
+        }
+    }
+}
+
+TEST(Moments, ExpectedVarianceIsTheNoiseSeenAlongTheNormal)
+{
+    scene::extractor extractor;
+    std::mt19937 engine(2);
+    for (int trial = 0; trial < 200; trial++) {
+        load(extractor.get(), noisy_wall(engine, 200, 5600));
+        const auto points = grid_of(extractor.get(), 0, 199);
+        const auto twin = reference::total_least_squares(points);
+        double expected = 0;
+        for (const auto &p : points) {
+            expected += 25 * std::pow(twin.rho / p.norm(), 2) / 200;
+        }
+        const ale_fit_t fit = ale_moments_fit(extractor.get(), 0, 199);
+        EXPECT_NEAR(static_cast<double>(fit.var_q8) / 256, expected, 0.03 * expected + 0.1);
+    }
+}
+
+TEST(LineFit, NormalFormAgreesWithTheTwin)
+{
+    scene::extractor extractor;
+    std::mt19937 engine(3);
+    for (int trial = 0; trial < 500; trial++) {
+        const int n = 8 + static_cast<int>(engine() % 400);
+        load(extractor.get(), noisy_wall(engine, n, 5600));
+        const auto twin = reference::total_least_squares(grid_of(extractor.get(), 0, n - 1));
+        ale_line_t line;
+        ale_line_fit(extractor.get(), {0, static_cast<uint16_t>(n - 1), false}, &line);
+        const double alpha = line.alpha_bam * (2 * pi / 4294967296.0);
+        const double sigma_alpha = 5 / std::sqrt(twin.along2);
+        EXPECT_NEAR(std::remainder(alpha - twin.alpha, 2 * pi), 0, 0.01 * sigma_alpha + 1e-8);
+        EXPECT_NEAR(line.rho_um / 1000.0, twin.rho, 0.01 * sigma_alpha * std::fabs(twin.mean_along) + 0.01);
+        EXPECT_NEAR(line.rmse_um / 1000.0, std::sqrt(twin.sse / (n - 2)), 0.02);
+        EXPECT_GE(line.rho_um, 0);
+    }
+}
+
+TEST(LineFit, CovarianceIsThatOfIndependentNoiseAlongTheLine)
+{
+    scene::extractor extractor;
+    std::mt19937 engine(4);
+    load(extractor.get(), noisy_wall(engine, 150, 4000));
+    ale_line_t line;
+    ale_line_fit(extractor.get(), {0, 149, false}, &line);
+    const auto twin = reference::total_least_squares(grid_of(extractor.get(), 0, 149));
+    const double var = static_cast<double>(ale_moments_fit(extractor.get(), 0, 149).var_q8) / 256;
+    const double var_alpha = var / twin.along2;
+    EXPECT_NEAR(static_cast<double>(line.var_alpha_nrad2) / (var_alpha * 1e18), 1, 0.01);
+    EXPECT_NEAR(static_cast<double>(line.cov_alpha_rho) / (var_alpha * twin.mean_along * 1e12), 1, 0.01);
+    EXPECT_NEAR(static_cast<double>(line.var_rho_um2) / 1e6 /
+                    (var / 150 + var_alpha * std::pow(twin.mean_along, 2)),
+                1, 0.01);
+}
+
+TEST(LineFit, TheEndsLieOnTheLine)
+{
+    scene::extractor extractor;
+    std::mt19937 engine(5);
+    for (int trial = 0; trial < 100; trial++) {
+        load(extractor.get(), noisy_wall(engine, 60, 4000));
+        ale_line_t line;
+        ale_line_fit(extractor.get(), {0, 59, false}, &line);
+        const double alpha = line.alpha_bam * (2 * pi / 4294967296.0);
+        for (const ale_point_t p : {line.start, line.end}) {
+            EXPECT_NEAR(p.x_um * std::cos(alpha) + p.y_um * std::sin(alpha), line.rho_um, 3.0);
+        }
+    }
+}
+
+} // namespace
