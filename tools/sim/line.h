@@ -27,6 +27,12 @@ class Line
     {
         return !queue_.empty();
     }
+    /* No room for another frame: at a limited rate the device drops it as soon as one waits; otherwise only
+     * a client that has not read for long costs frames. */
+    bool full() const
+    {
+        return queue_.size() > (rate_ > 0 ? 0 : patience_bytes);
+    }
     void drop()
     {
         queue_.clear();
@@ -55,6 +61,7 @@ class Line
 
   private:
     static constexpr int64_t retry_us = 1000;
+    static constexpr size_t patience_bytes = 65536;
 
     size_t affordable(int64_t now_us) const
     {

@@ -1,7 +1,7 @@
 /* The device's side of a serial line: a pseudo terminal whose other end is reached by a stable link.
  *
  * As on a real line, bytes that are sent while nobody has the port open are gone. A client that is slow
- * finds what it missed cut off at whole frames (see busy()). */
+ * misses whole frames (see Line). */
 #ifndef ALE_SIM_PTY_H
 #define ALE_SIM_PTY_H
 

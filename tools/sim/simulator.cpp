@@ -90,7 +90,8 @@ void Simulator::play(int64_t now_us)
 void Simulator::play_turn(const Turn &turn, int64_t now_us)
 {
     tally_.scans++;
-    if (now_us < outage_until_us_ || line_.busy()) {
+    line_.pump(pty_, clock_.now_us(), clock_.host_us()); /* several turns may be due at once */
+    if (now_us < outage_until_us_ || line_.full()) {
         tally_.swallowed += device_.streaming() ? 1 : 0;
         return;
     }
