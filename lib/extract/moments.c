@@ -2,8 +2,8 @@
 
 #include "base/fixed.h"
 
-_Static_assert(2.0 * ALE_MAX_BEAMS * ALE_MAX_BEAMS * ALE_POINT_MAX_Q4 * ALE_POINT_MAX_Q4 < 9.2e18,
-               "centred moments of the largest scan must fit int64");
+_Static_assert(ALE_POINT_MAX_Q4 *ALE_POINT_MAX_Q4 <= INT64_MAX / 2 / ALE_MAX_BEAMS / ALE_MAX_BEAMS,
+               "twice the centred moments of the largest scan must fit int64");
 
 enum {
     MOST_RELATIVE_Q36 = 1 << 29, /* no error is believed to exceed 9 % of the range */
