@@ -263,7 +263,7 @@ def figure_thresholds(folder, bench):
         axes.plot(THRESHOLDS_MM, [row["fp_straight"] for row in rows], color=RED, label="false, static")
         axes.axhline(ale["tp"], color=GREEN, linestyle="--", label="found, libale")
         axes.axhline(ale["fp_straight"], color=RED, linestyle="--", label="false, libale")
-        axes.set(title=f"noise {noise}", xlabel="static threshold, mm", xscale="log", ylim=(0, 100))
+        axes.set(title=f"noise {noise}", xlabel="static threshold, mm", xscale="log", ylim=(0, 103))
         axes.set_xticks((2, 5, 10, 20, 40), labels=("2", "5", "10", "20", "40"))
         axes.minorticks_off()
         best = max(range(len(rows)), key=lambda k: rows[k]["tp"] - rows[k]["fp_straight"])
