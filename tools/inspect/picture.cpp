@@ -98,7 +98,7 @@ void draw_sensor(SvgDrawing &drawing, const View &view)
     const SvgPoint at = view(0, 0);
     drawing.line({at.x - 7, at.y}, {at.x + 7, at.y}, line_colour, 1.5);
     drawing.line({at.x, at.y - 7}, {at.x, at.y + 7}, line_colour, 1.5);
-    const SvgPoint corner{border + map_size - 10, head + map_size - 10};
+    const SvgPoint corner{border + map_size - 10, head + map_size + 16};
     drawing.line({corner.x - view.scale(), corner.y}, corner, line_colour, 3);
 }
 
