@@ -41,7 +41,10 @@ static void group_of(const char *url, char address[64])
 {
     const char *start = strstr(url, "://") + 3;
     const size_t length = strcspn(start, ":?/");
-    snprintf(address, 64, "%.*s", (int)(length < 63 ? length : 63), length ? start : DEFAULT_GROUP);
+    if (length == 0) {
+        start = DEFAULT_GROUP;
+    }
+    snprintf(address, 64, "%.*s", (int)strcspn(start, ":?/"), start);
 }
 
 /* LCM prints a page of advice when there is no way to the group; one line is said here instead. */
