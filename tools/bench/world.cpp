@@ -53,7 +53,7 @@ bool is_free(const World &world, const Point &p, double distance)
 Point free_place(const World &world, Random &random, double hx, double hy, double distance)
 {
     for (int attempt = 0; attempt < 200; attempt++) {
-        const Point p(random.uniform(-hx, hx), random.uniform(-hy, hy));
+        Point p(random.uniform(-hx, hx), random.uniform(-hy, hy));
         if (is_free(world, p, distance)) {
             return p;
         }
@@ -156,8 +156,8 @@ World bent_room(Random &random)
     const Room room = random_room(random, 3, 5.5);
     const std::vector<Point> corners = rectangle(Point::Zero(), 2 * room.hx, 2 * room.hy, 0);
     for (std::size_t k = 0; k < 4; k++) {
-        const Point a = corners[k];
-        const Point b = corners[(k + 1) % 4];
+        const Point &a = corners[k];
+        const Point &b = corners[(k + 1) % 4];
         const double along = random.uniform(0.35, 0.65);
         const double bend = radians(random.uniform(5, 30));
         // Deflection h at `along` of a length L turns the wall by h/(along L) + h/((1 - along) L).
@@ -241,8 +241,8 @@ World room_with_doors(Random &random)
     const Room room = random_room(random, 3, 4.5);
     const std::vector<Point> corners = rectangle(Point::Zero(), 2 * room.hx, 2 * room.hy, 0);
     for (std::size_t k = 0; k < 4; k++) {
-        const Point a = corners[k];
-        const Point b = corners[(k + 1) % 4];
+        const Point &a = corners[k];
+        const Point &b = corners[(k + 1) % 4];
         const double length = (b - a).norm();
         const double at = random.uniform(0.5, length - 1.5);
         const Point u = (b - a) / length;

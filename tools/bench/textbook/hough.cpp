@@ -29,7 +29,7 @@ class Accumulator
             const double rho = normals[static_cast<std::size_t>(a)].dot(p);
             const int c = static_cast<int>((rho + farthest) / cell);
             if (c >= 0 && c < cells) {
-                votes[static_cast<std::size_t>(a * cells + c)] += weight;
+                votes[static_cast<std::size_t>(a) * cells + static_cast<std::size_t>(c)] += weight;
             }
         }
     }
@@ -41,7 +41,8 @@ class Accumulator
                 best = k;
             }
         }
-        line.alpha = pi * static_cast<double>(best / cells) / angles;
+        const std::size_t angle = best / cells;
+        line.alpha = pi * static_cast<double>(angle) / angles;
         line.rho = (static_cast<double>(best % cells) + 0.5) * cell - farthest;
         return votes[best];
     }
