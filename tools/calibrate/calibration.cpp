@@ -57,11 +57,17 @@ ale_noise_t noise_of(const TemporalFit &temporal, const LastingFit &lasting, boo
     return noise;
 }
 
-std::string formatted(const char *format, double a, double b = 0, double c = 0)
+std::string one_digit(double value)
 {
-    char text[160];
-    std::snprintf(text, sizeof text, format, a, b, c);
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f", value);
     return text;
+}
+
+std::string shared_at_reference(double constant, double relative, double length)
+{
+    const double variance = constant + relative * reference_range * reference_range;
+    return one_digit(1e3 * std::sqrt(variance)) + " mm over " + one_digit(length) + " beams";
 }
 
 } // namespace
@@ -86,19 +92,18 @@ std::string ini_fragment(const Calibration &c, const std::string &source)
     const auto entry = [](const char *key, int32_t value) {
         return std::string(key) + " = " + std::to_string(value) + "\n";
     };
-    const double square = reference_range * reference_range;
+    const TemporalFit &changing = c.temporal;
+    const LastingFit &steady = c.lasting;
     std::string text = "; fitted by ale-calibrate to " + source + ", " + std::to_string(c.scans) + " scans\n";
-    text += formatted("; at 2 m neighbours share %.1f mm that change from scan to scan, over %.1f beams\n",
-                      1e3 * std::sqrt(c.temporal.shared + c.temporal.shared_relative * square),
-                      c.temporal.length);
-    text +=
-        formatted("; and %.1f mm that last, over %.1f beams\n",
-                  1e3 * std::sqrt(c.lasting.shared + c.lasting.shared_relative * square), c.lasting.length);
-    text += formatted("; mixed pixels at %.1f %% of the scans of %.0f depth edges\n", 100 * c.mixed.share,
-                      c.mixed.edges);
-    text += c.surface_known ? formatted("; surface_um: from the biases of %.0f walls\n",
-                                        static_cast<double>(c.lasting.walls.size()))
-                            : "; surface_um: too few walls seen under a wide angle, the default is kept\n";
+    text += "; neighbours share, at 2 m: " +
+            shared_at_reference(changing.shared, changing.shared_relative, changing.length) +
+            " that change from scan to scan, and " +
+            shared_at_reference(steady.shared, steady.shared_relative, steady.length) + " that last\n";
+    text += "; mixed pixels in " + one_digit(100 * c.mixed.share) + " % of the scans of " +
+            std::to_string(c.mixed.edges) + " depth edges\n";
+    text += c.surface_known
+                ? "; surface_um: from the biases of " + std::to_string(steady.walls.size()) + " walls\n"
+                : "; surface_um: too few walls seen under a wide angle, the default is kept\n";
     text += "[noise]\n";
     text += entry("own_um", c.noise.own_um) + entry("own_ppm", c.noise.own_ppm);
     text += entry("shared_um", c.noise.shared_um) + entry("shared_ppm", c.noise.shared_ppm);
