@@ -101,7 +101,7 @@ int64_t ale_mul_div(int64_t a, int64_t b, int64_t c)
     if (p.high >= divisor) {
         return signed_saturated(UINT64_MAX, negative);
     }
-    const unsigned shift = 64 - ale_bit_length(divisor);
+    const unsigned shift = (64 - ale_bit_length(divisor)) & 63u;
     const uint64_t low = p.low << shift;
     uint64_t high = shift > 0 ? (p.high << shift) | (p.low >> (64 - shift)) : p.high;
     const uint64_t upper = quotient_digit(&high, low >> 32, divisor << shift);

@@ -22,8 +22,8 @@ static ale_fit_t fit_between(const ale_extractor_t *e, int32_t a, int32_t b)
  * error, of which n points have only one draw for every 2 * shared_beams of them. */
 static int64_t allowed_q8(const ale_extractor_t *e, const ale_fit_t *fit, int32_t n, int64_t chi_q8)
 {
-    const int64_t together = ale_min64(n, 2 * e->config.noise.shared_beams);
-    const int64_t shared = fit->shared_q8 * (SHARED_SHARE * n + SHARED_PEAK * together);
+    const int64_t together = ale_min64(n, (int64_t)2 * e->config.noise.shared_beams);
+    const int64_t shared = fit->shared_q8 * ((int64_t)SHARED_SHARE * n + SHARED_PEAK * together);
     return ((fit->var_q8 * chi_q8) >> 8) + shared;
 }
 
@@ -31,7 +31,7 @@ static int64_t allowed_q8(const ale_extractor_t *e, const ale_fit_t *fit, int32_
  * bounds that the noise model sets. */
 static int64_t floating_chi_q8(const ale_extractor_t *e, const ale_fit_t *accepted, int32_t n)
 {
-    const int64_t expected_q8 = ale_max64(2 * e->chi_high_q8[accepted->n], 1);
+    const int64_t expected_q8 = ale_max64((int64_t)2 * e->chi_high_q8[accepted->n], 1);
     const int64_t scaled_q8 = ale_fit_chi_q8(accepted) * 3 * e->chi_high_q8[n] / expected_q8;
     return ale_clamp64(scaled_q8, e->chi_low_q8[n], e->chi_high_q8[n]);
 }

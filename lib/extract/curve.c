@@ -47,8 +47,8 @@ static shape_t shape_of(const ale_extractor_t *e, ale_run_t run)
     const int64_t dx = (b.x_q8 - a.x_q8) / 16;
     const int64_t dy = (b.y_q8 - a.y_q8) / 16;
     const int64_t cross_q12 = dx * (m.y_q8 - a.y_q8) - dy * (m.x_q8 - a.x_q8);
-    const int64_t var_q8 =
-        fit.var_q8 / (n - 2 * third) + fit.var_q8 / (2 * third) + ((fit.shared_q8 * SHARED_PART_Q8) >> 8);
+    const int64_t var_q8 = fit.var_q8 / (n - (int64_t)2 * third) + fit.var_q8 / ((int64_t)2 * third) +
+                           ((fit.shared_q8 * SHARED_PART_Q8) >> 8);
     const int64_t length2_mm2 = (dx * dx + dy * dy) >> (2 * ALE_POINT_SHIFT);
     const int64_t sigma_length_q4 = ale_max64(ale_isqrt((uint64_t)(ale_max64(var_q8, 1) * length2_mm2)), 1);
     const shape_t shape = {dx, dy, cross_q12 / sigma_length_q4};
@@ -89,7 +89,7 @@ static int64_t circle_excess_q8(const ale_extractor_t *e, int32_t first, int32_t
 
 static bool chain_is_curve(const ale_extractor_t *e, int32_t first, int32_t last)
 {
-    return circle_excess_q8(e, first, last) <= CHAIN_ALLOWANCE_Q8 * (last - first - 1);
+    return circle_excess_q8(e, first, last) <= (int64_t)CHAIN_ALLOWANCE_Q8 * (last - first - 1);
 }
 
 /* One run: curved when a circle explains it better than its two best lines. */

@@ -35,7 +35,7 @@ static ale_point_t end_on_line(const ale_extractor_t *e, int32_t i, const ale_li
 static void set_covariance(const ale_extractor_t *e, const ale_spread_t *m, ale_line_t *line,
                            int64_t mean_along_um)
 {
-    const int64_t repeats = ale_min64(line->points, 2 * e->config.noise.shared_beams);
+    const int64_t repeats = ale_min64(line->points, (int64_t)2 * e->config.noise.shared_beams);
     const int64_t var_q8 = m->fit.var_q8 + m->fit.shared_q8 * repeats;
     const int64_t var_um2 = um2_of_q8(var_q8);
     const int64_t along2_q8 = ale_max64(m->along2_q8, 1);

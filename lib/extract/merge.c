@@ -17,7 +17,7 @@ int64_t ale_merge_ratio_q8(const ale_extractor_t *e, ale_run_t a, ale_run_t b)
                                                         (fit_a.n + fit_b.n));
     const bool one_surface = ale_segment_joins(e, a.last, b.first);
     const int64_t together =
-        one_surface ? SHARED_PEAK * ale_min64(one.n, 2 * e->config.noise.shared_beams) : 0;
+        one_surface ? SHARED_PEAK * ale_min64(one.n, (int64_t)2 * e->config.noise.shared_beams) : 0;
     const int64_t gain = one.sse_q8 - fit_a.sse_q8 - fit_b.sse_q8;
     return gain * 256 / (PENALTY * var + shared * (one.n + together));
 }

@@ -143,6 +143,8 @@ void ale_scan_noise_measure(ale_extractor_t *e, const ale_scan_t *scan)
  * SHARED_GAIN_Q8 shared ones. */
 enum {
     BLOCK = 8,
+    TWO_BLOCKS = 16,
+    THREE_BLOCKS = 24,
     STRIDE = 3, /* from one window of three blocks to the next */
     SHARED_GAIN_Q8 = 299,
     MIN_BLOCKS = 20,
@@ -157,9 +159,9 @@ enum {
 static int64_t block_ratio_q8(const ale_extractor_t *e, int32_t start, int64_t curvature_q30)
 {
     const int64_t *p = &e->inverse_sum[start];
-    const int64_t middle = p[2 * BLOCK] - p[BLOCK];
-    const int64_t d = p[3 * BLOCK] - p[0] - 3 * middle + ale_round_shift(middle * curvature_q30, 30);
-    const int64_t range_um = e->range_um[start + 3 * BLOCK / 2];
+    const int64_t middle = p[TWO_BLOCKS] - p[BLOCK];
+    const int64_t d = p[THREE_BLOCKS] - p[0] - 3 * middle + ale_round_shift(middle * curvature_q30, 30);
+    const int64_t range_um = e->range_um[start + THREE_BLOCKS / 2];
     const int64_t d_um = d * range_um / middle;
     const int64_t range_mm = range_um / 1000;
     const int64_t own_q20 = (e->noise.own_mm2_q36 + e->noise.own_relative_q36 * range_mm * range_mm) >> 16;
@@ -169,7 +171,7 @@ static int64_t block_ratio_q8(const ale_extractor_t *e, int32_t start, int64_t c
 static void count_block(const ale_extractor_t *e, int32_t start, int64_t curvature_q30, uint16_t *bins,
                         int32_t *samples, int64_t *range_mm)
 {
-    if (e->beam[start + 3 * BLOCK - 1] - e->beam[start] == 3 * BLOCK - 1) {
+    if (e->beam[start + THREE_BLOCKS - 1] - e->beam[start] == THREE_BLOCKS - 1) {
         const uint32_t bin = ale_histogram_bin((uint64_t)block_ratio_q8(e, start, curvature_q30));
         bins[bin]++;
         *range_mm += e->range_um[start] / 1000;
@@ -189,7 +191,7 @@ static int64_t shared_scale_q8(const ale_extractor_t *e, const uint16_t *bins, i
     if (ratio_q8 <= RATIO_Q8) {
         return 256;
     }
-    const int64_t excess_q8 = (ratio_q8 - 256) * 6 * 256 / (BLOCK * SHARED_GAIN_Q8);
+    const int64_t excess_q8 = (ratio_q8 - 256) * 6 * 256 / ((int64_t)BLOCK * SHARED_GAIN_Q8);
     return ale_clamp64(excess_q8 * own_q20 / ale_max64(model_q20, 1), SHARED_LEAST_Q8, SHARED_MOST_Q8);
 }
 
@@ -217,7 +219,7 @@ bool ale_scan_noise_measure_shared(ale_extractor_t *e, const ale_scan_t *scan)
 
 void ale_scan_noise_refine_own(ale_extractor_t *e)
 {
-    int64_t chi_q8 = OWN_PRIOR_POINTS * 256;
+    int64_t chi_q8 = (int64_t)OWN_PRIOR_POINTS * 256;
     int64_t freedom = OWN_PRIOR_POINTS;
     for (int32_t k = 0; k < e->run_count; k++) {
         const ale_fit_t fit = ale_moments_fit(e, e->run[k].first, e->run[k].last);
