@@ -79,7 +79,7 @@ int64_t ale_mul_shift(int64_t a, int64_t b, unsigned shift)
  * bit set); *high becomes the remainder. Knuth, volume 2, 4.3.1, algorithm D: at most two corrections. */
 static uint64_t quotient_digit(uint64_t *high, uint64_t low, uint64_t divisor)
 {
-    const uint64_t top = divisor >> 32;
+    const uint64_t top = (divisor >> 32) | 0x80000000u; /* the bit is set: nothing here divides by zero */
     const uint64_t bottom = divisor & UINT32_MAX;
     uint64_t digit = *high / top;
     uint64_t rest = *high - digit * top;

@@ -108,7 +108,7 @@ static void first_pass(const ale_lowess_config_t *config, const uint16_t *beam, 
         for (int32_t k = 1; k <= half; k++) {
             total += weight_q8[k] * ((int64_t)value[i - k] + value[i + k] - 2 * (int64_t)value[i]);
         }
-        smooth[i] = (int32_t)(value[i] + ale_round_div(total, sum));
+        smooth[i] = (int32_t)(value[i] + ale_round_div(total, ale_max64(sum, 1)));
     }
 }
 
