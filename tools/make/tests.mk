@@ -20,8 +20,11 @@ $(BUILD)/libale_tool_parts.a: $(call objects,$(TOOL_PARTS))
 $(BUILD)/libale_test_shared.a: $(call objects,$(TEST_SHARED_SOURCES))
 	$(archive)
 
+TEST_ARCHIVES = $(if $(TEST_SHARED_SOURCES),$(BUILD)/libale_test_shared.a) $(FIRMWARE_ARCHIVES)
 .PRECIOUS: $(OBJ)/tests/%.cpp.o
-$(BUILD)/tests/%: $(OBJ)/tests/%.cpp.o $(if $(TEST_SHARED_SOURCES),$(BUILD)/libale_test_shared.a) $(if $(strip $(TOOL_PARTS)),$(BUILD)/libale_tool_parts.a) $(ARCHIVES)
+$(BUILD)/tests/tools/%: $(OBJ)/tests/tools/%.cpp.o $(BUILD)/libale_tool_parts.a $(BUILD)/libale_export.a $(TEST_ARCHIVES)
+	$(call link,-lgtest_main -lgtest)
+$(BUILD)/tests/%: $(OBJ)/tests/%.cpp.o $(TEST_ARCHIVES)
 	$(call link,-lgtest_main -lgtest)
 
 .PHONY: unit unit-programs system venv
@@ -76,32 +79,35 @@ lint: ## clang-format, cppcheck and clang-tidy
 	@$(PYTHON) tools/make/run_tests.py command clang-tidy tools/make/tidy.sh $(BUILD) $(LIB_SOURCES) $(DRIVER_SOURCES) $(FIRMWARE_SOURCES) $(wildcard firmware/main.c) $(filter %.c %.cpp,$(wildcard tools/*/*.c tools/*/*.cpp))
 
 # The whole of it, as continuous integration runs it. Each part counts its tests; the sum is the last line.
-SHORT_FUZZ_SECONDS ?= 10
+SHORT_FUZZ_SECONDS ?= 5
 export ALE_RESULTS ?= $(ALE_BUILD)/test-results.txt
 SUB = $(MAKE) --no-print-directory -s
+CHECKED = $(SUB) BUILD=$(BUILD)/asan SANITIZE=address,undefined OPT=-O1
+THREADED = $(SUB) BUILD=$(BUILD)/tsan SANITIZE=thread OPT=-O1 T=tests/firmware
 .PHONY: test test-all
 test: deps-test ## all tests on this machine; the last line counts them
 	@$(PYTHON) tools/make/run_tests.py begin
-	@$(SUB) -j2 all unit-programs venv
+	@echo "== build"
+	@$(SUB) -j2 all venv
 	@echo "== unit and property tests, address and undefined-behaviour sanitizers"
-	@$(SUB) -j2 BUILD=$(BUILD)/asan SANITIZE=address,undefined OPT=-O1 unit-programs
-	-@$(SUB) BUILD=$(BUILD)/asan SANITIZE=address,undefined OPT=-O1 unit
+	@$(CHECKED) -j2 unit-programs
+	-@$(CHECKED) unit
 	@echo "== thread sanitizer"
-	@$(SUB) -j2 BUILD=$(BUILD)/tsan SANITIZE=thread OPT=-O1 T=firmware unit-programs programs
-	-@$(SUB) BUILD=$(BUILD)/tsan SANITIZE=thread OPT=-O1 T=firmware unit
+	@$(THREADED) -j2 unit-programs
+	-@$(THREADED) unit
 	@echo "== the real programs over pseudo terminals and LCM"
 	-@$(SUB) system
 	@echo "== fuzzers"
 	@$(SUB) -j2 fuzz-programs
 	-@$(PYTHON) tools/make/run_tests.py fuzz --seconds $(SHORT_FUZZ_SECONDS) $(FUZZ_PROGRAMS)
-	@echo "== the same bytes from other compilers"
+	@echo "== the same bytes from another compiler and level"
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes" $(SUB) same-bytes
-	@echo "== lint"
-	-@$(SUB) lint
 	@$(PYTHON) tools/make/run_tests.py sum
 
 # After `make test` in the same build folder (AFTER_TEST=1) only the rest runs, and the sum is of both.
-test-all: ## make test, and the same bytes from every compiler and level
+test-all: ## make test, lint, and the same bytes from every compiler and level
 	$(if $(AFTER_TEST),,@$(SUB) test)
+	@echo "== lint"
+	-@$(SUB) lint
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, all" $(SUB) same-bytes SAME_BYTES_BUILDS="gcc:-O0 gcc:-O3 clang:-O0 clang:-O3"
 	@$(PYTHON) tools/make/run_tests.py sum
