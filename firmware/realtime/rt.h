@@ -55,7 +55,7 @@ typedef struct {
 
 /* Starts a task with its stack (ALE_RT_STACK_BYTES) touched; all signals are blocked in it. Without the right
  * to a priority it starts without one. NULL: the system has no more threads. */
-enum { ALE_RT_STACK_BYTES = 256 * 1024 };
+enum { ALE_RT_STACK_BYTES = 1024 * 1024 };
 ale_rt_task_t *ale_rt_task_start(const ale_rt_task_config_t *config);
 void ale_rt_task_stop(ale_rt_task_t *task); /* asks; any thread */
 bool ale_rt_task_stopping(const ale_rt_task_t *self);

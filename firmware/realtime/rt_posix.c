@@ -19,10 +19,11 @@
 
 #define NS_PER_S 1000000000
 
-enum { LIBRARY_STACK_BYTES = 1024 * 1024 };
+enum { LIBRARY_STACK_BYTES = 1024 * 1024, GUARD_BYTES = 65536 }; /* a page or more, whatever its size */
 
 struct ale_rt_task {
     pthread_t thread;
+    uint8_t *stack; /* with its guard page */
     ale_rt_task_config_t config;
     atomic_bool stopping;
 };
@@ -132,27 +133,31 @@ void ale_rt_report(ale_rt_report_t *report)
     snprintf(report->text, sizeof report->text, "%s%s%s", got, missing[0] ? "; missing: " : "", missing);
 }
 
-/* Touches the stack, so that its pages are there before the first release. */
-static void touch_stack(void)
-{
-    enum { MARGIN = 32 * 1024 };
-    uint8_t stack[ALE_RT_STACK_BYTES - MARGIN];
-    explicit_bzero(stack, sizeof stack);
-}
-
 static void *run_task(void *user)
 {
     ale_rt_task_t *task = user;
-    touch_stack();
     task->config.body(task, task->config.user);
     return NULL;
+}
+
+/* A stack whose pages are all there before the first release, above a page that no overflow can pass. */
+static uint8_t *make_stack(void)
+{
+    uint8_t *memory = mmap(NULL, GUARD_BYTES + ALE_RT_STACK_BYTES, PROT_READ | PROT_WRITE,
+                           MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);
+    if (memory == MAP_FAILED) {
+        return NULL;
+    }
+    mprotect(memory, GUARD_BYTES, PROT_NONE);
+    memset(memory + GUARD_BYTES, 0, ALE_RT_STACK_BYTES);
+    return memory;
 }
 
 static int create_thread(ale_rt_task_t *task, int priority)
 {
     pthread_attr_t attributes;
     pthread_attr_init(&attributes);
-    pthread_attr_setstacksize(&attributes, ALE_RT_STACK_BYTES);
+    pthread_attr_setstack(&attributes, task->stack + GUARD_BYTES, ALE_RT_STACK_BYTES);
     if (priority > 0) {
         const struct sched_param parameter = {.sched_priority = priority};
         pthread_attr_setinheritsched(&attributes, PTHREAD_EXPLICIT_SCHED);
@@ -162,6 +167,14 @@ static int create_thread(ale_rt_task_t *task, int priority)
     const int result = pthread_create(&task->thread, &attributes, run_task, task);
     pthread_attr_destroy(&attributes);
     return result;
+}
+
+static void free_task(ale_rt_task_t *task)
+{
+    if (task->stack) {
+        munmap(task->stack, GUARD_BYTES + ALE_RT_STACK_BYTES);
+    }
+    free(task);
 }
 
 /* With its priority if that is allowed, else without. */
@@ -198,10 +211,11 @@ ale_rt_task_t *ale_rt_task_start(const ale_rt_task_config_t *config)
     sigset_t before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
-    const int result = create_with_priority(task);
+    task->stack = make_stack();
+    const int result = task->stack ? create_with_priority(task) : ENOMEM;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     if (result != 0) {
-        free(task);
+        free_task(task);
         return NULL;
     }
     pthread_setname_np(task->thread, config->name);
@@ -225,7 +239,7 @@ void ale_rt_task_join(ale_rt_task_t *task)
 {
     if (task) {
         pthread_join(task->thread, NULL);
-        free(task);
+        free_task(task);
     }
 }
 
