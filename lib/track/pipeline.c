@@ -224,6 +224,7 @@ static void track(ale_pipeline_t *p, const ale_motion_t *before, const ale_motio
     ale_liveliness_learn(&p->liveliness[wheels != NULL], predicted, &p->motion);
     teach_wheels(p, before, wheels);
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);
+    ale_tracker_notice(&p->tracker, &p->fit);
     take_in(p, ale_tracker_may_map(&p->tracker, &p->fit));
     ale_local_map_approach(&p->map, (ale_point_t){p->motion.pose.x_um, p->motion.pose.y_um},
                            p->scan.range_max_um);

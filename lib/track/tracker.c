@@ -4,8 +4,11 @@
 
 enum {
     MISFITS_UNTIL_LOST = 8,
-    THROUGH_LEAST = 3,    /* walls seen through that make a contradiction, if they also are */
-    THROUGH_TO_FOUND = 2, /* so many times those that are where they should be */
+    THROUGH_LEAST = 3,       /* walls seen through that make a contradiction, if they also are */
+    THROUGH_TO_FOUND = 2,    /* so many times those that are where they should be */
+    JUMP_SHOWN_UM = 1500000, /* walls and pieces a scan must show before a jump is called one */
+    JUMP_FROM_Q8 = 128,      /* found in the map: from half of what is shown .. */
+    JUMP_TO_Q8 = 77,         /* .. to less than 30 % from one scan to the next */
     BELIEVE_SHOWN_UM = 2500000,
     BELIEVE_WALLS = 4,
     BELIEVE_PERCENT = 70,
@@ -42,9 +45,22 @@ static bool contradicts(const ale_fit_t *fit, const ale_sights_t *sights)
     return sights->through >= THROUGH_LEAST && sights->through > THROUGH_TO_FOUND * found;
 }
 
+void ale_tracker_notice(ale_tracker_t *tracker, const ale_fit_t *fit)
+{
+    tracker->jumped = false;
+    if (fit->shown_um < JUMP_SHOWN_UM) {
+        return;
+    }
+    const int32_t found_q8 = (int32_t)(fit->matched_um * 256 / fit->shown_um);
+    tracker->jumped = tracker->usual_q8 >= JUMP_FROM_Q8 && found_q8 < JUMP_TO_Q8;
+    if (!tracker->jumped) {
+        tracker->usual_q8 += (found_q8 - tracker->usual_q8) / 4;
+    }
+}
+
 ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit, const ale_sights_t *sights)
 {
-    if (contradicts(fit, sights)) {
+    if (tracker->jumped || contradicts(fit, sights)) {
         tracker->misfits++;
     } else if (tracker->misfits > 0) {
         tracker->misfits--;
@@ -82,7 +98,7 @@ ale_state_t ale_tracker_skip(ale_tracker_t *tracker, const ale_motion_t *predict
 
 bool ale_tracker_may_map(const ale_tracker_t *tracker, const ale_fit_t *fit)
 {
-    return tracker->state != ALE_STATE_LOST && tracker->misfits == 0 &&
+    return tracker->state != ALE_STATE_LOST && tracker->misfits == 0 && !tracker->jumped &&
            position_var(&fit->motion) < square(MAP_SIGMA_UM) &&
            fit->motion.cov.m[2][2] < square(MAP_SIGMA_URAD);
 }

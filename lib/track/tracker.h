@@ -2,8 +2,9 @@
  *
  * Good: the scan fits the map and, with the prediction, determines every direction. Weak: part of the pose
  * rests on the prediction (a corridor, a hall out of reach). Lost: scan after scan looks through walls that
- * should be there, or nothing has held the pose for so long that it may be anywhere. A place that is merely
- * new is not a reason. Constant time. */
+ * should be there, or all at once shows nothing of the map any more, or nothing has held the pose for so long
+ * that it may be anywhere. A new place comes into view little by little: that is not a reason. Constant time.
+ */
 #ifndef ALE_TRACK_TRACKER_H
 #define ALE_TRACK_TRACKER_H
 
@@ -17,10 +18,15 @@
 typedef struct {
     ale_state_t state;
     uint16_t misfits; /* scans in a row that showed walls, but not those of the map */
+    bool jumped;      /* in this scan */
+    int32_t usual_q8; /* part of what is shown that is found in the map, as it was lately */
     uint16_t blind;   /* scans in a row that showed nothing */
 } ale_tracker_t;
 
 void ale_tracker_init(ale_tracker_t *tracker);
+
+/* Notices whether the scene has changed all at once; before the scan goes into the map. */
+void ale_tracker_notice(ale_tracker_t *tracker, const ale_fit_t *fit);
 
 /* Judges a fitted scan and what it says of the walls that were not matched; returns the new state. */
 ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit, const ale_sights_t *sights);

@@ -1,0 +1,291 @@
+// lib/track/pipeline.c: a whole drive in a made room, with every kind of mishap.
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "room.h"
+
+namespace
+{
+struct Result {
+    double worst_m = 0;
+    double worst_rad = 0;
+    double nees = 0;
+    double longest_step_m = 0;
+    ale_estimate_t last = {};
+    std::vector<ale_estimate_t> all;
+};
+
+struct Drive {
+    bool odometry = true;
+    double lag_s = 0;
+    double scale = 1;
+    double noise = 0.004;
+    int scans = 250;
+    room::Sensor sensor;
+    bool mirrored = false;
+};
+
+Result run(const Drive &d)
+{
+    std::mt19937 rng(11);
+    std::normal_distribution<double> normal;
+    std::vector<room::Wall> walls = room::l_shape();
+    auto path = [&](double t) {
+        const reference::Pose p = room::path(t);
+        return d.mirrored ? reference::Pose(p[0], -p[1], -p[2]) : p;
+    };
+    if (d.mirrored) {
+        for (room::Wall &w : walls) {
+            w = {w.x1, -w.y1, w.x2, -w.y2};
+        }
+    }
+    room::Sensor sensor = d.sensor;
+    sensor.noise = d.noise;
+    ale_pipeline_config_t config = ale_pipeline_default_config();
+    config.sensor = convert::pose(sensor.mounting);
+    config.use_odometry = d.odometry;
+    const room::Pipeline p = room::make(config);
+    Result r;
+    reference::Pose wheels(0, 0, 0);
+    for (int k = 0; k < d.scans; k++) {
+        const double t = 1 + 0.1 * k;
+        reference::Pose step = room::since_start(path(t + d.lag_s - 0.1), path(t + d.lag_s));
+        step.head<2>() *= d.scale;
+        step[2] += 0.004 * normal(rng);
+        wheels = reference::compose(wheels, step);
+        const ale_odometry_t sample = {std::llround(t * 1e6), convert::pose(wheels)};
+        ale_pipeline_odometry(p.get(), &sample);
+        const ale_scan_t scan = room::scan_at(walls, sensor, path, t, rng);
+        const ale_pose_t before = r.last.smooth;
+        ale_pipeline_scan(p.get(), &scan, &r.last);
+        r.all.push_back(r.last);
+        const reference::Pose truth = room::since_start(path(1), path(t));
+        const reference::Pose got = convert::pose(r.last.map);
+        const double heading = reference::wrap(got[2] - truth[2]);
+        r.worst_m = std::max(r.worst_m, (got - truth).head<2>().norm());
+        r.worst_rad = std::max(r.worst_rad, std::abs(heading));
+        if (k > 0) {
+            const reference::Pose way =
+                room::since_start(convert::pose(before), convert::pose(r.last.smooth));
+            r.longest_step_m = std::max(r.longest_step_m, way.head<2>().norm());
+            Eigen::Matrix3d cov;
+            for (int i = 0; i < 9; i++) {
+                const double unit = (i / 3 == 2 ? 1e-9 : 1e-6) * (i % 3 == 2 ? 1e-9 : 1e-6);
+                cov(i / 3, i % 3) = static_cast<double>(r.last.cov[i]) * unit;
+            }
+            const Eigen::Vector3d e(got[0] - truth[0], got[1] - truth[1], heading);
+            r.nees += e.dot(cov.ldlt().solve(e)) / (d.scans - 1);
+        }
+    }
+    return r;
+}
+} // namespace
+
+TEST(Pipeline, FollowsTheRobotWithinACentimetreWithAndWithoutOdometry)
+{
+    for (bool odometry : {true, false}) {
+        Drive d;
+        d.odometry = odometry;
+        const Result r = run(d);
+        EXPECT_LT(r.worst_m, 0.010) << odometry;
+        EXPECT_LT(r.worst_rad, 0.005) << odometry;
+        EXPECT_LT(r.nees, 9) << odometry;
+        EXPECT_EQ(r.last.state, ALE_STATE_GOOD);
+        EXPECT_LT(r.longest_step_m, 0.08);
+    }
+}
+
+TEST(Pipeline, FindsTheLagAndTheScaleOfTheWheels)
+{
+    Drive d;
+    d.lag_s = 0.13;
+    d.scale = 1.06;
+    const Result r = run(d);
+    EXPECT_NEAR(r.last.lag_us, 130000, 12000);
+    EXPECT_LT(r.worst_m, 0.015);
+}
+
+TEST(Pipeline, TakesASensorThatIsMountedAheadAndTurned)
+{
+    Drive d;
+    d.sensor.mounting = {0.15, -0.05, 0.6};
+    const Result r = run(d);
+    EXPECT_LT(r.worst_m, 0.012);
+}
+
+TEST(Pipeline, TakesWholeScansOfFewBeams)
+{
+    Drive d;
+    d.sensor.beams = 361;
+    d.sensor.first = -reference::pi / 2;
+    d.sensor.step = reference::pi / 360;
+    d.sensor.beam_time_ns = 0;
+    const Result r = run(d);
+    EXPECT_LT(r.worst_m, 0.02);
+}
+
+TEST(Pipeline, AMirroredWorldIsFollowedAsWell)
+{
+    Drive d;
+    d.mirrored = true;
+    EXPECT_LT(run(d).worst_m, 0.010);
+}
+
+TEST(Pipeline, TheSameCallsGiveTheSameBytes)
+{
+    Drive d;
+    d.scans = 60;
+    const Result a = run(d);
+    const Result b = run(d);
+    for (size_t k = 0; k < a.all.size(); k++) {
+        ASSERT_EQ(std::memcmp(&a.all[k], &b.all[k], sizeof a.all[k]), 0) << k;
+    }
+}
+
+TEST(Pipeline, AnswersEveryScanAlsoDroppedAndEmptyOnes)
+{
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    std::mt19937 rng(1);
+    ale_estimate_t e;
+    ale_pipeline_dropped(p.get(), 900000, &e);
+    EXPECT_TRUE(e.predicted);
+    EXPECT_EQ(e.scan, 0u);
+    ale_scan_t nothing = {};
+    nothing.stamp_us = 950000;
+    ale_pipeline_scan(p.get(), &nothing, &e);
+    EXPECT_EQ(e.scan, 1u);
+    for (int k = 0; k < 40; k++) {
+        const double t = 1 + 0.1 * k;
+        const ale_scan_t scan = room::scan_at(room::l_shape(), room::Sensor(), room::path, t, rng);
+        if (k % 4 == 3) {
+            ale_pipeline_dropped(p.get(), scan.stamp_us, &e);
+        } else {
+            ale_pipeline_scan(p.get(), &scan, &e);
+        }
+        EXPECT_EQ(e.scan, static_cast<uint32_t>(k) + 2);
+        EXPECT_EQ(e.predicted, k % 4 == 3);
+        EXPECT_EQ(e.stamp_us, scan.stamp_us);
+    }
+    const reference::Pose truth = room::since_start(room::path(1), room::path(4.8));
+    EXPECT_NEAR(convert::pose(e.map)[0], truth[0], 0.08);
+}
+
+TEST(Pipeline, WithoutScansTheCovarianceGrowsAndTheStateSaysSo)
+{
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    std::mt19937 rng(1);
+    ale_estimate_t e;
+    ale_scan_t scan = room::scan_at(room::l_shape(), room::Sensor(), room::path, 1, rng);
+    ale_pipeline_scan(p.get(), &scan, &e);
+    int64_t before = e.cov[0];
+    for (int k = 1; k < 200; k++) {
+        ale_pipeline_dropped(p.get(), 1000000 + 100000 * k, &e);
+        EXPECT_GE(e.cov[0] + 1000, before) << k;
+        before = e.cov[0];
+    }
+    EXPECT_EQ(e.state, ALE_STATE_LOST);
+}
+
+TEST(Pipeline, CarriedAwayItSaysLostAndFindsItselfInTheMap)
+{
+    ale_pipeline_config_t config = ale_pipeline_default_config();
+    config.use_odometry = false;
+    const room::Pipeline p = room::make(config);
+    std::mt19937 rng(5);
+    room::Sensor sensor;
+    sensor.noise = 0.003;
+    ale_estimate_t e;
+    double t = 1;
+    for (int k = 0; k < 180; k++, t += 0.1) {
+        const ale_scan_t scan = room::scan_at(room::l_shape(), sensor, room::path, t, rng);
+        ale_pipeline_scan(p.get(), &scan, &e);
+    }
+    const reference::Pose there = reference::compose(room::path(t), {0.9, -0.7, 2.2});
+    auto standing = [&](double) { return there; };
+    bool lost = false;
+    double longest = 0;
+    for (int k = 0; k < 120; k++, t += 0.1) {
+        const ale_scan_t scan = room::scan_at(room::l_shape(), sensor, standing, t, rng);
+        const ale_pose_t before = e.smooth;
+        ale_pipeline_scan(p.get(), &scan, &e);
+        lost = lost || e.state == ALE_STATE_LOST;
+        longest = std::max(
+            longest, room::since_start(convert::pose(before), convert::pose(e.smooth)).head<2>().norm());
+    }
+    const reference::Pose truth = room::since_start(room::path(1), there);
+    EXPECT_TRUE(lost);
+    EXPECT_EQ(e.state, ALE_STATE_GOOD);
+    EXPECT_LT((convert::pose(e.map) - truth).head<2>().norm(), 0.03);
+    EXPECT_LT(std::abs(reference::wrap(convert::pose(e.map)[2] - truth[2])), 0.02);
+    EXPECT_LT(longest, 0.6);
+}
+
+TEST(Pipeline, StartsInALoadedMapWhereverItStands)
+{
+    std::mt19937 rng(6);
+    ale_pipeline_config_t config = ale_pipeline_default_config();
+    config.use_odometry = false;
+    const room::Pipeline first = room::make(config);
+    ale_estimate_t e;
+    for (int k = 0; k < 180; k++) {
+        const ale_scan_t scan = room::scan_at(room::l_shape(), room::Sensor(), room::path, 1 + 0.1 * k, rng);
+        ale_pipeline_scan(first.get(), &scan, &e);
+    }
+    const auto map = std::make_unique<ale_map_t>();
+    ale_pipeline_copy_map(first.get(), map.get());
+    EXPECT_GE(map->line_count, 8);
+    EXPECT_LE(map->line_count, 20);
+    EXPECT_GE(map->corner_count, 4);
+    const room::Pipeline second = room::make(config);
+    ale_pipeline_load_map(second.get(), map.get(), {0, 0, 0}, false);
+    for (int k = 0; k < 100; k++) {
+        const ale_scan_t scan = room::scan_at(room::l_shape(), room::Sensor(), room::path, 9 + 0.1 * k, rng);
+        ale_pipeline_scan(second.get(), &scan, &e);
+        EXPECT_TRUE(k > 0 || e.state != ALE_STATE_GOOD);
+    }
+    const reference::Pose truth = room::since_start(room::path(1), room::path(18.9));
+    EXPECT_LT((convert::pose(e.map) - truth).head<2>().norm(), 0.03);
+}
+
+TEST(Pipeline, RefusesAConfigurationOutOfRangeAndChangesNothing)
+{
+    ale_pipeline_config_t bad = ale_pipeline_default_config();
+    bad.max_speed_mm_s = 0;
+    EXPECT_EQ(room::make(bad), nullptr);
+    bad = ale_pipeline_default_config();
+    bad.odometry_lag_us = 400000;
+    EXPECT_EQ(room::make(bad), nullptr);
+    bad = ale_pipeline_default_config();
+    bad.blind_count = ALE_MAX_BLIND_SECTORS + 1;
+    EXPECT_EQ(room::make(bad), nullptr);
+}
+
+TEST(Pipeline, NoiseForScansAndJunkForStampsBreakNothing)
+{
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    std::mt19937 rng(8);
+    ale_estimate_t e;
+    int64_t stamp = 0;
+    for (int k = 0; k < 400; k++) {
+        ale_scan_t scan = {};
+        scan.stamp_us = stamp;
+        stamp += static_cast<int64_t>(rng() % 4000000) - 1000000;
+        scan.beams = static_cast<uint16_t>(rng() % (ALE_MAX_BEAMS + 1));
+        scan.beam_time_ns = rng() % 2 ? 97656 : 0;
+        scan.step_bam = rng() % 2 ? 4194304 : -3000000;
+        scan.first_bearing_bam = static_cast<uint32_t>(rng());
+        scan.range_min_um = 20000;
+        scan.range_max_um = 80000000;
+        for (uint16_t i = 0; i < scan.beams; i++) {
+            ale_scan_set_range(&scan, i, static_cast<int32_t>(rng() % 80000000));
+        }
+        const ale_odometry_t o = {stamp,
+                                  {static_cast<int32_t>(rng() % 100000), 0, static_cast<uint32_t>(rng())}};
+        ale_pipeline_odometry(p.get(), &o);
+        ale_pipeline_scan(p.get(), &scan, &e);
+        for (int i = 0; i < 9; i += 4) {
+            ASSERT_GE(e.cov[i], 0);
+        }
+    }
+}
