@@ -37,7 +37,7 @@ static bool overlaps(const ale_wall_t *wall, const ale_view_t *view, const ale_w
 
 /* Squared distance in sigmas, Q8; beyond the gate: INT64_MAX. */
 static int64_t distance_q8(const ale_wall_t *wall, const ale_view_t *view, const ale_wall_error_t *e,
-                           int64_t pose_var[2], const ale_gate_t *gate)
+                           const int64_t pose_var[2], const ale_gate_t *gate)
 {
     if (ale_abs64(e->angle_urad) > gate->angle_urad || ale_abs64(e->offset_um) > gate->offset_um ||
         !overlaps(wall, view, e)) {
@@ -60,7 +60,7 @@ ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, a
 {
     ale_match_t best = {.wall = ALE_NO_WALL, .mark = ALE_NO_MARK};
     int64_t least = INT64_MAX;
-    int64_t pose_var[2] = {cov ? ale_view_offset_var(view, cov) : 0, cov ? ale_view_angle_var(cov) : 0};
+    const int64_t pose_var[2] = {cov ? ale_view_offset_var(view, cov) : 0, cov ? ale_view_angle_var(cov) : 0};
     const ale_view_t moved = ale_view_from(view, pose);
     const int32_t bucket = ale_local_map_bucket(moved.normal_bam);
     const int32_t reach = ale_local_map_buckets(gate->angle_urad);

@@ -288,7 +288,7 @@ static void map_covariance(const ale_motion_t *m, ale_drift_t drift, int64_t out
     turned.m[2][2] += drift.var_urad2;
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
-            const int64_t to_nrad = (i == 2 ? 1000 : 1) * (j == 2 ? 1000 : 1);
+            const int64_t to_nrad = (i == 2 ? 1000LL : 1LL) * (j == 2 ? 1000 : 1);
             out[3 * i + j] = turned.m[i][j] * to_nrad;
         }
     }
