@@ -76,7 +76,7 @@ static void compare(const ale_lag_t *lag, const ale_odometry_t *a, const ale_odo
 {
     const int64_t counted_urad = ale_bam_to_nrad(ale_bam_diff(b->pose.theta_bam, a->pose.theta_bam)) / 1000;
     for (int32_t k = 0; k < ALE_LAG_CANDIDATES; k++) {
-        const int64_t shift_us = ALE_LAG_FIRST_US + k * ALE_LAG_STEP_US;
+        const int64_t shift_us = ALE_LAG_FIRST_US + (int64_t)k * ALE_LAG_STEP_US;
         diff_urad[k] = heading_urad(lag, b->stamp_us + shift_us) - heading_urad(lag, a->stamp_us + shift_us) -
                        counted_urad;
     }
@@ -104,7 +104,7 @@ static void count(ale_lag_t *lag, const int64_t diff_urad[ALE_LAG_CANDIDATES])
 /* Cost of a candidate with the prior's share, in the unit of the noise of one interval. */
 static int64_t total_cost(const ale_lag_t *lag, int k, int64_t noise_urad2)
 {
-    const int64_t off_us = ALE_LAG_FIRST_US + k * ALE_LAG_STEP_US - lag->prior_us;
+    const int64_t off_us = ALE_LAG_FIRST_US + (int64_t)k * ALE_LAG_STEP_US - lag->prior_us;
     const int64_t prior_us2 = (int64_t)ALE_LAG_PRIOR_SIGMA_US * ALE_LAG_PRIOR_SIGMA_US;
     return lag->cost_urad2[k] + ale_mul_div(off_us * off_us, noise_urad2, prior_us2);
 }
@@ -161,7 +161,7 @@ void ale_lag_update(ale_lag_t *lag, const ale_wheels_t *wheels)
         lag->done_us = b->stamp_us;
         a = b;
     }
-    if (lag->weight_q16 >= LEAST_INTERVALS * 65536) {
+    if (lag->weight_q16 >= (int64_t)LEAST_INTERVALS * 65536) {
         minimise(lag);
     }
 }

@@ -82,6 +82,13 @@ ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, a
     return best;
 }
 
+static ale_wall_error_t mark_error(const ale_mark_t *mark, ale_point_t p)
+{
+    const ale_point_t d = ale_minus(p, mark->p);
+    return (ale_wall_error_t){.offset_um = ale_along(d, mark->normal_bam),
+                              .t_um = ale_along(d, ale_tangent_bam(mark->normal_bam))};
+}
+
 ale_match_t ale_match_mark(const ale_local_map_t *map, const ale_view_t *view, ale_pose_t pose,
                            int32_t reach_um)
 {
@@ -90,10 +97,17 @@ ale_match_t ale_match_mark(const ale_local_map_t *map, const ale_view_t *view, a
     found.mark = ale_marks_find(&map->marks, p, view->normal_bam + pose.theta_bam,
                                 view->kind == ALE_VIEW_SPOT, reach_um);
     if (found.mark != ALE_NO_MARK) {
-        const ale_mark_t *mark = &map->marks.mark[found.mark];
-        const ale_point_t d = ale_minus(p, mark->p);
-        found.error.offset_um = ale_along(d, mark->normal_bam);
-        found.error.t_um = ale_along(d, ale_tangent_bam(mark->normal_bam));
+        found.error = mark_error(&map->marks.mark[found.mark], p);
     }
     return found;
+}
+
+void ale_match_renew(const ale_local_map_t *map, const ale_view_t *view, ale_pose_t pose, ale_match_t *match)
+{
+    if (match->wall != ALE_NO_WALL) {
+        const ale_view_t moved = ale_view_from(view, pose);
+        match->error = ale_wall_error(&map->wall[match->wall], &moved);
+    } else if (match->mark != ALE_NO_MARK) {
+        match->error = mark_error(&map->marks.mark[match->mark], ale_pose_apply(pose, view->centre));
+    }
 }

@@ -33,6 +33,9 @@ int64_t ale_view_angle_var(const ale_matrix_t *cov);
 ale_match_t ale_match_mark(const ale_local_map_t *map, const ale_view_t *view, ale_pose_t pose,
                            int32_t reach_um);
 
+/* The errors of a match that is kept, with the robot at another pose. */
+void ale_match_renew(const ale_local_map_t *map, const ale_view_t *view, ale_pose_t pose, ale_match_t *match);
+
 /* The wall that fits a view seen from a pose with covariance `cov` (NULL: known exactly). */
 ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, ale_pose_t pose,
                            const ale_matrix_t *cov, const ale_gate_t *gate);

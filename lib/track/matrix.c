@@ -22,7 +22,7 @@ static void set_pivot(ale_factors_t *out, int j, int64_t pivot)
 {
     const unsigned bits = ale_bit_length((uint64_t)pivot);
     const uint64_t mantissa = bits > 32 ? (uint64_t)pivot >> (bits - 32) : (uint64_t)pivot << (32 - bits);
-    out->reciprocal[j] = (int64_t)(((uint64_t)1 << 63) / mantissa);
+    out->reciprocal[j] = (int64_t)(((uint64_t)1 << 63) / (mantissa | 1u));
     out->reciprocal_bits[j] = (uint8_t)(31 + bits);
 }
 

@@ -53,8 +53,8 @@ ale_pose_t ale_motion_sweep(const int32_t velocity[ALE_AXES], int64_t time_us)
 void ale_motion_init(ale_motion_t *motion, int64_t stamp_us, ale_pose_t pose, int32_t speed_sigma_mm_s,
                      int32_t turn_sigma_mrad_s)
 {
-    const int64_t forward = (speed_sigma_mm_s * 1000 * ALE_TICK_US) / 1000000;
-    const int64_t turn = (turn_sigma_mrad_s * 1000 * ALE_TICK_US) / 1000000;
+    const int64_t forward = ((int64_t)speed_sigma_mm_s * 1000 * ALE_TICK_US) / 1000000;
+    const int64_t turn = ((int64_t)turn_sigma_mrad_s * 1000 * ALE_TICK_US) / 1000000;
     *motion = (ale_motion_t){.stamp_us = stamp_us, .pose = pose};
     for (int i = 0; i < ALE_AXES; i++) {
         motion->cov.m[i][i] = 1;
@@ -84,7 +84,7 @@ void ale_liveliness_learn(ale_liveliness_t *l, const ale_motion_t *predicted, co
         const int64_t d = ale_clamp64(correction[i], -1000000, 1000000);
         const int64_t surprise_q8 = ale_min64((d * d << 8) / expected, SURPRISE_MOST_Q8);
         const int64_t factor =
-            l->factor_q8[i] + (int64_t)l->factor_q8[i] * (surprise_q8 - 256) / (256 * ADAPT_SCANS);
+            l->factor_q8[i] + (int64_t)l->factor_q8[i] * (surprise_q8 - 256) / ((int64_t)256 * ADAPT_SCANS);
         l->factor_q8[i] = (int32_t)ale_clamp64(factor, FACTOR_LEAST_Q8, FACTOR_MOST_Q8);
     }
 }

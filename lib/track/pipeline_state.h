@@ -27,12 +27,11 @@ struct ale_pipeline {
     ale_wheel_scale_t scale;
     ale_liveliness_t liveliness[2]; /* without wheels, with wheels */
 
-    uint32_t scans;
     ale_pace_t pace;
-    bool started; /* the first scan has set the origin */
     ale_motion_t motion;
     ale_tracker_t tracker;
     ale_pose_t smooth;
+    uint32_t scans;
     ale_local_map_t map;
     ale_drift_t drift; /* of the map around the robot */
     ale_fade_t fade;
@@ -41,12 +40,14 @@ struct ale_pipeline {
     /* the scan at hand */
     ale_scan_t scan;
     uint32_t bearing_bam[ALE_MAX_BEAMS];
-    bool straightened; /* bearing_bam holds */
     ale_features_t features;
     ale_view_t view[ALE_MAX_VIEWS];
-    uint32_t view_count;
     ale_fit_t fit;
+    uint32_t view_count;
     uint16_t matched_corners;
+    bool straightened; /* bearing_bam holds */
+
+    bool started; /* the first scan has set the origin */
 };
 
 #endif

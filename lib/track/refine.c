@@ -1,5 +1,7 @@
 #include "track/refine.h"
 
+#include <stddef.h>
+
 #include "base/fixed.h"
 #include "base/trig.h"
 #include "track/ratio.h"
@@ -140,6 +142,7 @@ static void clear_sums(ale_fit_t *fit)
     fit->shown_um = 0;
 }
 
+/* gate NULL: the matches are kept and only their errors renewed. */
 static void gather(const ale_scene_t *scene, const ale_matrix_t *cov, const ale_gate_t *gate, ale_fit_t *fit)
 {
     clear_sums(fit);
@@ -147,7 +150,11 @@ static void gather(const ale_scene_t *scene, const ale_matrix_t *cov, const ale_
         const ale_view_t *view = &scene->view[i];
         ale_match_t *match = &fit->match[i];
         const int64_t length_um = (int64_t)view->end_um - view->start_um;
-        *match = find(scene, view, fit, cov, gate);
+        if (gate) {
+            *match = find(scene, view, fit, cov, gate);
+        } else {
+            ale_match_renew(scene->map, view, fit->motion.pose, match);
+        }
         fit->shown_um += length_um;
         if (match->wall != ALE_NO_WALL) {
             add_wall_rows(view, &scene->map->wall[match->wall], fit, match);
@@ -198,7 +205,7 @@ void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const a
     const ale_gate_t later = {LATER_OFFSET_UM, LATER_ANGLE_URAD, LATER_SIGMAS, LATER_PIECE_UM};
     const ale_gate_t second = {(gate->offset_um + LATER_OFFSET_UM) / 3, gate->angle_urad, LATER_SIGMAS,
                                gate->piece_um};
-    const ale_gate_t *const gates[ALE_REFINE_ITERATIONS] = {gate, &second, &later, &later, &later};
+    const ale_gate_t *const gates[ALE_REFINE_ITERATIONS] = {gate, &second, &later, NULL, NULL};
     ale_factors_t factors;
     ale_matrix_t prior;
     int64_t total[ALE_STATES] = {0};
@@ -215,5 +222,5 @@ void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const a
         size = step(&prior, total, out);
     }
     /* errors at the pose that was found, for the map */
-    gather(scene, &out->motion.cov, &later, out);
+    gather(scene, &out->motion.cov, out->iterations > 2 ? NULL : &later, out);
 }

@@ -83,7 +83,7 @@ static void lag_variance(const ale_wheels_t *wheels, int32_t sigma_us, int64_t f
                          ale_pose_t d, int64_t var[ALE_AXES])
 {
     var[0] = var[1] = var[2] = 0;
-    for (int64_t shift_us = -2 * sigma_us; shift_us <= sigma_us; shift_us += sigma_us) {
+    for (int64_t shift_us = -2 * (int64_t)sigma_us; shift_us <= sigma_us; shift_us += sigma_us) {
         ale_pose_t other;
         int32_t beyond_us;
         if (ale_wheels_motion(wheels, from_us + shift_us, to_us + shift_us, &other, &beyond_us)) {
