@@ -5,14 +5,14 @@
 #include "base/fixed.h"
 #include "base/trig.h"
 
-enum { SHORTEST_UM = 1000, NRAD_PER_URAD = 1000 };
+enum { SHORTEST_UM = 1000, NRAD_PER_URAD = 1000, NRAD2_PER_URAD2 = 1000000 };
 
 static ale_map_line_t line_of(const ale_wall_t *w)
 {
     return (ale_map_line_t){.id = w->id,
                             .start = ale_wall_point(w, w->start_um),
                             .end = ale_wall_point(w, w->end_um),
-                            .var_alpha_nrad2 = w->var_angle_urad2 * NRAD_PER_URAD * NRAD_PER_URAD,
+                            .var_alpha_nrad2 = w->var_angle_urad2 * NRAD2_PER_URAD2,
                             .cov_alpha_rho = w->cov_um_urad * NRAD_PER_URAD,
                             .var_rho_um2 = w->var_offset_um2,
                             .seen = w->seen};
@@ -41,15 +41,14 @@ static bool wall_of(const ale_map_line_t *line, ale_wall_t *out)
     const ale_point_t d = ale_minus(line->end, line->start);
     const uint32_t tangent_bam = ale_atan2_bam(d.y_um, d.x_um);
     const int64_t half_um = ale_along(d, tangent_bam) / 2;
-    *out =
-        (ale_wall_t){.anchor = ale_plus(line->start, ale_polar(half_um, tangent_bam)),
-                     .normal_bam = tangent_bam + ALE_BAM_QUARTER_TURN,
-                     .start_um = (int32_t)-half_um,
-                     .end_um = (int32_t)half_um,
-                     .var_offset_um2 = ale_max64(line->var_rho_um2, 1),
-                     .cov_um_urad = line->cov_alpha_rho / NRAD_PER_URAD,
-                     .var_angle_urad2 = ale_max64(line->var_alpha_nrad2 / (NRAD_PER_URAD * NRAD_PER_URAD), 1),
-                     .seen = line->seen};
+    *out = (ale_wall_t){.anchor = ale_plus(line->start, ale_polar(half_um, tangent_bam)),
+                        .normal_bam = tangent_bam + ALE_BAM_QUARTER_TURN,
+                        .start_um = (int32_t)-half_um,
+                        .end_um = (int32_t)half_um,
+                        .var_offset_um2 = ale_max64(line->var_rho_um2, 1),
+                        .cov_um_urad = line->cov_alpha_rho / NRAD_PER_URAD,
+                        .var_angle_urad2 = ale_max64(line->var_alpha_nrad2 / NRAD2_PER_URAD2, 1),
+                        .seen = line->seen};
     ale_wall_set_normal(out, tangent_bam + ALE_BAM_QUARTER_TURN);
     return half_um * 2 >= SHORTEST_UM;
 }
