@@ -15,7 +15,8 @@ say = $(if $(filter 0,$(V)),@echo "  $(1)	$(2)")
 SANITIZER_FLAGS = $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-omit-frame-pointer -fno-sanitize-recover=all)
 COMMON_FLAGS = -g $(OPT) $(WARNINGS) $(SANITIZER_FLAGS) -MMD -MP
 C_FLAGS = -std=c11 -D_GNU_SOURCE $(COMMON_FLAGS) $(CFLAGS)
-CXX_FLAGS = -std=c++17 $(COMMON_FLAGS) $(CXXFLAGS)
+# Generated LCM types read floats through pointers to integers.
+CXX_FLAGS = -std=c++17 -fno-strict-aliasing $(COMMON_FLAGS) $(CXXFLAGS)
 LINK_FLAGS = $(SANITIZER_FLAGS) -pthread -Wl,--as-needed $(LDFLAGS)
 LIBRARIES = -llcm -lserialport -linih -lwebsockets -lpng -lz -lm
 SYSTEM_INCLUDES = -isystem $(BUILD)/lcmtypes -isystem /usr/include/eigen3
