@@ -39,7 +39,7 @@ $(LCM_STAMP): $(LCM_FILES)
 	$(Q)lcm-gen -j --jpath $(BUILD)/java $(LCM_FILES)
 	$(Q)touch $@
 
-.PRECIOUS: $(BUILD)/lcmtypes/%.c
+.SECONDARY:
 $(BUILD)/lcmtypes/%.c: $(LCM_STAMP) ;
 
 $(OBJ)/lcmtypes/%.o: $(BUILD)/lcmtypes/%.c
@@ -75,6 +75,9 @@ $(OBJ)/drivers/%.o: INCLUDES = $(DRIVER_INCLUDES)
 $(OBJ)/firmware/%.o: INCLUDES = $(FIRMWARE_INCLUDES)
 $(OBJ)/tools/%.o: INCLUDES = $(TOOL_INCLUDES)
 $(OBJ)/tests/%.o: INCLUDES = $(TEST_INCLUDES)
+# It is the code under test that is optimised and sanitized; its tests are only built often.
+$(OBJ)/tests/%.o: override OPT = -O0
+$(OBJ)/tests/%.o: SANITIZER_FLAGS =
 
 $(OBJ)/%.c.o: %.c | $(LCM_STAMP)
 	$(call say,cc,$<)

@@ -1,12 +1,12 @@
 # Tests. Each tests/**/test_*.cpp is one GoogleTest program; every other tests/**/*.cpp is linked to all of them.
 #
-#   make unit [T=part/of/path]     unit and property tests
-#   make system [T=word]           tests of the real programs (pytest)
+#   make unit [T="part/of/path .."]  unit and property tests
+#   make system [T=word]             tests of the real programs (pytest)
 
 TEST_SOURCES = $(shell find tests -name 'test_*.cpp' | sort)
 TEST_SHARED_SOURCES = $(shell find tests -name '*.cpp' ! -name 'test_*' ! -name 'fuzz_*' ! -path 'tests/planted/*' | sort)
 TEST_PROGRAMS = $(patsubst tests/%.cpp,$(BUILD)/tests/%,$(TEST_SOURCES))
-SELECTED_TESTS = $(if $(T),$(foreach p,$(TEST_PROGRAMS),$(if $(findstring $(T),$(p)),$(p))),$(TEST_PROGRAMS))
+SELECTED_TESTS = $(if $(T),$(foreach p,$(TEST_PROGRAMS),$(if $(strip $(foreach t,$(T),$(findstring $(t),$(p)))),$(p))),$(TEST_PROGRAMS))
 T ?=
 
 SHARED_DATA = $(abspath ../shared)
@@ -21,7 +21,6 @@ $(BUILD)/libale_test_shared.a: $(call objects,$(TEST_SHARED_SOURCES))
 	$(archive)
 
 TEST_ARCHIVES = $(if $(TEST_SHARED_SOURCES),$(BUILD)/libale_test_shared.a) $(FIRMWARE_ARCHIVES)
-.PRECIOUS: $(OBJ)/tests/%.cpp.o
 $(BUILD)/tests/tools/%: $(OBJ)/tests/tools/%.cpp.o $(BUILD)/libale_tool_parts.a $(BUILD)/libale_export.a $(TEST_ARCHIVES)
 	$(call link,-lgtest_main -lgtest)
 $(BUILD)/tests/%: $(OBJ)/tests/%.cpp.o $(TEST_ARCHIVES)
@@ -83,15 +82,19 @@ SHORT_FUZZ_SECONDS ?= 5
 export ALE_RESULTS ?= $(ALE_BUILD)/test-results.txt
 SUB = $(MAKE) --no-print-directory -s
 CHECKED = $(SUB) BUILD=$(BUILD)/asan SANITIZE=address,undefined OPT=-O1
+ROBOT_TESTS = tests/lib tests/drivers tests/firmware
 THREADED = $(SUB) BUILD=$(BUILD)/tsan SANITIZE=thread OPT=-O1 T=tests/firmware
 .PHONY: test test-all
 test: deps-test ## all tests on this machine; the last line counts them
 	@$(PYTHON) tools/make/run_tests.py begin
 	@echo "== build"
 	@$(SUB) -j2 all venv
-	@echo "== unit and property tests, address and undefined-behaviour sanitizers"
-	@$(CHECKED) -j2 unit-programs
-	-@$(CHECKED) unit
+	@echo "== unit and property tests: what runs on the robot, address and undefined-behaviour sanitizers"
+	@$(CHECKED) -j2 T="$(ROBOT_TESTS)" unit-programs
+	-@$(CHECKED) T="$(ROBOT_TESTS)" unit
+	@echo "== unit tests of the tools"
+	@$(SUB) -j2 T=tests/tools unit-programs
+	-@$(SUB) T=tests/tools unit
 	@echo "== thread sanitizer"
 	@$(THREADED) -j2 unit-programs
 	-@$(THREADED) unit
@@ -105,9 +108,12 @@ test: deps-test ## all tests on this machine; the last line counts them
 	@$(PYTHON) tools/make/run_tests.py sum
 
 # After `make test` in the same build folder (AFTER_TEST=1) only the rest runs, and the sum is of both.
-test-all: ## make test, lint, and the same bytes from every compiler and level
+test-all: ## make test, lint, sanitized tools, and the same bytes from every compiler and level
 	$(if $(AFTER_TEST),,@$(SUB) test)
 	@echo "== lint"
 	-@$(SUB) lint
+	@echo "== unit tests of the tools, address and undefined-behaviour sanitizers"
+	@$(CHECKED) -j2 T=tests/tools unit-programs
+	-@$(CHECKED) T=tests/tools unit
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, all" $(SUB) same-bytes SAME_BYTES_BUILDS="gcc:-O0 gcc:-O3 clang:-O0 clang:-O3"
 	@$(PYTHON) tools/make/run_tests.py sum
