@@ -30,15 +30,14 @@ deps-test: deps
 	@tools/make/deps.sh tools/make/packages-test.txt
 
 run: deps ## the whole chain: simulator, firmware, console; LOG=path plays a recording, SPEED=x faster
-	@$(MAKE) --no-print-directory -s programs
+	@$(MAKE) --no-print-directory -s -j$$(nproc) programs
 	@$(PYTHON) tools/make/run.py --build $(BUILD) $(if $(LOG),--log $(LOG)) $(if $(SPEED),--speed $(SPEED))
 
 PREFIX ?= /usr/local
-install: all ## install programs, library, header and types under $(DESTDIR)$(PREFIX)
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib $(DESTDIR)$(PREFIX)/share/ale-slam $(DESTDIR)$(PREFIX)/share/java
+install: all ## install programs, library, headers and types under $(DESTDIR)$(PREFIX)
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/ale-slam $(DESTDIR)$(PREFIX)/share/java
 	install -m 755 $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin
-	install -m 644 $(BUILD)/libale.a $(DESTDIR)$(PREFIX)/lib
-	for h in $(wildcard lib/base/*.h lib/extract/extract.h lib/track/pipeline.h lib/track/odometry_sample.h); do \
+	for h in lib/track/pipeline.h lib/track/odometry_sample.h; do \
 	    install -D -m 644 $$h $(DESTDIR)$(PREFIX)/include/ale/$${h#lib/} || exit 1; done
 	install -m 644 $(wildcard lib/messages/*.lcm) $(DESTDIR)$(PREFIX)/share/ale-slam
 	install -m 644 $(BUILD)/ale-lcmtypes.jar $(DESTDIR)$(PREFIX)/share/java

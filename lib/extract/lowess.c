@@ -145,7 +145,9 @@ void ale_lowess(const ale_lowess_config_t *config, const uint16_t *beam, const i
                 int32_t *smooth, ale_lowess_work_t *work)
 {
     if (config->span < 3 || count < 3) {
-        memcpy(smooth, value, (size_t)count * sizeof *smooth);
+        for (int32_t i = 0; i < count; i++) {
+            smooth[i] = value[i];
+        }
         return;
     }
     for (int32_t i = 0; i < count; i++) {
