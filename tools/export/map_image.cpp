@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <stdexcept>
+
+#include "export/map_tidy.h"
 
 extern "C" {
 #include "decimal.h"
@@ -54,7 +57,11 @@ void write_map_image(const std::string &path, const MapScene &scene)
     if (!kind) {
         throw std::runtime_error(path + ": the name must end in .svg, .png, .pgm or .dxf");
     }
-    kind->write(path, scene);
+    const auto tidy = std::make_unique<ale_map_t>(*scene.map);
+    ale_map_tidy(tidy.get());
+    MapScene shown = scene;
+    shown.map = tidy.get();
+    kind->write(path, shown);
 }
 
 Extent extent_of(const MapScene &scene)

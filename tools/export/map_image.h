@@ -35,6 +35,7 @@ struct MapScene {
 /* Whether the name ends in one of the extensions. */
 bool is_map_image_name(const std::string &path);
 
+/* Draws the tidied map (map_tidy.h): one line for one wall. */
 void write_map_image(const std::string &path, const MapScene &scene);
 
 /* Smallest rectangle of all that is drawn; a metre square about the origin when there is nothing. */
