@@ -121,7 +121,7 @@ uint32_t ale_atan2_bam(int64_t y, int64_t x)
 {
     int64_t ax = ale_abs64(x);
     int64_t ay = ale_abs64(y);
-    if (ax == 0 && ay == 0) {
+    if (ale_max64(ax, ay) <= 0) {
         return 0;
     }
     const unsigned bits = ale_bit_length((uint64_t)(ax | ay));
