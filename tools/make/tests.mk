@@ -108,12 +108,9 @@ test: deps-test ## all tests on this machine; the last line counts them
 	@$(PYTHON) tools/make/run_tests.py sum
 
 # After `make test` in the same build folder (AFTER_TEST=1) only the rest runs, and the sum is of both.
-test-all: ## make test, lint, sanitized tools, and the same bytes from every compiler and level
+test-all: ## make test, lint, and the same bytes from every compiler and level
 	$(if $(AFTER_TEST),,@$(SUB) test)
 	@echo "== lint"
 	-@$(SUB) lint
-	@echo "== unit tests of the tools, address and undefined-behaviour sanitizers"
-	@$(CHECKED) -j2 T=tests/tools unit-programs
-	-@$(CHECKED) T=tests/tools unit
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, all" $(SUB) same-bytes SAME_BYTES_BUILDS="gcc:-O0 gcc:-O3 clang:-O0 clang:-O3"
 	@$(PYTHON) tools/make/run_tests.py sum
