@@ -58,8 +58,11 @@ int ale_pipeline_init(ale_pipeline_t *pipeline, const ale_pipeline_config_t *con
     if (!is_valid(config) || ale_extractor_init(&pipeline->extractor, &config->extract) < 0) {
         return -1;
     }
+    /* the extractor found its configuration good: all is zeroed now, so that no result hangs on what the
+     * memory held */
+    memset(pipeline, 0, sizeof *pipeline);
+    ale_extractor_init(&pipeline->extractor, &config->extract);
     pipeline->config = *config;
-    pipeline->hook = (ale_stage_hook_t){NULL, NULL};
     ale_pipeline_reset(pipeline);
     return 0;
 }
