@@ -1,0 +1,130 @@
+#include <memory>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "reference/corner_of_lines.h"
+
+extern "C" {
+#include "base/trig.h"
+#include "extract/corner.h"
+#include "extract/extract.h"
+}
+
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+
+uint32_t bam(double radians)
+{
+    return static_cast<uint32_t>(static_cast<int64_t>(std::llround(radians / pi * 2147483648.0)));
+}
+
+ale_point_t point(const Eigen::Vector2d &p)
+{
+    return {static_cast<int32_t>(std::lround(p.x())), static_cast<int32_t>(std::lround(p.y()))};
+}
+
+// A wall from one point to another (um), with a covariance of (alpha, rho) in (nrad, um).
+struct Wall {
+    ale_line_t line;
+    reference::Line exact;
+};
+
+Wall wall(const Eigen::Vector2d &from, const Eigen::Vector2d &to, int64_t var_alpha, int64_t cov,
+          int64_t var_rho)
+{
+    Wall w{};
+    const Eigen::Vector2d d = (to - from).normalized();
+    Eigen::Vector2d n(-d.y(), d.x());
+    n = n.dot(from) < 0 ? Eigen::Vector2d(-n) : n;
+    w.line.alpha_bam = bam(std::atan2(n.y(), n.x()));
+    w.line.rho_um = static_cast<int32_t>(std::lround(n.dot(from)));
+    w.line.start = point(from);
+    w.line.end = point(to);
+    w.line.var_alpha_nrad2 = var_alpha;
+    w.line.cov_alpha_rho = cov;
+    w.line.var_rho_um2 = var_rho;
+    w.exact.alpha = static_cast<int32_t>(w.line.alpha_bam) * (pi / 2147483648.0);
+    w.exact.rho = w.line.rho_um;
+    w.exact.cov << static_cast<double>(var_alpha) * 1e-18, static_cast<double>(cov) * 1e-9,
+        static_cast<double>(cov) * 1e-9, static_cast<double>(var_rho);
+    return w;
+}
+
+std::unique_ptr<ale_features_t> found(const ale_line_t &a, const ale_line_t &b, int gap_beams = 1)
+{
+    auto features = std::make_unique<ale_features_t>();
+    features->line_count = 2;
+    features->line[0] = a;
+    features->line[0].first = 0;
+    features->line[0].last = 50;
+    features->line[1] = b;
+    features->line[1].first = static_cast<uint16_t>(50 + gap_beams);
+    features->line[1].last = 150;
+    ale_corner_find(features.get());
+    return features;
+}
+
+// Bound between the two: 8 um in place; one part in a thousand and 4 um^2 in covariance.
+TEST(Corner, place_and_covariance_agree_with_the_double_precision_twin)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int k = 0; k < 3000; k++) {
+        const double bearing = 2 * pi * uniform(random);
+        const double range = 3e5 + 5e6 * uniform(random);
+        const Eigen::Vector2d p(range * std::cos(bearing), range * std::sin(bearing));
+        const double first = 2 * pi * uniform(random);
+        const double second = first + (20 + 140 * uniform(random)) * pi / 180 * (k % 2 ? 1 : -1);
+        const double length = 3e5 + 2e6 * uniform(random);
+        const Eigen::Vector2d a(p.x() + length * std::cos(first), p.y() + length * std::sin(first));
+        const Eigen::Vector2d b(p.x() + length * std::cos(second), p.y() + length * std::sin(second));
+        const auto var_alpha = static_cast<int64_t>(1e12 + 1e14 * uniform(random));
+        const auto var_rho = static_cast<int64_t>(1e6 + 1e8 * uniform(random));
+        const auto cov =
+            static_cast<int64_t>((uniform(random) - 0.5) *
+                                 std::sqrt(static_cast<double>(var_alpha) * static_cast<double>(var_rho)));
+        const Wall wa = wall(a, p, var_alpha, cov, var_rho);
+        const Wall wb = wall(p, b, var_alpha / 2, -cov / 2, var_rho / 3);
+        const auto features = found(wa.line, wb.line);
+        ASSERT_EQ(features->corner_count, 1) << "case " << k;
+        const ale_corner_t &corner = features->corner[0];
+        const reference::Corner exact = reference::corner_of_lines(wa.exact, wb.exact);
+        EXPECT_NEAR(corner.p.x_um, exact.p.x(), 8) << "case " << k;
+        EXPECT_NEAR(corner.p.y_um, exact.p.y(), 8) << "case " << k;
+        const double scale = 1e-3 * (exact.cov(0, 0) + exact.cov(1, 1)) + 4;
+        EXPECT_NEAR(static_cast<double>(corner.cov_um2[0]), exact.cov(0, 0), scale) << "case " << k;
+        EXPECT_NEAR(static_cast<double>(corner.cov_um2[1]), exact.cov(0, 1), scale) << "case " << k;
+        EXPECT_NEAR(static_cast<double>(corner.cov_um2[2]), exact.cov(1, 1), scale) << "case " << k;
+        EXPECT_NEAR(corner.angle_bam * (pi / 2147483648.0), std::abs(second - first), 1e-5) << "case " << k;
+    }
+}
+
+TEST(Corner, a_corner_of_a_room_is_concave_and_of_a_box_convex)
+{
+    const Wall right = wall({1e6, -1e6}, {1e6, 1e6}, 1, 0, 1);
+    const Wall back = wall({1e6, 1e6}, {-1e6, 1e6}, 1, 0, 1);
+    const auto room = found(right.line, back.line);
+    ASSERT_EQ(room->corner_count, 1);
+    EXPECT_EQ(room->corner[0].kind, ALE_CORNER_CONCAVE);
+    const Wall side = wall({2e6, 5e5}, {1e6, 5e5}, 1, 0, 1);
+    const Wall front = wall({1e6, 5e5}, {1e6, 2e6}, 1, 0, 1);
+    const auto box = found(side.line, front.line);
+    ASSERT_EQ(box->corner_count, 1);
+    EXPECT_EQ(box->corner[0].kind, ALE_CORNER_CONVEX);
+}
+
+TEST(Corner, lines_far_apart_or_nearly_parallel_make_none)
+{
+    const Wall right = wall({1e6, -1e6}, {1e6, 1e6}, 1, 0, 1);
+    const Wall back = wall({1e6, 1e6}, {-1e6, 1e6}, 1, 0, 1);
+    EXPECT_EQ(found(right.line, back.line, 6)->corner_count, 0);
+    const Wall short_of_it = wall({1e6, -1e6}, {1e6, 0.8e6}, 1, 0, 1);
+    EXPECT_EQ(found(short_of_it.line, back.line)->corner_count, 0);
+    const Wall bent = wall({1e6, 1e6}, {1.2e6, 2e6}, 1, 0, 1);
+    EXPECT_EQ(found(right.line, bent.line)->corner_count, 0);
+}
+
+} // namespace
