@@ -24,14 +24,12 @@ extern "C" {
 #include "urg/urg_device.h"
 }
 
-#ifdef __SANITIZE_THREAD__
 /* LCM makes this mutex of GLib's at its first use; GLib orders that by means that the sanitizer does not see.
  */
 extern "C" const char *__tsan_default_suppressions()
 {
     return "race:g_static_rec_mutex_lock";
 }
-#endif
 
 namespace
 {
