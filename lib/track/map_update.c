@@ -6,7 +6,7 @@
 #include "base/trig.h"
 
 enum {
-    CONFLICT_OFFSET_UM = 50000, /* a wall this near may be the same: better none than a double one */
+    CONFLICT_OFFSET_UM = 50000, /* a wall this near may be the same: better none than two of it */
     CONFLICT_ANGLE_URAD = 120000,
     CONFLICT_SIGMAS = 1000,
     NEW_MARK_UM = 60000 /* marks lie no closer than this */
