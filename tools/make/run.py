@@ -9,19 +9,18 @@ BUILD/run. Exit 0 only when every program ended well and every scan that was sen
 """
 import argparse
 import ctypes
-import errno
 import os
 import pathlib
-import random
 import re
 import signal
-import socket
 import subprocess
 import sys
 import threading
 import time
 
-MULTICAST_GROUP = "239.255.76.67"
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "python"))
+import lcm_url  # noqa: E402
+
 START_SECONDS = 10
 ANSWER_SECONDS = 10
 STOP_SECONDS = 10
@@ -127,33 +126,13 @@ class Chain:
                 say(str(failure))
 
 
-def ensure_multicast():
+def prepare_multicast():
     """LCM needs a route for multicast; a container may have none. The loopback serves."""
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        try:
-            probe.connect((MULTICAST_GROUP, 7667))
-            return
-        except OSError as error:
-            if error.errno != errno.ENETUNREACH:
-                raise
-    commands = (["ip", "link", "set", "lo", "up", "multicast", "on"], ["ip", "route", "add", "224.0.0.0/4", "dev", "lo"])
-    if os.geteuid() != 0:
-        raise Failure("no route for multicast; please run once: sudo sh -c '" + " && ".join(map(" ".join, commands)) + "'")
-    for command in commands:
-        subprocess.run(command, check=True)
-    say("no route for multicast here: using the loopback")
-
-
-def free_lcm_url():
-    """A multicast port that nobody uses, so that several runs do not hear each other."""
-    while True:
-        port = random.randint(20000, 60000)
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-            try:
-                probe.bind(("", port))
-            except OSError:
-                continue
-            return f"udpm://{MULTICAST_GROUP}:{port}?ttl=0"
+    try:
+        if lcm_url.ensure_multicast():
+            say("no route for multicast here: using the loopback")
+    except lcm_url.NoMulticast as reason:
+        raise Failure(str(reason)) from reason
 
 
 def ask(command):
@@ -215,7 +194,7 @@ class Tally:
 
 def play(chain, recording, speed):
     """The run itself. How many scans the scanner took, how many of them it sent, and how many poses came."""
-    url = free_lcm_url()
+    url = lcm_url.free_lcm_url()
     folder = chain.folder
     port = folder / "urg"
     config = write_config(recording, folder, chain.binaries)
@@ -256,7 +235,7 @@ def run(arguments):
             raise Failure(f"{binaries / name} is missing: run make first")
     for old in [*results(folder), folder / "urg"]:
         old.unlink(missing_ok=True)
-    ensure_multicast()
+    prepare_multicast()
     recording = arguments.log or recording_of(arguments.world, folder, binaries)
     chain = Chain(folder, binaries)
     try:
