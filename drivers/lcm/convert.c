@@ -250,6 +250,19 @@ static void convert_times(const int64_t *times_ns, float *times_us)
     }
 }
 
+static void convert_operation(const ale_operation_report_t *report, lcmtypes_ale_status_t *message)
+{
+    message->robot = (char *)report->robot;
+    message->takes_commands = report->takes_commands ? 1 : 0;
+    message->who_drives = (char *)report->who_drives;
+    message->exploration = (char *)report->exploration;
+    message->map_frozen = report->map_frozen ? 1 : 0;
+    message->command_operator = (char *)report->command_operator;
+    message->command_counter = report->command_counter;
+    message->command_obeyed = report->command_obeyed ? 1 : 0;
+    message->command_result = (char *)report->command_result;
+}
+
 void ale_convert_status(const ale_status_report_t *report, ale_status_buffer_t *buffer,
                         lcmtypes_ale_status_t *message)
 {
@@ -272,6 +285,7 @@ void ale_convert_status(const ale_status_report_t *report, ale_status_buffer_t *
         .counter_name = buffer->name,
         .counter_value = buffer->value,
     };
+    convert_operation(&report->operation, message);
     convert_times(report->stage_last_ns, message->stage_last_us);
     convert_times(report->stage_p99_ns, message->stage_p99_us);
     convert_times(report->stage_worst_ns, message->stage_worst_us);

@@ -21,12 +21,28 @@ typedef struct {
 /* ALE_MAP: number of parts that a map needs, at least 1. */
 int16_t ale_map_parts(const ale_map_t *map);
 
-enum { ALE_STATUS_STAGES = ALE_STAGES + 1, ALE_STATUS_COUNTERS = 32 };
+enum { ALE_STATUS_STAGES = ALE_STAGES + 1, ALE_STATUS_COUNTERS = 48 };
+
+/* Bytes of an operator's or a robot's name, and of an answer in words, with their ends. */
+enum { ALE_NAME_BYTES = 32, ALE_ANSWER_BYTES = 160 };
 
 typedef struct {
     const char *name; /* a constant text */
     uint64_t value;
 } ale_counter_t;
+
+/* The operator's side of the robot. */
+typedef struct {
+    char robot[ALE_NAME_BYTES];
+    bool takes_commands;
+    char who_drives[ALE_NAME_BYTES]; /* empty: nobody */
+    char exploration[ALE_ANSWER_BYTES];
+    bool map_frozen;
+    char command_operator[ALE_NAME_BYTES]; /* of the last genuine command; empty: none yet */
+    int64_t command_counter;
+    bool command_obeyed;
+    char command_result[ALE_ANSWER_BYTES];
+} ale_operation_report_t;
 
 /* ALE_STATUS. The last of the stages is their sum. */
 typedef struct {
@@ -49,6 +65,7 @@ typedef struct {
     int32_t scan_period_us; /* 0: unknown */
     uint32_t counters;
     ale_counter_t counter[ALE_STATUS_COUNTERS];
+    ale_operation_report_t operation;
 } ale_status_report_t;
 
 #endif

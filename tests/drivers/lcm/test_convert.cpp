@@ -207,6 +207,11 @@ TEST(Convert, AFullStatusFitsItsMessage)
     for (auto &counter : report.counter) {
         counter = {"dropped_because_the_ring_was_full", 1234567890123};
     }
+    std::snprintf(report.operation.robot, sizeof report.operation.robot, "rover");
+    std::snprintf(report.operation.who_drives, sizeof report.operation.who_drives, "alice");
+    std::memset(report.operation.command_result, 'c', sizeof report.operation.command_result - 1);
+    report.operation.takes_commands = report.operation.command_obeyed = true;
+    report.operation.command_counter = 77;
     lcmtypes_ale_status_t message;
     ale_convert_status(&report, &buffer, &message);
     EXPECT_FLOAT_EQ(message.scan_rate_hz, 10);
@@ -214,6 +219,13 @@ TEST(Convert, AFullStatusFitsItsMessage)
     EXPECT_FLOAT_EQ(message.stage_worst_us[ALE_STAGE_MATCH], 2);
     EXPECT_EQ(message.counter_value[31], 1234567890123);
     EXPECT_STREQ(message.counter_name[31], "dropped_because_the_ring_was_full");
+    EXPECT_STREQ(message.robot, "rover");
+    EXPECT_STREQ(message.who_drives, "alice");
+    EXPECT_STREQ(message.exploration, "");
+    EXPECT_STREQ(message.command_operator, "");
+    EXPECT_EQ(std::strlen(message.command_result), ALE_ANSWER_BYTES - 1U);
+    EXPECT_EQ(message.command_counter, 77);
+    EXPECT_TRUE(message.takes_commands && message.command_obeyed && !message.map_frozen);
     EXPECT_LT(lcmtypes_ale_status_t_encoded_size(&message), 4096);
 }
 
