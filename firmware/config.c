@@ -26,6 +26,7 @@ ale_config_t ale_config_default(void)
 {
     ale_config_t config = {
         .pipeline = ale_pipeline_default_config(),
+        .robot = ale_robot_shape_default(),
         .port = "/dev/ttyACM0",
         .priority = 80,
         .cpu = -1,

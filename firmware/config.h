@@ -14,12 +14,14 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "plan/robot_shape.h"
 #include "track/pipeline.h"
 
 enum { ALE_CONFIG_PATH = 160, ALE_CONFIG_MESSAGE = 400 };
 
 typedef struct {
     ale_pipeline_config_t pipeline; /* extraction with noise, mounting, blind sectors, odometry, limits */
+    ale_robot_shape_t robot;        /* width, and how it comes to rest */
     char port[ALE_CONFIG_PATH];     /* empty: found by serial number */
     char serial[32];                /* empty: any */
     int32_t baud;                   /* 0: detected */

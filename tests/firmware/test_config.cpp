@@ -69,7 +69,8 @@ TEST(Config, ValuesReachTheirFieldsInIntegerUnits)
                     "blind = -120:-100, 100 : 120\nfirst_step=44\nlast_step=725\n[noise]\nown_um = "
                     "1700\n[extract]\nmin_length = 0.25\n"
                     "smooth_span = 9\n[odometry]\nuse=no\nlag_us = 155000\nscale = 0.03\n[robot]\nmax_speed "
-                    "= 0.8\n[lcm]\n"
+                    "= 0.8\nwidth = 0.52\nmargin = 0.05\ndeceleration = 0.7\nreaction = 0.3\nblind_speed = "
+                    "0.15\n[lcm]\n"
                     "url = udpm://239.255.76.67:7700?ttl=0\npublish_scan = "
                     "true\n[realtime]\npriority=0\ncpu=1\nlock_memory=no\n"
                     "[map]\nfile = home.map\n",
@@ -94,6 +95,11 @@ TEST(Config, ValuesReachTheirFieldsInIntegerUnits)
     EXPECT_EQ(config.pipeline.odometry_lag_us, 155000);
     EXPECT_EQ(config.pipeline.odometry_scale_ppm, 30000);
     EXPECT_EQ(config.pipeline.max_speed_mm_s, 800);
+    EXPECT_EQ(config.robot.width_um, 520000);
+    EXPECT_EQ(config.robot.margin_um, 50000);
+    EXPECT_EQ(config.robot.deceleration_um_s2, 700000);
+    EXPECT_EQ(config.robot.reaction_us, 300000);
+    EXPECT_EQ(config.robot.blind_um_s, 150000);
     EXPECT_STREQ(config.lcm_url, "udpm://239.255.76.67:7700?ttl=0");
     EXPECT_TRUE(config.publish_scan);
     EXPECT_EQ(config.priority, 0);
