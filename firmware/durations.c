@@ -43,3 +43,15 @@ int64_t ale_durations_quantile(const ale_durations_t *durations, uint32_t permil
     }
     return durations->worst_ns;
 }
+
+/* Buckets below 16 are single nanoseconds, so that octave 3 is buckets 8 to 15, like any other above. */
+uint32_t ale_durations_octave(const ale_durations_t *durations, uint32_t octave)
+{
+    const uint32_t first = octave < 3 ? 1U << octave : 8 * (octave - 2);
+    const uint32_t count = octave < 3 ? 1U << octave : 8;
+    uint32_t sum = octave == 0 ? durations->bucket[0] : 0;
+    for (uint32_t k = first; k < first + count && k < ALE_DURATIONS_BUCKETS; k++) {
+        sum += durations->bucket[k];
+    }
+    return sum;
+}

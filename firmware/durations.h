@@ -23,4 +23,8 @@ void ale_durations_add(ale_durations_t *durations, int64_t time_ns);
  * 0 when empty. */
 int64_t ale_durations_quantile(const ale_durations_t *durations, uint32_t permille);
 
+/* How many took from 2^octave up to twice as many nanoseconds; octave 0 to 42. The first counts zeros too,
+ * the last all that is longer. */
+uint32_t ale_durations_octave(const ale_durations_t *durations, uint32_t octave);
+
 #endif

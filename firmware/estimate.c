@@ -13,20 +13,43 @@ struct ale_estimator {
     bool keep_scans;
     uint32_t overloaded;
     uint32_t late;
-    bool map_waits; /* changed since it was last handed over */
-    int64_t map_ns; /* when it was handed over */
+    bool map_waits;     /* changed since it was last handed over */
+    int64_t map_ns;     /* when it was handed over */
+    int64_t arrival_ns; /* of the scan at hand, by the clock of ale_rt_now_ns */
     int64_t stage_start_ns;
-    int32_t *stage_ns;  /* of the result being made */
-    ale_result_t spare; /* where a result goes that has no room */
+    ale_result_t *result; /* being made */
+    ale_result_t spare;   /* where a result goes that has no room */
 };
+
+static int32_t clamp_ns(int64_t span_ns)
+{
+    return (int32_t)ale_clamp64(span_ns, 0, INT32_MAX);
+}
 
 static void end_of_stage(void *user, ale_stage_t stage)
 {
     ale_estimator_t *estimator = user;
+    ale_result_t *result = estimator->result;
+    const int64_t start_ns = estimator->stage_start_ns;
     const int64_t now_ns = ale_rt_now_ns();
-    const int64_t spent_ns = now_ns - estimator->stage_start_ns;
-    estimator->stage_ns[stage] = (int32_t)ale_clamp64(estimator->stage_ns[stage] + spent_ns, 0, INT32_MAX);
+    if (result->stage_end_ns[stage] == 0) {
+        result->stage_start_ns[stage] = clamp_ns(start_ns - estimator->arrival_ns);
+    }
+    result->stage_end_ns[stage] = clamp_ns(now_ns - estimator->arrival_ns);
+    result->stage_ns[stage] = clamp_ns(result->stage_ns[stage] + now_ns - start_ns);
     estimator->stage_start_ns = now_ns;
+}
+
+static void begin_stages(ale_estimator_t *estimator, ale_result_t *result, int64_t start_ns)
+{
+    const ale_clock_t *clock = &estimator->exchange->clock;
+    const int64_t waited_us = ale_clock_now_us(clock) - result->arrival_us;
+    estimator->arrival_ns = start_ns - ale_clock_real_ns(clock, waited_us);
+    estimator->stage_start_ns = start_ns;
+    estimator->result = result;
+    memset(result->stage_ns, 0, sizeof result->stage_ns);
+    memset(result->stage_start_ns, 0, sizeof result->stage_start_ns);
+    memset(result->stage_end_ns, 0, sizeof result->stage_end_ns);
 }
 
 ale_estimator_t *ale_estimator_create(const ale_config_t *config, ale_exchange_t *exchange)
@@ -42,7 +65,7 @@ ale_estimator_t *ale_estimator_create(const ale_config_t *config, ale_exchange_t
     estimator->map_ns = -ALE_MAP_PERIOD_NS;
     estimator->pipeline = pipeline;
     estimator->keep_scans = config->publish_scan || config->publish_bot_core;
-    estimator->stage_ns = estimator->spare.stage_ns;
+    estimator->result = &estimator->spare;
     const ale_stage_hook_t hook = {.end_of = end_of_stage, .user = estimator};
     ale_pipeline_set_hook(pipeline, &hook);
     return estimator;
@@ -89,10 +112,8 @@ static void answer(ale_estimator_t *estimator, const ale_scan_record_t *record, 
 {
     ale_exchange_t *exchange = estimator->exchange;
     const int64_t start_ns = ale_rt_now_ns();
-    estimator->stage_start_ns = start_ns;
-    estimator->stage_ns = result->stage_ns;
-    memset(result->stage_ns, 0, sizeof result->stage_ns);
     result->arrival_us = record->arrival_us;
+    begin_stages(estimator, result, start_ns);
     if (use) {
         use_scan(estimator, record, result);
     } else {
@@ -100,7 +121,7 @@ static void answer(ale_estimator_t *estimator, const ale_scan_record_t *record, 
         result->has_scan = false;
         result->first_beam_us = record->scan.stamp_us;
     }
-    result->total_ns = (int32_t)ale_clamp64(ale_rt_now_ns() - start_ns, 0, INT32_MAX);
+    result->total_ns = clamp_ns(ale_rt_now_ns() - start_ns);
     estimator->late += ale_clock_now_us(&exchange->clock) - record->arrival_us > ALE_DEADLINE_US;
     estimator->map_waits = estimator->map_waits || result->estimate.map_changed;
     result->overloaded = estimator->overloaded;

@@ -36,6 +36,8 @@ typedef struct {
     int64_t first_beam_us;
     int64_t arrival_us;
     int32_t stage_ns[ALE_STAGES];
+    int32_t stage_start_ns[ALE_STAGES]; /* first start and last end of each stage after the arrival, real */
+    int32_t stage_end_ns[ALE_STAGES];   /* time; 0: it did not run */
     int32_t total_ns;
     uint32_t overloaded; /* scans set aside since the start, for newer ones */
     uint32_t late;       /* scans answered after their deadline, since the start */

@@ -72,6 +72,8 @@ static void send_result(ale_telemetry_t *telemetry, const ale_result_t *result)
     };
     report.estimate.stamp_us = ale_clock_to_utime(clock, result->estimate.stamp_us);
     memcpy(report.stage_ns, result->stage_ns, sizeof report.stage_ns);
+    memcpy(report.stage_start_ns, result->stage_start_ns, sizeof report.stage_start_ns);
+    memcpy(report.stage_end_ns, result->stage_end_ns, sizeof report.stage_end_ns);
     ale_bus_send_pose(telemetry->bus, &report);
     const int64_t latency_us = ale_clock_now_us(clock) - result->arrival_us;
     ale_statistics_add(&telemetry->statistics, result, ale_clock_real_ns(clock, latency_us));

@@ -79,6 +79,8 @@ void ale_convert_pose(const ale_pose_report_t *report, lcmtypes_ale_pose_t *mess
         message->observability[k] = (float)((double)estimate->information[k] * INFORMATION_PER_SI);
     }
     memcpy(message->stage_ns, report->stage_ns, sizeof message->stage_ns);
+    memcpy(message->stage_start_ns, report->stage_start_ns, sizeof message->stage_start_ns);
+    memcpy(message->stage_end_ns, report->stage_end_ns, sizeof message->stage_end_ns);
 }
 
 static void convert_line(const ale_line_t *line, lcmtypes_ale_line_t *message)

@@ -16,6 +16,8 @@ typedef struct {
     int64_t arrival_us; /* last byte of the scan */
     int64_t sent_us;
     int32_t stage_ns[ALE_STAGES];
+    int32_t stage_start_ns[ALE_STAGES]; /* after the arrival, real time; 0: did not run */
+    int32_t stage_end_ns[ALE_STAGES];
 } ale_pose_report_t;
 
 /* ALE_MAP: number of parts that a map needs, at least 1. */

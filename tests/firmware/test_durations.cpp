@@ -51,6 +51,22 @@ TEST(Durations, QuantilesAreNeverTooSmallAndAtMostAnEighthTooLarge)
     }
 }
 
+TEST(Durations, OctavesAreAHistogramOfEveryValue)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> exponent(-1, 41);
+    auto durations = std::make_unique<ale_durations_t>();
+    std::vector<uint32_t> expected(43);
+    for (int k = 0; k < 5000; k++) {
+        const auto value = static_cast<int64_t>(std::exp2(exponent(random)));
+        expected[value < 2 ? 0 : static_cast<size_t>(std::ilogb(static_cast<double>(value)))]++;
+        ale_durations_add(durations.get(), value);
+    }
+    for (uint32_t octave = 0; octave < expected.size(); octave++) {
+        EXPECT_EQ(ale_durations_octave(durations.get(), octave), expected[octave]) << "octave " << octave;
+    }
+}
+
 TEST(Durations, ExtremesAreTaken)
 {
     auto durations = std::make_unique<ale_durations_t>();

@@ -83,6 +83,11 @@ TEST_F(Estimate, EveryScanIsAnsweredOnceInItsOrderWithFeaturesAndTimes)
             sum += stage;
         }
         EXPECT_LE(sum, result->total_ns);
+        for (int stage = 0; stage < ALE_STAGES; stage++) {
+            const int64_t span = int64_t{result->stage_end_ns[stage]} - result->stage_start_ns[stage];
+            EXPECT_GE(result->stage_start_ns[stage], 0);
+            EXPECT_GE(span, result->stage_ns[stage]) << "a stage takes place between its start and its end";
+        }
         EXPECT_FALSE(pop(*result));
     }
 }

@@ -84,8 +84,12 @@ class RobotDouble:
         pose.map_x, pose.map_y, pose.map_theta = x, y, theta
         pose.cov = [sigma[k // 4] ** 2 if k % 4 == 0 else 0.0 for k in range(9)]
         pose.vx, pose.omega = RADIUS * OMEGA, OMEGA
-        pose.age_us, pose.arrival_utime = 70000, now - 1400
+        pose.first_beam_utime, pose.arrival_utime, pose.age_us = now - 66000, now - 1400, 70000
         pose.stage_ns = [41000, 180000 + 9000 * (self.scan % 7), 240000, 310000, 60000]
+        begin = 20000
+        for k, spent in enumerate(pose.stage_ns):
+            pose.stage_start_ns[k], pose.stage_end_ns[k] = begin, begin + spent
+            begin += spent
         return pose
 
     def publish_pose(self):

@@ -79,12 +79,13 @@ $(OBJ)/tests/%.o: INCLUDES = $(TEST_INCLUDES)
 $(OBJ)/tests/%.o: override OPT = -O0
 $(OBJ)/tests/%.o: SANITIZER_FLAGS =
 
-$(OBJ)/%.c.o: %.c | $(LCM_STAMP)
+# System headers are in no .d file: changed message types are a reason to compile again.
+$(OBJ)/%.c.o: %.c $(LCM_STAMP)
 	$(call say,cc,$<)
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(C_FLAGS) $(INCLUDES) -c $< -o $@
 
-$(OBJ)/%.cpp.o: %.cpp | $(LCM_STAMP)
+$(OBJ)/%.cpp.o: %.cpp $(LCM_STAMP)
 	$(call say,c++,$<)
 	@mkdir -p $(@D)
 	$(Q)$(CXX) $(CXX_FLAGS) $(INCLUDES) -c $< -o $@

@@ -42,6 +42,8 @@ TEST(Convert, APoseGoesOutInMetresRadiansAndTheirVariances)
     report.arrival_us = report.estimate.stamp_us + 100000;
     report.sent_us = report.estimate.stamp_us + 101000;
     report.stage_ns[ALE_STAGE_MATCH] = 12345;
+    report.stage_start_ns[ALE_STAGE_MATCH] = 54321;
+    report.stage_end_ns[ALE_STAGE_MATCH] = 66666;
 
     lcmtypes_ale_pose_t message;
     ale_convert_pose(&report, &message);
@@ -64,6 +66,8 @@ TEST(Convert, APoseGoesOutInMetresRadiansAndTheirVariances)
     EXPECT_EQ(message.age_us, 101000);
     EXPECT_EQ(message.arrival_utime - message.first_beam_utime, 95703);
     EXPECT_EQ(message.stage_ns[ALE_STAGE_MATCH], 12345);
+    EXPECT_EQ(message.stage_start_ns[ALE_STAGE_MATCH], 54321);
+    EXPECT_EQ(message.stage_end_ns[ALE_STAGE_MATCH], 66666);
 }
 
 TEST(Convert, LinesAndCornersKeepTheirOrderAndCovariance)

@@ -1,0 +1,92 @@
+#include "latency/report.h"
+
+#include <cstdarg>
+#include <cstdio>
+
+namespace latency
+{
+
+namespace
+{
+
+constexpr uint32_t octaves = 43;
+
+__attribute__((format(printf, 1, 2))) std::string format(const char *words, ...)
+{
+    char text[160];
+    va_list arguments;
+    va_start(arguments, words);
+    std::vsnprintf(text, sizeof text, words, arguments);
+    va_end(arguments);
+    return text;
+}
+
+double microseconds(int64_t time_ns)
+{
+    return static_cast<double>(time_ns) * 1e-3;
+}
+
+std::string quantiles(const Latencies &latencies)
+{
+    std::string text = "microseconds      scans    median       p99     worst  at scan\n";
+    for (size_t k = 0; k < span_count; k++) {
+        const SpanTimes &span = latencies[static_cast<Span>(k)];
+        text += format("%-12s %10u %9.1f %9.1f %9.1f %8d\n", span_names[k], span.times.count,
+                       microseconds(ale_durations_quantile(&span.times, 500)),
+                       microseconds(ale_durations_quantile(&span.times, 990)),
+                       microseconds(span.times.worst_ns), span.worst_scan);
+    }
+    return text;
+}
+
+bool anything_in(const Latencies &latencies, uint32_t octave)
+{
+    for (size_t k = 0; k < span_count; k++) {
+        if (ale_durations_octave(&latencies[static_cast<Span>(k)].times, octave) > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+std::string histogram_row(const Latencies &latencies, uint32_t octave)
+{
+    std::string row = format("%12.1f", microseconds(int64_t{2} << octave));
+    for (size_t k = 0; k < span_count; k++) {
+        const uint32_t count = ale_durations_octave(&latencies[static_cast<Span>(k)].times, octave);
+        row += count > 0 ? format(" %8u", count) : format(" %8s", ".");
+    }
+    return row + "\n";
+}
+
+std::string histogram(const Latencies &latencies)
+{
+    uint32_t first = 0;
+    uint32_t last = octaves;
+    while (first < octaves && !anything_in(latencies, first)) {
+        first++;
+    }
+    while (last > first && !anything_in(latencies, last - 1)) {
+        last--;
+    }
+    std::string text = "       up to";
+    for (const char *name : span_names) {
+        text += format(" %8s", name);
+    }
+    text += "\n";
+    for (uint32_t octave = first; octave < last; octave++) {
+        text += histogram_row(latencies, octave);
+    }
+    return text;
+}
+
+} // namespace
+
+std::string report(const Latencies &latencies)
+{
+    return format("poses %lld, of them predicted %lld\n", static_cast<long long>(latencies.poses()),
+                  static_cast<long long>(latencies.predicted())) +
+           quantiles(latencies) + "\n" + histogram(latencies);
+}
+
+} // namespace latency
