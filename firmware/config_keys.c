@@ -13,7 +13,8 @@
 const ale_config_key_t ale_config_keys[] = {
     {"sensor", "port", TEXT(port),
      "Serial device of the scanner, best a stable name under /dev/serial/by-id.\n"
-     "Empty: every serial port is asked for the scanner with the serial number below."},
+     "Empty: every serial port is asked for the scanner with the serial number below.\n"
+     "rtai:0, rtai:1: a 16550 port by RTAI's serial driver (builds for RTAI)."},
     {"sensor", "serial", TEXT(serial), "Serial number that the scanner must have. Empty: any."},
     {"sensor", "baud", NUMBER(baud, 0, 0, 1000000), "Rate of an RS-232 port in bit/s. 0: found by trying."},
     {"sensor", "x", NUMBER(pipeline.sensor.x_um, 6, -10000000, 10000000),

@@ -47,6 +47,26 @@ static bool rate_has_effect(const char *name)
     return strncmp(name, "ttyACM", 6) != 0;
 }
 
+/* What ale_port_offer brought. */
+static struct {
+    const char *prefix;
+    const ale_port_backend_t *backend;
+} offered;
+
+void ale_port_offer(const char *prefix, const ale_port_backend_t *backend)
+{
+    offered.prefix = prefix;
+    offered.backend = backend;
+}
+
+/* Such a port is no file: it locks itself. */
+static int open_offered(ale_port_t *port, const char *name, int32_t baud)
+{
+    port->backend = offered.backend;
+    port->has_baud = true;
+    return port->backend->open(port, name, baud);
+}
+
 static int open_locked(ale_port_t *port, const char *real_path, int32_t baud)
 {
     const int status = port->backend->open(port, real_path, baud);
@@ -60,23 +80,31 @@ static int open_locked(ale_port_t *port, const char *real_path, int32_t baud)
     return ALE_PORT_OK;
 }
 
-int ale_port_open(ale_port_t **out, const char *path, int32_t baud)
+static int open_device(ale_port_t *port, const char *path, int32_t baud)
 {
-    *out = NULL;
     char real_path[PATH_MAX];
     if (realpath(path, real_path) == NULL) {
         return ale_port_status_of_errno(errno);
-    }
-    ale_port_t *port = calloc(1, sizeof *port);
-    if (port == NULL) {
-        return ALE_PORT_GONE;
     }
     const char *name = strrchr(real_path, '/') + 1;
     const bool real = listed_by_kernel(name);
     port->backend = real ? &ale_port_libserialport_backend : &ale_port_fd_backend;
     port->has_baud = real && rate_has_effect(name);
+    return open_locked(port, real_path, baud);
+}
+
+int ale_port_open(ale_port_t **out, const char *path, int32_t baud)
+{
+    *out = NULL;
+    ale_port_t *port = calloc(1, sizeof *port);
+    if (port == NULL) {
+        return ALE_PORT_GONE;
+    }
     port->fd = -1;
-    const int status = open_locked(port, real_path, baud);
+    const size_t prefix = offered.prefix ? strlen(offered.prefix) : 0;
+    const int status = prefix > 0 && strncmp(path, offered.prefix, prefix) == 0
+                           ? open_offered(port, path + prefix, baud)
+                           : open_device(port, path, baud);
     if (status < 0) {
         free(port);
         return status;
@@ -113,6 +141,15 @@ static int poll_until(int fd, short events, int64_t deadline_ms)
     }
 }
 
+static int wait_until(ale_port_t *port, short events, int64_t deadline_ms)
+{
+    if (port->backend->wait == NULL) {
+        return poll_until(port->fd, events, deadline_ms);
+    }
+    const int64_t left_ms = deadline_ms - monotonic_ms();
+    return port->backend->wait(port, events, left_ms > 0 ? (int32_t)left_ms : 0);
+}
+
 int ale_port_wait(ale_port_t *port, int32_t timeout_ms)
 {
     const int64_t deadline_ms = monotonic_ms() + timeout_ms;
@@ -120,7 +157,7 @@ int ale_port_wait(ale_port_t *port, int32_t timeout_ms)
         poll_until(-1, 0, deadline_ms);
         return 0;
     }
-    const int events = poll_until(port->fd, POLLIN, deadline_ms);
+    const int events = wait_until(port, POLLIN, deadline_ms);
     if (events < 0 || (events & POLLNVAL) != 0) {
         return ALE_PORT_GONE;
     }
@@ -131,9 +168,9 @@ int ale_port_wait(ale_port_t *port, int32_t timeout_ms)
 }
 
 /* A terminal that hung up reads as "nothing there". */
-static bool hung_up(const ale_port_t *port)
+static bool hung_up(ale_port_t *port)
 {
-    const int events = poll_until(port->fd, POLLIN, 0);
+    const int events = wait_until(port, POLLIN, 0);
     return events < 0 || (events & (POLLHUP | POLLERR | POLLNVAL)) != 0;
 }
 
@@ -156,7 +193,7 @@ int ale_port_write(ale_port_t *port, const uint8_t *bytes, size_t count, int32_t
         if (done == count) {
             break;
         }
-        const int events = poll_until(port->fd, POLLOUT, deadline_ms);
+        const int events = wait_until(port, POLLOUT, deadline_ms);
         if (events < 0 || (events & (POLLHUP | POLLERR | POLLNVAL)) != 0) {
             return ALE_PORT_GONE;
         }

@@ -13,6 +13,9 @@ typedef struct {
     int (*read)(ale_port_t *port, uint8_t *bytes, size_t capacity);
     int (*write)(ale_port_t *port, const uint8_t *bytes, size_t count);
     void (*close)(ale_port_t *port);
+    /* Waits for events (POLLIN, POLLOUT) as poll does: those that came, 0 at the end of the time, -1 with
+     * errno. NULL: poll on port->fd. */
+    int (*wait)(ale_port_t *port, short events, int32_t timeout_ms);
 } ale_port_backend_t;
 
 struct ale_port {
@@ -24,6 +27,10 @@ struct ale_port {
 
 extern const ale_port_backend_t ale_port_fd_backend;
 extern const ale_port_backend_t ale_port_libserialport_backend;
+
+/* A back end from above drivers/ that serves the paths which begin with prefix ("name:"); it is given what
+ * follows. Once, before the first port is opened; both must stay. */
+void ale_port_offer(const char *prefix, const ale_port_backend_t *backend);
 
 /* The status that an errno of open, read or write stands for. */
 int ale_port_status_of_errno(int error);

@@ -75,4 +75,5 @@ static void fd_close(ale_port_t *port)
     close(port->fd);
 }
 
-const ale_port_backend_t ale_port_fd_backend = {fd_open, fd_set_baud, fd_read, fd_write, fd_close};
+const ale_port_backend_t ale_port_fd_backend = {
+    .open = fd_open, .set_baud = fd_set_baud, .read = fd_read, .write = fd_write, .close = fd_close};

@@ -91,6 +91,8 @@ static void sp_backend_close(ale_port_t *port)
     sp_free_port(port->handle);
 }
 
-const ale_port_backend_t ale_port_libserialport_backend = {
-    sp_backend_open, sp_backend_set_baud, sp_backend_read, sp_backend_write, sp_backend_close,
-};
+const ale_port_backend_t ale_port_libserialport_backend = {.open = sp_backend_open,
+                                                           .set_baud = sp_backend_set_baud,
+                                                           .read = sp_backend_read,
+                                                           .write = sp_backend_write,
+                                                           .close = sp_backend_close};

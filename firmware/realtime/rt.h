@@ -7,9 +7,9 @@
  *   ale_rt_task_stop(task); ale_rt_release_post(release); ale_rt_task_join(task);
  *   ale_rt_stop();
  *
- * Back ends: rt_posix.c (SCHED_FIFO; hard under PREEMPT_RT). The shape is that of an RTAI/LXRT task too: a
- * hard task waits on one object that an ordinary thread may signal, time is read and never set, and
- * nothing is started, allocated or printed between release and wait. */
+ * Back ends: rt_posix.c (SCHED_FIFO; hard under PREEMPT_RT), rt_rtai.c (RTAI/LXRT). A hard task waits on one
+ * object that others may signal, time is read and never set, and nothing is started, allocated or printed
+ * between release and wait. */
 #ifndef ALE_FIRMWARE_RT_H
 #define ALE_FIRMWARE_RT_H
 

@@ -2,7 +2,6 @@
 #include "realtime/rt.h"
 
 #include <errno.h>
-#include <linux/capability.h>
 #include <linux/futex.h>
 #include <pthread.h>
 #include <sched.h>
@@ -12,14 +11,16 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <time.h>
 #include <unistd.h>
 
+#include "realtime/findings.h"
+#include "realtime/memory.h"
+
 #define NS_PER_S 1000000000
 
-enum { LIBRARY_STACK_BYTES = 1024 * 1024, GUARD_BYTES = 65536 }; /* a page or more, whatever its size */
+enum { GUARD_BYTES = 65536 }; /* a page or more, whatever its size */
 
 struct ale_rt_task {
     pthread_t thread;
@@ -58,39 +59,13 @@ static bool kernel_is_preempt_rt(void)
     return answer == '1';
 }
 
-/* Threads of libraries too: with memory locked the usual 8 MB of stack would all be taken. */
-static void limit_default_stack(void)
-{
-    pthread_attr_t attributes;
-    pthread_attr_init(&attributes);
-    pthread_attr_setstacksize(&attributes, LIBRARY_STACK_BYTES);
-    pthread_setattr_default_np(&attributes);
-    pthread_attr_destroy(&attributes);
-}
-
-static bool may_lock_all_memory(void)
-{
-    struct __user_cap_header_struct header = {.version = _LINUX_CAPABILITY_VERSION_3};
-    struct __user_cap_data_struct rights[_LINUX_CAPABILITY_U32S_3] = {0};
-    struct rlimit limit = {0};
-    const bool unlimited = getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY;
-    const bool asked = syscall(SYS_capget, &header, rights) == 0;
-    return unlimited || (asked && (rights[0].effective & (1U << CAP_IPC_LOCK)) != 0);
-}
-
-/* Under a limit MCL_FUTURE would make later allocations fail: all or nothing. */
-static bool lock_memory(void)
-{
-    return may_lock_all_memory() && mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
-}
-
 int ale_rt_start(const ale_rt_config_t *config, ale_rt_report_t *report)
 {
     memset(&state, 0, sizeof state);
     state.config = *config;
     state.preempt_rt = kernel_is_preempt_rt();
-    limit_default_stack();
-    state.memory_locked = config->lock_memory && lock_memory();
+    ale_rt_limit_default_stack();
+    state.memory_locked = config->lock_memory && ale_rt_lock_memory();
     ale_rt_report(report);
     return 0;
 }
@@ -102,35 +77,19 @@ void ale_rt_stop(void)
     }
 }
 
-/* Appends ", word" to a list. */
-static void append(char *list, size_t size, const char *format, int number)
-{
-    const size_t used = strlen(list);
-    const size_t comma = used ? 2 : 0;
-    if (used + comma < size) {
-        memcpy(list + used, ", ", comma);
-        snprintf(list + used + comma, size - used - comma, format, number);
-    }
-}
-
 void ale_rt_report(ale_rt_report_t *report)
 {
-    char got[80] = "";
-    char missing[100] = "";
-    const bool priority = state.config.priority > 0 && !state.priority_refused;
-    const bool cpu = state.config.cpu >= 0 && !state.cpu_refused;
-    append(priority ? got : missing, priority ? sizeof got : sizeof missing,
-           state.config.priority ? "SCHED_FIFO %d" : "priority (none asked for)", state.config.priority);
-    append(state.memory_locked ? got : missing, state.memory_locked ? sizeof got : sizeof missing,
-           "locked memory", 0);
+    ale_rt_findings_t findings = {0};
+    ale_rt_found(&findings, state.config.priority > 0 && !state.priority_refused,
+                 state.config.priority ? "SCHED_FIFO %d" : "priority (none asked for)",
+                 state.config.priority);
+    ale_rt_found(&findings, state.memory_locked, "locked memory", 0);
     if (state.config.cpu >= 0) {
-        append(cpu ? got : missing, cpu ? sizeof got : sizeof missing, "processor %d", state.config.cpu);
+        ale_rt_found(&findings, !state.cpu_refused, "processor %d", state.config.cpu);
     }
-    append(got, sizeof got, "touched stacks", 0);
-    append(state.preempt_rt ? got : missing, state.preempt_rt ? sizeof got : sizeof missing,
-           "PREEMPT_RT kernel", 0);
-    report->realtime = missing[0] == '\0';
-    snprintf(report->text, sizeof report->text, "%s%s%s", got, missing[0] ? "; missing: " : "", missing);
+    ale_rt_found(&findings, true, "touched stacks", 0);
+    ale_rt_found(&findings, state.preempt_rt, "PREEMPT_RT kernel", 0);
+    ale_rt_findings_report(&findings, report);
 }
 
 static void *run_task(void *user)

@@ -3,7 +3,7 @@
 #   lib/*/*.c            -> libale.a            the real-time core, integers only
 #   lib/graph/*.cpp      -> libale_graph.a      the mapper
 #   drivers/*/*.c        -> libale_drivers.a    with the generated LCM types
-#   firmware/**/*.c      -> libale_firmware.a   all but main.c; main.c -> ale-slamd
+#   firmware/**/*.c      -> libale_firmware.a   all but main.c; main.c -> ale-slamd; one realtime/rt_$(RT).c (rtai.mk)
 #   tools/export/*.cpp   -> linked to every tool
 #   tools/NAME/*.c, .cpp -> ale-NAME            page/ beside them is embedded
 #
@@ -56,11 +56,13 @@ $(LCM_JAR): $(LCM_STAMP)
 .PHONY: lcm-types
 lcm-types: $(LCM_JAR) ## the LCM types for lcm-spy (build/ale-lcmtypes.jar) and Python (build/python)
 
+include tools/make/rtai.mk
+
 # Floors of the house: each sees itself and what lies below.
 LIB_SOURCES = $(wildcard lib/*/*.c)
 GRAPH_SOURCES = $(wildcard lib/graph/*.cpp)
 DRIVER_SOURCES = $(wildcard drivers/*/*.c)
-FIRMWARE_SOURCES = $(filter-out firmware/main.c,$(wildcard firmware/*.c firmware/*/*.c))
+FIRMWARE_SOURCES = $(filter-out firmware/main.c firmware/realtime/rt_%.c,$(wildcard firmware/*.c firmware/*/*.c)) firmware/realtime/rt_$(RT).c
 EXPORT_SOURCES = $(wildcard tools/export/*.c tools/export/*.cpp)
 
 LIB_INCLUDES = -Ilib
@@ -93,7 +95,7 @@ $(OBJ)/%.cpp.o: %.cpp $(LCM_STAMP)
 define archive
 	$(call say,ar,$@)
 	@mkdir -p $(@D)
-	$(Q)rm -f $@ && $(AR) rcs $@ $^
+	$(Q)rm -f $@ && $(AR) rcs $@ $(filter %.o,$^)
 endef
 
 $(BUILD)/libale.a: $(call objects,$(LIB_SOURCES))
@@ -102,7 +104,7 @@ $(BUILD)/libale_graph.a: $(call objects,$(GRAPH_SOURCES))
 	$(archive)
 $(BUILD)/libale_drivers.a: $(call objects,$(DRIVER_SOURCES)) $(LCM_OBJECTS)
 	$(archive)
-$(BUILD)/libale_firmware.a: $(call objects,$(FIRMWARE_SOURCES))
+$(BUILD)/libale_firmware.a: $(call objects,$(FIRMWARE_SOURCES)) $(BUILD)/realtime-port
 	$(archive)
 $(BUILD)/libale_export.a: $(call objects,$(EXPORT_SOURCES))
 	$(archive)
