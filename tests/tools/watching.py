@@ -1,28 +1,20 @@
 """Fixtures for tests of the programs that watch the robot: a free LCM URL, ale-console, a pulse of scans."""
 import os
 import pathlib
-import random
-import socket
 import subprocess
+import sys
 import threading
 import urllib.request
 
 import pytest
 
-from robot_double import RobotDouble
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools" / "python"))
+
+from lcm_url import free_lcm_url  # noqa: E402
+
+from robot_double import RobotDouble  # noqa: E402
 
 BINARIES = pathlib.Path(os.environ.get("ALE_BUILD", "build")) / "bin"
-
-
-def free_lcm_url():
-    while True:
-        port = random.randint(20000, 60000)
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-            try:
-                probe.bind(("", port))
-            except OSError:
-                continue
-            return f"udpm://239.255.76.67:{port}?ttl=0"
 
 
 @pytest.fixture

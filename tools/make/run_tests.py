@@ -2,8 +2,8 @@
 """Runs tests of one kind and adds up what they say.
 
     run_tests.py unit PROGRAM...          GoogleTest programs, two at a time
-    run_tests.py system PYTHON [ARG...]   pytest over tests/
-    run_tests.py fuzz --seconds N PROGRAM...
+    run_tests.py system PYTHON [ARG...]   pytest over tests/, two a processor: they mostly wait
+    run_tests.py fuzz --seconds N PROGRAM...   one a processor
     run_tests.py command NAME CMD...      one command that passes or fails
     run_tests.py sum                      the closing line over all that ran since `run_tests.py begin`
 
@@ -79,7 +79,7 @@ def system(python, arguments):
     report.unlink(missing_ok=True)
     path = os.pathsep.join([str(BUILD / "python"), os.environ.get("PYTHONPATH", "")]).rstrip(os.pathsep)
     done = subprocess.run([python, "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--junitxml={report}",
-                           *(arguments or ["tests"])] + (["tests"] if arguments else []),
+                           "-n", str(2 * (os.cpu_count() or 1)), "--dist", "loadfile", *(arguments or ["tests"])] + (["tests"] if arguments else []),
                           env={**os.environ, "PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1"}, check=False)
     passed, failed, skipped = counts(report) if report.exists() else (0, 1, 0)
     if done.returncode not in (0, 5) and failed == 0:
@@ -87,23 +87,29 @@ def system(python, arguments):
     return record("system", passed, failed, skipped)
 
 
+def run_fuzzer(program, seconds):
+    """One libFuzzer program: its name, inputs tried, and its output when it found something."""
+    name = pathlib.Path(program).name
+    corpus = BUILD / "fuzz" / "corpus" / name
+    corpus.mkdir(parents=True, exist_ok=True)
+    seeds = pathlib.Path("tests/fuzz/seeds") / name
+    done = subprocess.run([program, str(corpus), *([str(seeds)] if seeds.is_dir() else []),
+                           f"-max_total_time={seconds}", "-timeout=10", "-rss_limit_mb=4096",
+                           "-print_final_stats=1", f"-artifact_prefix={BUILD}/fuzz/"],
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    text = done.stdout.decode(errors="replace")
+    runs = [line.split()[-1] for line in text.splitlines() if "number_of_executed_units" in line]
+    return name, runs[0] if runs else "?", text[-4000:] if done.returncode else ""
+
+
 def fuzz(programs, seconds):
     failed = 0
-    for program in programs:
-        corpus = BUILD / "fuzz" / "corpus" / pathlib.Path(program).name
-        corpus.mkdir(parents=True, exist_ok=True)
-        seeds = pathlib.Path("tests/fuzz/seeds") / pathlib.Path(program).name
-        done = subprocess.run([program, str(corpus), *([str(seeds)] if seeds.is_dir() else []),
-                               f"-max_total_time={seconds}", "-timeout=10", "-rss_limit_mb=4096",
-                               "-print_final_stats=1", f"-artifact_prefix={BUILD}/fuzz/"],
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
-        text = done.stdout.decode(errors="replace")
-        runs = [line.split()[-1] for line in text.splitlines() if "number_of_executed_units" in line]
-        print(f"  {'FAILED' if done.returncode else 'ok':6} {pathlib.Path(program).name:40} "
-              f"{runs[0] if runs else '?'} inputs in {seconds} s", flush=True)
-        if done.returncode:
-            print(text[-4000:])
-            failed += 1
+    with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+        for name, inputs, trouble in pool.map(lambda program: run_fuzzer(program, seconds), programs):
+            print(f"  {'FAILED' if trouble else 'ok':6} {name:40} {inputs} inputs in {seconds} s", flush=True)
+            if trouble:
+                print(trouble)
+                failed += 1
     return record("fuzz", len(programs) - failed, failed, 0)
 
 
