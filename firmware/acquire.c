@@ -4,6 +4,7 @@
 #include <string.h>
 #include <sys/eventfd.h>
 
+#include "recorder.h"
 #include "urg/urg_device.h"
 
 struct ale_acquire {
@@ -18,8 +19,14 @@ static int64_t robot_clock(void *user)
     return ale_clock_now_us(user);
 }
 
-static ale_urg_config_t device_config(const ale_config_t *config, const ale_clock_t *clock)
+static void record_bytes(void *user, bool sent, const uint8_t *bytes, uint32_t count, int64_t now_us)
 {
+    ale_recorder_bytes(user, sent, bytes, count, now_us);
+}
+
+static ale_urg_config_t device_config(const ale_config_t *config, const ale_exchange_t *exchange)
+{
+    const ale_clock_t *clock = &exchange->clock;
     return (ale_urg_config_t){
         .path = config->port[0] ? config->port : NULL,
         .serial = config->serial[0] ? config->serial : NULL,
@@ -28,6 +35,8 @@ static ale_urg_config_t device_config(const ale_config_t *config, const ale_cloc
         .first_step = config->first_step,
         .last_step = config->last_step,
         .time_scale = (double)clock->scale_ppm / ALE_CLOCK_REAL,
+        .tap = record_bytes,
+        .tap_user = exchange->recorder,
         .now_us = robot_clock,
         .now_user = (void *)clock,
     };
@@ -50,6 +59,7 @@ static void hand_over(ale_acquire_t *acquire, bool lost)
         record->scan = acquire->scan;
     }
     ale_ring_commit(exchange->scans);
+    ale_recorder_scan(exchange->recorder, ale_ring_committed(exchange->scans) - 1);
     ale_rt_release_post(exchange->arrived);
 }
 
@@ -82,7 +92,7 @@ ale_acquire_t *ale_acquire_start(const ale_config_t *config, ale_exchange_t *exc
     if (!acquire) {
         return NULL;
     }
-    const ale_urg_config_t device = device_config(config, &exchange->clock);
+    const ale_urg_config_t device = device_config(config, exchange);
     acquire->exchange = exchange;
     acquire->urg = ale_urg_create(&device);
     if (acquire->urg) {

@@ -31,6 +31,7 @@ ale_config_t ale_config_default(void)
         .priority = 80,
         .cpu = -1,
         .lock_memory = true,
+        .recorder_megabytes = 8,
     };
     return config;
 }

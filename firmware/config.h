@@ -34,7 +34,9 @@ typedef struct {
     int32_t priority; /* 1..97, 0: not real time */
     int32_t cpu;      /* of the estimate task; -1: any */
     bool lock_memory;
-    char map[ALE_CONFIG_PATH]; /* loaded at start; empty: none */
+    char map[ALE_CONFIG_PATH];             /* loaded at start; empty: none */
+    char recorder_folder[ALE_CONFIG_PATH]; /* where flight recordings go; empty: nothing is recorded */
+    int32_t recorder_megabytes;
 } ale_config_t;
 
 typedef struct {

@@ -90,6 +90,11 @@ const ale_config_key_t ale_config_keys[] = {
     {"realtime", "lock_memory", BOOL(lock_memory), "Keep all memory from being paged out."},
 
     {"map", "file", TEXT(map), "Map to start from. Empty: none, the first scan is the origin."},
+
+    {"recorder", "folder", TEXT(recorder_folder),
+     "Where flight recordings are written: on a fault, a missed deadline or a command. Empty: none."},
+    {"recorder", "megabytes", NUMBER(recorder_megabytes, 0, 1, 1024),
+     "Memory for them: a URG-04LX fills 2 MB a minute."},
 };
 
 const size_t ale_config_key_count = sizeof ale_config_keys / sizeof ale_config_keys[0];

@@ -7,6 +7,7 @@
 #include "exchange.h"
 #include "lcm/bus.h"
 #include "realtime/rt.h"
+#include "recorder.h"
 #include "store/map_file.h"
 #include "telemetry.h"
 
@@ -15,6 +16,7 @@ struct ale_daemon {
     bool realtime_started;
     bool exchange_open;
     ale_exchange_t exchange;
+    ale_recorder_t *recorder;
     ale_bus_t *bus;
     ale_estimator_t *estimator;
     ale_rt_task_t *estimate;
@@ -71,6 +73,18 @@ static int prepare(ale_daemon_t *daemon)
     return load_map(daemon);
 }
 
+/* Before those who tell it anything. */
+static int start_recorder(ale_daemon_t *daemon)
+{
+    const ale_config_t *config = &daemon->options->config;
+    if (config->recorder_folder[0] == '\0') {
+        return 0;
+    }
+    daemon->recorder = ale_recorder_start(config);
+    daemon->exchange.recorder = daemon->recorder;
+    return daemon->recorder ? 0 : fail(1, "no memory or no thread for the flight recorder");
+}
+
 /* The readers first, so that nothing fills up; telemetry last, because it tells what was got. */
 static int start_tasks(ale_daemon_t *daemon)
 {
@@ -102,6 +116,9 @@ ale_daemon_t *ale_daemon_start(const ale_options_t *options, int *exit_code)
     daemon->options = options;
     *exit_code = prepare(daemon);
     if (*exit_code == 0) {
+        *exit_code = start_recorder(daemon);
+    }
+    if (*exit_code == 0) {
         *exit_code = start_tasks(daemon);
     }
     if (*exit_code != 0) {
@@ -125,6 +142,7 @@ void ale_daemon_stop(ale_daemon_t *daemon)
     ale_acquire_stop(daemon->acquire);
     stop_estimate(daemon);
     ale_telemetry_stop(daemon->telemetry);
+    ale_recorder_stop(daemon->recorder);
     ale_estimator_destroy(daemon->estimator);
     if (daemon->exchange_open) {
         ale_exchange_close(&daemon->exchange);
@@ -134,4 +152,9 @@ void ale_daemon_stop(ale_daemon_t *daemon)
         ale_rt_stop();
     }
     free(daemon);
+}
+
+void ale_daemon_record(ale_daemon_t *daemon)
+{
+    ale_recorder_trigger(daemon->recorder, ALE_RECORD_COMMAND);
 }

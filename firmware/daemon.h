@@ -13,4 +13,7 @@ ale_daemon_t *ale_daemon_start(const ale_options_t *options, int *exit_code);
 /* Ends all threads in the order of the data, so that the last scans are still answered. */
 void ale_daemon_stop(ale_daemon_t *daemon);
 
+/* Asks for a flight recording, if the configuration names a folder for them. Returns at once. */
+void ale_daemon_record(ale_daemon_t *daemon);
+
 #endif

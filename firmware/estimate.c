@@ -13,6 +13,8 @@ struct ale_estimator {
     bool keep_scans;
     uint32_t overloaded;
     uint32_t late;
+    uint32_t answered;
+    uint32_t odometry_taken;
     bool map_waits;     /* changed since it was last handed over */
     int64_t map_ns;     /* when it was handed over */
     int64_t arrival_ns; /* of the scan at hand, by the clock of ale_rt_now_ns */
@@ -92,6 +94,7 @@ static void take_odometry(ale_estimator_t *estimator)
     for (uint32_t ready = ale_ring_ready(odometry); ready > 0; ready--) {
         ale_pipeline_odometry(estimator->pipeline, ale_ring_at(odometry, 0));
         ale_ring_release(odometry);
+        estimator->odometry_taken++;
     }
 }
 
@@ -126,6 +129,8 @@ static void answer(ale_estimator_t *estimator, const ale_scan_record_t *record, 
     estimator->map_waits = estimator->map_waits || result->estimate.map_changed;
     result->overloaded = estimator->overloaded;
     result->late = estimator->late;
+    result->odometry_taken = estimator->odometry_taken;
+    result->answered = estimator->answered++;
 }
 
 static void answer_oldest(ale_estimator_t *estimator, uint32_t waiting)

@@ -39,21 +39,24 @@ typedef struct {
     int32_t stage_start_ns[ALE_STAGES]; /* first start and last end of each stage after the arrival, real */
     int32_t stage_end_ns[ALE_STAGES];   /* time; 0: it did not run */
     int32_t total_ns;
-    uint32_t overloaded; /* scans set aside since the start, for newer ones */
-    uint32_t late;       /* scans answered after their deadline, since the start */
-    bool has_scan;       /* a scan stands behind it: features and scan are set */
+    uint32_t overloaded;     /* scans set aside since the start, for newer ones */
+    uint32_t late;           /* scans answered after their deadline, since the start */
+    uint32_t answered;       /* scans answered before this one, since the start: its number in `scans` */
+    uint32_t odometry_taken; /* samples of `odometry` known to this answer, since the start */
+    bool has_scan;           /* a scan stands behind it: features and scan are set */
     ale_features_t features;
     ale_scan_t scan; /* only when scans are published */
 } ale_result_t;
 
 typedef struct {
     ale_clock_t clock;
-    ale_ring_t *scans;         /* ale_scan_record_t: acquire to estimate */
-    ale_ring_t *odometry;      /* ale_odometry_t: telemetry to estimate */
-    ale_ring_t *results;       /* ale_result_t: estimate to telemetry */
-    ale_snapshot_t *map;       /* ale_map_t: estimate to telemetry */
-    ale_snapshot_t *health;    /* ale_urg_health_t: acquire to telemetry */
-    ale_rt_release_t *arrived; /* releases the estimate task */
+    ale_ring_t *scans;             /* ale_scan_record_t: acquire to estimate */
+    ale_ring_t *odometry;          /* ale_odometry_t: telemetry to estimate */
+    ale_ring_t *results;           /* ale_result_t: estimate to telemetry */
+    ale_snapshot_t *map;           /* ale_map_t: estimate to telemetry */
+    ale_snapshot_t *health;        /* ale_urg_health_t: acquire to telemetry */
+    ale_rt_release_t *arrived;     /* releases the estimate task */
+    struct ale_recorder *recorder; /* is told by acquire and telemetry; NULL: none is wanted */
     int under_way; /* event descriptor: a scan has gone to the estimate task, or health has changed */
 } ale_exchange_t;
 

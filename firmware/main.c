@@ -5,11 +5,14 @@
 #include "daemon.h"
 #include "options.h"
 
-/* Blocked everywhere, so that no thread is interrupted; main waits for the two that end the program. */
-static void wait_for_end(const sigset_t *ends)
+/* Blocked everywhere, so that no thread is interrupted; main waits for the two that end the program, and for
+ * the one that asks for a flight recording. */
+static void wait_for_end(const sigset_t *signals, ale_daemon_t *daemon)
 {
     int received = 0;
-    sigwait(ends, &received);
+    while (sigwait(signals, &received) == 0 && received == SIGUSR1) {
+        ale_daemon_record(daemon);
+    }
 }
 
 int main(int count, char **arguments)
@@ -19,18 +22,19 @@ int main(int count, char **arguments)
     if (result != ALE_OPTIONS_RUN) {
         return result == ALE_OPTIONS_DONE ? EXIT_SUCCESS : 2;
     }
-    sigset_t ends;
-    sigemptyset(&ends);
-    sigaddset(&ends, SIGTERM);
-    sigaddset(&ends, SIGINT);
-    sigprocmask(SIG_BLOCK, &ends, NULL);
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGTERM);
+    sigaddset(&signals, SIGINT);
+    sigaddset(&signals, SIGUSR1);
+    sigprocmask(SIG_BLOCK, &signals, NULL);
     signal(SIGPIPE, SIG_IGN);
     int exit_code = 0;
     ale_daemon_t *daemon = ale_daemon_start(&options, &exit_code);
     if (!daemon) {
         return exit_code;
     }
-    wait_for_end(&ends);
+    wait_for_end(&signals, daemon);
     ale_daemon_stop(daemon);
     return EXIT_SUCCESS;
 }

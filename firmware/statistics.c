@@ -1,5 +1,7 @@
 #include "statistics.h"
 
+#include "recorder.h"
+
 void ale_statistics_add(ale_statistics_t *statistics, const ale_result_t *result, int64_t latency_ns)
 {
     statistics->poses++;
@@ -59,4 +61,6 @@ void ale_statistics_counters(const ale_statistics_t *statistics, const ale_urg_h
     count(report, "odometry_ring_full", ale_ring_refused(exchange->odometry));
     count(report, "odometry_refused", bus_refused);
     count(report, "messages_unsent", bus_unsent);
+    count(report, "flight_recordings", ale_recorder_written(exchange->recorder));
+    count(report, "recorder_queue_full", ale_recorder_refused(exchange->recorder));
 }

@@ -8,6 +8,7 @@
 #include <sys/random.h>
 
 #include "base/fixed.h"
+#include "recorder.h"
 #include "statistics.h"
 #include "supervisor.h"
 
@@ -40,9 +41,11 @@ static void take_odometry(void *user, const ale_odometry_t *sample)
     ale_exchange_t *exchange = ((ale_telemetry_t *)user)->exchange;
     ale_odometry_t *slot = ale_ring_reserve(exchange->odometry);
     if (slot) {
-        *slot = *sample;
-        slot->stamp_us = ale_clock_from_utime(&exchange->clock, sample->stamp_us);
+        ale_odometry_t inside = *sample;
+        inside.stamp_us = ale_clock_from_utime(&exchange->clock, sample->stamp_us);
+        *slot = inside;
         ale_ring_commit(exchange->odometry);
+        ale_recorder_odometry(exchange->recorder, ale_ring_committed(exchange->odometry) - 1, &inside);
     }
 }
 
@@ -85,10 +88,25 @@ static void send_result(ale_telemetry_t *telemetry, const ale_result_t *result)
     }
 }
 
+/* A pose that was lost or came late is worth a flight recording. */
+static void record_result(ale_telemetry_t *telemetry, const ale_result_t *result)
+{
+    ale_recorder_t *recorder = telemetry->exchange->recorder;
+    ale_recorder_result(recorder, result);
+    if (telemetry->statistics.poses > 0 && telemetry->statistics.state != ALE_STATE_LOST &&
+        result->estimate.state == ALE_STATE_LOST) {
+        ale_recorder_trigger(recorder, ALE_RECORD_FAULT);
+    }
+    if (result->late != telemetry->statistics.late) {
+        ale_recorder_trigger(recorder, ALE_RECORD_DEADLINE);
+    }
+}
+
 static void send_results(ale_telemetry_t *telemetry)
 {
     ale_ring_t *results = telemetry->exchange->results;
     for (uint32_t ready = ale_ring_ready(results); ready > 0; ready--) {
+        record_result(telemetry, ale_ring_at(results, 0));
         send_result(telemetry, ale_ring_at(results, 0));
         ale_ring_release(results);
     }
@@ -99,8 +117,12 @@ static void watch_scanner(ale_telemetry_t *telemetry)
     bool fresh = false;
     telemetry->health = ale_snapshot_newest(telemetry->exchange->health, &fresh);
     char line[ALE_SUPERVISOR_LINE];
+    const ale_link_t before = telemetry->supervisor.link;
     if (fresh && ale_supervisor_watch(&telemetry->supervisor, telemetry->health, line)) {
         fprintf(stderr, "ale-slamd: %s\n", line);
+        if (before == ALE_LINK_STREAMING) {
+            ale_recorder_trigger(telemetry->exchange->recorder, ALE_RECORD_FAULT);
+        }
     }
 }
 

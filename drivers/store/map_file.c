@@ -5,18 +5,18 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include "log/bytes.h"
 #include "log/text.h"
+#include "store/whole_file.h"
 
 static const char HEAD[] = "ALE-SLAM map 1";
 static const char WALL_LEGEND[] =
     "# wall: id start_x start_y end_x end_y var_alpha_nrad2 cov_um_nrad var_rho_um2 seen\n";
 static const char CORNER_LEGEND[] = "# corner: x y var_xx var_xy var_yy angle_bam bisector_bam seen kind\n";
 
-enum { WALL_NUMBERS = 9, CORNER_NUMBERS = 9, PATH_BYTES = 4096 };
+enum { WALL_NUMBERS = 9, CORNER_NUMBERS = 9 };
 
 static int fail(char error[ALE_MAP_FILE_ERROR], const char *path, const char *reason)
 {
@@ -65,44 +65,21 @@ static char *print_map(const ale_map_t *map, size_t *count)
     return text;
 }
 
-static int write_and_sync(const char *path, const char *text, size_t count)
-{
-    FILE *file = fopen(path, "we");
-    if (!file) {
-        return -1;
-    }
-    const bool written =
-        fwrite(text, 1, count, file) == count && fflush(file) == 0 && fsync(fileno(file)) == 0;
-    const int reason = errno;
-    if (fclose(file) != 0 || !written) {
-        errno = written ? errno : reason;
-        return -1;
-    }
-    return 0;
-}
-
 int ale_map_file_save(const char *path, const ale_map_t *map, char error[ALE_MAP_FILE_ERROR])
 {
-    char beside[PATH_BYTES];
-    if (snprintf(beside, sizeof beside, "%s.new", path) >= (int)sizeof beside) {
-        return fail(error, path, strerror(ENAMETOOLONG));
-    }
     size_t count = 0;
     char *text = print_map(map, &count);
     if (!text) {
         return fail(error, path, "not enough memory");
     }
-    int status = write_and_sync(beside, text, count);
+    ale_whole_file_t file;
+    int status = ale_whole_file_begin(&file, path);
     if (status == 0) {
-        status = rename(beside, path);
+        fwrite(text, 1, count, file.out);
+        status = ale_whole_file_commit(&file);
     }
     free(text);
-    if (status < 0) {
-        const int reason = errno;
-        unlink(beside);
-        return fail(error, path, strerror(reason));
-    }
-    return 0;
+    return status < 0 ? fail(error, path, strerror(errno)) : 0;
 }
 
 /* Takes `count` whole numbers that end the line. */

@@ -13,10 +13,15 @@ enum {
     KIND_AT = 4, /* the CRC covers from here to the end of the payload */
     LENGTH_AT = 8,
     STAMP_AT = 12,
-    HEADER_BYTES = 20,
-    CRC_BYTES = 4,
-    ODOMETRY_BYTES = 20
+    HEADER_BYTES = ALE_CHUNK_HEADER_BYTES,
+    CRC_BYTES = ALE_CHUNK_FRAME_BYTES - ALE_CHUNK_HEADER_BYTES
 };
+
+int ale_recording_begin(ale_recording_t *recording, FILE *file)
+{
+    recording->file = file;
+    return fwrite(SIGNATURE, sizeof SIGNATURE, 1, file) == 1 ? 0 : -1;
+}
 
 int ale_recording_create(ale_recording_t *recording, const char *path)
 {
@@ -24,7 +29,7 @@ int ale_recording_create(ale_recording_t *recording, const char *path)
     if (!recording->file) {
         return -1;
     }
-    if (fwrite(SIGNATURE, sizeof SIGNATURE, 1, recording->file) != 1) {
+    if (ale_recording_begin(recording, recording->file) < 0) {
         fclose(recording->file);
         recording->file = NULL;
         return -1;
@@ -38,6 +43,37 @@ static uint32_t checksum(const uint8_t *header, const void *payload, uint32_t le
     return (uint32_t)(length ? crc32(head, payload, length) : head);
 }
 
+static void put_header(uint8_t header[HEADER_BYTES], ale_chunk_kind_t kind, int64_t stamp_us, uint32_t length)
+{
+    memset(header, 0, HEADER_BYTES);
+    memcpy(header, MAGIC, sizeof MAGIC);
+    header[KIND_AT] = (uint8_t)kind;
+    ale_put_u32(header + LENGTH_AT, length);
+    ale_put_u64(header + STAMP_AT, (uint64_t)stamp_us);
+}
+
+uint32_t ale_chunk_put(uint8_t *out, ale_chunk_kind_t kind, int64_t stamp_us, const void *payload,
+                       uint32_t length)
+{
+    put_header(out, kind, stamp_us, length);
+    memcpy(out + HEADER_BYTES, payload, length);
+    ale_put_u32(out + HEADER_BYTES + length, checksum(out, payload, length));
+    return ALE_CHUNK_FRAME_BYTES + length;
+}
+
+uint32_t ale_chunk_bytes(const uint8_t header[HEADER_BYTES])
+{
+    return ALE_CHUNK_FRAME_BYTES + ale_get_u32(header + LENGTH_AT);
+}
+
+void ale_chunk_put_odometry(uint8_t payload[ALE_CHUNK_ODOMETRY_BYTES], const ale_odometry_t *sample)
+{
+    ale_put_u32(payload, (uint32_t)sample->pose.x_um);
+    ale_put_u32(payload + 4, (uint32_t)sample->pose.y_um);
+    ale_put_u32(payload + 8, sample->pose.theta_bam);
+    ale_put_u64(payload + 12, (uint64_t)sample->stamp_us);
+}
+
 int ale_recording_write(ale_recording_t *recording, ale_chunk_kind_t kind, int64_t stamp_us,
                         const void *payload, uint32_t length)
 {
@@ -45,12 +81,9 @@ int ale_recording_write(ale_recording_t *recording, ale_chunk_kind_t kind, int64
         errno = EINVAL;
         return -1;
     }
-    uint8_t header[HEADER_BYTES] = {0};
+    uint8_t header[HEADER_BYTES];
     uint8_t crc[CRC_BYTES];
-    memcpy(header, MAGIC, sizeof MAGIC);
-    header[KIND_AT] = (uint8_t)kind;
-    ale_put_u32(header + LENGTH_AT, length);
-    ale_put_u64(header + STAMP_AT, (uint64_t)stamp_us);
+    put_header(header, kind, stamp_us, length);
     ale_put_u32(crc, checksum(header, payload, length));
     const bool written = fwrite(header, sizeof header, 1, recording->file) == 1 &&
                          (length == 0 || fwrite(payload, length, 1, recording->file) == 1) &&
@@ -60,11 +93,8 @@ int ale_recording_write(ale_recording_t *recording, ale_chunk_kind_t kind, int64
 
 int ale_recording_odometry(ale_recording_t *recording, int64_t stamp_us, const ale_odometry_t *sample)
 {
-    uint8_t payload[ODOMETRY_BYTES];
-    ale_put_u32(payload, (uint32_t)sample->pose.x_um);
-    ale_put_u32(payload + 4, (uint32_t)sample->pose.y_um);
-    ale_put_u32(payload + 8, sample->pose.theta_bam);
-    ale_put_u64(payload + 12, (uint64_t)sample->stamp_us);
+    uint8_t payload[ALE_CHUNK_ODOMETRY_BYTES];
+    ale_chunk_put_odometry(payload, sample);
     return ale_recording_write(recording, ALE_CHUNK_ODOMETRY, stamp_us, payload, sizeof payload);
 }
 
@@ -142,7 +172,7 @@ bool ale_chunk_next(ale_chunk_reader_t *reader, ale_chunk_t *chunk)
 
 bool ale_chunk_odometry(const ale_chunk_t *chunk, ale_odometry_t *sample)
 {
-    if (chunk->length != ODOMETRY_BYTES) {
+    if (chunk->length != ALE_CHUNK_ODOMETRY_BYTES) {
         return false;
     }
     *sample = (ale_odometry_t){.stamp_us = (int64_t)ale_get_u64(chunk->payload + 12),

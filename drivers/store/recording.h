@@ -4,7 +4,8 @@
  *   u32 magic 0x4b4e4843 ("CHNK") | u8 kind | 3 bytes 0 | u32 length | i64 stamp_us | payload | u32 crc32
  * The CRC (zlib's) covers kind to payload. A reader that meets a bad chunk looks for the next magic.
  * Payloads: RECEIVED, SENT raw serial bytes; ODOMETRY i32 x_um, i32 y_um, u32 theta_bam, i64 stamp_us;
- * COMMAND, CONFIG text; CORRECTION u32 scan, i32 x_um, i32 y_um, u32 theta_bam; DECISION, STAGES free. */
+ * COMMAND, CONFIG text; CORRECTION u32 scan, i32 x_um, i32 y_um, u32 theta_bam; DECISION, STAGES text, words
+ * `name=value` (firmware/flight_words.h). */
 #ifndef ALE_STORE_RECORDING_H
 #define ALE_STORE_RECORDING_H
 
@@ -26,7 +27,12 @@ typedef enum {
     ALE_CHUNK_STAGES = 8
 } ale_chunk_kind_t;
 
-enum { ALE_CHUNK_MAX_PAYLOAD = 65536 };
+enum {
+    ALE_CHUNK_MAX_PAYLOAD = 65536,
+    ALE_CHUNK_HEADER_BYTES = 20,
+    ALE_CHUNK_FRAME_BYTES = ALE_CHUNK_HEADER_BYTES + 4, /* what a chunk needs beside its payload */
+    ALE_CHUNK_ODOMETRY_BYTES = 20
+};
 
 typedef struct {
     FILE *file;
@@ -35,11 +41,22 @@ typedef struct {
 /* Writing. One owner thread; buffered, so a crash loses the last chunks and never the ones before.
  * Each: 0, or -1 with errno set (EINVAL: a payload above ALE_CHUNK_MAX_PAYLOAD). Closing fails, too, when an
  * earlier write did: the recording is not whole. */
+int ale_recording_begin(ale_recording_t *recording, FILE *file); /* the file is the recording's until close */
 int ale_recording_create(ale_recording_t *recording, const char *path);
 int ale_recording_write(ale_recording_t *recording, ale_chunk_kind_t kind, int64_t stamp_us,
                         const void *payload, uint32_t length);
 int ale_recording_odometry(ale_recording_t *recording, int64_t stamp_us, const ale_odometry_t *sample);
 int ale_recording_close(ale_recording_t *recording);
+
+/* Chunks in memory, for those who keep them before they are written.
+ *
+ * ale_chunk_put: a whole chunk to `out`, which has ALE_CHUNK_FRAME_BYTES more room than the payload is long
+ * (at most ALE_CHUNK_MAX_PAYLOAD). Returns its bytes. ale_chunk_bytes: the same of a chunk whose header is at
+ * hand. ale_chunk_put_odometry: the payload of an ODOMETRY chunk. */
+uint32_t ale_chunk_put(uint8_t *out, ale_chunk_kind_t kind, int64_t stamp_us, const void *payload,
+                       uint32_t length);
+uint32_t ale_chunk_bytes(const uint8_t header[ALE_CHUNK_HEADER_BYTES]);
+void ale_chunk_put_odometry(uint8_t payload[ALE_CHUNK_ODOMETRY_BYTES], const ale_odometry_t *sample);
 
 /* Reading back, from memory. */
 typedef struct {

@@ -39,9 +39,10 @@ void ale_rt_report(ale_rt_report_t *report);
 int64_t ale_rt_now_ns(void);
 
 typedef enum {
-    ALE_RT_HARD,    /* the estimate task: configured priority and processor */
-    ALE_RT_SOFT,    /* works for it, may make system calls: one priority below */
-    ALE_RT_ORDINARY /* two below where that costs nothing, else like any program */
+    ALE_RT_HARD,      /* the estimate task: configured priority and processor */
+    ALE_RT_SOFT,      /* works for it, may make system calls: one priority below */
+    ALE_RT_ORDINARY,  /* two below where that costs nothing, else like any program */
+    ALE_RT_BACKGROUND /* always like any program: may wait for disks */
 } ale_rt_kind_t;
 
 typedef struct ale_rt_task ale_rt_task_t;

@@ -140,7 +140,8 @@ static void free_task(ale_rt_task_t *task)
 static int create_with_priority(ale_rt_task_t *task)
 {
     const int32_t below = task->config.kind == ALE_RT_HARD ? 0 : (task->config.kind == ALE_RT_SOFT ? 1 : 2);
-    const int32_t priority = state.config.priority - below;
+    const bool background = task->config.kind == ALE_RT_BACKGROUND;
+    const int32_t priority = background ? 0 : state.config.priority - below;
     if (priority > 0 && !state.priority_refused) {
         if (create_thread(task, priority) == 0) {
             return 0;

@@ -3,7 +3,7 @@
  *   main          soft LXRT task: starts RTAI's timer if nobody else runs it, makes semaphores
  *   ALE_RT_HARD   LXRT task made hard: RTAI schedules it, Linux cannot hold it up
  *   ALE_RT_SOFT   LXRT task that stays soft: may use Linux and signal the hard one
- *   ALE_RT_ORDINARY  a thread of Linux that RTAI does not know
+ *   ALE_RT_ORDINARY, ALE_RT_BACKGROUND  threads of Linux that RTAI does not know
  *
  * Traps that shape it: RTAI binds each of its tasks to one processor, and threads inherit that; a handle is
  * an address in the kernel and never looked into; errors are big positive numbers; the timer belongs to all
@@ -283,6 +283,11 @@ static __attribute__((noinline)) void touch_stack(void)
     rt_grow_and_lock_stack(TOUCHED_BYTES);
 }
 
+static bool is_of_linux(const ale_rt_task_t *task)
+{
+    return task->config.kind == ALE_RT_ORDINARY || task->config.kind == ALE_RT_BACKGROUND;
+}
+
 /* Makes the calling thread what its kind says; all but hard. NULL: refused, or a thread that RTAI need not
  * know. */
 static RT_TASK *enter(ale_rt_task_t *task)
@@ -290,7 +295,7 @@ static RT_TASK *enter(ale_rt_task_t *task)
     RT_TASK *lxrt = NULL;
     pthread_setname_np(pthread_self(), task->config.name);
     touch_stack();
-    if (task->config.kind == ALE_RT_ORDINARY) {
+    if (is_of_linux(task)) {
         pthread_setaffinity_np(pthread_self(), sizeof state.cpus, &state.cpus);
     } else {
         const bool realtime = state.config.priority > 0;
@@ -309,7 +314,7 @@ static void *run_task(void *user)
 {
     ale_rt_task_t *task = user;
     RT_TASK *lxrt = enter(task);
-    if (task->config.kind != ALE_RT_ORDINARY && !lxrt) {
+    if (!is_of_linux(task) && !lxrt) {
         return NULL;
     }
     if (task->config.kind == ALE_RT_HARD && state.config.priority > 0) {

@@ -10,6 +10,7 @@ namespace
 {
 
 constexpr uint32_t octaves = 43;
+constexpr uint32_t first_octave = 9; /* all below a microsecond is one row */
 
 __attribute__((format(printf, 1, 2))) std::string format(const char *words, ...)
 {
@@ -39,10 +40,20 @@ std::string quantiles(const Latencies &latencies)
     return text;
 }
 
+uint32_t count_in_row(const Latencies &latencies, size_t span, uint32_t octave)
+{
+    const ale_durations_t &times = latencies[static_cast<Span>(span)].times;
+    uint32_t count = ale_durations_octave(&times, octave);
+    for (uint32_t below = 0; octave == first_octave && below < first_octave; below++) {
+        count += ale_durations_octave(&times, below);
+    }
+    return count;
+}
+
 bool anything_in(const Latencies &latencies, uint32_t octave)
 {
     for (size_t k = 0; k < span_count; k++) {
-        if (ale_durations_octave(&latencies[static_cast<Span>(k)].times, octave) > 0) {
+        if (count_in_row(latencies, k, octave) > 0) {
             return true;
         }
     }
@@ -53,7 +64,7 @@ std::string histogram_row(const Latencies &latencies, uint32_t octave)
 {
     std::string row = format("%12.1f", microseconds(int64_t{2} << octave));
     for (size_t k = 0; k < span_count; k++) {
-        const uint32_t count = ale_durations_octave(&latencies[static_cast<Span>(k)].times, octave);
+        const uint32_t count = count_in_row(latencies, k, octave);
         row += count > 0 ? format(" %8u", count) : format(" %8s", ".");
     }
     return row + "\n";
@@ -61,7 +72,7 @@ std::string histogram_row(const Latencies &latencies, uint32_t octave)
 
 std::string histogram(const Latencies &latencies)
 {
-    uint32_t first = 0;
+    uint32_t first = first_octave;
     uint32_t last = octaves;
     while (first < octaves && !anything_in(latencies, first)) {
         first++;

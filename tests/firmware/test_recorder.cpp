@@ -1,0 +1,178 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+extern "C" {
+#include "recorder.h"
+}
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+/* Chunks of a recording as letters: b bytes, o odometry, d decision, s stages, c command, k correction. */
+std::string letters(const fs::path &path)
+{
+    std::ifstream file(path, std::ios::binary);
+    std::stringstream content;
+    content << file.rdbuf();
+    const std::string bytes = content.str();
+    std::string text;
+    ale_chunk_reader_t reader =
+        ale_chunk_reader(reinterpret_cast<const uint8_t *>(bytes.data()), bytes.size());
+    for (ale_chunk_t chunk; ale_chunk_next(&reader, &chunk);) {
+        text += "?bbockCds"[chunk.kind];
+    }
+    EXPECT_EQ(reader.bad_chunks, 0u);
+    return text;
+}
+
+class Recorder : public testing::Test
+{
+  protected:
+    void SetUp() override
+    {
+        std::string name = (fs::temp_directory_path() / "ale-recorder-XXXXXX").string();
+        ASSERT_NE(mkdtemp(name.data()), nullptr);
+        folder = name;
+        const ale_rt_config_t realtime = {0, -1, false};
+        ale_rt_report_t report;
+        ASSERT_EQ(ale_rt_start(&realtime, &report), 0);
+        config = ale_config_default();
+        std::strncpy(config.recorder_folder, name.c_str(), sizeof config.recorder_folder - 1);
+        config.recorder_megabytes = 1;
+        recorder = ale_recorder_start(&config);
+        ASSERT_NE(recorder, nullptr);
+    }
+    void TearDown() override
+    {
+        ale_recorder_stop(recorder);
+        ale_rt_stop();
+        fs::remove_all(folder);
+    }
+
+    void bytes(const std::string &text)
+    {
+        ale_recorder_bytes(recorder, false, reinterpret_cast<const uint8_t *>(text.data()),
+                           static_cast<uint32_t>(text.size()), 1);
+    }
+    void odometry(uint32_t number)
+    {
+        const ale_odometry_t sample{};
+        ale_recorder_odometry(recorder, number, &sample);
+    }
+    void result(uint32_t number, uint32_t odometry_taken)
+    {
+        auto made = std::make_unique<ale_result_t>();
+        made->answered = number;
+        made->odometry_taken = odometry_taken;
+        ale_recorder_result(recorder, made.get());
+    }
+    std::vector<fs::path> files() const
+    {
+        std::vector<fs::path> found;
+        for (const auto &entry : fs::directory_iterator(folder)) {
+            if (entry.path().extension() == ".scip") {
+                found.push_back(entry.path());
+            }
+        }
+        return found;
+    }
+    /* Asks for a recording and waits for it. */
+    std::string recorded()
+    {
+        const uint32_t before = ale_recorder_written(recorder);
+        ale_recorder_trigger(recorder, ALE_RECORD_COMMAND);
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+        while (ale_recorder_written(recorder) == before && std::chrono::steady_clock::now() < end) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+        EXPECT_EQ(files().size(), 1u);
+        return letters(files().at(0));
+    }
+
+    fs::path folder;
+    ale_config_t config{};
+    ale_recorder_t *recorder = nullptr;
+};
+
+TEST_F(Recorder, OdometryLiesBeforeTheScanThatKnewItWhenItWasUsed)
+{
+    odometry(0);
+    odometry(1);
+    bytes("scan 0");
+    ale_recorder_scan(recorder, 0);
+    odometry(2);
+    result(0, 1); /* sample 1 came too late for scan 0, sample 2 later still */
+    bytes("scan 1");
+    ale_recorder_scan(recorder, 1);
+    result(1, 3);
+    EXPECT_EQ(recorded(), "Coboodsbds");
+}
+
+TEST_F(Recorder, AScanWithoutRoomForItsResultKeepsItsPlace)
+{
+    bytes("scan 0");
+    ale_recorder_scan(recorder, 0);
+    bytes("scan 1");
+    ale_recorder_scan(recorder, 1);
+    result(1, 0);
+    EXPECT_EQ(recorded(), "Cbbds");
+}
+
+TEST_F(Recorder, CommandsAndCorrectionsLieBeforeTheScanThatFollowsThem)
+{
+    bytes("scan 0");
+    ale_recorder_scan(recorder, 0);
+    odometry(0);
+    ale_recorder_command(recorder, 1, "reset");
+    ale_recorder_correction(recorder, 1, 0, ale_pose_t{});
+    result(0, 0);
+    EXPECT_EQ(recorded(), "Cckbods");
+}
+
+TEST_F(Recorder, BytesThatMakeNoScanAreKeptAfterAWhile)
+{
+    bytes(std::string(1500, '?'));
+    odometry(0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+    EXPECT_EQ(recorded(), "Cobbb");
+}
+
+TEST_F(Recorder, WritersNeverWaitAndWhatIsRefusedIsCounted)
+{
+    std::thread acquire([this] {
+        for (uint32_t k = 0; k < 20000; k++) {
+            bytes(std::string(400, 'x'));
+            ale_recorder_scan(recorder, k);
+        }
+    });
+    for (uint32_t k = 0; k < 20000; k++) {
+        odometry(k);
+        result(k, k);
+    }
+    acquire.join();
+    EXPECT_GT(ale_recorder_refused(recorder), 0u);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+    EXPECT_GT(recorded().size(), 1000u) << "a ring full of intact chunks";
+}
+
+TEST_F(Recorder, WithoutARecorderNothingHappens)
+{
+    ale_recorder_scan(nullptr, 0);
+    ale_recorder_trigger(nullptr, ALE_RECORD_FAULT);
+    ale_recorder_stop(nullptr);
+    EXPECT_EQ(ale_recorder_written(nullptr), 0u);
+}
+
+} // namespace

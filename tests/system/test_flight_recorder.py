@@ -1,0 +1,119 @@
+"""The flight recorder: what it leaves on disk replays to the very poses of the flight."""
+import signal
+import struct
+import subprocess
+import zlib
+
+import pytest
+
+from chain import BINARIES, wait_until
+
+SPEED = 10
+DECISION, CORRECTION, STAGES, CONFIG, ODOMETRY = 7, 5, 8, 6, 3
+
+
+def config(folder, megabytes=8):
+    return f"[recorder]\nfolder = {folder}\nmegabytes = {megabytes}\n[realtime]\npriority = 0\nlock_memory = no\n"
+
+
+def recordings(folder):
+    return sorted(folder.glob("flight-*.scip"))
+
+
+def chunks(path):
+    """(kind, stamp_us, payload) of every chunk, each held against its checksum."""
+    data = path.read_bytes()
+    assert data[:8] == b"ALESCIP1"
+    at = 8
+    while at < len(data):
+        magic, kind, length, stamp = struct.unpack_from("<4sB3xIq", data, at)
+        assert magic == b"CHNK"
+        (crc,) = struct.unpack_from("<I", data, at + 20 + length)
+        assert crc == zlib.crc32(data[at + 4:at + 20 + length])
+        yield kind, stamp, data[at + 20:at + 20 + length]
+        at += 24 + length
+
+
+def decisions(path):
+    return [dict(word.split("=") for word in payload.decode().split())
+            for kind, _, payload in chunks(path) if kind == DECISION]
+
+
+def replayed(path, folder):
+    poses = folder / "replayed.tum"
+    done = subprocess.run([BINARIES / "ale-replay", path, "--trajectory-live", poses], capture_output=True, text=True,
+                          timeout=60, check=False)
+    assert done.returncode == 0, done.stderr
+    return [tuple(float(word) for word in line.split()[:3]) for line in poses.read_text().splitlines()]
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "flights").mkdir()
+    return tmp_path / "flights"
+
+
+def fly(chain, folder, scans, words=(), **settings):
+    simulator = chain.simulator("--world", "tools/worlds/home.world", *words, speed=SPEED)
+    firmware = chain.firmware(config(folder, **settings), speed=SPEED)
+    wait_until(lambda: len(chain.listener.poses) >= scans, 60, f"{scans} poses")
+    return simulator, firmware
+
+
+def test_a_recording_on_command_replays_to_the_same_poses(chain, folder):
+    _, firmware = fly(chain, folder, 150)
+    firmware.process.send_signal(signal.SIGUSR1)
+    wait_until(lambda: recordings(folder), 10, "the recording")
+    assert firmware.end() == 0
+    path, = recordings(folder)
+    assert "-command.scip" in path.name and "flight recording written" in firmware.err()
+    told = decisions(path)
+    assert len(told) >= 150 and [int(one["scan"]) for one in told] == list(range(len(told)))
+    poses = replayed(path, chain.folder)
+    assert len(poses) >= len(told)
+    for one, (_, x, y) in zip(told, poses):
+        assert (int(one["map_x_um"]), int(one["map_y_um"])) == (round(x * 1e6), round(y * 1e6)), one["scan"]
+    kinds = [kind for kind, _, _ in chunks(path)]
+    assert kinds[0] == CONFIG and kinds.count(STAGES) == len(told) and kinds.count(ODOMETRY) > len(told)
+    counters = chain.listener.counters()
+    assert counters["flight_recordings"] == 1 and counters["recorder_queue_full"] == 0
+
+
+def test_the_oldest_makes_room_and_the_rest_still_replays(chain, folder):
+    _, firmware = fly(chain, folder, 500, megabytes=1)
+    assert not recordings(folder)
+    firmware.process.send_signal(signal.SIGUSR1)
+    wait_until(lambda: recordings(folder), 10, "the recording")
+    assert firmware.end() == 0
+    path, = recordings(folder)
+    assert 0.9e6 < path.stat().st_size < 1.2e6
+    told = decisions(path)
+    assert int(told[0]["scan"]) > 50 and int(told[-1]["scan"]) >= 499
+    poses = replayed(path, chain.folder)
+    assert abs(len(poses) - len(told)) <= 2
+    # From a later start: another origin, the same way.
+    def length(points):
+        return sum(((x2 - x1) ** 2 + (y2 - y1) ** 2) ** 0.5 for (x1, y1), (x2, y2) in zip(points[::10], points[10::10]))
+
+    flown = length([(int(one["map_x_um"]) / 1e6, int(one["map_y_um"]) / 1e6) for one in told])
+    assert length([pose[1:] for pose in poses]) == pytest.approx(flown, rel=0.05)
+
+
+def test_a_scanner_that_goes_away_is_recorded_with_what_came_of_it(chain, folder):
+    simulator, firmware = fly(chain, folder, 60)
+    simulator.kill()
+    wait_until(lambda: recordings(folder), 20, "the recording")
+    assert firmware.end() == 0
+    path, = recordings(folder)
+    assert "-fault.scip" in path.name
+    assert len(decisions(path)) >= 60 and len(replayed(path, chain.folder)) >= 60
+
+
+def test_a_folder_that_cannot_be_written_is_named_and_harms_nothing(chain, folder):
+    _, firmware = fly(chain, folder / "absent", 20)
+    firmware.process.send_signal(signal.SIGUSR1)
+    wait_until(lambda: "not written" in firmware.err(), 10, "the complaint")
+    assert str(folder / "absent") in firmware.err()
+    seen = len(chain.listener.poses)
+    wait_until(lambda: len(chain.listener.poses) > seen + 10, 10, "more poses")
+    assert firmware.end() == 0
