@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "base/stage.h"
+#include "command/command.h"
 #include "track/pipeline.h"
 
 /* ALE_POSE: the estimate (its stamp_us already a utime) and how long its scan was under way. */
@@ -25,8 +26,7 @@ int16_t ale_map_parts(const ale_map_t *map);
 
 enum { ALE_STATUS_STAGES = ALE_STAGES + 1, ALE_STATUS_COUNTERS = 48 };
 
-/* Bytes of an operator's or a robot's name, and of an answer in words, with their ends. */
-enum { ALE_NAME_BYTES = 32, ALE_ANSWER_BYTES = 160 };
+enum { ALE_ANSWER_BYTES = 160 }; /* of an answer in words, with its end */
 
 typedef struct {
     const char *name; /* a constant text */

@@ -18,7 +18,7 @@ C_FLAGS = -std=c11 -D_GNU_SOURCE $(COMMON_FLAGS) $(CFLAGS)
 # Generated LCM types read floats through pointers to integers.
 CXX_FLAGS = -std=c++17 -fno-strict-aliasing $(COMMON_FLAGS) $(CXXFLAGS)
 LINK_FLAGS = $(SANITIZER_FLAGS) -pthread -Wl,--as-needed $(LDFLAGS)
-LIBRARIES = -llcm -lserialport -linih -lwebsockets -lpng -lz -lm
+LIBRARIES = -llcm -lserialport -linih -lsodium -lwebsockets -lpng -lz -lm
 SYSTEM_INCLUDES = -isystem $(BUILD)/lcmtypes -isystem /usr/include/eigen3
 
 OBJ = $(BUILD)/obj

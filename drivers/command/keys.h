@@ -1,0 +1,57 @@
+/* Keys of operators (ed25519): made, kept in files, and used to sign.
+ *
+ *   operator's file, readable by him alone     robot's file, one line an operator
+ *     ALE-SLAM operator key 1                    ALE-SLAM keys 1
+ *     alice 3f09...  (32 bytes in hex)           alice a71c...  (32 bytes in hex)
+ *
+ * Lines with # are for people. Names: 1 to 31 letters, digits, '-', '_', '.'. Files are read by ordinary
+ * threads; errors are one line that names the file. */
+#ifndef ALE_COMMAND_KEYS_H
+#define ALE_COMMAND_KEYS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "command/command.h"
+
+enum { ALE_MAX_KEYS = 16, ALE_PUBLIC_KEY_BYTES = 32, ALE_SECRET_KEY_BYTES = 64, ALE_KEYS_ERROR = 320 };
+
+typedef struct {
+    char name[ALE_NAME_BYTES];
+    uint8_t key[ALE_PUBLIC_KEY_BYTES];
+} ale_public_key_t;
+
+/* Who may command a robot. All zero: nobody. */
+typedef struct {
+    uint32_t count;
+    ale_public_key_t operator_key[ALE_MAX_KEYS];
+} ale_keys_t;
+
+typedef struct {
+    char name[ALE_NAME_BYTES];
+    uint8_t key[ALE_SECRET_KEY_BYTES];
+} ale_secret_key_t;
+
+bool ale_is_name(const char *text);
+
+/* A new pair from the system's random numbers. 0, or -1: the name is none. */
+int ale_keys_make(const char *name, ale_secret_key_t *secret, ale_public_key_t *public_key);
+
+/* The robot's file. 0, or -1 with *error: not readable, writable by everybody (anyone could add himself), a
+ * line that is no key, a name twice, too many. Then *keys is untouched. */
+int ale_keys_load(const char *path, ale_keys_t *keys, char error[ALE_KEYS_ERROR]);
+
+/* Writes the whole file beside the old one and renames. 0, or -1 with *error. */
+int ale_keys_save(const char *path, const ale_keys_t *keys, char error[ALE_KEYS_ERROR]);
+
+/* The operator's file: a new one with rights 0600, never over another. Refused when others may read it. */
+int ale_secret_key_save(const char *path, const ale_secret_key_t *secret, char error[ALE_KEYS_ERROR]);
+int ale_secret_key_load(const char *path, ale_secret_key_t *secret, char error[ALE_KEYS_ERROR]);
+
+/* Signs in the name of the key's owner: command->operator_name is set. Length of the message, or 0 when the
+ * command is too long. About 0.1 ms. */
+size_t ale_command_sign(ale_command_t *command, const ale_secret_key_t *secret,
+                        uint8_t bytes[ALE_COMMAND_BYTES]);
+
+#endif
