@@ -10,6 +10,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <lcmtypes_ale_drive_t.h>
 #include <lcmtypes_bot_core_planar_lidar_t.h>
 #include <lcmtypes_bot_core_pose_t.h>
 
@@ -25,6 +26,8 @@ struct ale_bus {
     uint64_t unsent;
     ale_bus_odometry_t take_odometry;
     void *odometry_user;
+    ale_bus_command_t take_command;
+    void *command_user;
     ale_features_buffer_t features;
     ale_scan_buffer_t scan;
     ale_map_buffer_t map;
@@ -172,6 +175,24 @@ int ale_bus_send_odometry(ale_bus_t *bus, const ale_odometry_t *sample)
                       lcmtypes_ale_odometry_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
 }
 
+int ale_bus_send_drive(ale_bus_t *bus, int64_t utime, int32_t v_um_s, int32_t w_urad_s)
+{
+    const lcmtypes_ale_drive_t message = {
+        .utime = utime, .v = ale_to_metres(v_um_s), .w = ale_to_metres(w_urad_s)};
+    return send_bytes(bus, ALE_CHANNEL_DRIVE,
+                      lcmtypes_ale_drive_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
+}
+
+int ale_bus_send_command(ale_bus_t *bus, const uint8_t *bytes, size_t count)
+{
+    if (count > MESSAGE_BYTES) {
+        bus->unsent++;
+        return -1;
+    }
+    memcpy(bus->bytes, bytes, count);
+    return send_bytes(bus, ALE_CHANNEL_COMMAND, (int)count);
+}
+
 int ale_bus_send_bot_lidar(ale_bus_t *bus, const ale_scan_t *scan, int64_t utime)
 {
     for (int k = 0; k < scan->beams; k++) {
@@ -225,6 +246,20 @@ int ale_bus_on_odometry(ale_bus_t *bus, ale_bus_odometry_t take, void *user)
     bus->take_odometry = take;
     bus->odometry_user = user;
     return lcm_subscribe(bus->lcm, ALE_CHANNEL_ODOMETRY, take_odometry, bus) ? 0 : -1;
+}
+
+static void take_command(const lcm_recv_buf_t *received, const char *channel, void *user)
+{
+    (void)channel;
+    ale_bus_t *bus = user;
+    bus->take_command(bus->command_user, received->data, received->data_size);
+}
+
+int ale_bus_on_command(ale_bus_t *bus, ale_bus_command_t take, void *user)
+{
+    bus->take_command = take;
+    bus->command_user = user;
+    return lcm_subscribe(bus->lcm, ALE_CHANNEL_COMMAND, take_command, bus) ? 0 : -1;
 }
 
 int ale_bus_descriptor(ale_bus_t *bus)

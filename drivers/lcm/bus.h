@@ -13,6 +13,7 @@
 #ifndef ALE_LCM_BUS_H
 #define ALE_LCM_BUS_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #include "lcm/report.h"
@@ -23,6 +24,8 @@
 #define ALE_CHANNEL_MAP "ALE_MAP"
 #define ALE_CHANNEL_STATUS "ALE_STATUS"
 #define ALE_CHANNEL_ODOMETRY "ALE_ODOMETRY"
+#define ALE_CHANNEL_COMMAND "ALE_COMMAND"
+#define ALE_CHANNEL_DRIVE "ALE_DRIVE"
 #define ALE_CHANNEL_BOT_LIDAR "LASER" /* bot_core, when asked for */
 #define ALE_CHANNEL_BOT_POSE "POSE"
 
@@ -44,6 +47,10 @@ int ale_bus_send_scan(ale_bus_t *bus, const ale_scan_t *scan, int64_t utime, uin
 int ale_bus_send_map_part(ale_bus_t *bus, const ale_map_t *map, int64_t utime, int16_t part);
 int ale_bus_send_status(ale_bus_t *bus, const ale_status_report_t *report);
 int ale_bus_send_odometry(ale_bus_t *bus, const ale_odometry_t *sample);
+int ale_bus_send_drive(ale_bus_t *bus, int64_t utime, int32_t v_um_s, int32_t w_urad_s);
+
+/* A signed command (command/operator.h makes it). */
+int ale_bus_send_command(ale_bus_t *bus, const uint8_t *bytes, size_t count);
 
 /* The same scan and pose for viewers that know bot_core's types. */
 int ale_bus_send_bot_lidar(ale_bus_t *bus, const ale_scan_t *scan, int64_t utime);
@@ -52,6 +59,10 @@ int ale_bus_send_bot_pose(ale_bus_t *bus, const ale_pose_report_t *report);
 /* Odometry as it arrives, checked; sample->stamp_us is the message's utime. 0 or -1. */
 typedef void (*ale_bus_odometry_t)(void *user, const ale_odometry_t *sample);
 int ale_bus_on_odometry(ale_bus_t *bus, ale_bus_odometry_t take, void *user);
+
+/* Commands as they arrive: bytes that nobody has looked at yet (command/verify.h does). 0 or -1. */
+typedef void (*ale_bus_command_t)(void *user, const uint8_t *bytes, size_t count);
+int ale_bus_on_command(ale_bus_t *bus, ale_bus_command_t take, void *user);
 
 /* A descriptor for poll that is readable while messages wait. -1 when there is none. */
 int ale_bus_descriptor(ale_bus_t *bus);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "ale/drive_t.hpp"
 #include "ale/features_t.hpp"
 #include "ale/map_t.hpp"
 #include "ale/pose_t.hpp"
@@ -171,7 +172,8 @@ TEST_F(Wire, EveryMessageIsReadByAnotherLanguageBinding)
     EXPECT_EQ(ale_bus_send_status(bus, &status), 0);
     EXPECT_EQ(ale_bus_send_bot_lidar(bus, scan.get(), 12), 0);
     EXPECT_EQ(ale_bus_send_bot_pose(bus, &pose), 0);
-    receive(7);
+    EXPECT_EQ(ale_bus_send_drive(bus, 12, 250000, -1500000), 0);
+    receive(8);
 
     EXPECT_FLOAT_EQ(received.only<ale::pose_t>("ALE_POSE").map_y, 2);
     EXPECT_FLOAT_EQ(received.only<ale::features_t>("ALE_FEATURES").lines.at(1).rho, 3);
@@ -185,7 +187,30 @@ TEST_F(Wire, EveryMessageIsReadByAnotherLanguageBinding)
     const auto bot = received.only<bot_core::pose_t>("POSE");
     EXPECT_NEAR(bot.vel[1], 1, 1e-6) << "a quarter turn to the left: forward is +y";
     EXPECT_NEAR(bot.orientation[0], std::sqrt(0.5), 1e-6);
+    const auto drive = received.only<ale::drive_t>("ALE_DRIVE");
+    EXPECT_EQ(drive.utime, 12);
+    EXPECT_FLOAT_EQ(drive.v, 0.25f);
+    EXPECT_FLOAT_EQ(drive.w, -1.5f);
     EXPECT_EQ(ale_bus_unsent(bus), 0u);
+}
+
+TEST_F(Wire, CommandsArriveAsTheBytesThatWereSent)
+{
+    std::vector<std::vector<uint8_t>> heard;
+    const ale_bus_command_t take = [](void *user, const uint8_t *bytes, size_t count) {
+        static_cast<std::vector<std::vector<uint8_t>> *>(user)->emplace_back(bytes, bytes + count);
+    };
+    ASSERT_EQ(ale_bus_on_command(bus, take, &heard), 0);
+    const uint8_t bytes[] = {3, 1, 4, 1, 5};
+    ASSERT_EQ(ale_bus_send_command(bus, bytes, 5), 0);
+    ASSERT_EQ(ale_bus_send_command(bus, bytes, 0), 0);
+    while (heard.size() < 2 && ale_bus_receive(bus, 5000) > 0) {
+    }
+    ASSERT_EQ(heard.size(), 2U);
+    EXPECT_EQ(heard[0], std::vector<uint8_t>(bytes, bytes + 5));
+    EXPECT_TRUE(heard[1].empty());
+    EXPECT_LT(ale_bus_send_command(bus, bytes, 1 << 20), 0);
+    EXPECT_EQ(ale_bus_unsent(bus), 1U);
 }
 
 TEST_F(Wire, JunkOnTheOdometryChannelIsCountedAndOtherwiseIgnored)

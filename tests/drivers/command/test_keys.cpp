@@ -1,0 +1,117 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "drivers/command/signed_command.hpp"
+
+using signed_command::Operator;
+
+namespace
+{
+
+class Keys : public testing::Test
+{
+  protected:
+    void SetUp() override
+    {
+        folder = testing::TempDir() + "ale-keys-XXXXXX";
+        ASSERT_NE(mkdtemp(folder.data()), nullptr);
+        robot = folder + "/robot.keys";
+        own = folder + "/alice.key";
+    }
+    void TearDown() override
+    {
+        unlink(robot.c_str());
+        unlink(own.c_str());
+        rmdir(folder.c_str());
+    }
+    void write_robot(const std::string &text)
+    {
+        std::ofstream(robot) << text;
+    }
+    std::string refusal_of(const std::string &text)
+    {
+        write_robot(text);
+        return refusal();
+    }
+    std::string refusal()
+    {
+        return ale_keys_load(robot.c_str(), &keys, error) < 0 ? error : "";
+    }
+
+    std::string folder, robot, own;
+    ale_keys_t keys{};
+    char error[ALE_KEYS_ERROR] = "";
+    const Operator alice{"alice"};
+};
+
+TEST_F(Keys, ComeBackFromTheirFilesAsTheyWere)
+{
+    ale_keys_t made{};
+    made.operator_key[made.count++] = alice.known;
+    made.operator_key[made.count++] = Operator("bob-2.x_Y").known;
+    ASSERT_EQ(ale_keys_save(robot.c_str(), &made, error), 0) << error;
+    ASSERT_EQ(ale_keys_load(robot.c_str(), &keys, error), 0) << error;
+    EXPECT_EQ(std::memcmp(&keys, &made, sizeof keys), 0);
+    ale_secret_key_t secret{};
+    ASSERT_EQ(ale_secret_key_save(own.c_str(), &alice.secret, error), 0) << error;
+    ASSERT_EQ(ale_secret_key_load(own.c_str(), &secret, error), 0) << error;
+    EXPECT_EQ(std::memcmp(&secret, &alice.secret, sizeof secret), 0);
+}
+
+TEST_F(Keys, ASecretKeyIsForItsOwnerAloneAndNeverWrittenOver)
+{
+    ASSERT_EQ(ale_secret_key_save(own.c_str(), &alice.secret, error), 0) << error;
+    struct stat file;
+    ASSERT_EQ(stat(own.c_str(), &file), 0);
+    EXPECT_EQ(file.st_mode & 0777U, 0600U);
+    EXPECT_LT(ale_secret_key_save(own.c_str(), &alice.secret, error), 0);
+    chmod(own.c_str(), 0640);
+    ale_secret_key_t secret{};
+    EXPECT_LT(ale_secret_key_load(own.c_str(), &secret, error), 0);
+    EXPECT_NE(std::string(error).find("alice.key: readable by others"), std::string::npos) << error;
+}
+
+TEST_F(Keys, AListThatEverybodyMayChangeIsRefused)
+{
+    write_robot("ALE-SLAM keys 1\n");
+    EXPECT_EQ(refusal(), "");
+    chmod(robot.c_str(), 0666);
+    EXPECT_NE(refusal().find("writable by everybody"), std::string::npos);
+}
+
+TEST_F(Keys, WhatIsNoListIsRefusedWithItsLine)
+{
+    const std::string hex(64, '0');
+    const std::string one = "0100000000000000000000000000000000000000000000000000000000000000";
+    ale_keys_t made{};
+    made.operator_key[made.count++] = alice.known;
+    ASSERT_EQ(ale_keys_save(robot.c_str(), &made, error), 0);
+    std::ifstream saved(robot);
+    const std::string good{std::istreambuf_iterator<char>(saved), {}};
+    const std::string line = good.substr(good.find("alice"));
+    EXPECT_NE(refusal_of(""), "");
+    EXPECT_NE(refusal_of("ALE-SLAM operator key 1\n"), "");
+    EXPECT_NE(refusal_of("ALE-SLAM keys 1\nalice\n").find(":2: not a name"), std::string::npos);
+    EXPECT_NE(refusal_of("ALE-SLAM keys 1\nal/ice " + hex).find(":2: not a name"), std::string::npos);
+    EXPECT_NE(refusal_of("ALE-SLAM keys 1\nalice"), "");
+    EXPECT_NE(refusal_of("ALE-SLAM keys 1\nalice 12").find(":2: "), std::string::npos);
+    EXPECT_NE(refusal_of("ALE-SLAM keys 1\nalice " + one).find("safe"), std::string::npos);
+    EXPECT_NE(refusal_of("ALE-SLAM keys 1\n" + line + line).find(":3: a name"), std::string::npos);
+    EXPECT_EQ(refusal_of("ALE-SLAM keys 1\n\n# nobody\n" + line), "");
+    EXPECT_EQ(keys.count, 1U);
+}
+
+TEST_F(Keys, ANameIsShortAndPlain)
+{
+    for (const char *name : {"", "a b", "../x", "\xc3\xa4", "0123456789012345678901234567890123"}) {
+        EXPECT_FALSE(ale_is_name(name)) << name;
+    }
+    EXPECT_TRUE(ale_is_name("Anna-2.b_c"));
+}
+
+} // namespace

@@ -1,0 +1,192 @@
+/* ale-send: one signed command from a shell, and what came of it. */
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <getopt.h>
+
+#include "send/robot_link.h"
+
+namespace
+{
+
+constexpr char usage[] =
+    "usage: ale-send --keys FILE [--robot NAME] [--lcm-url URL] [--seconds S] VERB [ARGUMENT]...\n"
+    "Sends the robot a signed command and says what came of it.\n"
+    "  --keys FILE    the operator's secret key (ale-keys makes it)\n"
+    "  --robot NAME   which robot (default: the first one that is heard)\n"
+    "  --lcm-url URL  where the robot is (default: LCM_DEFAULT_URL, else LCM's own default)\n"
+    "  --seconds S    goes on driving for S seconds (drive only; without it the robot moves for 300 ms)\n"
+    "  --help, --version\n"
+    "Verbs:\n"
+    "  drive V W               m/s forward, rad/s counter-clockwise\n"
+    "  stop                    stands still at once; exploration ends\n"
+    "  explore on|off\n"
+    "  reset                   forgets map and pose\n"
+    "  relocate X Y THETA      the robot is there, in metres and radians of the map\n"
+    "  save_map NAME, load_map NAME [X Y THETA]\n"
+    "  set drive_speed V, set drive_turn W, set publish_scan yes|no, set freeze_map yes|no\n"
+    "Options come before the verb. Exit status: 0 obeyed, 1 not, 2 wrong use.\n";
+
+constexpr int first_status_ms = 4000;
+constexpr int answer_ms = 4000;
+constexpr int drive_period_ms = 100;
+constexpr int64_t drive_life_us = 1000000;
+constexpr int64_t life_us = 5000000;
+
+struct Options {
+    std::string keys;
+    std::string robot;
+    std::string lcm_url;
+    double seconds = 0;
+    std::vector<std::string> words;
+};
+
+std::atomic<bool> interrupted{false};
+
+double seconds_of(const char *text)
+{
+    char *rest = nullptr;
+    const double value = std::strtod(text, &rest);
+    if (rest == text || *rest != '\0' || !(value > 0 && value <= 3600)) {
+        throw std::invalid_argument("--seconds wants a number up to 3600, not " + std::string(text));
+    }
+    return value;
+}
+
+/* The exit code when the command line has been answered already, else -1. */
+int parse(int argc, char **argv, Options &options)
+{
+    static const option known[] = {{"keys", required_argument, nullptr, 'k'},
+                                   {"robot", required_argument, nullptr, 'r'},
+                                   {"lcm-url", required_argument, nullptr, 'l'},
+                                   {"seconds", required_argument, nullptr, 's'},
+                                   {"help", no_argument, nullptr, 'h'},
+                                   {"version", no_argument, nullptr, 'v'},
+                                   {nullptr, 0, nullptr, 0}};
+    /* "+": a negative speed behind the verb is no option. */
+    for (int choice; (choice = getopt_long(argc, argv, "+", known, nullptr)) != -1;) {
+        switch (choice) {
+        case 'k':
+            options.keys = optarg;
+            break;
+        case 'r':
+            options.robot = optarg;
+            break;
+        case 'l':
+            options.lcm_url = optarg;
+            break;
+        case 's':
+            options.seconds = seconds_of(optarg);
+            break;
+        case 'h':
+            std::fputs(usage, stdout);
+            return 0;
+        case 'v':
+            std::puts("ale-send 0.1.0");
+            return 0;
+        default:
+            return 2;
+        }
+    }
+    options.words.assign(argv + optind, argv + argc);
+    if (options.keys.empty() || options.words.empty()) {
+        throw std::invalid_argument(options.keys.empty() ? "--keys is missing (see --help)"
+                                                         : "which verb? (see --help)");
+    }
+    if (options.seconds > 0 && options.words[0] != "drive") {
+        throw std::invalid_argument("--seconds is for drive only");
+    }
+    return -1;
+}
+
+int64_t counter_of(const ale::status_t &status, const std::string &name)
+{
+    for (size_t k = 0; k < status.counter_name.size(); k++) {
+        if (status.counter_name[k] == name) {
+            return status.counter_value[k];
+        }
+    }
+    return 0;
+}
+
+/* Why there is no answer, as far as the counters tell. */
+std::string refusal(const ale::status_t &before, const ale::status_t &after)
+{
+    for (int verdict = ALE_GENUINE + 1; verdict < ALE_VERDICTS; verdict++) {
+        const char *name = ale_verdict_name(static_cast<ale_verdict_t>(verdict));
+        if (counter_of(after, name) > counter_of(before, name)) {
+            return std::string("refused (") + name + ")";
+        }
+    }
+    return "no answer";
+}
+
+void keep_driving(send::RobotLink &link, const Options &options)
+{
+    const int turns = static_cast<int>(options.seconds * 1000 / drive_period_ms);
+    for (int k = 0; k < turns && !interrupted; k++) {
+        link.wait(drive_period_ms, [] { return interrupted.load(); });
+        link.command(options.words, drive_life_us);
+    }
+    if (turns > 0) {
+        link.command({"drive", "0", "0"}, drive_life_us);
+    }
+}
+
+int run(const Options &options)
+{
+    ale_secret_key_t key;
+    char error[ALE_KEYS_ERROR];
+    if (ale_secret_key_load(options.keys.c_str(), &key, error) < 0) {
+        throw std::invalid_argument(error);
+    }
+    send::RobotLink link(options.lcm_url, options.robot, key);
+    if (!link.wait(first_status_ms, [&] { return link.status().has_value(); })) {
+        throw std::runtime_error("no robot" + (options.robot.empty() ? "" : " " + options.robot) +
+                                 " is heard");
+    }
+    const ale::status_t before = *link.status();
+    if (!before.takes_commands) {
+        throw std::runtime_error(before.robot + " takes no commands (ale-slamd --keys)");
+    }
+    const bool driving = options.words[0] == "drive";
+    const int64_t counter = link.command(options.words, driving ? drive_life_us : life_us);
+    if (!link.wait(answer_ms, [&] { return link.answered(counter) || interrupted; })) {
+        throw std::runtime_error(before.robot + ": " + refusal(before, *link.status()));
+    }
+    const ale::status_t &answer = *link.status();
+    std::printf("%s: %s\n", answer.robot.c_str(), answer.command_result.c_str());
+    std::fflush(stdout);
+    if (answer.command_obeyed) {
+        keep_driving(link, options);
+    }
+    return answer.command_obeyed ? 0 : 1;
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+    try {
+        Options options;
+        const int answered = parse(argc, argv, options);
+        if (answered >= 0) {
+            return answered;
+        }
+        for (const int number : {SIGINT, SIGTERM}) {
+            std::signal(number, [](int) { interrupted = true; });
+        }
+        return run(options);
+    } catch (const std::invalid_argument &error) {
+        std::fprintf(stderr, "ale-send: %s\n", error.what());
+        return 2;
+    } catch (const std::exception &error) {
+        std::fprintf(stderr, "ale-send: %s\n", error.what());
+        return 1;
+    }
+}
