@@ -4,7 +4,7 @@
 #   make system [T=word]             tests of the real programs (pytest)
 
 TEST_SOURCES = $(shell find tests -name 'test_*.cpp' | sort)
-TEST_SHARED_SOURCES = $(shell find tests -name '*.cpp' ! -name 'test_*' ! -name 'fuzz_*' ! -path 'tests/planted/*' | sort)
+TEST_SHARED_SOURCES = $(shell find tests -name '*.cpp' ! -name 'test_*' ! -name 'fuzz_*' ! -path 'tests/planted/*' ! -path 'tests/proofs/*' | sort)
 TEST_PROGRAMS = $(patsubst tests/%.cpp,$(BUILD)/tests/%,$(TEST_SOURCES))
 SELECTED_TESTS = $(if $(T),$(foreach p,$(TEST_PROGRAMS),$(if $(strip $(foreach t,$(T),$(findstring $(t),$(p)))),$(p))),$(TEST_PROGRAMS))
 T ?=
@@ -40,6 +40,10 @@ venv: $(VENV)/ready
 
 system: programs lcm-types venv ## tests of the real programs over pseudo terminals and LCM (T=word selects)
 	@$(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(if $(T),-k "$(T)")
+
+.PHONY: proofs
+proofs: programs ## bounded by construction: symbols, call graph, soft-float build, system call filter (part of make test)
+	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m pytest -q -rP -p no:cacheprovider tests/proofs
 
 # Coverage-guided fuzzing with clang's libFuzzer, one program a harness.
 FUZZ_SECONDS ?= 600
