@@ -40,20 +40,22 @@ static wide_t wide_add(wide_t a, uint64_t high, uint64_t low)
     return sum;
 }
 
+/* Three steps of Newton from the straight line 0.354 + 0.667 v, which is within 4.2 % of the root of a v
+ * between 1/4 and 1: the errors are 9e-4, 4e-7 and 8e-14, less than half a unit of the result. */
 uint32_t ale_isqrt(uint64_t v)
 {
-    uint64_t root = 0;
-    uint64_t bit = v > 0 ? (uint64_t)1 << ((ale_bit_length(v) - 1) & ~1u) : 0;
-    while (bit != 0) {
-        if (v >= root + bit) {
-            v -= root + bit;
-            root = (root >> 1) + bit;
-        } else {
-            root >>= 1;
-        }
-        bit >>= 2;
+    if (v == 0) {
+        return 0;
     }
-    return (uint32_t)root;
+    const unsigned shift = (64 - ale_bit_length(v)) & ~1u;
+    const uint64_t scaled = v << shift;
+    uint64_t root = 1520826057 + (scaled >> 33) * 4 / 3;
+    for (int step = 0; step < 3; step++) {
+        root = (root + scaled / root) / 2;
+    }
+    root = root > UINT32_MAX ? UINT32_MAX : root;
+    root -= root * root > scaled ? 1 : 0;
+    return (uint32_t)(root >> (shift / 2));
 }
 
 int64_t ale_mul_shift(int64_t a, int64_t b, unsigned shift)
@@ -73,6 +75,11 @@ int64_t ale_mul_shift(int64_t a, int64_t b, unsigned shift)
         return signed_saturated(UINT64_MAX, negative);
     }
     return signed_saturated((p.high << (64 - shift)) | (p.low >> shift), negative);
+}
+
+int64_t ale_mul_nano(int64_t a, int64_t b)
+{
+    return ale_mul_shift(a, ale_round_div(b * 1099511628, 1000000), 40); /* 2^40 / 10^9 */
 }
 
 /* Next 32 bits of a quotient: (high * 2^32 + low) / divisor for high < divisor, divisor normalised (highest

@@ -78,7 +78,7 @@ static const int64_t bam_per_rad = 683565276;
 
 /* sin and cos of an angle of the first quadrant (0..2^30 inclusive), from the nearest table entry t:
  * sin(t + d) = sin t cos d + cos t sin d with cos d = 1 - d^2/2, sin d = d - d^3/6; |d| < 3.1 mrad. */
-static void first_quadrant(uint32_t angle_bam, int32_t *cos_q30, int32_t *sin_q30)
+static inline ale_direction_t first_quadrant(uint32_t angle_bam)
 {
     const uint32_t k = (angle_bam + ((uint32_t)1 << (STEP_BITS - 1))) >> STEP_BITS;
     const int64_t d_bam = (int64_t)angle_bam - ((int64_t)k << STEP_BITS);
@@ -87,23 +87,34 @@ static void first_quadrant(uint32_t angle_bam, int32_t *cos_q30, int32_t *sin_q3
     const int64_t sin_d_q38 = d_q38 - ale_round_div(ale_round_shift(half_square_q38 * d_q38, 38), 3);
     const int64_t s = sine_q30[k];
     const int64_t c = sine_q30[256 - k];
-    *sin_q30 = (int32_t)(s + ale_round_shift(c * sin_d_q38 - s * half_square_q38, 38));
-    *cos_q30 = (int32_t)(c - ale_round_shift(s * sin_d_q38 + c * half_square_q38, 38));
+    const ale_direction_t direction = {
+        .cos_q30 = (int32_t)(c - ale_round_shift(s * sin_d_q38 + c * half_square_q38, 38)),
+        .sin_q30 = (int32_t)(s + ale_round_shift(c * sin_d_q38 - s * half_square_q38, 38)),
+    };
+    return direction;
 }
 
 int32_t ale_sin_q30(uint32_t angle_bam)
 {
     const uint32_t quadrant = angle_bam >> 30;
     const uint32_t rest = angle_bam & (ALE_BAM_QUARTER_TURN - 1);
-    int32_t c;
-    int32_t s;
-    first_quadrant(quadrant & 1u ? ALE_BAM_QUARTER_TURN - rest : rest, &c, &s);
+    const int32_t s = first_quadrant(quadrant & 1u ? ALE_BAM_QUARTER_TURN - rest : rest).sin_q30;
     return quadrant & 2u ? -s : s;
 }
 
 int32_t ale_cos_q30(uint32_t angle_bam)
 {
     return ale_sin_q30(angle_bam + ALE_BAM_QUARTER_TURN);
+}
+
+ale_direction_t ale_direction(uint32_t angle_bam)
+{
+    const uint32_t quadrant = angle_bam >> 30;
+    const uint32_t rest = angle_bam & (ALE_BAM_QUARTER_TURN - 1);
+    ale_direction_t d = first_quadrant(quadrant & 1u ? ALE_BAM_QUARTER_TURN - rest : rest);
+    d.sin_q30 = quadrant & 2u ? -d.sin_q30 : d.sin_q30;
+    d.cos_q30 = quadrant == 1 || quadrant == 2 ? -d.cos_q30 : d.cos_q30;
+    return d;
 }
 
 /* atan(num / den) for 0 <= num <= den, den > 0, both below 2^33: the nearest table entry k/256 and

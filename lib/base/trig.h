@@ -25,6 +25,14 @@ static inline int32_t ale_bam_diff(uint32_t a_bam, uint32_t b_bam)
 int32_t ale_cos_q30(uint32_t angle_bam);
 int32_t ale_sin_q30(uint32_t angle_bam);
 
+typedef struct {
+    int32_t cos_q30;
+    int32_t sin_q30;
+} ale_direction_t;
+
+/* Both at once, at the cost of one. */
+ale_direction_t ale_direction(uint32_t angle_bam);
+
 /* Angle of the vector (x, y), any unit; |x|, |y| below 2^62; (0, 0) gives 0. */
 uint32_t ale_atan2_bam(int64_t y, int64_t x);
 

@@ -7,20 +7,19 @@
 enum {
     SHARED_SHARE = 2, /* shared variances that a point may add in the mean, */
     SHARED_PEAK = 6,  /* and those that are in error together on top of it */
-    WIDEST_STEP = 8,
-    GRID = 12, /* places at which a run is tried for a break */
+    GRID = 12,        /* places at which a run is tried for a break */
     MIN_SPLIT_POINTS = 16,
     PROMISING_Q8 = 100 /* part of the gain wanted that a place of the grid must show */
 };
 
-static ale_fit_t fit_between(const ale_extractor_t *e, int32_t a, int32_t b)
+static ale_run_fit_t fit_between(const ale_extractor_t *e, int32_t a, int32_t b)
 {
     return a <= b ? ale_moments_fit(e, a, b) : ale_moments_fit(e, b, a);
 }
 
 /* Squared residuals that n points of a true line may have: chi square of the own noise, and the shared
  * error, of which n points have only one draw for every 2 * shared_beams of them. */
-static int64_t allowed_q8(const ale_extractor_t *e, const ale_fit_t *fit, int32_t n, int64_t chi_q8)
+static int64_t allowed_q8(const ale_extractor_t *e, const ale_run_fit_t *fit, int32_t n, int64_t chi_q8)
 {
     const int64_t together = ale_min64(n, (int64_t)2 * e->config.noise.shared_beams);
     const int64_t shared = fit->shared_q8 * ((int64_t)SHARED_SHARE * n + SHARED_PEAK * together);
@@ -29,7 +28,7 @@ static int64_t allowed_q8(const ale_extractor_t *e, const ale_fit_t *fit, int32_
 
 /* Threshold of the search, as chi square of n points: it floats with the fit accepted last, between the
  * bounds that the noise model sets. */
-static int64_t floating_chi_q8(const ale_extractor_t *e, const ale_fit_t *accepted, int32_t n)
+static int64_t floating_chi_q8(const ale_extractor_t *e, const ale_run_fit_t *accepted, int32_t n)
 {
     const int64_t expected_q8 = ale_max64((int64_t)2 * e->chi_high_q8[accepted->n], 1);
     const int64_t scaled_q8 = ale_fit_chi_q8(accepted) * 3 * e->chi_high_q8[n] / expected_q8;
@@ -38,14 +37,14 @@ static int64_t floating_chi_q8(const ale_extractor_t *e, const ale_fit_t *accept
 
 /* Step 5 of the paper's listing: the value of the error is below its threshold, and its rate of increase,
  * which is the error per point added since the fit accepted last, is no more than noise makes it. */
-static bool acceptable(const ale_extractor_t *e, const ale_fit_t *fit, const ale_fit_t *accepted)
+static bool acceptable(const ale_extractor_t *e, const ale_run_fit_t *fit, const ale_run_fit_t *accepted)
 {
     const int32_t added = fit->n - accepted->n + 2;
     return fit->sse_q8 <= allowed_q8(e, fit, fit->n, floating_chi_q8(e, accepted, fit->n)) &&
            fit->sse_q8 - accepted->sse_q8 <= allowed_q8(e, fit, added, e->chi_high_q8[added]);
 }
 
-int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to)
+int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to, ale_run_fit_t *accepted)
 {
     const int32_t direction = to >= from ? 1 : -1;
     int32_t low = ALE_MIN_RUN - 1;
@@ -53,16 +52,16 @@ int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to)
     if (low >= high) {
         return from;
     }
-    ale_fit_t accepted = fit_between(e, from, from + direction * low);
-    if (accepted.sse_q8 > allowed_q8(e, &accepted, accepted.n, e->chi_high_q8[accepted.n])) {
+    *accepted = fit_between(e, from, from + direction * low);
+    if (accepted->sse_q8 > allowed_q8(e, accepted, accepted->n, e->chi_high_q8[accepted->n])) {
         return from;
     }
     while (high - low > 1) {
         const int32_t p = (low + high) / 2;
-        const ale_fit_t fit = fit_between(e, from, from + direction * p);
-        if (acceptable(e, &fit, &accepted)) {
+        const ale_run_fit_t fit = fit_between(e, from, from + direction * p);
+        if (acceptable(e, &fit, accepted)) {
             low = p;
-            accepted = fit;
+            *accepted = fit;
         } else {
             high = p;
         }
@@ -71,28 +70,26 @@ int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to)
 }
 
 /* Squared residuals of the two lines that meet after split, each in its own variance; Q8. */
-static int64_t joint_chi_q8(const ale_extractor_t *e, ale_run_t run, int32_t split, int64_t var_a_q8,
+static int64_t joint_chi_q8(const ale_extractor_t *e, ale_segment_t run, int32_t split, int64_t var_a_q8,
                             int64_t var_b_q8)
 {
     return (ale_moments_sse_q8(e, run.first, split) << 8) / var_a_q8 +
            (ale_moments_sse_q8(e, split + 1, run.last) << 8) / var_b_q8;
 }
 
-int32_t ale_break_place(const ale_extractor_t *e, ale_run_t a, ale_run_t b, const ale_break_range_t *range)
+int32_t ale_break_place(const ale_extractor_t *e, ale_segment_t both, int64_t var_a_q8, int64_t var_b_q8,
+                        const ale_break_range_t *range)
 {
-    const ale_run_t run = {a.first, b.last, false};
     const int32_t lowest = range->lowest;
     const int32_t highest = range->highest;
     const int32_t direction = range->direction;
     if (lowest > highest) {
         return range->start;
     }
-    const int64_t var_a_q8 = ale_moments_fit(e, a.first, a.last).var_q8;
-    const int64_t var_b_q8 = ale_moments_fit(e, b.first, b.last).var_q8;
     int32_t best = (int32_t)ale_clamp64(range->start, lowest, highest);
-    int64_t best_chi = joint_chi_q8(e, run, best, var_a_q8, var_b_q8);
+    int64_t best_chi = joint_chi_q8(e, both, best, var_a_q8, var_b_q8);
     int32_t came_from = 0;
-    for (int32_t step = WIDEST_STEP; step > 0; step /= 2) {
+    for (int32_t step = range->widest_step; step > 0; step /= 2) {
         for (int32_t tries = 0; tries < 4; tries++) {
             const int32_t centre = best;
             for (int32_t side = -direction; side == direction || side == -direction; side += 2 * direction) {
@@ -100,7 +97,7 @@ int32_t ale_break_place(const ale_extractor_t *e, ale_run_t a, ale_run_t b, cons
                 if (k < lowest || k > highest || k == came_from) {
                     continue;
                 }
-                const int64_t chi = joint_chi_q8(e, run, k, var_a_q8, var_b_q8);
+                const int64_t chi = joint_chi_q8(e, both, k, var_a_q8, var_b_q8);
                 if (chi < best_chi) {
                     best_chi = chi;
                     best = k;
@@ -117,7 +114,7 @@ int32_t ale_break_place(const ale_extractor_t *e, ale_run_t a, ale_run_t b, cons
 
 /* The break after which the joint fit is best, of the places of a grid that is the same in both directions;
  * -1 when the run has no room for two. *sse_q8: squared residuals of the two lines. */
-static int32_t coarse_break(const ale_extractor_t *e, ale_run_t run, int32_t direction, int64_t *sse_q8)
+static int32_t coarse_break(const ale_extractor_t *e, ale_segment_t run, int32_t direction, int64_t *sse_q8)
 {
     const int32_t n = run.last + 1 - run.first;
     int32_t best = -1;
@@ -138,34 +135,46 @@ static int32_t coarse_break(const ale_extractor_t *e, ale_run_t run, int32_t dir
     return best;
 }
 
-int64_t ale_break_gain_q8(const ale_extractor_t *e, ale_run_t run)
+int64_t ale_break_gain_q8(const ale_extractor_t *e, ale_run_t *run)
 {
-    const ale_fit_t one = ale_moments_fit(e, run.first, run.last);
+    const ale_run_fit_t *one = ale_fit_of_run(e, run);
     int64_t sse_q8;
-    const int32_t split = coarse_break(e, run, 1, &sse_q8);
-    return split < 0 ? 0 : (sse_q8 - one.sse_q8) * 256 / one.var_q8;
+    const int32_t split = coarse_break(e, (ale_segment_t){run->first, run->last}, 1, &sse_q8);
+    return split < 0 ? 0 : (sse_q8 - one->sse_q8) * 256 / one->var_q8;
 }
 
-static int64_t ratio_at(const ale_extractor_t *e, ale_run_t run, int32_t split)
+/* A run as two, split after a point. */
+typedef struct {
+    ale_run_fit_t a;
+    ale_run_fit_t b;
+    int64_t ratio_q8;
+} parting_t;
+
+static parting_t part_at(const ale_extractor_t *e, const ale_run_t *run, int32_t split)
 {
-    const ale_run_t a = {run.first, (uint16_t)split, false};
-    const ale_run_t b = {(uint16_t)(split + 1), run.last, false};
-    return ale_merge_ratio_q8(e, a, b);
+    parting_t p = {ale_moments_fit(e, run->first, split), ale_moments_fit(e, split + 1, run->last), 0};
+    p.ratio_q8 = ale_merge_ratio_q8(e, &run->fit, &p.a, &p.b, !e->jump_after[split]);
+    return p;
 }
 
-int32_t ale_break_find(const ale_extractor_t *e, ale_run_t run, int32_t direction)
+int32_t ale_break_find(const ale_extractor_t *e, ale_run_t *run, int32_t direction)
 {
-    if (run.last - run.first + 1 < MIN_SPLIT_POINTS) {
+    if (run->last - run->first + 1 < MIN_SPLIT_POINTS) {
         return -1;
     }
+    const ale_segment_t both = {run->first, run->last};
     int64_t sse_q8;
-    const int32_t coarse = coarse_break(e, run, direction, &sse_q8);
-    if (coarse < 0 || ratio_at(e, run, coarse) < PROMISING_Q8) {
+    const int32_t coarse = coarse_break(e, both, direction, &sse_q8);
+    if (coarse < 0) {
         return -1;
     }
-    const ale_run_t a = {run.first, (uint16_t)coarse, false};
-    const ale_run_t b = {(uint16_t)(coarse + 1), run.last, false};
-    const ale_break_range_t range = {run.first + ALE_MIN_RUN - 1, run.last - ALE_MIN_RUN, coarse, direction};
-    const int32_t split = ale_break_place(e, a, b, &range);
-    return ratio_at(e, run, split) >= 256 ? split : -1;
+    ale_fit_of_run(e, run);
+    const parting_t p = part_at(e, run, coarse);
+    if (p.ratio_q8 < PROMISING_Q8) {
+        return -1;
+    }
+    const ale_break_range_t range = {run->first + ALE_MIN_RUN - 1, run->last - ALE_MIN_RUN, coarse, direction,
+                                     ALE_BREAK_WIDE_STEP};
+    const int32_t split = ale_break_place(e, both, p.a.var_q8, p.b.var_q8, &range);
+    return part_at(e, run, split).ratio_q8 >= 256 ? split : -1;
 }

@@ -5,8 +5,12 @@
 #include "extract/workspace.h"
 
 /* Binary search, from point `from` towards `to` (either direction), for the last point of the line that
- * begins at `from`. Returns it, or from when not even the shortest run is a line. O(log n) fits. */
-int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to);
+ * begins at `from`. Returns it and its fit, or from when not even the shortest run is a line. O(log n) fits.
+ */
+int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to, ale_run_fit_t *accepted);
+
+/* First step where a break is known from a search alone, and where it was placed before. */
+enum { ALE_BREAK_WIDE_STEP = 8, ALE_BREAK_FINE_STEP = 2 };
 
 /* Where a break may lie (last point of the first run), where the search for it starts, and in which
  * direction the points are read: that decides between equals. */
@@ -15,18 +19,20 @@ typedef struct {
     int32_t highest;
     int32_t start;
     int32_t direction;
+    int32_t widest_step; /* first step of the search, a power of two */
 } ale_break_range_t;
 
-/* The break between two neighbouring runs by the best joint fit, each in its own variance. Points between
- * a.last and b.first are given to either; range->start where the range is empty. A pattern search:
- * 33 joint fits at most. */
-int32_t ale_break_place(const ale_extractor_t *e, ale_run_t a, ale_run_t b, const ale_break_range_t *range);
+/* The break between two neighbouring runs, a and b, which are the points of both, by the best joint fit, each
+ * in its own variance. range->start where the range is empty. A pattern search: 9 joint fits at most for each
+ * power of two. */
+int32_t ale_break_place(const ale_extractor_t *e, ale_segment_t both, int64_t var_a_q8, int64_t var_b_q8,
+                        const ale_break_range_t *range);
 
 /* The break that splits a run in two lines which explain it better than one by more than noise would
  * (merge.h), or -1. The same break in both directions. O(log n) fits. */
-int32_t ale_break_find(const ale_extractor_t *e, ale_run_t run, int32_t direction);
+int32_t ale_break_find(const ale_extractor_t *e, ale_run_t *run, int32_t direction);
 
 /* Chi square of the two best lines less that of one, Q8: 0 or negative. */
-int64_t ale_break_gain_q8(const ale_extractor_t *e, ale_run_t run);
+int64_t ale_break_gain_q8(const ale_extractor_t *e, ale_run_t *run);
 
 #endif

@@ -5,6 +5,7 @@
 
 enum { MAX_GAP_BEAMS = 5, MAX_REACH_UM = 150000 };
 static const int64_t min_sine_q30 = 277905233; /* sin 15 degrees */
+#define MAX_VAR_UM2 ((int64_t)1 << 40)         /* (1 m)^2: what is not known better has no corner */
 
 typedef struct {
     int64_t c;
@@ -13,7 +14,8 @@ typedef struct {
 
 static direction_t normal_of(const ale_line_t *line)
 {
-    const direction_t d = {ale_cos_q30(line->alpha_bam), ale_sin_q30(line->alpha_bam)};
+    const ale_direction_t n = ale_direction(line->alpha_bam);
+    const direction_t d = {n.cos_q30, n.sin_q30};
     return d;
 }
 
@@ -35,16 +37,17 @@ static uint32_t wall_direction(const ale_line_t *line, direction_t n, ale_point_
 static int64_t var_at_um2(const ale_line_t *line, direction_t n, ale_point_t p)
 {
     const int64_t along = ale_round_shift((int64_t)p.y_um * n.c - (int64_t)p.x_um * n.s, 30);
-    const int64_t turn = ale_mul_div(line->var_alpha_nrad2, along, 1000000000) - 2 * line->cov_alpha_rho;
-    return ale_max64(line->var_rho_um2 + ale_mul_div(turn, along, 1000000000), 0);
+    const int64_t turn = ale_mul_nano(line->var_alpha_nrad2, along) - 2 * line->cov_alpha_rho;
+    return ale_max64(line->var_rho_um2 + ale_mul_nano(turn, along), 0);
 }
 
 static void set_shape(ale_corner_t *corner, uint32_t wall_a, uint32_t wall_b)
 {
     const int32_t opening = ale_bam_diff(wall_b, wall_a);
     const uint32_t between = wall_a + (uint32_t)(opening / 2);
+    const ale_direction_t middle = ale_direction(between);
     const int64_t outward =
-        (int64_t)corner->p.x_um * ale_cos_q30(between) + (int64_t)corner->p.y_um * ale_sin_q30(between);
+        (int64_t)corner->p.x_um * middle.cos_q30 + (int64_t)corner->p.y_um * middle.sin_q30;
     corner->angle_bam = opening < 0 ? 0u - (uint32_t)opening : (uint32_t)opening;
     corner->kind = outward > 0 ? ALE_CORNER_CONVEX : ALE_CORNER_CONCAVE;
     corner->bisector_bam = outward > 0 ? between + ALE_BAM_HALF_TURN : between;
@@ -53,15 +56,15 @@ static void set_shape(ale_corner_t *corner, uint32_t wall_a, uint32_t wall_b)
 static void set_covariance(ale_corner_t *corner, const ale_line_t *a, const ale_line_t *b, direction_t na,
                            direction_t nb, int64_t det)
 {
-    const int64_t ua = var_at_um2(a, na, corner->p);
-    const int64_t ub = var_at_um2(b, nb, corner->p);
-    const int64_t det2_q30 = ale_max64(ale_round_shift(det * det, 30), 1);
-    corner->cov_um2[0] =
-        ale_mul_div(ale_mul_shift(ua, nb.s * nb.s, 30) + ale_mul_shift(ub, na.s * na.s, 30), 1, det2_q30);
-    corner->cov_um2[1] =
-        -ale_mul_div(ale_mul_shift(ua, nb.s * nb.c, 30) + ale_mul_shift(ub, na.s * na.c, 30), 1, det2_q30);
-    corner->cov_um2[2] =
-        ale_mul_div(ale_mul_shift(ua, nb.c * nb.c, 30) + ale_mul_shift(ub, na.c * na.c, 30), 1, det2_q30);
+    const int64_t ua = ale_min64(var_at_um2(a, na, corner->p), MAX_VAR_UM2);
+    const int64_t ub = ale_min64(var_at_um2(b, nb, corner->p), MAX_VAR_UM2);
+    const int64_t det2_q20 = ale_max64(ale_round_shift(det * det, 40), 1);
+    const int64_t xx = ua * ale_round_shift(nb.s * nb.s, 40) + ub * ale_round_shift(na.s * na.s, 40);
+    const int64_t xy = ua * ale_round_shift(nb.s * nb.c, 40) + ub * ale_round_shift(na.s * na.c, 40);
+    const int64_t yy = ua * ale_round_shift(nb.c * nb.c, 40) + ub * ale_round_shift(na.c * na.c, 40);
+    corner->cov_um2[0] = ale_round_div(xx, det2_q20);
+    corner->cov_um2[1] = -ale_round_div(xy, det2_q20);
+    corner->cov_um2[2] = ale_round_div(yy, det2_q20);
 }
 
 static bool corner_of(const ale_line_t *a, const ale_line_t *b, ale_corner_t *corner)

@@ -28,36 +28,36 @@ typedef struct {
     int64_t y_q8;
 } mean_t;
 
-static mean_t mean_of(const ale_extractor_t *e, int32_t first, int32_t last)
+static inline mean_t mean_of(const ale_extractor_t *e, int32_t first, int32_t last)
 {
     const int64_t n = last + 1 - first;
-    const mean_t mean = {ale_round_div((e->sum[last + 1].x - e->sum[first].x) * 16, n),
-                         ale_round_div((e->sum[last + 1].y - e->sum[first].y) * 16, n)};
+    const mean_t mean = {(e->sum[last + 1].x - e->sum[first].x) * 16 / n,
+                         (e->sum[last + 1].y - e->sum[first].y) * 16 / n};
     return mean;
 }
 
-static shape_t shape_of(const ale_extractor_t *e, ale_run_t run)
+static shape_t shape_of(const ale_extractor_t *e, ale_run_t *run)
 {
-    const int32_t n = run.last + 1 - run.first;
+    const int32_t n = run->last + 1 - run->first;
     const int32_t third = n / 3;
-    const mean_t a = mean_of(e, run.first, run.first + third - 1);
-    const mean_t m = mean_of(e, run.first + third, run.last - third);
-    const mean_t b = mean_of(e, run.last - third + 1, run.last);
-    const ale_fit_t fit = ale_moments_fit(e, run.first, run.last);
+    const mean_t a = mean_of(e, run->first, run->first + third - 1);
+    const mean_t m = mean_of(e, run->first + third, run->last - third);
+    const mean_t b = mean_of(e, run->last - third + 1, run->last);
+    const ale_run_fit_t *fit = ale_fit_of_run(e, run);
     const int64_t dx = (b.x_q8 - a.x_q8) / 16;
     const int64_t dy = (b.y_q8 - a.y_q8) / 16;
     const int64_t cross_q12 = dx * (m.y_q8 - a.y_q8) - dy * (m.x_q8 - a.x_q8);
-    const int64_t var_q8 = fit.var_q8 / (n - (int64_t)2 * third) + fit.var_q8 / ((int64_t)2 * third) +
-                           ((fit.shared_q8 * SHARED_PART_Q8) >> 8);
+    const int64_t var_q8 = fit->var_q8 / (n - (int64_t)2 * third) + fit->var_q8 / ((int64_t)2 * third) +
+                           ((fit->shared_q8 * SHARED_PART_Q8) >> 8);
     const int64_t length2_mm2 = (dx * dx + dy * dy) >> (2 * ALE_POINT_SHIFT);
     const int64_t sigma_length_q4 = ale_max64(ale_isqrt((uint64_t)(ale_max64(var_q8, 1) * length2_mm2)), 1);
     const shape_t shape = {dx, dy, cross_q12 / sigma_length_q4};
     return shape;
 }
 
-static bool adjoin(const ale_extractor_t *e, ale_run_t a, ale_run_t b)
+static bool adjoin(const ale_extractor_t *e, const ale_run_t *a, const ale_run_t *b)
 {
-    return b.first - a.last <= MAX_GAP_POINTS && ale_segment_joins(e, a.last, b.first);
+    return b->first - a->last <= MAX_GAP_POINTS && ale_segment_joins(e, a->last, b->first);
 }
 
 /* Sign of the turn from a to b when it is one of a chain of chords: 3 to 50 degrees; else 0. */
@@ -72,7 +72,7 @@ static int32_t turn_between(const shape_t *a, const shape_t *b)
 }
 
 /* Chi square of the points of the runs first..last about a circle, minus that about their own lines, Q8. */
-static int64_t circle_excess_q8(const ale_extractor_t *e, int32_t first, int32_t last)
+static int64_t circle_excess_q8(ale_extractor_t *e, int32_t first, int32_t last)
 {
     const ale_circle_t circle = ale_circle_fit(e, e->run[first].first, e->run[last].last);
     if (circle.radius_q4 == 0) {
@@ -80,29 +80,29 @@ static int64_t circle_excess_q8(const ale_extractor_t *e, int32_t first, int32_t
     }
     int64_t excess = 0;
     for (int32_t k = first; k <= last; k++) {
-        const ale_fit_t fit = ale_moments_fit(e, e->run[k].first, e->run[k].last);
+        const ale_run_fit_t *fit = ale_fit_of_run(e, &e->run[k]);
         const int64_t sse = ale_circle_sse_q8(e, &circle, e->run[k].first, e->run[k].last);
-        excess += (sse - fit.sse_q8) * 256 / fit.var_q8;
+        excess += (sse - fit->sse_q8) * 256 / fit->var_q8;
     }
     return excess;
 }
 
-static bool chain_is_curve(const ale_extractor_t *e, int32_t first, int32_t last)
+static bool chain_is_curve(ale_extractor_t *e, int32_t first, int32_t last)
 {
     return circle_excess_q8(e, first, last) <= (int64_t)CHAIN_ALLOWANCE_Q8 * (last - first - 1);
 }
 
 /* One run: curved when a circle explains it better than its two best lines. */
-static bool run_is_curve(const ale_extractor_t *e, int32_t k)
+static bool run_is_curve(ale_extractor_t *e, int32_t k)
 {
     const int64_t circle = circle_excess_q8(e, k, k);
-    return circle < 0 && circle < ale_break_gain_q8(e, e->run[k]);
+    return circle < 0 && circle < ale_break_gain_q8(e, &e->run[k]);
 }
 
 /* The stretch of the chain first..last, turning by sign, whose bulges together say most. */
-static ale_run_t strongest_stretch(const shape_t *shape, int32_t first, int32_t last, int32_t sign)
+static ale_segment_t strongest_stretch(const shape_t *shape, int32_t first, int32_t last, int32_t sign)
 {
-    ale_run_t stretch = {1, 0, false};
+    ale_segment_t stretch = {1, 0};
     int64_t best = CHAIN_SUM_Q8;
     int64_t sum = 0;
     int32_t from = first;
@@ -126,7 +126,7 @@ static int32_t chain_end(const ale_extractor_t *e, const shape_t *shape, int32_t
     int32_t last = first;
     *sign = 0;
     while (last + 1 < e->run_count && !e->run[last].curved && !e->run[last + 1].curved &&
-           adjoin(e, e->run[last], e->run[last + 1])) {
+           adjoin(e, &e->run[last], &e->run[last + 1])) {
         const int32_t turn = turn_between(&shape[last], &shape[last + 1]);
         if (turn == 0 || (*sign != 0 && turn != *sign)) {
             break;
@@ -145,6 +145,7 @@ static void join_marked(ale_extractor_t *e, const uint8_t *curve_of)
         const uint8_t id = curve_of[k];
         while (id != 0 && k + 1 < e->run_count && curve_of[k + 1] == id) {
             run.last = e->run[++k].last;
+            run.fit.n = 0;
         }
         run.curved = run.curved || id != 0;
         e->run[kept++] = run;
@@ -159,7 +160,7 @@ void ale_curve_find(ale_extractor_t *e)
     uint8_t curves = 0;
     for (int32_t k = 0; k < e->run_count; k++) {
         const bool enough = e->run[k].last - e->run[k].first + 1 >= MIN_POINTS;
-        shape[k] = enough ? shape_of(e, e->run[k]) : (shape_t){0};
+        shape[k] = enough ? shape_of(e, &e->run[k]) : (shape_t){0};
         if (!e->run[k].curved && ale_abs64(shape[k].bulge_q8) > SINGLE_Q8 && run_is_curve(e, k)) {
             curve_of[k] = ++curves;
         }
@@ -167,7 +168,7 @@ void ale_curve_find(ale_extractor_t *e)
     for (int32_t first = 0; first < e->run_count;) {
         int32_t sign;
         const int32_t last = chain_end(e, shape, first, &sign);
-        const ale_run_t stretch = strongest_stretch(shape, first, last, sign);
+        const ale_segment_t stretch = strongest_stretch(shape, first, last, sign);
         if (stretch.first < stretch.last && chain_is_curve(e, stretch.first, stretch.last)) {
             curves++;
             for (int32_t k = stretch.first; k <= stretch.last; k++) {
@@ -179,7 +180,7 @@ void ale_curve_find(ale_extractor_t *e)
     join_marked(e, curve_of);
 }
 
-void ale_curve_fit(const ale_extractor_t *e, ale_run_t run, ale_curve_t *curve)
+void ale_curve_fit(const ale_extractor_t *e, ale_segment_t run, ale_curve_t *curve)
 {
     const ale_circle_t circle = ale_circle_fit(e, run.first, run.last);
     curve->first = e->beam[run.first];

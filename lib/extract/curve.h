@@ -10,6 +10,6 @@
 void ale_curve_find(ale_extractor_t *e);
 
 /* The circle through the points of a run, in the frame of the points. O(points). */
-void ale_curve_fit(const ale_extractor_t *e, ale_run_t run, ale_curve_t *curve);
+void ale_curve_fit(const ale_extractor_t *e, ale_segment_t run, ale_curve_t *curve);
 
 #endif

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/fixed.h"
+#include "extract/breakpoint.h"
 #include "extract/corner.h"
 #include "extract/curve.h"
 #include "extract/line_fit.h"
@@ -75,10 +76,9 @@ void ale_extractor_set_hook(ale_extractor_t *e, const ale_stage_hook_t *hook)
     e->hook = hook ? *hook : (ale_stage_hook_t){0};
 }
 
-static bool is_line(ale_extractor_t *e, ale_run_t run, const ale_line_t *line)
+static bool is_line(ale_extractor_t *e, const ale_run_fit_t *fit, const ale_line_t *line)
 {
-    const ale_fit_t fit = ale_moments_fit(e, run.first, run.last);
-    if (fit.n < e->config.min_points) {
+    if (fit->n < e->config.min_points) {
         e->refused[ALE_REFUSED_FEW_POINTS]++;
         return false;
     }
@@ -88,12 +88,13 @@ static bool is_line(ale_extractor_t *e, ale_run_t run, const ale_line_t *line)
         e->refused[ALE_REFUSED_SHORT]++;
         return false;
     }
-    const int64_t limit = ((fit.var_q8 * e->chi_high_q8[fit.n]) >> 8) + ROUGH_SHARED * fit.shared_q8 * fit.n;
+    const int64_t limit =
+        ((fit->var_q8 * e->chi_high_q8[fit->n]) >> 8) + ROUGH_SHARED * fit->shared_q8 * fit->n;
     if (line->var_alpha_nrad2 > MAX_SIGMA_ALPHA_NRAD * MAX_SIGMA_ALPHA_NRAD) {
         e->refused[ALE_REFUSED_SHORT]++;
         return false;
     }
-    if (fit.sse_q8 > limit) {
+    if (fit->sse_q8 > limit) {
         e->refused[ALE_REFUSED_ROUGH]++;
         return false;
     }
@@ -116,7 +117,7 @@ static void turn_line(ale_line_t *line, uint32_t frame_bam)
     line->end = ale_rotate(line->end, frame_bam);
 }
 
-static void write_curve(ale_extractor_t *e, ale_run_t run, uint32_t frame_bam, ale_features_t *out)
+static void write_curve(ale_extractor_t *e, ale_segment_t run, uint32_t frame_bam, ale_features_t *out)
 {
     e->refused[ALE_REFUSED_CURVED]++;
     if (out->curve_count == ALE_MAX_CURVES) {
@@ -135,14 +136,14 @@ static void write_features(ale_extractor_t *e, uint32_t frame_bam, ale_features_
     out->line_count = 0;
     out->curve_count = 0;
     for (int32_t k = 0; k < e->run_count; k++) {
+        const ale_segment_t run = {e->run[k].first, e->run[k].last};
         if (e->run[k].curved) {
-            write_curve(e, e->run[k], frame_bam, out);
+            write_curve(e, run, frame_bam, out);
             continue;
         }
         ale_line_t line;
-        const ale_run_t run = e->run[k];
-        ale_line_fit(e, run, &line);
-        if (!is_line(e, run, &line)) {
+        const ale_run_fit_t fit = ale_line_fit(e, run, &line);
+        if (!is_line(e, &fit, &line)) {
             continue;
         }
         if (out->line_count == ALE_MAX_LINES) {
@@ -164,6 +165,7 @@ static void prepare_points(ale_extractor_t *e, const ale_scan_t *scan)
 {
     ale_points_list(e, scan);
     ale_scan_noise_measure(e, scan);
+    ale_segment_suspect(e);
     ale_outlier_remove_spikes(e);
     ale_segment(e, scan);
     if (ale_outlier_remove_strays(e)) {
@@ -176,7 +178,7 @@ static void smooth_points(ale_extractor_t *e)
 {
     const ale_lowess_config_t config = {e->config.smooth_span, e->config.robust_passes, 1};
     for (int32_t k = 0; k < e->segment_count; k++) {
-        const ale_run_t s = e->segment[k];
+        const ale_segment_t s = e->segment[k];
         ale_lowess(&config, &e->beam[s.first], &e->inverse_q44[s.first], s.last + 1 - s.first,
                    &e->smooth_q44[s.first], &e->lowess);
     }
@@ -197,11 +199,11 @@ static void search_runs(ale_extractor_t *e, const ale_scan_t *scan)
 static void improve_runs(ale_extractor_t *e)
 {
     ale_merge_runs(e);
-    ale_runs_place(e);
+    ale_runs_place(e, ALE_BREAK_WIDE_STEP);
     ale_curve_find(e);
     ale_runs_split(e);
     ale_merge_runs(e);
-    ale_runs_place(e);
+    ale_runs_place(e, ALE_BREAK_FINE_STEP);
     ale_curve_find(e);
 }
 
@@ -221,6 +223,7 @@ __attribute__((noinline)) void ale_extract_scan(ale_extractor_t *e, const ale_sc
     if (smoothed) {
         ale_points_place(e, scan, bearing_bam);
         ale_moments_build(e);
+        ale_runs_forget_fits(e);
     }
     improve_runs(e);
     write_features(e, ale_points_frame_bam(e, scan), out);

@@ -40,17 +40,18 @@ static void set_covariance(const ale_extractor_t *e, const ale_spread_t *m, ale_
     const int64_t var_um2 = um2_of_q8(var_q8);
     const int64_t along2_q8 = ale_max64(m->along2_q8, 1);
     line->var_alpha_nrad2 = ale_mul_div(var_q8, 1000000000000000000, along2_q8);
-    line->cov_alpha_rho = ale_mul_div(line->var_alpha_nrad2, mean_along_um, 1000000000);
-    line->var_rho_um2 = var_um2 / line->points + ale_mul_div(line->cov_alpha_rho, mean_along_um, 1000000000);
+    line->cov_alpha_rho = ale_mul_nano(line->var_alpha_nrad2, mean_along_um);
+    line->var_rho_um2 = var_um2 / line->points + ale_mul_nano(line->cov_alpha_rho, mean_along_um);
 }
 
-void ale_line_fit(const ale_extractor_t *e, ale_run_t run, ale_line_t *line)
+ale_run_fit_t ale_line_fit(const ale_extractor_t *e, ale_segment_t run, ale_line_t *line)
 {
     const ale_spread_t m = ale_moments_spread(e, run.first, run.last);
     const int32_t double_angle = (int32_t)ale_atan2_bam(2 * m.b, m.a - m.c);
     uint32_t alpha = (uint32_t)(double_angle / 2) + ALE_BAM_QUARTER_TURN;
-    int64_t c = ale_cos_q30(alpha);
-    int64_t s = ale_sin_q30(alpha);
+    const ale_direction_t normal = ale_direction(alpha);
+    int64_t c = normal.cos_q30;
+    int64_t s = normal.sin_q30;
     int64_t rho = dot_q30(m.mean_x_um, m.mean_y_um, c, s);
     if (rho < 0) {
         rho = -rho;
@@ -70,4 +71,5 @@ void ale_line_fit(const ale_extractor_t *e, ale_run_t run, ale_line_t *line)
     set_covariance(e, &m, line, dot_q30(m.mean_x_um, m.mean_y_um, -s, c));
     line->var_start_um2 = um2_of_q8(m.fit.var_q8);
     line->var_end_um2 = line->var_start_um2;
+    return m.fit;
 }

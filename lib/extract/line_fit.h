@@ -4,7 +4,8 @@
 
 #include "extract/moments.h"
 
-/* Fits the points of the run. Everything of *line but the kinds of its ends is set. */
-void ale_line_fit(const ale_extractor_t *e, ale_run_t run, ale_line_t *line);
+/* Fits the points of the run. Everything of *line but the kinds of its ends is set. Returns what the fit says
+ * of the run, for the decision whether it is a line. */
+ale_run_fit_t ale_line_fit(const ale_extractor_t *e, ale_segment_t run, ale_line_t *line);
 
 #endif

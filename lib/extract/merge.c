@@ -4,33 +4,39 @@
 #include "extract/moments.h"
 #include "extract/segment.h"
 
-enum { PENALTY = 20, SHARED_PEAK = 3, MAX_GAP_BEAMS = 8, MAX_GAP_POINTS = 4 };
+enum { PENALTY = 20, SHARED_PEAK = 3, MAX_GAP_POINTS = 4 };
 
-int64_t ale_merge_ratio_q8(const ale_extractor_t *e, ale_run_t a, ale_run_t b)
+int64_t ale_merge_ratio_q8(const ale_extractor_t *e, const ale_run_fit_t *one, const ale_run_fit_t *a,
+                           const ale_run_fit_t *b, bool on_one_surface)
 {
-    const ale_fit_t one = ale_moments_fit(e, a.first, b.last);
-    const ale_fit_t fit_a = ale_moments_fit(e, a.first, a.last);
-    const ale_fit_t fit_b = ale_moments_fit(e, b.first, b.last);
-    const int64_t var =
-        ale_max64(one.var_q8, (fit_a.var_q8 * fit_a.n + fit_b.var_q8 * fit_b.n) / (fit_a.n + fit_b.n));
-    const int64_t shared = ale_max64(one.shared_q8, (fit_a.shared_q8 * fit_a.n + fit_b.shared_q8 * fit_b.n) /
-                                                        (fit_a.n + fit_b.n));
-    const bool one_surface = ale_segment_joins(e, a.last, b.first);
+    const int64_t n = a->n + b->n;
+    const int64_t var = ale_max64(one->var_q8, (a->var_q8 * a->n + b->var_q8 * b->n) / n);
+    const int64_t shared = ale_max64(one->shared_q8, (a->shared_q8 * a->n + b->shared_q8 * b->n) / n);
     const int64_t together =
-        one_surface ? SHARED_PEAK * ale_min64(one.n, (int64_t)2 * e->config.noise.shared_beams) : 0;
-    const int64_t gain = one.sse_q8 - fit_a.sse_q8 - fit_b.sse_q8;
-    return gain * 256 / (PENALTY * var + shared * (one.n + together));
+        on_one_surface ? SHARED_PEAK * ale_min64(one->n, (int64_t)2 * e->config.noise.shared_beams) : 0;
+    const int64_t gain = one->sse_q8 - a->sse_q8 - b->sse_q8;
+    return gain * 256 / (PENALTY * var + shared * (one->n + together));
 }
 
-static bool may_join(const ale_extractor_t *e, ale_run_t a, ale_run_t b)
+/* The ratio of the runs k and k + 1; the largest number where they may not be joined. */
+static int64_t ratio_at(ale_extractor_t *e, int32_t k)
 {
-    return !a.curved && !b.curved && b.first - a.last <= MAX_GAP_POINTS &&
-           e->beam[b.first] - e->beam[a.last] <= MAX_GAP_BEAMS;
+    ale_run_t *a = &e->run[k];
+    ale_run_t *b = &e->run[k + 1];
+    if (a->curved || b->curved || b->first - a->last > MAX_GAP_POINTS ||
+        e->beam[b->first] - e->beam[a->last] > ALE_MAX_GAP_BEAMS) {
+        return INT64_MAX;
+    }
+    const ale_run_fit_t one = ale_moments_fit(e, a->first, b->last);
+    return ale_merge_ratio_q8(e, &one, ale_fit_of_run(e, a), ale_fit_of_run(e, b),
+                              ale_segment_joins(e, a->last, b->first));
 }
 
-static void remove_run(ale_extractor_t *e, int32_t k)
+static void join_with_next(ale_extractor_t *e, int32_t k)
 {
-    for (int32_t i = k; i + 1 < e->run_count; i++) {
+    e->run[k].last = e->run[k + 1].last;
+    e->run[k].fit.n = 0;
+    for (int32_t i = k + 1; i + 1 < e->run_count; i++) {
         e->run[i] = e->run[i + 1];
     }
     e->run_count--;
@@ -40,8 +46,7 @@ void ale_merge_runs(ale_extractor_t *e)
 {
     int64_t ratio[ALE_MAX_RUNS];
     for (int32_t k = 0; k + 1 < e->run_count; k++) {
-        ratio[k] = may_join(e, e->run[k], e->run[k + 1]) ? ale_merge_ratio_q8(e, e->run[k], e->run[k + 1])
-                                                         : INT64_MAX;
+        ratio[k] = ratio_at(e, k);
     }
     while (e->run_count > 1) {
         int32_t best = 0;
@@ -51,14 +56,12 @@ void ale_merge_runs(ale_extractor_t *e)
         if (ratio[best] >= 256) {
             return;
         }
-        e->run[best].last = e->run[best + 1].last;
-        remove_run(e, best + 1);
+        join_with_next(e, best);
         for (int32_t k = best; k + 1 < e->run_count; k++) {
             ratio[k] = ratio[k + 1];
         }
         for (int32_t k = best > 0 ? best - 1 : 0; k <= best && k + 1 < e->run_count; k++) {
-            ratio[k] = may_join(e, e->run[k], e->run[k + 1]) ? ale_merge_ratio_q8(e, e->run[k], e->run[k + 1])
-                                                             : INT64_MAX;
+            ratio[k] = ratio_at(e, k);
         }
     }
 }

@@ -7,7 +7,10 @@
 /* Joins neighbouring runs, the least different first, while one line explains both as well as two do. */
 void ale_merge_runs(ale_extractor_t *e);
 
-/* What two lines explain better than one, over what noise alone would give, Q8: joined below 256. */
-int64_t ale_merge_ratio_q8(const ale_extractor_t *e, ale_run_t a, ale_run_t b);
+/* What two lines a and b explain better than the one line through the points of both, over what noise alone
+ * would give, Q8: joined below 256. on_one_surface: no jump lies between them, so that a shared error reaches
+ * over. */
+int64_t ale_merge_ratio_q8(const ale_extractor_t *e, const ale_run_fit_t *one, const ale_run_fit_t *a,
+                           const ale_run_fit_t *b, bool on_one_surface);
 
 #endif

@@ -5,27 +5,29 @@
 
 #include "extract/workspace.h"
 
-/* A total-least-squares line through a run, as far as decisions need it. */
-typedef struct {
-    int32_t n;
-    int64_t sse_q8;    /* squared residuals along the normal, mm^2 Q8 */
-    int64_t var_q8;    /* variance of one point along the normal that the own noise explains, mm^2 Q8; >= 1 */
-    int64_t shared_q8; /* the same of the error that neighbours share */
-} ale_fit_t;
-
 /* Fills e->sum from e->x_q4, y_q4, range_um and e->noise. O(points). */
 void ale_moments_build(ale_extractor_t *e);
 
 /* Fit over the points first..last, first <= last. Constant time. The squared residuals are exact to
  * 2^-28 of the squares along the line and to their own share of those, squared. */
-ale_fit_t ale_moments_fit(const ale_extractor_t *e, int32_t first, int32_t last);
+ale_run_fit_t ale_moments_fit(const ale_extractor_t *e, int32_t first, int32_t last);
+
+/* The fit of a run, computed when it is asked for the first time: who moves an end of the run or changes the
+ * noise sets fit.n to 0. */
+static inline const ale_run_fit_t *ale_fit_of_run(const ale_extractor_t *e, ale_run_t *run)
+{
+    if (run->fit.n == 0) {
+        run->fit = ale_moments_fit(e, run->first, run->last);
+    }
+    return &run->fit;
+}
 
 /* Its squared residuals alone, mm^2 Q8. Constant time. */
 int64_t ale_moments_sse_q8(const ale_extractor_t *e, int32_t first, int32_t last);
 
 /* The same with what the final line needs. */
 typedef struct {
-    ale_fit_t fit;
+    ale_run_fit_t fit;
     int64_t a; /* scatter matrix [a b; b c] in any unit */
     int64_t b;
     int64_t c;
@@ -37,7 +39,7 @@ typedef struct {
 ale_spread_t ale_moments_spread(const ale_extractor_t *e, int32_t first, int32_t last);
 
 /* Squared residuals in units of the own variance, Q8. */
-static inline int64_t ale_fit_chi_q8(const ale_fit_t *fit)
+static inline int64_t ale_fit_chi_q8(const ale_run_fit_t *fit)
 {
     return (fit->sse_q8 << 8) / fit->var_q8;
 }

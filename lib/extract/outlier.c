@@ -1,5 +1,7 @@
 #include "extract/outlier.h"
 
+#include <string.h>
+
 #include "base/fixed.h"
 
 enum {
@@ -8,79 +10,100 @@ enum {
     SPIKE_REACH = 7   /* beams that a spike and two neighbours on each side may take */
 };
 
-static void move_point(ale_extractor_t *e, int32_t to, int32_t from)
+/* Points to be removed, ascending. */
+typedef struct {
+    uint16_t point[ALE_MAX_BEAMS];
+    int32_t count;
+} removal_t;
+
+static void move_points(ale_extractor_t *e, int32_t to, int32_t from, int32_t end)
 {
-    e->beam[to] = e->beam[from];
-    e->range_um[to] = e->range_um[from];
-    e->inverse_q44[to] = e->inverse_q44[from];
+    const size_t points = (size_t)(end - from);
+    memmove(&e->beam[to], &e->beam[from], points * sizeof *e->beam);
+    memmove(&e->range_um[to], &e->range_um[from], points * sizeof *e->range_um);
+    memmove(&e->inverse_q44[to], &e->inverse_q44[from], points * sizeof *e->inverse_q44);
+}
+
+/* The suspects keep their places among the points that stay; those at a removed point become the place where
+ * its neighbours meet. */
+static void renumber_suspects(ale_extractor_t *e, const removal_t *r)
+{
+    int32_t kept = 0;
+    int32_t before = -1;
+    for (int32_t k = 0, gone = 0; k < e->suspect_count; k++) {
+        while (gone < r->count && r->point[gone] <= e->suspect[k]) {
+            gone++;
+        }
+        const int32_t i = e->suspect[k] - gone;
+        if (i > before && i + 1 < e->count) {
+            e->suspect[kept++] = (uint16_t)i;
+            before = i;
+        }
+    }
+    e->suspect_count = (uint16_t)kept;
+}
+
+static void remove_points(ale_extractor_t *e, const removal_t *r)
+{
+    for (int32_t k = 0; k < r->count; k++) {
+        const int32_t end = k + 1 < r->count ? r->point[k + 1] : e->count;
+        move_points(e, r->point[k] - k, r->point[k] + 1, end);
+    }
+    e->outliers = (uint16_t)(e->outliers + r->count);
+    e->count = (uint16_t)(e->count - r->count);
+    renumber_suspects(e, r);
 }
 
 bool ale_outlier_remove_strays(ale_extractor_t *e)
 {
-    int32_t kept = 0;
+    removal_t removal;
+    removal.count = 0;
     for (int32_t k = 0; k < e->segment_count; k++) {
-        const ale_run_t piece = e->segment[k];
-        const int32_t points = piece.last + 1 - piece.first;
-        if (points <= STRAY_POINTS) {
-            continue;
+        const ale_segment_t piece = e->segment[k];
+        if (piece.last + 1 - piece.first <= STRAY_POINTS) {
+            for (int32_t i = piece.first; i <= piece.last; i++) {
+                removal.point[removal.count++] = (uint16_t)i;
+            }
         }
-        for (int32_t i = piece.first; kept != piece.first && i <= piece.last; i++) {
-            move_point(e, kept + i - piece.first, i);
-        }
-        kept += points;
     }
-    const bool removed = kept < e->count;
-    e->outliers = (uint16_t)(e->outliers + e->count - kept);
-    e->count = (uint16_t)kept;
-    return removed;
+    if (removal.count == 0) {
+        return false;
+    }
+    remove_points(e, &removal);
+    return true;
 }
 
 /* A point stands out when both neighbours agree with each other and it lies off both on the same side,
  * the local slope taken off. */
-static bool is_spike(const ale_extractor_t *e, int32_t i, int64_t limit_um)
+static bool is_spike(const ale_extractor_t *e, int32_t i)
 {
+    if (i < 2 || i + 2 >= e->count || e->beam[i + 2] - e->beam[i - 2] > SPIKE_REACH) {
+        return false;
+    }
     const int64_t here = e->range_um[i];
+    const int64_t limit_um = SPIKE_FACTOR * (e->noise.sigma_um + (here * e->noise.sigma_per_range_q20 >> 20));
     const int64_t slope = ((int64_t)e->range_um[i + 2] - e->range_um[i - 2]) / 4;
     const int64_t left = here - e->range_um[i - 1] - slope;
     const int64_t right = here - e->range_um[i + 1] + slope;
     return ((left > limit_um && right > limit_um) || (left < -limit_um && right < -limit_um)) &&
-           ale_abs64(left - right) <= limit_um && e->beam[i + 2] - e->beam[i - 2] <= SPIKE_REACH;
-}
-
-/* The first spike from point i on, or the end of the points. */
-static int32_t next_spike(const ale_extractor_t *e, int32_t i)
-{
-    const int64_t constant_um = SPIKE_FACTOR * e->noise.sigma_um;
-    const int64_t per_range_q20 = SPIKE_FACTOR * e->noise.sigma_per_range_q20;
-    for (i = i < 2 ? 2 : i; i + 2 < e->count; i++) {
-        const int64_t here = e->range_um[i];
-        const int64_t limit_um = constant_um + (here * per_range_q20 >> 20);
-        const int64_t bend_um = ale_abs64(2 * here - e->range_um[i - 1] - e->range_um[i + 1]);
-        if (bend_um > 2 * limit_um && is_spike(e, i, limit_um)) {
-            return i;
-        }
-    }
-    return e->count;
+           ale_abs64(left - right) <= limit_um;
 }
 
 void ale_outlier_remove_spikes(ale_extractor_t *e)
 {
-    uint16_t spike[ALE_MAX_BEAMS];
-    int32_t spikes = 0;
-    for (int32_t i = next_spike(e, 0); i < e->count; i = next_spike(e, i + 1)) {
-        spike[spikes++] = (uint16_t)i;
-    }
-    if (spikes == 0) {
-        return;
-    }
-    int32_t kept = spike[0];
-    for (int32_t i = spike[0], k = 0; i < e->count; i++) {
-        if (k < spikes && spike[k] == i) {
-            k++;
-        } else {
-            move_point(e, kept++, i);
+    removal_t removal;
+    removal.count = 0;
+    int32_t next = 0;
+    for (int32_t k = 0; k < e->suspect_count; k++) {
+        const int32_t i = e->suspect[k];
+        for (int32_t point = i < next ? next : i; point <= i + 1; point++) {
+            if (is_spike(e, point)) {
+                removal.point[removal.count++] = (uint16_t)point;
+            }
         }
+        next = i + 2;
     }
-    e->outliers = (uint16_t)(e->outliers + spikes);
-    e->count = (uint16_t)kept;
+    if (removal.count > 0) {
+        remove_points(e, &removal);
+    }
 }

@@ -4,7 +4,8 @@
 
 #include "extract/workspace.h"
 
-/* Removes the points that stand out from neighbours which agree. Adds to e->outliers. O(points). */
+/* Removes the suspects (segment.h) that stand out from neighbours which agree. Adds to e->outliers.
+ * O(points). */
 void ale_outlier_remove_spikes(ale_extractor_t *e);
 
 /* Removes every segment (as ale_segment left them) of so few points that it is no surface. True when there

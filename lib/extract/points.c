@@ -3,7 +3,13 @@
 #include "base/fixed.h"
 #include "base/trig.h"
 
-static const int64_t per_mille_q34 = 17179869; /* 2^34 / 1000 */
+enum { PLACE_SHIFT = 36 };
+
+/* Cosine or sine as what a range in micrometres is multiplied by: Q36 of points (1/16 mm) a micrometre. */
+static int32_t per_um_q36(int32_t cos_q30)
+{
+    return (int32_t)ale_round_div((int64_t)cos_q30 * 128, 125);
+}
 
 /* Directions of all multiples of half a beam, kept as long as the scanner stays the same. */
 static void cache_directions(ale_extractor_t *e, const ale_scan_t *scan)
@@ -12,9 +18,9 @@ static void cache_directions(ale_extractor_t *e, const ale_scan_t *scan)
         return;
     }
     for (int32_t m = 0; m <= 2 * ALE_MAX_BEAMS; m++) {
-        const uint32_t angle = (uint32_t)((int64_t)m * scan->step_bam / 2);
-        e->cos_q30[m] = ale_cos_q30(angle);
-        e->sin_q30[m] = ale_sin_q30(angle);
+        const ale_direction_t d = ale_direction((uint32_t)((int64_t)m * scan->step_bam / 2));
+        e->cos_q36[m] = per_um_q36(d.cos_q30);
+        e->sin_q36[m] = per_um_q36(d.sin_q30);
     }
     e->direction_step_bam = scan->step_bam;
     e->direction_known = true;
@@ -22,25 +28,27 @@ static void cache_directions(ale_extractor_t *e, const ale_scan_t *scan)
 
 void ale_points_list(ale_extractor_t *e, const ale_scan_t *scan)
 {
-    int32_t n = 0;
-    for (int32_t k = 0; k < scan->beams; k++) {
+    const uint32_t span_um = ALE_MAX_RANGE_UM - ALE_MIN_RANGE_UM;
+    uint32_t n = 0;
+    e->gap_count = 0;
+    for (uint32_t k = 0; k < scan->beams; k++) {
         const int32_t range_um = scan->range_um[k];
-        if (scan->flag[k] == ALE_BEAM_VALID && range_um >= ALE_MIN_RANGE_UM && range_um <= ALE_MAX_RANGE_UM) {
+        if (scan->flag[k] == ALE_BEAM_VALID && (uint32_t)range_um - ALE_MIN_RANGE_UM <= span_um) {
             e->beam[n] = (uint16_t)k;
             e->range_um[n] = range_um;
             e->inverse_q44[n] = (int32_t)(((int64_t)1 << 44) / range_um);
             n++;
+        } else if (n > 0 && k - e->beam[n - 1] == ALE_MAX_GAP_BEAMS) {
+            e->gap_after[e->gap_count++] = (uint16_t)(n - 1);
         }
     }
     e->count = (uint16_t)n;
     e->outliers = 0;
 }
 
-static void place_point(ale_extractor_t *e, int32_t i, int64_t c_q30, int64_t s_q30)
+static inline int32_t coordinate_q4(int64_t range_um, int64_t per_um)
 {
-    const int64_t range_mm_q12 = (e->range_um[i] * per_mille_q34) >> 22;
-    e->x_q4[i] = (int32_t)ale_round_shift(range_mm_q12 * c_q30, 38);
-    e->y_q4[i] = (int32_t)ale_round_shift(range_mm_q12 * s_q30, 38);
+    return (int32_t)ale_round_shift(range_um * per_um, PLACE_SHIFT);
 }
 
 uint32_t ale_points_frame_bam(const ale_extractor_t *e, const ale_scan_t *scan)
@@ -52,25 +60,36 @@ uint32_t ale_points_frame_bam(const ale_extractor_t *e, const ale_scan_t *scan)
     return scan->first_bearing_bam + (uint32_t)(half_beams * scan->step_bam / 2);
 }
 
+static void place_straightened(ale_extractor_t *e, uint32_t frame_bam, const uint32_t *bearing_bam)
+{
+    for (int32_t i = 0; i < e->count; i++) {
+        const ale_direction_t d = ale_direction(bearing_bam[e->beam[i]] - frame_bam);
+        e->x_q4[i] = coordinate_q4(e->range_um[i], per_um_q36(d.cos_q30));
+        e->y_q4[i] = coordinate_q4(e->range_um[i], per_um_q36(d.sin_q30));
+    }
+}
+
 void ale_points_place(ale_extractor_t *e, const ale_scan_t *scan, const uint32_t *bearing_bam)
 {
     if (e->count == 0) {
         return;
     }
     if (bearing_bam) {
-        const uint32_t frame = ale_points_frame_bam(e, scan);
-        for (int32_t i = 0; i < e->count; i++) {
-            const uint32_t bearing = bearing_bam[e->beam[i]] - frame;
-            place_point(e, i, ale_cos_q30(bearing), ale_sin_q30(bearing));
-        }
+        place_straightened(e, ale_points_frame_bam(e, scan), bearing_bam);
         return;
     }
     cache_directions(e, scan);
     const int32_t middle = e->beam[0] + e->beam[e->count - 1];
-    for (int32_t i = 0; i < e->count; i++) {
+    int32_t i = 0;
+    for (; 2 * e->beam[i] < middle; i++) {
+        const int32_t m = middle - 2 * e->beam[i];
+        e->x_q4[i] = coordinate_q4(e->range_um[i], e->cos_q36[m]);
+        e->y_q4[i] = -coordinate_q4(e->range_um[i], e->sin_q36[m]);
+    }
+    for (; i < e->count; i++) {
         const int32_t m = 2 * e->beam[i] - middle;
-        const int32_t k = m < 0 ? -m : m;
-        place_point(e, i, e->cos_q30[k], m < 0 ? -e->sin_q30[k] : e->sin_q30[k]);
+        e->x_q4[i] = coordinate_q4(e->range_um[i], e->cos_q36[m]);
+        e->y_q4[i] = coordinate_q4(e->range_um[i], e->sin_q36[m]);
     }
 }
 

@@ -4,7 +4,7 @@
 
 #include "extract/workspace.h"
 
-/* Lists the valid beams: beam, range_um, inverse_q44, count. */
+/* Lists the valid beams: beam, range_um, inverse_q44, count, and where many are missing: gap_after. */
 void ale_points_list(ale_extractor_t *e, const ale_scan_t *scan);
 
 /* Direction of the x axis of the points, in the sensor's frame: midway between the first and the last point,

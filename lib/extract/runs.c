@@ -1,20 +1,22 @@
 #include "extract/runs.h"
 
 #include "extract/breakpoint.h"
+#include "extract/moments.h"
 #include "extract/segment.h"
 
 enum { MAX_GAP_POINTS = 4 };
 
-static void add_run(ale_extractor_t *e, int32_t a, int32_t b)
+static void add_run(ale_extractor_t *e, int32_t a, int32_t b, const ale_run_fit_t *fit)
 {
     if (e->run_count >= ALE_MAX_RUNS) {
         e->refused[ALE_REFUSED_CAPACITY]++;
         return;
     }
-    e->run[e->run_count].first = (uint16_t)(a < b ? a : b);
-    e->run[e->run_count].last = (uint16_t)(a < b ? b : a);
-    e->run[e->run_count].curved = false;
-    e->run_count++;
+    ale_run_t *run = &e->run[e->run_count++];
+    run->first = (uint16_t)(a < b ? a : b);
+    run->last = (uint16_t)(a < b ? b : a);
+    run->curved = false;
+    run->fit = *fit;
 }
 
 /* A segment is read from its nearer end, so that both directions of a scan give the same lines. */
@@ -48,9 +50,10 @@ static void search_segment(ale_extractor_t *e, int32_t first, int32_t last)
     const int32_t first_run = e->run_count;
     int32_t from = direction > 0 ? first : last;
     while ((stop - from) * direction + 1 >= ALE_MIN_RUN) {
-        const int32_t to = ale_break_search(e, from, stop);
+        ale_run_fit_t fit;
+        const int32_t to = ale_break_search(e, from, stop, &fit);
         if (to != from) {
-            add_run(e, from, to);
+            add_run(e, from, to, &fit);
         }
         from = to + direction;
     }
@@ -60,38 +63,51 @@ static void search_segment(ale_extractor_t *e, int32_t first, int32_t last)
 }
 
 /* How many points a run may lose at one end, so that both ends may be moved at the same time. */
-static int32_t spare_points(ale_run_t run)
+static int32_t spare_points(const ale_run_t *run)
 {
-    const int32_t spare = run.last + 1 - run.first - ALE_MIN_RUN;
+    const int32_t spare = run->last + 1 - run->first - ALE_MIN_RUN;
     return spare > 0 ? spare / 2 : 0;
 }
 
-static int32_t break_between(const ale_extractor_t *e, ale_run_t a, ale_run_t b)
+static int32_t break_between(const ale_extractor_t *e, ale_run_t *a, ale_run_t *b, int32_t widest_step)
 {
-    const int32_t direction = reading_direction(e, a.first, b.last);
+    const int32_t direction = reading_direction(e, a->first, b->last);
     const ale_break_range_t range = {
-        .lowest = a.last - spare_points(a),
-        .highest = b.first - 1 + spare_points(b),
-        .start = direction > 0 ? a.last : b.first - 1,
+        .lowest = a->last - spare_points(a),
+        .highest = b->first - 1 + spare_points(b),
+        .start = direction > 0 ? a->last : b->first - 1,
         .direction = direction,
+        .widest_step = widest_step,
     };
-    return ale_break_place(e, a, b, &range);
+    return ale_break_place(e, (ale_segment_t){a->first, b->last}, ale_fit_of_run(e, a)->var_q8,
+                           ale_fit_of_run(e, b)->var_q8, &range);
 }
 
-void ale_runs_place(ale_extractor_t *e)
+static void move_break(ale_run_t *a, ale_run_t *b, int32_t split)
+{
+    if (a->last != split) {
+        a->last = (uint16_t)split;
+        a->fit.n = 0;
+    }
+    if (b->first != split + 1) {
+        b->first = (uint16_t)(split + 1);
+        b->fit.n = 0;
+    }
+}
+
+void ale_runs_place(ale_extractor_t *e, int32_t widest_step)
 {
     int32_t split[ALE_MAX_RUNS];
     for (int32_t k = 0; k + 1 < e->run_count; k++) {
-        const ale_run_t a = e->run[k];
-        const ale_run_t b = e->run[k + 1];
-        const bool meet = b.first - a.last <= MAX_GAP_POINTS && !a.curved && !b.curved &&
-                          ale_segment_joins(e, a.last, b.first);
-        split[k] = meet ? break_between(e, a, b) : -1;
+        ale_run_t *a = &e->run[k];
+        ale_run_t *b = &e->run[k + 1];
+        const bool meet = b->first - a->last <= MAX_GAP_POINTS && !a->curved && !b->curved &&
+                          ale_segment_joins(e, a->last, b->first);
+        split[k] = meet ? break_between(e, a, b, widest_step) : -1;
     }
     for (int32_t k = 0; k + 1 < e->run_count; k++) {
         if (split[k] >= 0) {
-            e->run[k].last = (uint16_t)split[k];
-            e->run[k + 1].first = (uint16_t)(split[k] + 1);
+            move_break(&e->run[k], &e->run[k + 1], split[k]);
         }
     }
 }
@@ -101,9 +117,7 @@ static void insert_run(ale_extractor_t *e, int32_t k, int32_t split)
     for (int32_t i = e->run_count; i > k; i--) {
         e->run[i] = e->run[i - 1];
     }
-    e->run[k + 1] = e->run[k];
-    e->run[k + 1].first = (uint16_t)(split + 1);
-    e->run[k].last = (uint16_t)split;
+    move_break(&e->run[k], &e->run[k + 1], split);
     e->run_count++;
 }
 
@@ -111,10 +125,9 @@ void ale_runs_split(ale_extractor_t *e)
 {
     int32_t k = 0;
     while (k < e->run_count && e->run_count < ALE_MAX_RUNS) {
+        ale_run_t *run = &e->run[k];
         const int32_t split =
-            e->run[k].curved
-                ? -1
-                : ale_break_find(e, e->run[k], reading_direction(e, e->run[k].first, e->run[k].last));
+            run->curved ? -1 : ale_break_find(e, run, reading_direction(e, run->first, run->last));
         if (split >= 0) {
             insert_run(e, k, split);
         } else {
@@ -128,5 +141,12 @@ void ale_runs_search(ale_extractor_t *e)
     e->run_count = 0;
     for (int32_t k = 0; k < e->segment_count; k++) {
         search_segment(e, e->segment[k].first, e->segment[k].last);
+    }
+}
+
+void ale_runs_forget_fits(ale_extractor_t *e)
+{
+    for (int32_t k = 0; k < e->run_count; k++) {
+        e->run[k].fit.n = 0;
     }
 }

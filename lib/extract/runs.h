@@ -7,10 +7,14 @@
 /* Cuts every segment into runs by the binary search of ALE. O(lines log points) fits. */
 void ale_runs_search(ale_extractor_t *e);
 
+/* The points have moved: their runs are to be fitted anew. */
+void ale_runs_forget_fits(ale_extractor_t *e);
+
 /* Splits the runs that two lines explain better than one. O(lines log points) fits. */
 void ale_runs_split(ale_extractor_t *e);
 
-/* Places the breaks between neighbouring runs by the best joint fit, all from the same state. */
-void ale_runs_place(ale_extractor_t *e);
+/* Places the breaks between neighbouring runs by the best joint fit, all from the same state. widest_step:
+ * see breakpoint.h. */
+void ale_runs_place(ale_extractor_t *e, int32_t widest_step);
 
 #endif

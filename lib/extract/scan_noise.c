@@ -10,51 +10,61 @@
 enum {
     OCTAVE_BASE = 14, /* 2^14 um is just below the shortest range */
     OCTAVES = 14,
-    MIN_SAMPLES = 24, /* fewer second differences of one octave are not used */
-    BINS_PER_OCTAVE_SHIFT = 2
+    DIFFERENCE_STRIDE = 3,
+    MIN_SAMPLES = 20, /* fewer second differences of one octave are not used */
+    PERCENT = 75,     /* a quantile of the Gauss curve that is known better than the median */
+    QUARTILE_PER_MILLE = 2818
 };
 static const int64_t micro_q36 = 68719; /* 2^36 / 10^6 */
 
 typedef struct {
-    int64_t samples;
-    int64_t range_um; /* mean */
+    int32_t samples;
+    int64_t range_um; /* sum, later mean */
     int64_t sigma_um;
 } octave_t;
 
-/* Second difference of 1/r about point i, as a range, um. */
-static int64_t second_difference_um(const ale_extractor_t *e, int32_t i, int64_t curvature_q30)
+/* Second difference of 1/r about point i, as a range, um: it times the squared range, in two steps of 22
+ * bits. */
+static inline uint64_t second_difference_um(const ale_extractor_t *e, int32_t i, int64_t curvature_q30)
 {
     const int64_t q = e->inverse_q44[i];
-    const int64_t d = e->inverse_q44[i - 1] + e->inverse_q44[i + 1] - 2 * q + (q * curvature_q30 >> 30);
-    return ale_abs64(d) * e->range_um[i] / q;
+    const int64_t d =
+        (int64_t)e->inverse_q44[i - 1] + e->inverse_q44[i + 1] - 2 * q + (q * curvature_q30 >> 30);
+    const int64_t range_um = e->range_um[i];
+    return (uint64_t)(((ale_abs64(d) * range_um) >> 22) * range_um) >> 22;
 }
 
-static inline void count_difference(ale_extractor_t *e, int32_t i, int64_t curvature_q30,
-                                    octave_t octave[OCTAVES])
+static inline void count_difference(ale_extractor_t *e, int32_t i, int64_t curvature_q30, octave_t *octave)
 {
     if (e->beam[i + 1] - e->beam[i - 1] == 2) {
-        const uint32_t k = ale_bit_length((uint64_t)e->range_um[i]) - 1 - OCTAVE_BASE;
-        e->histogram[k][ale_histogram_bin((uint64_t)second_difference_um(e, i, curvature_q30))]++;
+        const uint32_t k = 31 - OCTAVE_BASE - (uint32_t)__builtin_clz((uint32_t)e->range_um[i]);
+        e->histogram[k][ale_histogram_bin(second_difference_um(e, i, curvature_q30))]++;
         octave[k].samples++;
         octave[k].range_um += e->range_um[i];
     }
 }
 
+/* Every STRIDE-th difference, from both ends to the middle: neighbouring ones share two of three points. */
 static int32_t collect(ale_extractor_t *e, int64_t curvature_q30, octave_t octave[OCTAVES])
 {
     memset(e->histogram, 0, sizeof e->histogram);
     memset(octave, 0, OCTAVES * sizeof *octave);
-    for (int32_t i = 1; i + 1 < e->count; i++) {
+    int32_t i = 1;
+    int32_t j = e->count - 2;
+    for (; i < j; i += DIFFERENCE_STRIDE, j -= DIFFERENCE_STRIDE) {
+        count_difference(e, i, curvature_q30, octave);
+        count_difference(e, j, curvature_q30, octave);
+    }
+    if (i == j) {
         count_difference(e, i, curvature_q30, octave);
     }
     int32_t used = 0;
     for (uint32_t k = 0; k < OCTAVES; k++) {
         if (octave[k].samples >= MIN_SAMPLES) {
-            /* median of |d| is 0.6745 sqrt(6) sigma */
-            octave[used].sigma_um = ale_clamp64(
-                ale_round_div(ale_histogram_quantile(e->histogram[k], (int32_t)octave[k].samples, 50) * 1000,
-                              1652),
-                ALE_SIGMA_FLOOR_UM, ALE_SIGMA_MOST_UM);
+            /* three quarters of |d| are below 1.1503 sqrt(6) sigma */
+            const int64_t quartile_um = ale_histogram_quantile(e->histogram[k], octave[k].samples, PERCENT);
+            octave[used].sigma_um = ale_clamp64(ale_round_div(quartile_um * 1000, QUARTILE_PER_MILLE),
+                                                ALE_SIGMA_FLOOR_UM, ALE_SIGMA_MOST_UM);
             octave[used].range_um = octave[k].range_um / octave[k].samples;
             octave[used].samples = octave[k].samples;
             used++;
@@ -145,9 +155,9 @@ enum {
     BLOCK = 8,
     TWO_BLOCKS = 16,
     THREE_BLOCKS = 24,
-    STRIDE = 3, /* from one window of three blocks to the next */
+    STRIDE = 6, /* from one window of three blocks to the next */
     SHARED_GAIN_Q8 = 299,
-    MIN_BLOCKS = 20,
+    MIN_BLOCKS = 12,
     RATIO_Q8 = 2 * 256, /* of what own noise gives: up to 1.4 are measured where there is no shared error */
     SHARED_LEAST_Q8 = 3 * 256, /* once there is a shared error it is at least so large, */
     SHARED_MOST_Q8 = 16 * 256, /* and at most */
@@ -222,12 +232,15 @@ void ale_scan_noise_refine_own(ale_extractor_t *e)
     int64_t chi_q8 = (int64_t)OWN_PRIOR_POINTS * 256;
     int64_t freedom = OWN_PRIOR_POINTS;
     for (int32_t k = 0; k < e->run_count; k++) {
-        const ale_fit_t fit = ale_moments_fit(e, e->run[k].first, e->run[k].last);
-        const int64_t fit_chi_q8 = ale_fit_chi_q8(&fit);
-        if (fit.n >= OWN_RUN_POINTS && fit_chi_q8 < e->chi_high_q8[fit.n]) {
+        const ale_run_fit_t *fit = ale_fit_of_run(e, &e->run[k]);
+        const int64_t fit_chi_q8 = ale_fit_chi_q8(fit);
+        if (fit->n >= OWN_RUN_POINTS && fit_chi_q8 < e->chi_high_q8[fit->n]) {
             chi_q8 += fit_chi_q8;
-            freedom += fit.n - 2;
+            freedom += fit->n - 2;
         }
     }
     e->noise.own_scale_q8 = ale_clamp64(chi_q8 / freedom, 180, 360);
+    for (int32_t k = 0; k < e->run_count; k++) {
+        e->run[k].fit.var_q8 = ale_max64((e->run[k].fit.var_q8 * e->noise.own_scale_q8) >> 8, 1);
+    }
 }

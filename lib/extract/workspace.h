@@ -24,6 +24,9 @@
 #define ALE_MIN_RUN 5
 #define ALE_MAX_RUNS (ALE_MAX_BEAMS / ALE_MIN_RUN)
 
+/* Beams without a value that one surface may have. */
+#define ALE_MAX_GAP_BEAMS 8
+
 /* Sums over the points before one: their difference is the sum over a run. */
 typedef struct {
     int64_t x;
@@ -34,10 +37,24 @@ typedef struct {
     int64_t noise_q36; /* own variance of the range over the square of the range */
 } ale_moments_t;
 
+/* A total-least-squares line through a run, as far as decisions need it. */
+typedef struct {
+    int32_t n;         /* 0: not known yet */
+    int64_t sse_q8;    /* squared residuals along the normal, mm^2 Q8 */
+    int64_t var_q8;    /* variance of one point along the normal that the own noise explains, mm^2 Q8; >= 1 */
+    int64_t shared_q8; /* the same of the error that neighbours share */
+} ale_run_fit_t;
+
+typedef struct {
+    uint16_t first;
+    uint16_t last;
+} ale_segment_t;
+
 typedef struct {
     uint16_t first;
     uint16_t last;
     bool curved;
+    ale_run_fit_t fit; /* see ale_fit_of_run */
 } ale_run_t;
 
 /* Noise of this scan, part of it measured in the scan: variance of a range of r mm is
@@ -60,8 +77,8 @@ struct ale_extractor {
     /* Directions of the multiples of half a step, kept as long as the scanner stays the same. */
     bool direction_known;
     int32_t direction_step_bam;
-    int32_t cos_q30[2 * ALE_MAX_BEAMS + 1];
-    int32_t sin_q30[2 * ALE_MAX_BEAMS + 1];
+    int32_t cos_q36[2 * ALE_MAX_BEAMS + 1]; /* points a micrometre of range, Q36 */
+    int32_t sin_q36[2 * ALE_MAX_BEAMS + 1];
 
     /* The points. */
     uint16_t count;
@@ -76,8 +93,13 @@ struct ale_extractor {
     int32_t y_q4[ALE_MAX_BEAMS];
     ale_moments_t sum[ALE_MAX_BEAMS + 1];
 
+    uint16_t gap_count;
+    uint16_t
+        gap_after[ALE_MAX_BEAMS / ALE_MAX_GAP_BEAMS + 1]; /* points before more missing beams than that */
+    uint16_t suspect_count;
+    uint16_t suspect[ALE_MAX_BEAMS]; /* points after which the range changes more than noise makes it */
     uint16_t segment_count;
-    ale_run_t segment[ALE_MAX_BEAMS];
+    ale_segment_t segment[ALE_MAX_BEAMS];
 
     ale_scan_noise_t noise;
     int64_t shared_scale_q8;

@@ -21,7 +21,7 @@ int figures_growth(const ale_scan_t *scan, const ale_extract_config_t *config,
         ale_extract_scan(e, scan, NULL, features);
         entries = 0;
         for (int32_t last = ALE_MIN_RUN - 1; last < e->count; last++) {
-            const ale_fit_t fit = ale_moments_fit(e, 0, last);
+            const ale_run_fit_t fit = ale_moments_fit(e, 0, last);
             const double variance = (double)fit.var_q8 / 256;
             growth[entries++] = (figures_growth_t){
                 e->beam[last],

@@ -51,7 +51,8 @@ static void search_again(const ale_extractor_t *e, int32_t first, int32_t last, 
     const int32_t stop = direction > 0 ? last : first;
     int32_t from = direction > 0 ? first : last;
     while ((stop - from) * direction + 1 >= ALE_MIN_RUN) {
-        const int32_t to = ale_break_search(e, from, stop);
+        ale_run_fit_t fit;
+        const int32_t to = ale_break_search(e, from, stop, &fit);
         const int32_t size = (stop - from) * direction + 1;
         add_steps(trace, from, direction, size, (to - from) * direction);
         from = to + direction;

@@ -80,8 +80,25 @@ TEST(Fixed, SquareRootIsTheFloor)
         EXPECT_LE(root * root, wide{0} + v);
         EXPECT_GT((root + 1) * (root + 1), wide{0} + v);
     }
+    for (uint64_t root = 1; root < UINT32_MAX; root += root / 1000 + 1) {
+        EXPECT_EQ(ale_isqrt(root * root), root);
+        EXPECT_EQ(ale_isqrt(root * root - 1), root - 1);
+    }
     EXPECT_EQ(ale_isqrt(0), 0u);
     EXPECT_EQ(ale_isqrt(UINT64_MAX), UINT32_MAX);
+}
+
+TEST(Fixed, ABillionthOfAProductIsKnownToItsUnit)
+{
+    Numbers numbers;
+    for (int k = 0; k < 100000; k++) {
+        const int64_t a = numbers.any(40);
+        const int64_t b = numbers.any(32);
+        const double exact = static_cast<double>(a) * static_cast<double>(b) / 1e9;
+        const double bound = 1 + std::fabs(exact) * 1e-9 + std::fabs(static_cast<double>(a)) * 5e-13;
+        EXPECT_NEAR(static_cast<double>(ale_mul_nano(a, b)), exact, bound) << a << " * " << b;
+        EXPECT_EQ(ale_mul_nano(-a, b), -ale_mul_nano(a, b));
+    }
 }
 
 TEST(Fixed, WideProductIsExactAfterTheShift)

@@ -27,6 +27,8 @@ TEST(Trig, SineAndCosineAreWithinTwoUnits)
         const uint32_t angle = static_cast<uint32_t>(engine());
         EXPECT_NEAR(ale_sin_q30(angle), std::sin(radians(angle)) * q30, 2.0);
         EXPECT_NEAR(ale_cos_q30(angle), std::cos(radians(angle)) * q30, 2.0);
+        EXPECT_EQ(ale_direction(angle).sin_q30, ale_sin_q30(angle));
+        EXPECT_NEAR(ale_direction(angle).cos_q30, std::cos(radians(angle)) * q30, 2.0);
     }
 }
 
@@ -47,6 +49,8 @@ TEST(Trig, SymmetryIsExact)
         EXPECT_EQ(ale_cos_q30(0u - angle), ale_cos_q30(angle));
         EXPECT_EQ(ale_sin_q30(angle + ALE_BAM_HALF_TURN), -ale_sin_q30(angle));
         EXPECT_EQ(ale_cos_q30(angle), ale_sin_q30(angle + ALE_BAM_QUARTER_TURN));
+        EXPECT_EQ(ale_direction(0u - angle).cos_q30, ale_direction(angle).cos_q30);
+        EXPECT_EQ(ale_direction(angle + ALE_BAM_HALF_TURN).cos_q30, -ale_direction(angle).cos_q30);
     }
 }
 

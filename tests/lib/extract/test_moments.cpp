@@ -73,7 +73,7 @@ TEST(Moments, SquaredResidualsOfAnyRunAgreeWithTheTwin)
             const int first = static_cast<int>(engine() % static_cast<unsigned>(n - 4));
             const int last = first + 3 + static_cast<int>(engine() % static_cast<unsigned>(n - first - 3));
             const auto twin = reference::total_least_squares(grid_of(extractor.get(), first, last));
-            const ale_fit_t fit = ale_moments_fit(extractor.get(), first, last);
+            const ale_run_fit_t fit = ale_moments_fit(extractor.get(), first, last);
             const double points = last + 1 - first;
             // the scatter has 30 bits: its small eigenvalue is known to 2^-28 of the large one; one step of
             // the iteration for it leaves the square of their ratio
@@ -97,7 +97,7 @@ TEST(Moments, ExpectedVarianceIsTheNoiseSeenAlongTheNormal)
         for (const auto &p : points) {
             expected += 25 * std::pow(twin.rho / p.norm(), 2) / 200;
         }
-        const ale_fit_t fit = ale_moments_fit(extractor.get(), 0, 199);
+        const ale_run_fit_t fit = ale_moments_fit(extractor.get(), 0, 199);
         EXPECT_NEAR(static_cast<double>(fit.var_q8) / 256, expected, 0.03 * expected + 0.1);
     }
 }
@@ -111,7 +111,7 @@ TEST(LineFit, NormalFormAgreesWithTheTwin)
         load(extractor.get(), noisy_wall(engine, n, 5600));
         const auto twin = reference::total_least_squares(grid_of(extractor.get(), 0, n - 1));
         ale_line_t line;
-        ale_line_fit(extractor.get(), {0, static_cast<uint16_t>(n - 1), false}, &line);
+        ale_line_fit(extractor.get(), {0, static_cast<uint16_t>(n - 1)}, &line);
         const double alpha = line.alpha_bam * (2 * pi / 4294967296.0);
         const double sigma_alpha = 5 / std::sqrt(twin.along2);
         EXPECT_NEAR(std::remainder(alpha - twin.alpha, 2 * pi), 0, 0.01 * sigma_alpha + 1e-8);
@@ -127,7 +127,7 @@ TEST(LineFit, CovarianceIsThatOfIndependentNoiseAlongTheLine)
     std::mt19937 engine(4);
     load(extractor.get(), noisy_wall(engine, 150, 4000));
     ale_line_t line;
-    ale_line_fit(extractor.get(), {0, 149, false}, &line);
+    ale_line_fit(extractor.get(), {0, 149}, &line);
     const auto twin = reference::total_least_squares(grid_of(extractor.get(), 0, 149));
     const double var = static_cast<double>(ale_moments_fit(extractor.get(), 0, 149).var_q8) / 256;
     const double var_alpha = var / twin.along2;
@@ -145,7 +145,7 @@ TEST(LineFit, TheEndsLieOnTheLine)
     for (int trial = 0; trial < 100; trial++) {
         load(extractor.get(), noisy_wall(engine, 60, 4000));
         ale_line_t line;
-        ale_line_fit(extractor.get(), {0, 59, false}, &line);
+        ale_line_fit(extractor.get(), {0, 59}, &line);
         const double alpha = line.alpha_bam * (2 * pi / 4294967296.0);
         for (const ale_point_t p : {line.start, line.end}) {
             EXPECT_NEAR(p.x_um * std::cos(alpha) + p.y_um * std::sin(alpha), line.rho_um, 3.0);
