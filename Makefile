@@ -15,6 +15,7 @@ V ?= 0
 .DEFAULT_GOAL = all
 include tools/make/rules.mk
 include tools/make/tests.mk
+include tools/make/cross.mk
 -include $(filter-out tools/make/%,$(wildcard tools/*/*.mk))
 
 .PHONY: help deps deps-test all run install clean

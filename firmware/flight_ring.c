@@ -79,7 +79,7 @@ void ale_flight_ring_put(ale_flight_ring_t *ring, ale_chunk_kind_t kind, int64_t
 {
     uint8_t chunk[ALE_FLIGHT_MAX_PAYLOAD + ALE_CHUNK_FRAME_BYTES];
     const uint32_t bytes = ale_chunk_put(chunk, kind, stamp_us, payload, length);
-    const char first = length > 0 ? *(const char *)payload : '\0';
+    const uint8_t first = length > 0 ? *(const uint8_t *)payload : 0;
     if (kind == ALE_CHUNK_SENT || kind == ALE_CHUNK_RECEIVED) {
         keep_opening(ring, chunk, bytes, kind == ALE_CHUNK_SENT && (first == 'M' || first == 'G'));
     }

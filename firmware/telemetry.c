@@ -178,7 +178,8 @@ static void wait_for_work(ale_telemetry_t *telemetry)
         wait_ns = ale_min64(wait_ns, PART_NS);
     }
     wait_ns = ale_exchange_result_wait_ns(exchange, wait_ns);
-    const struct timespec wait = {.tv_sec = wait_ns / NS_PER_S, .tv_nsec = wait_ns % NS_PER_S};
+    const struct timespec wait = {.tv_sec = (time_t)(wait_ns / NS_PER_S),
+                                  .tv_nsec = (long)(wait_ns % NS_PER_S)};
     ppoll(sources, 2, &wait, NULL);
     eventfd_t announced = 0;
     eventfd_read(exchange->under_way, &announced);

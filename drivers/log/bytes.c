@@ -22,7 +22,7 @@ static const char *make_room(buffer_t *buffer)
         return NULL;
     }
     if (buffer->capacity >= ALE_LOG_MOST_BYTES) {
-        return "larger than 4 GiB";
+        return "too large";
     }
     const size_t capacity = buffer->capacity ? 2 * buffer->capacity : FIRST_CAPACITY;
     uint8_t *grown = realloc(buffer->at, capacity);

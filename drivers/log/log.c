@@ -157,7 +157,9 @@ int ale_log_open_memory(ale_log_t **out, const uint8_t *bytes, uint64_t count, a
     if (!log) {
         return fail(error, "memory", "not enough memory");
     }
-    return finish_open(out, log, ale_bytes_from_memory(&log->bytes, bytes, count), error);
+    const char *wrong =
+        count <= ALE_LOG_MOST_BYTES ? ale_bytes_from_memory(&log->bytes, bytes, (size_t)count) : "too large";
+    return finish_open(out, log, wrong, error);
 }
 
 const ale_log_info_t *ale_log_info(const ale_log_t *log)

@@ -9,9 +9,10 @@
  * layouts), .scan lines, Odometry/Laser pairs, .scip recordings, LCM event logs with ALE_SCAN.
  * Bad lines are counted in the statistics and skipped; they never end a log. Scans come in the order of
  * the log; odometry that belongs to a line comes before its scan, stamped as the log stamps it.
- * The log is held in memory, unpacked (at most 4 GiB), and read through once at open: has_odometry and
- * the use of its stamps are facts of the whole. Where stamps are missing or mostly do not advance, scan k
- * is at k * 0.1 s. One owner thread; independent logs may be used at the same time. */
+ * The log is held in memory, unpacked (at most 4 GiB; 1 GiB where addresses have 32 bits), and read through
+ * once at open: has_odometry and the use of its stamps are facts of the whole. Where stamps are missing or
+ * mostly do not advance, scan k is at k * 0.1 s. One owner thread; independent logs may be used at the same
+ * time. */
 #ifndef ALE_LOG_LOG_H
 #define ALE_LOG_LOG_H
 

@@ -222,7 +222,8 @@ void ale_rt_release_post(ale_rt_release_t *release)
 
 bool ale_rt_release_wait(ale_rt_release_t *release, int64_t until_ns)
 {
-    const struct timespec until = {.tv_sec = until_ns / NS_PER_S, .tv_nsec = until_ns % NS_PER_S};
+    const struct timespec until = {.tv_sec = (time_t)(until_ns / NS_PER_S),
+                                   .tv_nsec = (long)(until_ns % NS_PER_S)};
     if (atomic_exchange(&release->posted, 0) == 1) {
         return true;
     }

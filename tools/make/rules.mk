@@ -44,7 +44,7 @@ $(BUILD)/lcmtypes/%.c: $(LCM_STAMP) ;
 
 $(OBJ)/lcmtypes/%.o: $(BUILD)/lcmtypes/%.c
 	@mkdir -p $(@D)
-	$(Q)$(CC) -std=gnu11 -g $(OPT) $(SANITIZER_FLAGS) -w -c $< -o $@
+	$(Q)$(CC) -std=gnu11 -g $(OPT) $(SANITIZER_FLAGS) -ffunction-sections -w -c $< -o $@
 
 LCM_JAR = $(BUILD)/ale-lcmtypes.jar
 $(LCM_JAR): $(LCM_STAMP)

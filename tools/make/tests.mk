@@ -69,11 +69,14 @@ fuzz: deps-test ## long run of the fuzzers (FUZZ_SECONDS=600 each)
 	@$(MAKE) --no-print-directory -s fuzz-programs
 	@$(PYTHON) tools/make/run_tests.py fuzz --seconds $(FUZZ_SECONDS) $(FUZZ_PROGRAMS)
 
-# The same bytes from every compiler and level: ale-replay built again and its results compared.
-.PHONY: same-bytes lint lint-tidy
+# The same bytes from every compiler and level: ale-replay built again, and its results compared with one another
+# and with the digests in tests/digest.
+.PHONY: same-bytes digest lint lint-tidy
 SAME_BYTES_BUILDS ?= gcc:-O0 clang:-O3
 same-bytes: programs
-	@$(PYTHON) tools/make/same_bytes.py --build $(BUILD) $(SAME_BYTES_BUILDS)
+	@$(PYTHON) tools/make/digest.py --build $(BUILD) check $(SAME_BYTES_BUILDS)
+digest: programs ## after a wanted change of features or trajectories: their new digests into tests/digest
+	@$(PYTHON) tools/make/digest.py --build $(BUILD) update
 
 C_FAMILY = $(shell git ls-files --cached --others --exclude-standard '*.c' '*.h' '*.cpp' '*.hpp')
 lint: ## clang-format and cppcheck of everything, clang-tidy of what runs on the robot
@@ -112,9 +115,11 @@ test: deps-test ## all tests on this machine; the last line counts them
 	@$(PYTHON) tools/make/run_tests.py sum
 
 # After `make test` in the same build folder (AFTER_TEST=1) only the rest runs, and the sum is of both.
-test-all: ## make test, lint, and the same bytes from every compiler and level
+test-all: ## make test, lint, and the same bytes from every compiler, level and emulated machine
 	$(if $(AFTER_TEST),,@$(SUB) test)
 	@echo "== lint"
 	-@$(SUB) lint
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, all" $(SUB) same-bytes SAME_BYTES_BUILDS="gcc:-O0 gcc:-O3 clang:-O0 clang:-O3"
+	@echo "== the same bytes on other machines, emulated"
+	-@$(PYTHON) tools/make/run_tests.py command "same bytes, aarch64 armhf s390x" $(SUB) cross
 	@$(PYTHON) tools/make/run_tests.py sum

@@ -1,0 +1,33 @@
+# ale-replay for other machines: 64 bits, 32 bits, and the other byte order. Linked whole, run under qemu-user.
+#
+#   make cross            build for all and compare what they write with this machine, byte for byte
+#   make cross-aarch64    build one
+
+CROSS = aarch64 armhf s390x
+CROSS_BUILD = $(BUILD)/cross
+CROSS_LIBRARIES = zlib1g-dev libpng-dev libinih-dev
+
+triple_aarch64 = aarch64-linux-gnu
+triple_armhf = arm-linux-gnueabihf
+triple_s390x = s390x-linux-gnu
+debian_aarch64 = arm64
+debian_armhf = armhf
+debian_s390x = s390x
+
+$(CROSS_BUILD)/%/libraries/ready:
+	$(call say,libraries,$*)
+	$(Q)tools/make/cross.sh $(debian_$*) $(@D) $(CROSS_LIBRARIES) && touch $@
+
+# What ale-replay has of LCM decodes logs; the rest, which wants the library, is dropped by the linker.
+.PHONY: $(addprefix cross-,$(CROSS)) cross
+$(addprefix cross-,$(CROSS)): cross-%: $(CROSS_BUILD)/%/libraries/ready
+	$(Q)$(MAKE) --no-print-directory BUILD=$(CROSS_BUILD)/$* \
+	    CC="$(CCACHE)$(triple_$*)-gcc" CXX="$(CCACHE)$(triple_$*)-g++" AR=$(triple_$*)-ar \
+	    CFLAGS="-isystem $(<D)/usr/include" CXXFLAGS="-isystem $(<D)/usr/include -Wno-psabi" \
+	    LDFLAGS="-static -L$(<D)/usr/lib/$(triple_$*) -Wl,--gc-sections" LIBRARIES="-lpng -lz -linih -lm" \
+	    $(CROSS_BUILD)/$*/bin/ale-replay
+
+CCACHE = $(if $(findstring ccache,$(CC)),ccache )
+cross: programs ## the same bytes from aarch64, armhf and s390x, emulated
+	@tools/make/deps.sh tools/make/packages-cross.txt
+	@$(PYTHON) tools/make/digest.py --build $(BUILD) check $(CROSS)
