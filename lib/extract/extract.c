@@ -19,7 +19,9 @@
 enum {
     HIGH_Z = 4,
     LOW_Z = 3,
-    ROUGH_SHARED = 6 /* shared variances that a wall may be wavy by */
+    ROUGH_OWN_Q2 = 5,  /* own variances that a line may have beyond its bound: the measured noise errs too */
+    ROUGH_SHARED = 12, /* shared variances that a long wall may be wavy by, */
+    ROUGH_REACHES = 4  /* and the reaches of the shared error from which on it is a long one */
 };
 static const int64_t MAX_SIGMA_ALPHA_NRAD = 122173048; /* 7 degrees: a line of no known direction is none */
 
@@ -48,11 +50,14 @@ static bool noise_in_range(const ale_noise_t *n)
            n->surface_um <= 100000 && n->bearing_nrad >= 0 && n->bearing_nrad <= 100000000;
 }
 
-/* Chi square of n points about a fitted line: n - 2 and z deviations of it, sqrt(2 (n - 2)). */
+/* Chi square that n points about a fitted line exceed as seldom as a Gauss curve z deviations, by Wilson and
+ * Hilferty: k (1 - h + z sqrt(h))^3 with h = 2 / 9 k and k = n - 2 degrees of freedom. */
 static int32_t chi_limit_q8(int32_t n, int32_t z)
 {
-    const int32_t freedom = n > 2 ? n - 2 : 1;
-    return freedom * 256 + z * (int32_t)ale_isqrt((uint64_t)freedom << 17) + 0;
+    const int64_t freedom = n > 2 ? n - 2 : 1;
+    const int64_t h_q20 = ((int64_t)2 << 20) / (9 * freedom);
+    const int64_t root_q20 = ((int64_t)1 << 20) - h_q20 + z * (int64_t)ale_isqrt((uint64_t)h_q20 << 20);
+    return (int32_t)(freedom * ((((root_q20 * root_q20) >> 20) * root_q20) >> 20) >> 12);
 }
 
 int ale_extractor_init(ale_extractor_t *e, const ale_extract_config_t *config)
@@ -76,6 +81,16 @@ void ale_extractor_set_hook(ale_extractor_t *e, const ale_stage_hook_t *hook)
     e->hook = hook ? *hook : (ale_stage_hook_t){0};
 }
 
+/* Squared residuals that a line may have. What neighbours share bends a short line hardly at all. */
+static int64_t rough_q8(const ale_extractor_t *e, const ale_run_fit_t *fit)
+{
+    const int64_t own = ((fit->var_q8 * e->chi_high_q8[fit->n]) >> 8) * ROUGH_OWN_Q2 / 4;
+    const int64_t n2 = (int64_t)fit->n * fit->n;
+    const int64_t reach = (int64_t)ROUGH_REACHES * e->config.noise.shared_beams;
+    const int64_t share_q8 = (n2 << 8) / (n2 + reach * reach);
+    return own + ((ROUGH_SHARED * fit->shared_q8 * fit->n * share_q8) >> 8);
+}
+
 static bool is_line(ale_extractor_t *e, const ale_run_fit_t *fit, const ale_line_t *line)
 {
     if (fit->n < e->config.min_points) {
@@ -88,13 +103,11 @@ static bool is_line(ale_extractor_t *e, const ale_run_fit_t *fit, const ale_line
         e->refused[ALE_REFUSED_SHORT]++;
         return false;
     }
-    const int64_t limit =
-        ((fit->var_q8 * e->chi_high_q8[fit->n]) >> 8) + ROUGH_SHARED * fit->shared_q8 * fit->n;
     if (line->var_alpha_nrad2 > MAX_SIGMA_ALPHA_NRAD * MAX_SIGMA_ALPHA_NRAD) {
         e->refused[ALE_REFUSED_SHORT]++;
         return false;
     }
-    if (fit->sse_q8 > limit) {
+    if (fit->sse_q8 > rough_q8(e, fit)) {
         e->refused[ALE_REFUSED_ROUGH]++;
         return false;
     }

@@ -4,7 +4,7 @@
 #include "extract/moments.h"
 #include "extract/segment.h"
 
-enum { MAX_GAP_POINTS = 4 };
+enum { MAX_GAP_POINTS = 8 };
 
 static void add_run(ale_extractor_t *e, int32_t a, int32_t b, const ale_run_fit_t *fit)
 {
