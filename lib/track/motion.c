@@ -254,13 +254,23 @@ static void bound(ale_motion_t *m)
     }
 }
 
+void ale_motion_jump(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_motion_t *wheels,
+                     const ale_liveliness_t *l)
+{
+    predict_jump(motion, wheels, l);
+    motion->stamp_us = stamp_us;
+    bound(motion);
+}
+
 void ale_motion_predict(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_motion_t *wheels,
                         const ale_liveliness_t *l)
 {
     const int64_t dt_us = stamp_us - motion->stamp_us;
     if (dt_us <= 0 || dt_us > STEP_MAX_US) {
-        predict_jump(motion, wheels, l);
-    } else if (wheels) {
+        ale_motion_jump(motion, stamp_us, wheels, l);
+        return;
+    }
+    if (wheels) {
         predict_with_wheels(motion, dt_us, wheels, l);
     } else {
         predict_free(motion, dt_us, l);

@@ -56,6 +56,10 @@ void ale_motion_init(ale_motion_t *motion, int64_t stamp_us, ale_pose_t pose, in
 void ale_motion_predict(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_motion_t *wheels,
                         const ale_liveliness_t *l);
 
+/* Goes on to stamp_us when the time between says nothing, as predict does for a step of no time. */
+void ale_motion_jump(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_motion_t *wheels,
+                     const ale_liveliness_t *l);
+
 /* Applies an error in the robot's frame to the state: pose, then velocity. */
 void ale_motion_correct(ale_motion_t *motion, const int64_t delta[ALE_STATES]);
 

@@ -30,8 +30,9 @@ typedef struct {
 
 void ale_wheels_init(ale_wheels_t *wheels, int32_t max_speed_mm_s, int32_t max_turn_mrad_s);
 
-/* Takes a sample. One that is not newer than the newest is ignored, unless it is older by more than a
- * second (a clock set back: new epoch). After a jump the buffer begins anew with this sample. */
+/* Takes a sample. One that is not newer than the newest is ignored when it lies on the way that is known;
+ * when the wheels have gone on since, its stamp is wrong, and it counts as just taken. One that is older by
+ * more than a second (a clock set back) or a jump begins the buffer anew with this sample. */
 void ale_wheels_add(ale_wheels_t *wheels, const ale_odometry_t *sample);
 
 /* Pose of the wheels at an instant of the samples' clock. False when the buffer does not reach there.
@@ -41,6 +42,9 @@ bool ale_wheels_at(const ale_wheels_t *wheels, int64_t t_us, ale_pose_t *out, in
 /* Motion from one instant to a later one, in the frame of the earlier. False as above. */
 bool ale_wheels_motion(const ale_wheels_t *wheels, int64_t from_us, int64_t to_us, ale_pose_t *out,
                        int32_t *beyond_us);
+
+/* Time between the two samples around an instant, or between the last two. 0 when there are none. */
+int64_t ale_wheels_gap_us(const ale_wheels_t *wheels, int64_t t_us);
 
 /* The oldest sample not older than an instant, or NULL. Valid until the next sample is added. */
 const ale_odometry_t *ale_wheels_sample_from(const ale_wheels_t *wheels, int64_t t_us);

@@ -1,15 +1,15 @@
 #include "track/pace.h"
 
-#include <stdbool.h>
-
 #include "base/fixed.h"
 
 enum {
     STEP_MAX_US = 2000000,
-    LEARN_SCANS = 8, /* scans whose stamps give the first idea of the period */
-    GAIN_LEAST = 24, /* the loop forgets after about so many scans */
-    EVEN_US = 2000,  /* stamps that jitter less than this are right as they are */
-    PERIOD_PARTS = 4 /* and beyond a quarter of the period there is no pace */
+    LEARN_SCANS = 8,         /* scans whose stamps give the first idea of the period */
+    GAIN_LEAST = 24,         /* the loop forgets after about so many scans */
+    EVEN_US = 2000,          /* stamps that jitter less than this are right as they are */
+    PERIOD_PARTS = 4,        /* and beyond a quarter of the period there is no pace, */
+    PERIOD_MOST_US = 250000, /* nor in a log that holds but some of the mirror's turns */
+    USUAL_SCANS = 16
 };
 
 void ale_pace_init(ale_pace_t *pace)
@@ -19,7 +19,7 @@ void ale_pace_init(ale_pace_t *pace)
 
 static void take_up(ale_pace_t *p, int64_t stamp_us)
 {
-    *p = (ale_pace_t){.scans = 1, .stamp_us = stamp_us, .even_us = stamp_us};
+    *p = (ale_pace_t){.scans = 1, .stamp_us = stamp_us, .even_us = stamp_us, .usual_us = p->usual_us};
 }
 
 /* First scans: the period is their mean distance, the instants are the stamps. */
@@ -48,6 +48,10 @@ static void follow(ale_pace_t *p, int64_t stamp_us)
 int64_t ale_pace_instant(ale_pace_t *pace, int64_t stamp_us)
 {
     const int64_t dt_us = stamp_us - pace->stamp_us;
+    if (pace->scans > 0 && dt_us > 0) {
+        const int64_t gap_us = ale_min64(dt_us, STEP_MAX_US);
+        pace->usual_us += pace->usual_us > 0 ? (gap_us - pace->usual_us) / USUAL_SCANS : gap_us;
+    }
     if (pace->scans == 0 || dt_us <= 0 || dt_us > STEP_MAX_US) {
         take_up(pace, stamp_us);
         return stamp_us;
@@ -60,7 +64,13 @@ int64_t ale_pace_instant(ale_pace_t *pace, int64_t stamp_us)
     pace->scans++;
     pace->stamp_us = stamp_us;
     const int64_t loose_us = pace->period_q8_us / 256 / PERIOD_PARTS;
-    const bool keeps_pace = pace->jitter2_us2 < loose_us * loose_us;
+    const bool keeps_pace =
+        pace->period_q8_us < 256 * PERIOD_MOST_US && pace->jitter2_us2 < loose_us * loose_us;
     const bool jitters = pace->jitter2_us2 > (int64_t)EVEN_US * EVEN_US;
     return keeps_pace && jitters ? pace->even_us : stamp_us;
+}
+
+bool ale_pace_believes(const ale_pace_t *pace, int64_t step_us)
+{
+    return step_us * PERIOD_PARTS >= pace->usual_us;
 }

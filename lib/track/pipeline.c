@@ -21,9 +21,12 @@ enum {
     LEARN_LAG_VAR_UM2 = 4000000, /* and a lag that could not have made (2 mm)^2 of it */
     WHOLE_MAP_UM = 2000000000,   /* a reach beyond any map */
     SEARCH_PERCENT = 60,         /* of what is shown must lie on walls before a place is looked at closer */
+    ANCHOR_SIGMA_UM = 1000,      /* of the pose to the walls that are born from it */
+    ANCHOR_SIGMA_URAD = 500,
     SEARCH_SIGMA_UM = 100000,
     SEARCH_SIGMA_URAD = 50000,
-    SCAN_PERIOD_MAX_US = 2000000
+    SCAN_PERIOD_MAX_US = 2000000,
+    SCAN_SET_BACK_US = 1000000 /* a stamp older than the last by less is a wrong stamp */
 };
 
 ale_pipeline_config_t ale_pipeline_default_config(void)
@@ -91,6 +94,7 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
     pipeline->drift = (ale_drift_t){0, 0};
     pipeline->fade.next = 0;
     pipeline->search = (ale_search_t){0, 0};
+    ale_witness_clear(&pipeline->witness);
     pipeline->started = false;
     pipeline->view_count = 0;
     memset(&pipeline->features, 0, sizeof pipeline->features);
@@ -108,8 +112,21 @@ void ale_pipeline_odometry(ale_pipeline_t *pipeline, const ale_odometry_t *sampl
 static bool predict(ale_pipeline_t *p, int64_t stamp_us, ale_wheel_motion_t *wheels)
 {
     const bool known = ale_wheel_motion(&p->wheels, &p->lag, &p->scale, p->motion.stamp_us, stamp_us, wheels);
-    ale_motion_predict(&p->motion, stamp_us, known ? wheels : NULL, &p->liveliness[known]);
+    if (ale_pace_believes(&p->pace, stamp_us - p->motion.stamp_us)) {
+        ale_motion_predict(&p->motion, stamp_us, known ? wheels : NULL, &p->liveliness[known]);
+    } else {
+        ale_motion_jump(&p->motion, stamp_us, known ? wheels : NULL, &p->liveliness[known]);
+    }
     return known;
+}
+
+/* When a scan was taken: scans come in their order, whatever their stamps say of it. A clock that was set
+ * back is followed. */
+static int64_t instant_of(ale_pipeline_t *p, int64_t stamp_us)
+{
+    const int64_t instant_us = ale_pace_instant(&p->pace, stamp_us);
+    const int64_t last_us = p->motion.stamp_us;
+    return instant_us <= last_us && instant_us > last_us - SCAN_SET_BACK_US ? last_us + 1 : instant_us;
 }
 
 /* The noise model with the beams' own noise as the extractor found it in this scan. */
@@ -134,8 +151,8 @@ static void look(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t velocit
     p->scan = *raw;
     ale_scan_mask(&p->scan, p->config.blind, p->config.blind_count);
     ale_sensor_velocity(velocity, p->config.sensor, sensor_velocity);
-    const uint32_t *bearing_bam =
-        ale_deskew(&p->scan, sensor_velocity, p->bearing_bam) ? p->bearing_bam : NULL;
+    p->straightened = ale_deskew(&p->scan, sensor_velocity, p->bearing_bam);
+    const uint32_t *bearing_bam = bearings(p);
     ale_stage_end(&p->hook, ALE_STAGE_DESKEW);
     ale_extract_scan(&p->extractor, &p->scan, bearing_bam, &p->features);
     const ale_noise_t noise = measured_noise(p);
@@ -217,17 +234,62 @@ static ale_sights_t look_around(ale_pipeline_t *p)
                     p->tracker.state == ALE_STATE_GOOD);
 }
 
+/* The scan at hand as the witness hears of it: on the way that is smooth, which no correction of the map
+ * bends. */
+static ale_seen_t seen(const ale_pipeline_t *p, const ale_motion_t *before)
+{
+    const ale_pose_t robot = ale_pose_compose(p->smooth, ale_pose_between(before->pose, p->motion.pose));
+    return (ale_seen_t){.scan = &p->scan,
+                        .bearing_bam = bearings(p),
+                        .robot = robot,
+                        .sensor = ale_pose_compose(robot, p->config.sensor),
+                        .view = p->view,
+                        .view_count = p->view_count};
+}
+
+/* Hears the last scan when the map knows little of this one; a scan that fits is the next to be heard, one
+ * that does not leaves the prediction as it is. */
+static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted)
+{
+    const ale_seen_t now = seen(p, before);
+    const bool doubt = ale_tracker_doubts(&p->fit);
+    const ale_testimony_t heard = doubt ? ale_witness_hear(&p->witness, &now) : (ale_testimony_t){0, 0};
+    ale_tracker_notice(&p->tracker, doubt ? &heard : NULL);
+    if (p->tracker.jumped) {
+        const ale_scene_t scene = {&p->map, p->view, p->view_count};
+        ale_refine_reject(predicted, &scene, &p->fit);
+        p->motion = *predicted;
+    } else {
+        ale_witness_keep(&p->witness, &now);
+    }
+}
+
+/* Where the scan shows enough, but too little of it is in the map to hold the pose, the map goes on from
+ * here: new walls hold the robot as exactly as old ones, and how far they may be off is the drift they are
+ * born with. */
+static void anchor(ale_pipeline_t *p)
+{
+    if (ale_tracker_may_anchor(&p->tracker, &p->fit)) {
+        p->drift = ale_drift_of_new_wall(p->drift, &p->fit.motion.cov);
+        ale_motion_widen(&p->fit.motion, ANCHOR_SIGMA_UM, ANCHOR_SIGMA_URAD);
+        p->motion = p->fit.motion;
+    }
+}
+
 /* Tracks: matches where the prediction puts the robot, judges the result, and takes it into the map. */
 static void track(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted,
                   const ale_wheel_motion_t *wheels)
 {
     match(p, predicted, p->scan.range_max_um);
     p->motion = p->fit.motion;
+    notice(p, before, predicted);
     p->drift = ale_drift_here(&p->map, p->view, p->view_count, &p->fit, p->drift);
-    ale_liveliness_learn(&p->liveliness[wheels != NULL], predicted, &p->motion);
-    teach_wheels(p, before, wheels);
+    if (!p->tracker.jumped) {
+        ale_liveliness_learn(&p->liveliness[wheels != NULL], predicted, &p->motion);
+        teach_wheels(p, before, wheels);
+    }
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);
-    ale_tracker_notice(&p->tracker, &p->fit);
+    anchor(p);
     take_in(p, ale_tracker_may_map(&p->tracker, &p->fit));
     ale_local_map_approach(&p->map, (ale_point_t){p->motion.pose.x_um, p->motion.pose.y_um},
                            p->scan.range_max_um);
@@ -257,7 +319,7 @@ static void search(ale_pipeline_t *p)
 static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
 {
     const ale_motion_t before = p->motion;
-    const int64_t instant_us = ale_pace_instant(&p->pace, scan->stamp_us);
+    const int64_t instant_us = instant_of(p, scan->stamp_us);
     ale_wheel_motion_t wheels;
     const bool counted = predict(p, instant_us, &wheels);
     const ale_motion_t predicted = p->motion;

@@ -16,6 +16,7 @@
 #include "track/tracker.h"
 #include "track/view.h"
 #include "track/wheels.h"
+#include "track/witness.h"
 
 struct ale_pipeline {
     ale_pipeline_config_t config;
@@ -36,6 +37,7 @@ struct ale_pipeline {
     ale_drift_t drift; /* of the map around the robot */
     ale_fade_t fade;
     ale_search_t search;
+    ale_witness_t witness;
 
     /* the scan at hand */
     ale_scan_t scan;

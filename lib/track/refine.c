@@ -1,6 +1,7 @@
 #include "track/refine.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #include "base/fixed.h"
 #include "base/trig.h"
@@ -13,8 +14,11 @@ enum {
     LATER_OFFSET_UM = 60000,
     LATER_ANGLE_URAD = 200000,
     LATER_PIECE_UM = 50000,
-    PIECE_ANGLE_URAD = 600000 /* a piece hardly has a direction */
+    PIECE_ANGLE_URAD = 600000, /* a piece hardly has a direction */
+    REJECT_PARTS = 10 /* less than this part of what is shown, found in the map, is found by chance */
 };
+
+static const ale_gate_t later = {LATER_OFFSET_UM, LATER_ANGLE_URAD, LATER_SIGMAS, LATER_PIECE_UM};
 
 static int64_t ticks_q20(int64_t time_us)
 {
@@ -199,28 +203,61 @@ static int64_t step(const ale_matrix_t *prior, int64_t total[ALE_STATES], ale_fi
     return size;
 }
 
-void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
-                ale_fit_t *out)
+static void start(const ale_motion_t *predicted, ale_fit_t *fit)
 {
-    const ale_gate_t later = {LATER_OFFSET_UM, LATER_ANGLE_URAD, LATER_SIGMAS, LATER_PIECE_UM};
-    const ale_gate_t second = {(gate->offset_um + LATER_OFFSET_UM) / 3, gate->angle_urad, LATER_SIGMAS,
-                               gate->piece_um};
-    const ale_gate_t *const gates[ALE_REFINE_ITERATIONS] = {gate, &second, &later, NULL, NULL};
-    ale_factors_t factors;
-    ale_matrix_t prior;
-    int64_t total[ALE_STATES] = {0};
-    out->motion = *predicted;
+    fit->motion = *predicted;
     for (int i = 0; i < 3; i++) {
-        out->velocity_change[i] = 0;
+        fit->velocity_change[i] = 0;
     }
-    ale_matrix_factor(&predicted->cov, &factors);
-    ale_matrix_invert(&factors, ALE_MATRIX_BITS, &prior);
+}
+
+void ale_refine_reject(const ale_motion_t *predicted, const ale_scene_t *scene, ale_fit_t *fit)
+{
+    const ale_gate_t none = {0, 0, 0, 0};
+    start(predicted, fit);
+    gather(scene, &predicted->cov, &none, fit);
+}
+
+/* Newton's steps from the prediction; the gates narrow from the first to the last. */
+static void fit_from(const ale_motion_t *predicted, const ale_matrix_t *prior, const ale_scene_t *scene,
+                     const ale_gate_t *const gates[ALE_REFINE_ITERATIONS], ale_fit_t *out)
+{
+    int64_t total[ALE_STATES] = {0};
+    start(predicted, out);
     int64_t size = INT64_MAX;
     for (out->iterations = 0; out->iterations < ALE_REFINE_ITERATIONS && size > CONVERGED_UM;
          out->iterations++) {
         gather(scene, out->iterations == 0 ? &predicted->cov : &out->motion.cov, gates[out->iterations], out);
-        size = step(&prior, total, out);
+        size = step(prior, total, out);
     }
     /* errors at the pose that was found, for the map */
     gather(scene, &out->motion.cov, out->iterations > 2 ? NULL : &later, out);
+}
+
+void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
+                ale_fit_t *out)
+{
+    const ale_gate_t second = {(gate->offset_um + LATER_OFFSET_UM) / 3, gate->angle_urad, LATER_SIGMAS,
+                               gate->piece_um};
+    const ale_gate_t *const wide[ALE_REFINE_ITERATIONS] = {gate, &second, &later, NULL, NULL};
+    const ale_gate_t *const narrow[ALE_REFINE_ITERATIONS] = {&later, &later, &later, NULL, NULL};
+    ale_factors_t factors;
+    ale_matrix_t prior;
+    ale_matrix_factor(&predicted->cov, &factors);
+    ale_matrix_invert(&factors, ALE_MATRIX_BITS, &prior);
+    fit_from(predicted, &prior, scene, wide, out);
+    if (out->matched_um * 2 < out->shown_um) {
+        const ale_motion_t found = out->motion;
+        const int64_t change[3] = {out->velocity_change[0], out->velocity_change[1], out->velocity_change[2]};
+        const int64_t matched_um = out->matched_um;
+        fit_from(predicted, &prior, scene, narrow, out);
+        if (out->matched_um < matched_um) {
+            out->motion = found;
+            memcpy(out->velocity_change, change, sizeof change);
+            gather(scene, &found.cov, &later, out);
+        }
+    }
+    if (out->matched_um * REJECT_PARTS < out->shown_um) {
+        ale_refine_reject(predicted, scene, out);
+    }
 }

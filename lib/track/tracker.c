@@ -4,11 +4,11 @@
 
 enum {
     MISFITS_UNTIL_LOST = 8,
-    THROUGH_LEAST = 3,       /* walls seen through that make a contradiction, if they also are */
-    THROUGH_TO_FOUND = 2,    /* so many times those that are where they should be */
-    JUMP_SHOWN_UM = 1500000, /* walls and pieces a scan must show before a jump is called one */
-    JUMP_FROM_Q8 = 128,      /* found in the map: from half of what is shown .. */
-    JUMP_TO_Q8 = 77,         /* .. to less than 30 % from one scan to the next */
+    THROUGH_LEAST = 3,         /* walls seen through that make a contradiction, if they also are */
+    THROUGH_TO_FOUND = 2,      /* so many times those that are where they should be */
+    DOUBT_PERCENT = 70,        /* of what is shown is found in the map: no question */
+    DENIED_LEAST_UM = 1000000, /* surfaces that must be gone before a change is called one, */
+    DENIED_PERCENT = 40,       /* and the part of all that both scans looked at */
     BELIEVE_SHOWN_UM = 2500000,
     BELIEVE_WALLS = 4,
     BELIEVE_PERCENT = 70,
@@ -16,7 +16,8 @@ enum {
     WEAK_SIGMA_UM = 60000, /* pose sigma above which it is weak whatever the scan shows */
     LOST_SIGMA_UM = 1000000,
     MAP_SIGMA_UM = 40000, /* pose sigmas up to which walls may be added */
-    MAP_SIGMA_URAD = 25000
+    MAP_SIGMA_URAD = 25000,
+    ANCHOR_SHOWN_UM = 1500000 /* surfaces that the next scan will find again */
 };
 
 static int64_t square(int64_t v)
@@ -45,17 +46,16 @@ static bool contradicts(const ale_fit_t *fit, const ale_sights_t *sights)
     return sights->through >= THROUGH_LEAST && sights->through > THROUGH_TO_FOUND * found;
 }
 
-void ale_tracker_notice(ale_tracker_t *tracker, const ale_fit_t *fit)
+bool ale_tracker_doubts(const ale_fit_t *fit)
 {
-    tracker->jumped = false;
-    if (fit->shown_um < JUMP_SHOWN_UM) {
-        return;
-    }
-    const int32_t found_q8 = (int32_t)(fit->matched_um * 256 / fit->shown_um);
-    tracker->jumped = tracker->usual_q8 >= JUMP_FROM_Q8 && found_q8 < JUMP_TO_Q8;
-    if (!tracker->jumped) {
-        tracker->usual_q8 += (found_q8 - tracker->usual_q8) / 4;
-    }
+    return fit->matched_um * 100 < fit->shown_um * DOUBT_PERCENT;
+}
+
+void ale_tracker_notice(ale_tracker_t *tracker, const ale_testimony_t *heard)
+{
+    const int64_t told_um = heard ? heard->denied_um + heard->confirmed_um : 0;
+    tracker->jumped =
+        heard && heard->denied_um > DENIED_LEAST_UM && heard->denied_um * 100 > told_um * DENIED_PERCENT;
 }
 
 ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit, const ale_sights_t *sights)
@@ -96,9 +96,22 @@ ale_state_t ale_tracker_skip(ale_tracker_t *tracker, const ale_motion_t *predict
     return tracker->state;
 }
 
+static bool is_undisturbed(const ale_tracker_t *tracker)
+{
+    return tracker->state != ALE_STATE_LOST && tracker->misfits == 0 && !tracker->jumped;
+}
+
+static bool is_well_known(const ale_motion_t *m)
+{
+    return position_var(m) < square(MAP_SIGMA_UM) && m->cov.m[2][2] < square(MAP_SIGMA_URAD);
+}
+
 bool ale_tracker_may_map(const ale_tracker_t *tracker, const ale_fit_t *fit)
 {
-    return tracker->state != ALE_STATE_LOST && tracker->misfits == 0 && !tracker->jumped &&
-           position_var(&fit->motion) < square(MAP_SIGMA_UM) &&
-           fit->motion.cov.m[2][2] < square(MAP_SIGMA_URAD);
+    return is_undisturbed(tracker) && is_well_known(&fit->motion);
+}
+
+bool ale_tracker_may_anchor(const ale_tracker_t *tracker, const ale_fit_t *fit)
+{
+    return is_undisturbed(tracker) && !is_well_known(&fit->motion) && fit->shown_um > ANCHOR_SHOWN_UM;
 }

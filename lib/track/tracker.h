@@ -14,19 +14,23 @@
 #include "track/fade.h"
 #include "track/pipeline.h"
 #include "track/refine.h"
+#include "track/witness.h"
 
 typedef struct {
     ale_state_t state;
     uint16_t misfits; /* scans in a row that showed walls, but not those of the map */
     bool jumped;      /* in this scan */
-    int32_t usual_q8; /* part of what is shown that is found in the map, as it was lately */
     uint16_t blind;   /* scans in a row that showed nothing */
 } ale_tracker_t;
 
 void ale_tracker_init(ale_tracker_t *tracker);
 
-/* Notices whether the scene has changed all at once; before the scan goes into the map. */
-void ale_tracker_notice(ale_tracker_t *tracker, const ale_fit_t *fit);
+/* Whether so little of what a scan shows is found in the map that the last scan should be heard. */
+bool ale_tracker_doubts(const ale_fit_t *fit);
+
+/* Notices whether the scene has changed all at once; before the scan goes into the map. heard: what the last
+ * scan says of this one, NULL when there was no doubt. */
+void ale_tracker_notice(ale_tracker_t *tracker, const ale_testimony_t *heard);
 
 /* Judges a fitted scan and what it says of the walls that were not matched; returns the new state. */
 ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit, const ale_sights_t *sights);
@@ -40,6 +44,10 @@ void ale_tracker_found(ale_tracker_t *tracker);
 
 /* A scan that was dropped, or showed nothing. */
 ale_state_t ale_tracker_skip(ale_tracker_t *tracker, const ale_motion_t *predicted);
+
+/* Whether the map should go on from this scan: it shows enough to be followed from, nothing speaks against
+ * the pose, but the map does not hold it well enough to be added to. */
+bool ale_tracker_may_anchor(const ale_tracker_t *tracker, const ale_fit_t *fit);
 
 /* Whether the pose is known well enough to add to the map. */
 bool ale_tracker_may_map(const ale_tracker_t *tracker, const ale_fit_t *fit);

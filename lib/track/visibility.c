@@ -56,17 +56,26 @@ static ale_sight_t point_sight(const ale_wall_t *wall, ale_point_t p, const ale_
     return beyond_um < -tolerance_um ? ALE_SIGHT_NONE : ALE_SIGHT_SUPPORTED;
 }
 
+ale_points_sight_t ale_wall_points_sight(const ale_wall_t *wall, const ale_scan_t *scan,
+                                         const uint32_t *bearing_bam, ale_pose_t sensor)
+{
+    ale_points_sight_t sum = {0, 0};
+    for (int32_t k = 1; k < 2 * ALE_SIGHT_POINTS; k += 2) {
+        const int64_t length_um = (int64_t)wall->end_um - wall->start_um;
+        const int64_t t_um = wall->start_um + length_um * k / (2 * ALE_SIGHT_POINTS);
+        const ale_sight_t sight = point_sight(wall, ale_wall_point(wall, t_um), scan, bearing_bam, sensor);
+        sum.supported = (uint8_t)(sum.supported + (sight == ALE_SIGHT_SUPPORTED));
+        sum.through = (uint8_t)(sum.through + (sight == ALE_SIGHT_THROUGH));
+    }
+    return sum;
+}
+
 ale_sight_t ale_wall_sight(const ale_wall_t *wall, const ale_scan_t *scan, const uint32_t *bearing_bam,
                            ale_pose_t sensor)
 {
-    int32_t through = 0;
-    for (int32_t k = 1; k <= 5; k += 2) {
-        const int64_t t_um = wall->start_um + ((int64_t)wall->end_um - wall->start_um) * k / 6;
-        const ale_sight_t sight = point_sight(wall, ale_wall_point(wall, t_um), scan, bearing_bam, sensor);
-        if (sight == ALE_SIGHT_SUPPORTED) {
-            return ALE_SIGHT_SUPPORTED;
-        }
-        through += sight == ALE_SIGHT_THROUGH;
+    const ale_points_sight_t sum = ale_wall_points_sight(wall, scan, bearing_bam, sensor);
+    if (sum.supported > 0) {
+        return ALE_SIGHT_SUPPORTED;
     }
-    return through >= 2 ? ALE_SIGHT_THROUGH : ALE_SIGHT_NONE;
+    return sum.through >= 2 ? ALE_SIGHT_THROUGH : ALE_SIGHT_NONE;
 }

@@ -16,6 +16,16 @@ typedef enum {
     ALE_SIGHT_THROUGH    /* the beams go on beyond it */
 } ale_sight_t;
 
+/* How many points of a wall, of ALE_SIGHT_POINTS that are asked, are there and are seen through. */
+enum { ALE_SIGHT_POINTS = 3 };
+typedef struct {
+    uint8_t supported;
+    uint8_t through;
+} ale_points_sight_t;
+
+ale_points_sight_t ale_wall_points_sight(const ale_wall_t *wall, const ale_scan_t *scan,
+                                         const uint32_t *bearing_bam, ale_pose_t sensor);
+
 /* What a straightened scan, taken by a sensor at a pose of the map, says of a wall. bearing_bam as for
  * ale_extract_scan. Three points of the wall are asked; two must be seen through. */
 ale_sight_t ale_wall_sight(const ale_wall_t *wall, const ale_scan_t *scan, const uint32_t *bearing_bam,

@@ -127,13 +127,16 @@ static bool velocity_at(const ale_wheels_t *wheels, const ale_lag_t *lag, const 
     way_variance(scale, d, var);
     lag_variance(wheels, lag->sigma_us, t_us + ahead_us - WINDOW_US, t_us + ahead_us, d, lag_var);
     add_extrapolation_variance(beyond_us, var);
-    const int64_t behind_us = WINDOW_US / 2 - ahead_us + beyond_us; /* middle of the window before t */
+    /* middle of the window before t; samples farther apart than the window tell but their mean velocity */
+    const int64_t apart_us = ale_max64(ale_wheels_gap_us(wheels, t_us) - WINDOW_US, 0);
+    const int64_t behind_us = WINDOW_US / 2 - ahead_us + beyond_us + apart_us / 2;
     const int64_t change[ALE_AXES] = {ACCELERATION_UM_S2, ACCELERATION_UM_S2 / 5, TURN_ACCELERATION_URAD_S2};
     for (int i = 0; i < ALE_AXES; i++) {
         out->velocity[i] = (int32_t)ale_round_div(way[i] * ALE_TICK_US, WINDOW_US);
-        out->velocity_var[i] = ale_mul_div(ale_min64(var[i] + lag_var[i], var_most),
-                                           ALE_TICK_US * ALE_TICK_US, (int64_t)WINDOW_US * WINDOW_US) +
-                               square(change[i] / 1000 * behind_us / 1000 * ALE_TICK_US / 1000000);
+        out->velocity_var[i] =
+            ale_mul_div(ale_min64(var[i] + lag_var[i], var_most), ALE_TICK_US * ALE_TICK_US,
+                        (int64_t)WINDOW_US * WINDOW_US) +
+            ale_min64(square(change[i] / 1000 * behind_us / 1000 * ALE_TICK_US / 1000000), var_most);
     }
     return true;
 }

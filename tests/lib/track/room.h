@@ -61,6 +61,7 @@ struct Sensor {
     double step = 2 * reference::pi / 1024;
     int32_t beam_time_ns = 97656;
     double noise = 0;
+    double reach = 5.6;
     reference::Pose mounting{0, 0, 0};
 };
 
@@ -75,14 +76,14 @@ ale_scan_t scan_at(const std::vector<Wall> &walls, const Sensor &s, Path path_of
     scan.first_bearing_bam = convert::bam(s.first);
     scan.step_bam = static_cast<int32_t>(convert::bam(s.step));
     scan.range_min_um = 20000;
-    scan.range_max_um = 5600000;
+    scan.range_max_um = convert::um(s.reach);
     scan.beams = static_cast<uint16_t>(s.beams);
     for (int k = 0; k < s.beams; k++) {
         const double tk = t + (k - s.beams / 2) * s.beam_time_ns * 1e-9;
         const reference::Pose p = reference::compose(path_of(tk), s.mounting);
         const double r = distance(walls, p[0], p[1], p[2] + s.first + k * s.step);
         ale_scan_set_range(&scan, static_cast<uint16_t>(k),
-                           r > 5.5 ? 0 : convert::um(r + s.noise * normal(rng)));
+                           r > s.reach - 0.1 ? 0 : convert::um(r + s.noise * normal(rng)));
     }
     return scan;
 }

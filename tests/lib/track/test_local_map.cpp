@@ -172,7 +172,8 @@ TEST(Tracker, GoesFromGoodToWeakToLostAndBackByWhatScansShow)
     fit.matched = 5;
     fit.shown_um = 4000000;
     fit.matched_um = 3800000;
-    ale_tracker_notice(&t, &fit);
+    EXPECT_FALSE(ale_tracker_doubts(&fit));
+    ale_tracker_notice(&t, nullptr);
     EXPECT_EQ(ale_tracker_judge(&t, &fit, &fine), ALE_STATE_GOOD);
     EXPECT_TRUE(ale_tracker_may_map(&t, &fit));
     fit.information.matrix.m[0][0] = 0;
@@ -187,4 +188,23 @@ TEST(Tracker, GoesFromGoodToWeakToLostAndBackByWhatScansShow)
     EXPECT_EQ(ale_tracker_skip(&t, &fit.motion), ALE_STATE_LOST);
     ale_tracker_found(&t);
     EXPECT_EQ(t.state, ALE_STATE_WEAK);
+}
+
+TEST(Tracker, APoseThatTheMapDoesNotHoldIsWhereTheMapGoesOnUnlessTheLastScanDeniesIt)
+{
+    ale_tracker_t t;
+    ale_tracker_init(&t);
+    ale_fit_t fit = {};
+    ale_motion_init(&fit.motion, 0, {0, 0, 0}, 1, 1);
+    fit.motion.cov.m[0][0] = int64_t{80000} * 80000;
+    fit.shown_um = 5000000;
+    EXPECT_TRUE(ale_tracker_doubts(&fit));
+    const ale_testimony_t agreed = {3000000, 800000};
+    ale_tracker_notice(&t, &agreed);
+    EXPECT_FALSE(ale_tracker_may_map(&t, &fit));
+    EXPECT_TRUE(ale_tracker_may_anchor(&t, &fit));
+    const ale_testimony_t denied = {800000, 3000000};
+    ale_tracker_notice(&t, &denied);
+    EXPECT_TRUE(t.jumped);
+    EXPECT_FALSE(ale_tracker_may_anchor(&t, &fit));
 }

@@ -89,6 +89,31 @@ TEST_F(Wheels, AClockSetBackBeginsANewEpochButAnOldSampleIsOnlyIgnored)
     EXPECT_EQ(wheels.count, 1u);
 }
 
+TEST_F(Wheels, ASampleStampedTooEarlyCountsAsTakenNowIfTheWheelsHaveGoneOn)
+{
+    add(1000, 0, 0, 0);
+    add(2000, 0.3, 0, 0);
+    add(1800, 0.25, 0, 0); /* late: on the way that is known */
+    EXPECT_EQ(wheels.count, 2u);
+    add(1800, 0.6, 0, 0.3);
+    EXPECT_EQ(wheels.count, 3u);
+    EXPECT_EQ(wheels.jumps, 0u);
+    ale_pose_t d;
+    ASSERT_TRUE(ale_wheels_motion(&wheels, 2000000, 2000001, &d, &beyond_us));
+    EXPECT_NEAR(d.x_um, 300000, 1);
+}
+
+TEST_F(Wheels, StampsThatCrowdMakeNoJump)
+{
+    for (int k = 0; k < 5; k++) {
+        add(1000 * k, 0.4 * k, 0, 0);
+    }
+    add(4002, 2.0, 0, 0);
+    EXPECT_EQ(wheels.jumps, 0u);
+    EXPECT_EQ(ale_wheels_gap_us(&wheels, 2500000), 1000000);
+    EXPECT_EQ(ale_wheels_gap_us(&wheels, 4001000), 2000);
+}
+
 TEST_F(Wheels, AFullBufferForgetsTheOldestSample)
 {
     for (int k = 0; k < ALE_WHEELS_SAMPLES + 10; k++) {

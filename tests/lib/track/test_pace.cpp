@@ -85,3 +85,28 @@ TEST(Pace, AStepBackOrALongPauseTakesThePaceUpAnew)
     EXPECT_EQ(ale_pace_instant(&pace, 10101234), 10101234);
     EXPECT_EQ(pace.scans, 1u);
 }
+
+TEST(Pace, ALogThatHoldsAScanNowAndThenKeepsItsStamps)
+{
+    std::mt19937 rng(9);
+    std::normal_distribution<double> jitter(0, 60000);
+    ale_pace_t pace;
+    ale_pace_init(&pace);
+    for (int k = 0; k < 100; k++) {
+        const int64_t stamp = 1000000 * int64_t{k} + std::llround(jitter(rng));
+        EXPECT_EQ(ale_pace_instant(&pace, stamp), stamp);
+    }
+}
+
+TEST(Pace, ScansStampedAtOnceAreNotBelievedToFollowAtOnce)
+{
+    ale_pace_t pace;
+    ale_pace_init(&pace);
+    EXPECT_TRUE(ale_pace_believes(&pace, 0));
+    for (int k = 0; k < 40; k++) {
+        ale_pace_instant(&pace, 900000 * int64_t{k});
+    }
+    EXPECT_FALSE(ale_pace_believes(&pace, 2000));
+    EXPECT_TRUE(ale_pace_believes(&pace, 500000));
+    EXPECT_TRUE(ale_pace_believes(&pace, 5000000));
+}

@@ -125,6 +125,47 @@ TEST(Pipeline, TakesWholeScansOfFewBeams)
     EXPECT_LT(r.worst_m, 0.02);
 }
 
+/* A scan a second of a scanner that looks ahead only, while the robot drives 0.6 m and turns up to 0.7 rad:
+ * most of what comes into view is new. Some stamps are wrong by a fifth of a second. */
+TEST(Pipeline, FollowsRareScansOfFewBeamsByTheWheelsThroughWhatItHasNeverSeen)
+{
+    std::mt19937 rng(21);
+    std::normal_distribution<double> normal;
+    std::vector<room::Wall> walls = room::l_shape();
+    for (room::Wall &w : walls) { /* a hall of 18 m by 15 m */
+        w = {3 * w.x1, 3 * w.y1, 3 * w.x2, 3 * w.y2};
+    }
+    const auto path = [](double t) {
+        const reference::Pose p = room::path(t / 4 + 1);
+        return reference::Pose(3 * p[0], 3 * p[1], p[2] + 0.9 * std::sin(0.7 * t));
+    };
+    room::Sensor sensor;
+    sensor.beams = 180;
+    sensor.first = -reference::pi / 2;
+    sensor.step = reference::pi / 180;
+    sensor.beam_time_ns = 0;
+    sensor.noise = 0.01;
+    sensor.reach = 40;
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    reference::Pose wheels(0, 0, 0);
+    double worst_m = 0;
+    for (int k = 0; k < 120; k++) {
+        const reference::Pose step = room::since_start(path(k - 1), path(k));
+        const double way = step.head<2>().norm();
+        wheels = reference::compose(wheels, step + way * reference::Pose(0.04, 0.02, 0.03) * normal(rng));
+        ale_scan_t scan = room::scan_at(walls, sensor, path, k, rng);
+        scan.stamp_us += k % 7 == 6 ? -1200000 : 0;
+        const ale_odometry_t sample = {scan.stamp_us, convert::pose(wheels)};
+        ale_pipeline_odometry(p.get(), &sample);
+        ale_estimate_t e;
+        ale_pipeline_scan(p.get(), &scan, &e);
+        const reference::Pose truth = room::since_start(path(0), path(k));
+        worst_m = std::max(worst_m, (convert::pose(e.map) - truth).head<2>().norm());
+        ASSERT_NE(e.state, ALE_STATE_LOST) << k;
+    }
+    EXPECT_LT(worst_m, 0.10);
+}
+
 TEST(Pipeline, AMirroredWorldIsFollowedAsWell)
 {
     Drive d;

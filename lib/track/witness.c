@@ -1,0 +1,56 @@
+#include "track/witness.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#include "track/visibility.h"
+#include "track/wall.h"
+
+void ale_witness_clear(ale_witness_t *witness)
+{
+    witness->view_count = 0;
+}
+
+void ale_witness_keep(ale_witness_t *witness, const ale_seen_t *seen)
+{
+    witness->scan = *seen->scan;
+    witness->straightened = seen->bearing_bam != NULL;
+    if (witness->straightened) {
+        memcpy(witness->bearing_bam, seen->bearing_bam, seen->scan->beams * sizeof witness->bearing_bam[0]);
+    }
+    witness->robot = seen->robot;
+    witness->sensor = seen->sensor;
+    witness->view_count = seen->view_count;
+    memcpy(witness->view, seen->view, seen->view_count * sizeof witness->view[0]);
+}
+
+/* What a scan says of the surfaces of another one. Spots have no side from which they are seen. */
+static void ask(const ale_seen_t *of, const ale_seen_t *asked, ale_testimony_t *sum)
+{
+    for (uint32_t i = 0; i < of->view_count; i++) {
+        if (of->view[i].kind == ALE_VIEW_SPOT) {
+            continue;
+        }
+        const ale_view_t moved = ale_view_from(&of->view[i], of->robot);
+        const int64_t length_um = (int64_t)moved.end_um - moved.start_um;
+        ale_wall_t surface;
+        ale_wall_from_view(&surface, &moved);
+        const ale_points_sight_t sight =
+            ale_wall_points_sight(&surface, asked->scan, asked->bearing_bam, asked->sensor);
+        sum->confirmed_um += length_um * sight.supported / ALE_SIGHT_POINTS;
+        sum->denied_um += length_um * sight.through / ALE_SIGHT_POINTS;
+    }
+}
+
+ale_testimony_t ale_witness_hear(const ale_witness_t *witness, const ale_seen_t *seen)
+{
+    const ale_seen_t before = {&witness->scan, witness->straightened ? witness->bearing_bam : NULL,
+                               witness->robot, witness->sensor,
+                               witness->view,  witness->view_count};
+    ale_testimony_t sum = {0, 0};
+    if (witness->view_count > 0) {
+        ask(seen, &before, &sum);
+        ask(&before, seen, &sum);
+    }
+    return sum;
+}

@@ -1,0 +1,52 @@
+/* The last scan that fitted, as witness of the next: was what is seen now there before, and is what was
+ * there before still seen?
+ *
+ * A map says nothing of places it does not hold: a robot that turns in a room it has not seen all of shows
+ * little of the map and is right all the same. Two scans taken one after the other from poses that are known
+ * must agree where both look: a surface of one lies where the other saw it, or out of its view, or hidden,
+ * but not where it saw through. A scene that has changed all at once does not pass: the robot was
+ * carried away, tilted, or its pose is wrong. O(views), three points each. */
+#ifndef ALE_TRACK_WITNESS_H
+#define ALE_TRACK_WITNESS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/scan.h"
+#include "track/refine.h"
+#include "track/view.h"
+
+/* A straightened scan, where it was taken from, and what it shows. bearing_bam NULL: regular. */
+typedef struct {
+    const ale_scan_t *scan;
+    const uint32_t *bearing_bam;
+    ale_pose_t robot; /* in any frame that both scans are given in */
+    ale_pose_t sensor;
+    const ale_view_t *view; /* robot's frame */
+    uint32_t view_count;    /* ALE_MAX_VIEWS at most */
+} ale_seen_t;
+
+typedef struct {
+    ale_scan_t scan;
+    uint32_t bearing_bam[ALE_MAX_BEAMS];
+    ale_pose_t robot;
+    ale_pose_t sensor;
+    ale_view_t view[ALE_MAX_VIEWS];
+    uint32_t view_count; /* 0: nobody saw anything */
+    bool straightened;
+} ale_witness_t;
+
+/* Length of the surfaces of both scans that the other one confirms, and that it saw through. */
+typedef struct {
+    int64_t confirmed_um;
+    int64_t denied_um;
+} ale_testimony_t;
+
+void ale_witness_clear(ale_witness_t *witness);
+
+/* Takes the place of the scan before; copies. */
+void ale_witness_keep(ale_witness_t *witness, const ale_seen_t *seen);
+
+ale_testimony_t ale_witness_hear(const ale_witness_t *witness, const ale_seen_t *seen);
+
+#endif
