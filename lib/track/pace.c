@@ -65,7 +65,7 @@ int64_t ale_pace_instant(ale_pace_t *pace, int64_t stamp_us)
     pace->stamp_us = stamp_us;
     const int64_t loose_us = pace->period_q8_us / 256 / PERIOD_PARTS;
     const bool keeps_pace =
-        pace->period_q8_us < 256 * PERIOD_MOST_US && pace->jitter2_us2 < loose_us * loose_us;
+        pace->period_q8_us / 256 < PERIOD_MOST_US && pace->jitter2_us2 < loose_us * loose_us;
     const bool jitters = pace->jitter2_us2 > (int64_t)EVEN_US * EVEN_US;
     return keeps_pace && jitters ? pace->even_us : stamp_us;
 }

@@ -26,8 +26,18 @@ enum {
     SEARCH_SIGMA_UM = 100000,
     SEARCH_SIGMA_URAD = 50000,
     SCAN_PERIOD_MAX_US = 2000000,
+    REGISTER_UM = 100000, /* how far wheels may be off beyond what they promise */
+    REGISTER_URAD = 60000,
+    REGISTER_MOST_UM = 1000000,
+    REGISTER_MOST_URAD = 450000,
+    SLACK_MOST_UM = 200000, /* a way that may be off by more says nothing of what was seen where */
+    SLACK_MOST_URAD = 100000,
+    REJECT_PARTS = 10, /* less than this part of what is shown, found in the map, is found by chance */
     SCAN_SET_BACK_US = 1000000 /* a stamp older than the last by less is a wrong stamp */
 };
+
+static const ale_gate_t narrow_gate = {60000, 200000, 4, 50000};
+static const ale_gate_t register_gate = {250000, 200000, 6, 100000};
 
 ale_pipeline_config_t ale_pipeline_default_config(void)
 {
@@ -234,6 +244,11 @@ static ale_sights_t look_around(ale_pipeline_t *p)
                     p->tracker.state == ALE_STATE_GOOD);
 }
 
+static int64_t sigma_of(const ale_matrix_t *cov, int axis)
+{
+    return (int64_t)ale_isqrt((uint64_t)ale_max64(cov->m[axis][axis], 0));
+}
+
 /* The scan at hand as the witness hears of it: on the way that is smooth, which no correction of the map
  * bends. */
 static ale_seen_t seen(const ale_pipeline_t *p, const ale_motion_t *before)
@@ -252,8 +267,13 @@ static ale_seen_t seen(const ale_pipeline_t *p, const ale_motion_t *before)
 static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted)
 {
     const ale_seen_t now = seen(p, before);
-    const bool doubt = ale_tracker_doubts(&p->fit);
-    const ale_testimony_t heard = doubt ? ale_witness_hear(&p->witness, &now) : (ale_testimony_t){0, 0};
+    const ale_matrix_t *cov = &p->motion.cov;
+    const int64_t offset_um = 2 * ale_max64(sigma_of(cov, 0), sigma_of(cov, 1));
+    const ale_slack_t slack = {(int32_t)ale_min64(offset_um, SLACK_MOST_UM),
+                               (int32_t)ale_min64(2 * sigma_of(cov, 2), SLACK_MOST_URAD)};
+    const bool doubt = ale_tracker_is_strange(&p->tracker, &p->fit);
+    const ale_testimony_t heard =
+        doubt ? ale_witness_hear(&p->witness, &now, slack) : (ale_testimony_t){0, 0};
     ale_tracker_notice(&p->tracker, doubt ? &heard : NULL);
     if (p->tracker.jumped) {
         const ale_scene_t scene = {&p->map, p->view, p->view_count};
@@ -276,11 +296,39 @@ static void anchor(ale_pipeline_t *p)
     }
 }
 
+/* The map explains too little of the scan. Wide gates may have caught the wrong walls: once more with narrow
+ * ones; then from where the last scan says that the robot is. What only little speaks for is not believed. */
+static void match_again(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted)
+{
+    const ale_scene_t scene = {&p->map, p->view, p->view_count};
+    const ale_matrix_t *cov = &predicted->cov;
+    const int64_t reach_um = REGISTER_UM + 5 * ale_max64(sigma_of(cov, 0), sigma_of(cov, 1));
+    const int64_t reach_urad = REGISTER_URAD + 5 * sigma_of(cov, 2);
+    /* on the way that is smooth, as the witness is */
+    const ale_pose_t guess = ale_pose_compose(p->smooth, ale_pose_between(before->pose, predicted->pose));
+    ale_pose_t way = ale_pose_between(p->witness.robot, guess);
+    ale_refine_again(predicted, predicted->pose, &scene, &narrow_gate, &p->fit);
+    if (ale_tracker_doubts(&p->fit) &&
+        ale_register(&p->registration, (ale_views_t){p->witness.view, p->witness.view_count},
+                     (ale_views_t){p->view, p->view_count}, (int32_t)ale_min64(reach_um, REGISTER_MOST_UM),
+                     (int32_t)ale_min64(reach_urad, REGISTER_MOST_URAD), &way)) {
+        const ale_pose_t there = ale_pose_compose(p->witness.robot, way);
+        const ale_pose_t from = ale_pose_compose(before->pose, ale_pose_between(p->smooth, there));
+        ale_refine_again(predicted, from, &scene, &register_gate, &p->fit);
+    }
+    if (p->fit.matched_um * REJECT_PARTS < p->fit.shown_um) {
+        ale_refine_reject(predicted, &scene, &p->fit);
+    }
+}
+
 /* Tracks: matches where the prediction puts the robot, judges the result, and takes it into the map. */
 static void track(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted,
                   const ale_wheel_motion_t *wheels)
 {
     match(p, predicted, p->scan.range_max_um);
+    if (ale_tracker_doubts(&p->fit)) {
+        match_again(p, before, predicted);
+    }
     p->motion = p->fit.motion;
     notice(p, before, predicted);
     p->drift = ale_drift_here(&p->map, p->view, p->view_count, &p->fit, p->drift);

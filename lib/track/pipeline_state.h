@@ -13,6 +13,7 @@
 #include "track/pace.h"
 #include "track/pipeline.h"
 #include "track/refine.h"
+#include "track/registration.h"
 #include "track/tracker.h"
 #include "track/view.h"
 #include "track/wheels.h"
@@ -38,6 +39,7 @@ struct ale_pipeline {
     ale_fade_t fade;
     ale_search_t search;
     ale_witness_t witness;
+    ale_registration_t registration;
 
     /* the scan at hand */
     ale_scan_t scan;

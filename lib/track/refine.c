@@ -218,17 +218,21 @@ void ale_refine_reject(const ale_motion_t *predicted, const ale_scene_t *scene, 
     gather(scene, &predicted->cov, &none, fit);
 }
 
-/* Newton's steps from the prediction; the gates narrow from the first to the last. */
-static void fit_from(const ale_motion_t *predicted, const ale_matrix_t *prior, const ale_scene_t *scene,
+/* Newton's steps from where out->motion is; the gates narrow from the first to the last. */
+static void fit_from(const ale_motion_t *predicted, const ale_scene_t *scene,
                      const ale_gate_t *const gates[ALE_REFINE_ITERATIONS], ale_fit_t *out)
 {
-    int64_t total[ALE_STATES] = {0};
-    start(predicted, out);
+    ale_factors_t factors;
+    ale_matrix_t prior;
+    const ale_pose_t ahead = ale_pose_between(predicted->pose, out->motion.pose);
+    int64_t total[ALE_STATES] = {ahead.x_um, ahead.y_um, ale_bam_to_nrad((int32_t)ahead.theta_bam) / 1000};
     int64_t size = INT64_MAX;
+    ale_matrix_factor(&predicted->cov, &factors);
+    ale_matrix_invert(&factors, ALE_MATRIX_BITS, &prior);
     for (out->iterations = 0; out->iterations < ALE_REFINE_ITERATIONS && size > CONVERGED_UM;
          out->iterations++) {
         gather(scene, out->iterations == 0 ? &predicted->cov : &out->motion.cov, gates[out->iterations], out);
-        size = step(prior, total, out);
+        size = step(&prior, total, out);
     }
     /* errors at the pose that was found, for the map */
     gather(scene, &out->motion.cov, out->iterations > 2 ? NULL : &later, out);
@@ -240,24 +244,23 @@ void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const a
     const ale_gate_t second = {(gate->offset_um + LATER_OFFSET_UM) / 3, gate->angle_urad, LATER_SIGMAS,
                                gate->piece_um};
     const ale_gate_t *const wide[ALE_REFINE_ITERATIONS] = {gate, &second, &later, NULL, NULL};
-    const ale_gate_t *const narrow[ALE_REFINE_ITERATIONS] = {&later, &later, &later, NULL, NULL};
-    ale_factors_t factors;
-    ale_matrix_t prior;
-    ale_matrix_factor(&predicted->cov, &factors);
-    ale_matrix_invert(&factors, ALE_MATRIX_BITS, &prior);
-    fit_from(predicted, &prior, scene, wide, out);
-    if (out->matched_um * 2 < out->shown_um) {
-        const ale_motion_t found = out->motion;
-        const int64_t change[3] = {out->velocity_change[0], out->velocity_change[1], out->velocity_change[2]};
-        const int64_t matched_um = out->matched_um;
-        fit_from(predicted, &prior, scene, narrow, out);
-        if (out->matched_um < matched_um) {
-            out->motion = found;
-            memcpy(out->velocity_change, change, sizeof change);
-            gather(scene, &found.cov, &later, out);
-        }
-    }
-    if (out->matched_um * REJECT_PARTS < out->shown_um) {
-        ale_refine_reject(predicted, scene, out);
+    start(predicted, out);
+    fit_from(predicted, scene, wide, out);
+}
+
+void ale_refine_again(const ale_motion_t *predicted, ale_pose_t from, const ale_scene_t *scene,
+                      const ale_gate_t *gate, ale_fit_t *fit)
+{
+    const ale_gate_t *const gates[ALE_REFINE_ITERATIONS] = {gate, &later, &later, NULL, NULL};
+    const ale_motion_t found = fit->motion;
+    const int64_t change[3] = {fit->velocity_change[0], fit->velocity_change[1], fit->velocity_change[2]};
+    const int64_t matched_um = fit->matched_um;
+    start(predicted, fit);
+    fit->motion.pose = from;
+    fit_from(predicted, scene, gates, fit);
+    if (fit->matched_um < matched_um) {
+        fit->motion = found;
+        memcpy(fit->velocity_change, change, sizeof change);
+        gather(scene, &found.cov, &later, fit);
     }
 }

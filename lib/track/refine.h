@@ -49,11 +49,13 @@ typedef struct {
 void ale_view_rows(const ale_view_t *view, uint32_t pose_theta_bam, uint32_t wall_normal_bam,
                    ale_view_rows_t *out);
 
-/* Starts with wide gates, since the prediction may be off; when that explains less than half of what is
- * shown, starts with narrow ones, since wide gates may have caught the wrong walls, and the better fit is
- * kept. What only a tenth speaks for is not believed. */
 void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
                 ale_fit_t *out);
+
+/* Fits once more, from another pose and with another gate to begin with, and keeps what explains more. The
+ * prediction weighs as before. */
+void ale_refine_again(const ale_motion_t *predicted, ale_pose_t from, const ale_scene_t *scene,
+                      const ale_gate_t *gate, ale_fit_t *fit);
 
 /* Makes a fit of a scan that is not to be believed: the prediction stands, nothing is matched. */
 void ale_refine_reject(const ale_motion_t *predicted, const ale_scene_t *scene, ale_fit_t *fit);

@@ -6,7 +6,8 @@ enum {
     MISFITS_UNTIL_LOST = 8,
     THROUGH_LEAST = 3,         /* walls seen through that make a contradiction, if they also are */
     THROUGH_TO_FOUND = 2,      /* so many times those that are where they should be */
-    DOUBT_PERCENT = 70,        /* of what is shown is found in the map: no question */
+    DOUBT_PERCENT = 60,        /* of what is shown is found in the map: no question; */
+    STRANGE_PERCENT = 35,      /* less than this is found: has the scene changed? */
     DENIED_LEAST_UM = 1000000, /* surfaces that must be gone before a change is called one, */
     DENIED_PERCENT = 40,       /* and the part of all that both scans looked at */
     BELIEVE_SHOWN_UM = 2500000,
@@ -49,6 +50,12 @@ static bool contradicts(const ale_fit_t *fit, const ale_sights_t *sights)
 bool ale_tracker_doubts(const ale_fit_t *fit)
 {
     return fit->matched_um * 100 < fit->shown_um * DOUBT_PERCENT;
+}
+
+bool ale_tracker_is_strange(const ale_tracker_t *tracker, const ale_fit_t *fit)
+{
+    const int64_t percent = tracker->misfits > 0 ? BELIEVE_PERCENT : STRANGE_PERCENT;
+    return fit->matched_um * 100 < fit->shown_um * percent;
 }
 
 void ale_tracker_notice(ale_tracker_t *tracker, const ale_testimony_t *heard)

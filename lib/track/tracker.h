@@ -25,8 +25,10 @@ typedef struct {
 
 void ale_tracker_init(ale_tracker_t *tracker);
 
-/* Whether so little of what a scan shows is found in the map that the last scan should be heard. */
+/* Whether so little of what a scan shows is found in the map that another pose should be tried, */
 bool ale_tracker_doubts(const ale_fit_t *fit);
+/* and that the last scan should be heard: more is asked for once a scan did not fit. */
+bool ale_tracker_is_strange(const ale_tracker_t *tracker, const ale_fit_t *fit);
 
 /* Notices whether the scene has changed all at once; before the scan goes into the map. heard: what the last
  * scan says of this one, NULL when there was no doubt. */

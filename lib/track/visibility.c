@@ -34,7 +34,7 @@ static int32_t beam_towards(const ale_scan_t *scan, const uint32_t *bearing_bam,
 }
 
 static ale_sight_t point_sight(const ale_wall_t *wall, ale_point_t p, const ale_scan_t *scan,
-                               const uint32_t *bearing_bam, ale_pose_t sensor)
+                               const uint32_t *bearing_bam, ale_pose_t sensor, ale_slack_t slack)
 {
     const int64_t x = (int64_t)sensor.x_um - p.x_um;
     const int64_t y = (int64_t)sensor.y_um - p.y_um;
@@ -48,7 +48,8 @@ static ale_sight_t point_sight(const ale_wall_t *wall, ale_point_t p, const ale_
     if (beam == NOT_IN_VIEW || scan->flag[beam] != ALE_BEAM_VALID) {
         return ALE_SIGHT_NONE;
     }
-    const int64_t tolerance_um = TOLERANCE_UM + range_um * TOLERANCE_PER_MILLE / 1000;
+    const int64_t tolerance_um = TOLERANCE_UM + range_um * TOLERANCE_PER_MILLE / 1000 + slack.offset_um +
+                                 ale_mul_div(range_um, slack.angle_urad, 1000000);
     const int64_t beyond_um = scan->range_um[beam] - range_um;
     if (beyond_um > tolerance_um) {
         return ALE_SIGHT_THROUGH;
@@ -57,13 +58,14 @@ static ale_sight_t point_sight(const ale_wall_t *wall, ale_point_t p, const ale_
 }
 
 ale_points_sight_t ale_wall_points_sight(const ale_wall_t *wall, const ale_scan_t *scan,
-                                         const uint32_t *bearing_bam, ale_pose_t sensor)
+                                         const uint32_t *bearing_bam, ale_pose_t sensor, ale_slack_t slack)
 {
     ale_points_sight_t sum = {0, 0};
     for (int32_t k = 1; k < 2 * ALE_SIGHT_POINTS; k += 2) {
         const int64_t length_um = (int64_t)wall->end_um - wall->start_um;
         const int64_t t_um = wall->start_um + length_um * k / (2 * ALE_SIGHT_POINTS);
-        const ale_sight_t sight = point_sight(wall, ale_wall_point(wall, t_um), scan, bearing_bam, sensor);
+        const ale_sight_t sight =
+            point_sight(wall, ale_wall_point(wall, t_um), scan, bearing_bam, sensor, slack);
         sum.supported = (uint8_t)(sum.supported + (sight == ALE_SIGHT_SUPPORTED));
         sum.through = (uint8_t)(sum.through + (sight == ALE_SIGHT_THROUGH));
     }
@@ -73,7 +75,8 @@ ale_points_sight_t ale_wall_points_sight(const ale_wall_t *wall, const ale_scan_
 ale_sight_t ale_wall_sight(const ale_wall_t *wall, const ale_scan_t *scan, const uint32_t *bearing_bam,
                            ale_pose_t sensor)
 {
-    const ale_points_sight_t sum = ale_wall_points_sight(wall, scan, bearing_bam, sensor);
+    const ale_points_sight_t sum =
+        ale_wall_points_sight(wall, scan, bearing_bam, sensor, (ale_slack_t){0, 0});
     if (sum.supported > 0) {
         return ALE_SIGHT_SUPPORTED;
     }

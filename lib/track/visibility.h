@@ -23,8 +23,14 @@ typedef struct {
     uint8_t through;
 } ale_points_sight_t;
 
+/* How far the sensor's pose may be off, beyond what is always allowed for. */
+typedef struct {
+    int32_t offset_um;
+    int32_t angle_urad;
+} ale_slack_t;
+
 ale_points_sight_t ale_wall_points_sight(const ale_wall_t *wall, const ale_scan_t *scan,
-                                         const uint32_t *bearing_bam, ale_pose_t sensor);
+                                         const uint32_t *bearing_bam, ale_pose_t sensor, ale_slack_t slack);
 
 /* What a straightened scan, taken by a sensor at a pose of the map, says of a wall. bearing_bam as for
  * ale_extract_scan. Three points of the wall are asked; two must be seen through. */

@@ -3,7 +3,6 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "track/visibility.h"
 #include "track/wall.h"
 
 void ale_witness_clear(ale_witness_t *witness)
@@ -25,7 +24,7 @@ void ale_witness_keep(ale_witness_t *witness, const ale_seen_t *seen)
 }
 
 /* What a scan says of the surfaces of another one. Spots have no side from which they are seen. */
-static void ask(const ale_seen_t *of, const ale_seen_t *asked, ale_testimony_t *sum)
+static void ask(const ale_seen_t *of, const ale_seen_t *asked, ale_slack_t slack, ale_testimony_t *sum)
 {
     for (uint32_t i = 0; i < of->view_count; i++) {
         if (of->view[i].kind == ALE_VIEW_SPOT) {
@@ -36,21 +35,21 @@ static void ask(const ale_seen_t *of, const ale_seen_t *asked, ale_testimony_t *
         ale_wall_t surface;
         ale_wall_from_view(&surface, &moved);
         const ale_points_sight_t sight =
-            ale_wall_points_sight(&surface, asked->scan, asked->bearing_bam, asked->sensor);
+            ale_wall_points_sight(&surface, asked->scan, asked->bearing_bam, asked->sensor, slack);
         sum->confirmed_um += length_um * sight.supported / ALE_SIGHT_POINTS;
         sum->denied_um += length_um * sight.through / ALE_SIGHT_POINTS;
     }
 }
 
-ale_testimony_t ale_witness_hear(const ale_witness_t *witness, const ale_seen_t *seen)
+ale_testimony_t ale_witness_hear(const ale_witness_t *witness, const ale_seen_t *seen, ale_slack_t slack)
 {
     const ale_seen_t before = {&witness->scan, witness->straightened ? witness->bearing_bam : NULL,
                                witness->robot, witness->sensor,
                                witness->view,  witness->view_count};
     ale_testimony_t sum = {0, 0};
     if (witness->view_count > 0) {
-        ask(seen, &before, &sum);
-        ask(&before, seen, &sum);
+        ask(seen, &before, slack, &sum);
+        ask(&before, seen, slack, &sum);
     }
     return sum;
 }

@@ -15,6 +15,7 @@
 #include "base/scan.h"
 #include "track/refine.h"
 #include "track/view.h"
+#include "track/visibility.h"
 
 /* A straightened scan, where it was taken from, and what it shows. bearing_bam NULL: regular. */
 typedef struct {
@@ -47,6 +48,7 @@ void ale_witness_clear(ale_witness_t *witness);
 /* Takes the place of the scan before; copies. */
 void ale_witness_keep(ale_witness_t *witness, const ale_seen_t *seen);
 
-ale_testimony_t ale_witness_hear(const ale_witness_t *witness, const ale_seen_t *seen);
+/* slack: how far the way between the two scans may be off. */
+ale_testimony_t ale_witness_hear(const ale_witness_t *witness, const ale_seen_t *seen, ale_slack_t slack);
 
 #endif

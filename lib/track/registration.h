@@ -1,0 +1,41 @@
+/* Where the last scan says that this one was taken: a vote over headings and displacements.
+ *
+ * Least squares needs a start from which every view finds its own wall. A robot that drove a metre and turned
+ * half a radian since the last scan, on poor wheels, has none. Here every surface of the new scan is laid on
+ * every surface of the last one that then faces the same way; each such pair allows the displacements along a
+ * line, and where most lines cross the scans lie on each other. The paper's section IV adopts a pair of
+ * features and checks the rest; all pairs at once are its Hough transform. Bounded: ALE_REGISTRATION_VIEWS
+ * longest views of each scan, headings and cells as below. */
+#ifndef ALE_TRACK_REGISTRATION_H
+#define ALE_TRACK_REGISTRATION_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "track/view.h"
+
+enum {
+    ALE_REGISTRATION_VIEWS = 32,
+    ALE_REGISTRATION_HEADINGS = 15, /* odd: the guess and as many to either side */
+    ALE_REGISTRATION_CELLS = 17     /* a side, the guess in the middle */
+};
+
+typedef struct {
+    const ale_view_t *view; /* robot's frame */
+    uint32_t count;
+} ale_views_t;
+
+/* Working memory. */
+typedef struct {
+    uint16_t before[ALE_REGISTRATION_VIEWS];
+    uint16_t now[ALE_REGISTRATION_VIEWS];
+    int32_t votes_mm[ALE_REGISTRATION_CELLS][ALE_REGISTRATION_CELLS];
+    uint16_t voter[ALE_REGISTRATION_CELLS][ALE_REGISTRATION_CELLS];
+} ale_registration_t;
+
+/* The pose of the new scan's robot as seen from the last one's; *guess on the way in, within the reaches, and
+ * the best found on the way out. False when nothing fits, then *guess is untouched. */
+bool ale_register(ale_registration_t *memory, ale_views_t before, ale_views_t now, int32_t reach_um,
+                  int32_t reach_urad, ale_pose_t *guess);
+
+#endif

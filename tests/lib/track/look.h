@@ -1,0 +1,41 @@
+// What a scanner shows in a made world, as the stages after extraction get it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "room.h"
+
+extern "C" {
+#include "extract/extract.h"
+#include "track/witness.h"
+}
+
+namespace room
+{
+struct Look {
+    std::unique_ptr<ale_scan_t> scan = std::make_unique<ale_scan_t>();
+    std::vector<ale_view_t> views = std::vector<ale_view_t>(ALE_MAX_VIEWS);
+    ale_seen_t seen = {};
+
+    // What the scanner shows at `from`, for a robot that believes to be at `believed`.
+    Look(const std::vector<Wall> &walls, const reference::Pose &from, const reference::Pose &believed)
+    {
+        std::mt19937 rng(3);
+        Sensor sensor;
+        sensor.beam_time_ns = 0;
+        sensor.noise = 0.003;
+        *scan = scan_at(
+            walls, sensor, [&](double) { return from; }, 1, rng);
+        std::unique_ptr<ale_extractor_t, void (*)(void *)> extractor(
+            static_cast<ale_extractor_t *>(::operator new(ale_extractor_size())),
+            [](void *p) { ::operator delete(p); });
+        const ale_extract_config_t config = ale_extract_default_config();
+        EXPECT_EQ(ale_extractor_init(extractor.get(), &config), 0);
+        const auto features = std::make_unique<ale_features_t>();
+        ale_extract_scan(extractor.get(), scan.get(), nullptr, features.get());
+        const ale_pose_t pose = convert::pose(believed);
+        const uint32_t count = ale_views_of(features.get(), scan.get(), {0, 0, 0}, 0, views.data());
+        seen = {scan.get(), nullptr, pose, pose, views.data(), count};
+    }
+};
+} // namespace room
