@@ -24,9 +24,13 @@ typedef struct {
 
 ale_config_t ale_config_default(void)
 {
+    const ale_explorer_config_t explorer = ale_explorer_default_config();
     ale_config_t config = {
         .pipeline = ale_pipeline_default_config(),
-        .robot = ale_robot_shape_default(),
+        .robot = explorer.follower.shape,
+        .explore_speed_um_s = explorer.follower.speed_um_s,
+        .explore_turn_urad_s = explorer.follower.turn_urad_s,
+        .explore_clearance_um = explorer.clearance_um,
         .port = "/dev/ttyACM0",
         .priority = 80,
         .cpu = -1,
@@ -34,6 +38,16 @@ ale_config_t ale_config_default(void)
         .recorder_megabytes = 8,
     };
     return config;
+}
+
+ale_explorer_config_t ale_config_explorer(const ale_config_t *config)
+{
+    const ale_explorer_config_t explorer = {.follower = {.shape = config->robot,
+                                                         .sensor = config->pipeline.sensor,
+                                                         .speed_um_s = config->explore_speed_um_s,
+                                                         .turn_urad_s = config->explore_turn_urad_s},
+                                            .clearance_um = config->explore_clearance_um};
+    return explorer;
 }
 
 /* The first error counts; its text was written to reading->what. */

@@ -14,6 +14,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "plan/explorer.h"
 #include "plan/robot_shape.h"
 #include "track/pipeline.h"
 
@@ -22,9 +23,12 @@ enum { ALE_CONFIG_PATH = 160, ALE_CONFIG_MESSAGE = 400 };
 typedef struct {
     ale_pipeline_config_t pipeline; /* extraction with noise, mounting, blind sectors, odometry, limits */
     ale_robot_shape_t robot;        /* width, and how it comes to rest */
-    char port[ALE_CONFIG_PATH];     /* empty: found by serial number */
-    char serial[32];                /* empty: any */
-    int32_t baud;                   /* 0: detected */
+    int32_t explore_speed_um_s;     /* most speed of the exploration, by itself */
+    int32_t explore_turn_urad_s;
+    int32_t explore_clearance_um; /* of its ways, beyond width and margin */
+    char port[ALE_CONFIG_PATH];   /* empty: found by serial number */
+    char serial[32];              /* empty: any */
+    int32_t baud;                 /* 0: detected */
     bool reversed;
     uint16_t first_step; /* 0, 0: what the sensor says */
     uint16_t last_step;
@@ -51,6 +55,9 @@ int ale_config_load(const char *path, ale_config_t *config, ale_config_error_t *
 
 /* The same from memory; `name` stands for the file in messages. */
 int ale_config_parse(const char *text, const char *name, ale_config_t *config, ale_config_error_t *error);
+
+/* What the exploration is told of robot and scanner. */
+ale_explorer_config_t ale_config_explorer(const ale_config_t *config);
 
 /* Writes a complete commented file that reads back to the same configuration. */
 void ale_config_print(const ale_config_t *config, FILE *out);

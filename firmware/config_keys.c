@@ -66,15 +66,21 @@ const ale_config_key_t ale_config_keys[] = {
     {"robot", "max_speed", NUMBER(pipeline.max_speed_mm_s, 3, 10, 20000),
      "The fastest the robot can drive, m/s: the smooth pose makes no step beyond it ..."},
     {"robot", "max_turn", NUMBER(pipeline.max_turn_mrad_s, 3, 10, 20000), "... and turn, rad/s."},
-    {"robot", "width", NUMBER(robot.width_um, 6, 10000, 10000000),
+    {"robot", "width", NUMBER(robot.width_um, 6, 10000, 1000000),
      "Diameter of the disc around the point it turns about that holds all of it, metres."},
-    {"robot", "margin", NUMBER(robot.margin_um, 6, 0, 1000000),
+    {"robot", "margin", NUMBER(robot.margin_um, 6, 0, 300000),
      "Room left to what the scanner sees when the robot has stopped before it, metres."},
     {"robot", "deceleration", NUMBER(robot.deceleration_um_s2, 6, 10000, 20000000), "How it brakes, m/s^2."},
     {"robot", "reaction", NUMBER(robot.reaction_us, 6, 0, 5000000),
      "From the measurement of a scan until braking for it begins, seconds."},
     {"robot", "blind_speed", NUMBER(robot.blind_um_s, 6, 0, 20000000),
      "Most speed towards where the scanner does not look, m/s."},
+
+    {"explore", "speed", NUMBER(explore_speed_um_s, 6, 10000, 5000000),
+     "Exploration by itself: most speed, m/s,"},
+    {"explore", "turn_rate", NUMBER(explore_turn_urad_s, 6, 100000, 10000000), "most turn rate, rad/s,"},
+    {"explore", "clearance", NUMBER(explore_clearance_um, 6, 0, 500000),
+     "and room that its ways keep beyond the robot's width and margin, metres."},
 
     {"lcm", "url", TEXT(lcm_url),
      "Where messages go. Empty: the environment's LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0,\n"

@@ -89,15 +89,39 @@ static int32_t obstacle_um(const ale_scan_t *scan, int32_t beam)
     }
 }
 
+static bool obstacle_at(const ale_scan_t *scan, int32_t beam, const ale_pose_t *sensor, ale_point_t *p)
+{
+    const int32_t range_um = obstacle_um(scan, beam);
+    if (range_um <= 0) {
+        return false;
+    }
+    *p = ale_pose_apply(*sensor, ale_rotate((ale_point_t){range_um, 0}, ale_scan_bearing(scan, beam)));
+    return true;
+}
+
+/* The disc with its margin; where something stands within that already, as much of it as is free, so that the
+ * robot may go along it and away from it. */
+static int32_t free_radius_um(const ale_scan_t *scan, const ale_pose_t *sensor,
+                              const ale_robot_shape_t *shape)
+{
+    const int64_t radius_um = shape->width_um / 2;
+    int64_t nearest2 = square(radius_um + shape->margin_um);
+    ale_point_t p;
+    for (int32_t k = 0; k < scan->beams; k++) {
+        if (obstacle_at(scan, k, sensor, &p)) {
+            nearest2 = ale_min64(nearest2, square(p.x_um) + square(p.y_um));
+        }
+    }
+    return (int32_t)ale_max64(radius_um, ale_isqrt((uint64_t)nearest2));
+}
+
 static int64_t free_way_um(const ale_scan_t *scan, const ale_pose_t *sensor, int32_t radius_um,
                            int32_t speed_um_s, int32_t turn_urad_s)
 {
     int64_t way_um = INT64_MAX;
+    ale_point_t p;
     for (int32_t k = 0; k < scan->beams; k++) {
-        const int32_t range_um = obstacle_um(scan, k);
-        if (range_um > 0) {
-            const ale_point_t seen = ale_rotate((ale_point_t){range_um, 0}, ale_scan_bearing(scan, k));
-            const ale_point_t p = ale_pose_apply(*sensor, seen);
+        if (obstacle_at(scan, k, sensor, &p)) {
             way_um = ale_min64(way_um, ale_way_to_contact_um(p, radius_um, speed_um_s, turn_urad_s));
         }
     }
@@ -110,7 +134,7 @@ int32_t ale_safe_speed_um_s(const ale_scan_t *scan, const ale_pose_t *sensor, co
     if (wanted_um_s == 0) {
         return 0;
     }
-    const int32_t radius_um = shape->width_um / 2 + shape->margin_um;
+    const int32_t radius_um = free_radius_um(scan, sensor, shape);
     const int64_t way_um = free_way_um(scan, sensor, radius_um, wanted_um_s, wanted_urad_s);
     int64_t safe_um_s = ale_stopping_speed_um_s(way_um, shape);
     if (!looks_ahead(scan, sensor, wanted_um_s < 0)) {

@@ -70,7 +70,7 @@ TEST(Config, ValuesReachTheirFieldsInIntegerUnits)
                     "1700\n[extract]\nmin_length = 0.25\n"
                     "smooth_span = 9\n[odometry]\nuse=no\nlag_us = 155000\nscale = 0.03\n[robot]\nmax_speed "
                     "= 0.8\nwidth = 0.52\nmargin = 0.05\ndeceleration = 0.7\nreaction = 0.3\nblind_speed = "
-                    "0.15\n[lcm]\n"
+                    "0.15\n[explore]\nspeed = 0.35\nturn_rate = 0.6\nclearance = 0.08\n[lcm]\n"
                     "url = udpm://239.255.76.67:7700?ttl=0\npublish_scan = "
                     "true\n[realtime]\npriority=0\ncpu=1\nlock_memory=no\n"
                     "[map]\nfile = home.map\n",
@@ -100,6 +100,12 @@ TEST(Config, ValuesReachTheirFieldsInIntegerUnits)
     EXPECT_EQ(config.robot.deceleration_um_s2, 700000);
     EXPECT_EQ(config.robot.reaction_us, 300000);
     EXPECT_EQ(config.robot.blind_um_s, 150000);
+    const ale_explorer_config_t explorer = ale_config_explorer(&config);
+    EXPECT_EQ(explorer.follower.shape.width_um, 520000);
+    EXPECT_EQ(explorer.follower.sensor.x_um, 145000);
+    EXPECT_EQ(explorer.follower.speed_um_s, 350000);
+    EXPECT_EQ(explorer.follower.turn_urad_s, 600000);
+    EXPECT_EQ(explorer.clearance_um, 80000);
     EXPECT_STREQ(config.lcm_url, "udpm://239.255.76.67:7700?ttl=0");
     EXPECT_TRUE(config.publish_scan);
     EXPECT_EQ(config.priority, 0);

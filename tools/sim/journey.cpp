@@ -41,8 +41,13 @@ Journey::Journey(const World &world, const Options &options, Pilot pilot)
 bool Journey::collides() const
 {
     const Point centre = {robot_.pose().x, robot_.pose().y};
+    const double radius = options_.collision_radius;
+    const auto beyond = [radius](double at, double a, double b) {
+        return at < std::min(a, b) - radius || at > std::max(a, b) + radius;
+    };
     return std::any_of(world_.walls.begin(), world_.walls.end(), [&](const Wall &wall) {
-        return distance_to_wall(centre, wall) < options_.collision_radius;
+        return !beyond(centre.x, wall.a.x, wall.b.x) && !beyond(centre.y, wall.a.y, wall.b.y) &&
+               distance_to_wall(centre, wall) < radius;
     });
 }
 

@@ -15,6 +15,9 @@
 namespace sim
 {
 
+/* Slip of a robot that is driven from outside. */
+constexpr double driven_slip = 0.03;
+
 /* Tells what to drive at a time of play; nothing: the way is over. */
 using Pilot = std::function<std::optional<Twist>(const Robot &, int64_t play_us)>;
 

@@ -130,9 +130,8 @@ void print_tally(const sim::Tally &tally)
 
 std::unique_ptr<sim::WorldSource> driven_world(sim::Options options, const sim::DriveIn &drive)
 {
-    constexpr double slip = 0.03;
     constexpr double radius = 0.2;
-    options.world_source.journey.slip = slip;
+    options.world_source.journey.slip = sim::driven_slip;
     options.world_source.journey.collision_radius = radius;
     return std::make_unique<sim::WorldSource>(
         world_of(options), options.world_source,

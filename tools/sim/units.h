@@ -20,6 +20,11 @@ inline double metres(int32_t um)
     return um * 1e-6;
 }
 
+inline int32_t micrometres(double metres)
+{
+    return static_cast<int32_t>(std::lround(metres * 1e6));
+}
+
 inline double radians(uint32_t bam)
 {
     return static_cast<int32_t>(bam) * (2 * pi / bam_per_turn);

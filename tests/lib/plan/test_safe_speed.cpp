@@ -208,6 +208,16 @@ TEST(SafeSpeed, KeepsTheSignAndIsZeroAtTheWall)
     EXPECT_LT(ale_safe_speed_um_s(&wall, &at_the_centre, &shape, -50000, 0), 0);
 }
 
+TEST(SafeSpeed, WhatIsNearerThanTheMarginMayBeDrivenAlongAndLeftButNotApproached)
+{
+    const ale_robot_shape_t shape = ale_robot_shape_default();
+    const ale_pose_t looks_left = {0, 0, ALE_BAM_QUARTER_TURN};
+    const ale_scan_t wall_on_the_left = scan_of_wall_ahead(0.215);
+    EXPECT_GT(ale_safe_speed_um_s(&wall_on_the_left, &looks_left, &shape, 300000, 0), 100000);
+    EXPECT_GT(ale_safe_speed_um_s(&wall_on_the_left, &looks_left, &shape, 300000, -500000), 100000);
+    EXPECT_LT(ale_safe_speed_um_s(&wall_on_the_left, &looks_left, &shape, 300000, 500000), 10000);
+}
+
 TEST(SafeSpeed, WhereTheScannerDoesNotLookTheRobotCreeps)
 {
     const ale_robot_shape_t shape = ale_robot_shape_default();

@@ -1,0 +1,263 @@
+#include "plan/explorer.h"
+
+#include "base/fixed.h"
+#include "base/trig.h"
+#include "plan/safe_speed.h"
+#include "track/deskew.h"
+
+/* Counted in scans, ten a second. */
+enum { PLAN_EVERY = 5, STALL_STEPS = 80, STUCK_STEPS = 10, BACKING_STEPS = 15 };
+enum { COMFORT_CM = 15, UM_PER_CM = 10000 };
+#define CARROT_UM 700000
+#define GOT_ON_UM 100000
+#define HOME_UM 20000
+#define HOME_NEAR_UM 400000
+enum { HOME_NEAR_CELLS = HOME_NEAR_UM / ALE_GRID_CELL_UM };
+#define HOME_TURN_BAM (INT64_C(3) * ALE_BAM_PER_DEGREE)
+#define LONGEST_AHEAD_US 500000
+#define SLOWEST_UM_S 5000
+#define SLOWEST_URAD_S 50000
+
+static const ale_velocity_t standing = {0, 0};
+
+ale_explorer_config_t ale_explorer_default_config(void)
+{
+    const ale_explorer_config_t config = {
+        .follower = {.shape = ale_robot_shape_default(), .speed_um_s = 400000, .turn_urad_s = 800000},
+        .clearance_um = 50000};
+    return config;
+}
+
+static int32_t centimetres(int64_t um)
+{
+    return (int32_t)((um + UM_PER_CM - 1) / UM_PER_CM);
+}
+
+void ale_explorer_init(ale_explorer_t *explorer, const ale_explorer_config_t *config)
+{
+    explorer->config = *config;
+    explorer->state = ALE_EXPLORER_OFF;
+}
+
+void ale_explorer_request(ale_explorer_t *explorer, bool on)
+{
+    const bool at_it = explorer->state != ALE_EXPLORER_OFF && explorer->state != ALE_EXPLORER_FINISHED;
+    if (!on) {
+        explorer->state = ALE_EXPLORER_OFF;
+    } else if (!at_it) {
+        explorer->state = ALE_EXPLORER_EXPLORING;
+        explorer->begun = false;
+    }
+}
+
+static void got_on(ale_explorer_t *explorer)
+{
+    explorer->anchor = (ale_point_t){explorer->pose.x_um, explorer->pose.y_um};
+    explorer->steps_at_anchor = 0;
+}
+
+static void begin(ale_explorer_t *explorer, ale_pose_t pose)
+{
+    const ale_robot_shape_t *shape = &explorer->config.follower.shape;
+    const int32_t radius_um = shape->width_um / 2;
+    const int32_t body_cm =
+        centimetres((int64_t)radius_um + shape->margin_um + explorer->config.clearance_um);
+    const ale_planner_config_t planner = {.body_cm = body_cm,
+                                          .squeeze_cm = centimetres(radius_um),
+                                          .comfort_cm = body_cm + COMFORT_CM,
+                                          .see_cm = centimetres(radius_um)};
+    ale_grid_init(&explorer->grid, (ale_point_t){pose.x_um, pose.y_um});
+    ale_planner_init(&explorer->planner, &planner);
+    explorer->home = pose;
+    explorer->pose = pose;
+    explorer->route.count = 0;
+    explorer->goal = ALE_GRID_NONE;
+    explorer->steps_since_plan = PLAN_EVERY;
+    explorer->steps_stuck = 0;
+    explorer->steps_back = 0;
+    explorer->begun = true;
+    got_on(explorer);
+}
+
+static void velocity_per_tick(const ale_estimate_t *estimate, int32_t out[ALE_AXES])
+{
+    out[0] = (int32_t)ale_round_div(estimate->velocity_x_um_s * ALE_TICK_US, 1000000);
+    out[1] = (int32_t)ale_round_div(estimate->velocity_y_um_s * ALE_TICK_US, 1000000);
+    out[2] = (int32_t)ale_round_div(estimate->velocity_theta_urad_s * ALE_TICK_US, 1000000);
+}
+
+static void add_scan(ale_explorer_t *explorer, const ale_scan_t *scan, const ale_estimate_t *estimate)
+{
+    const ale_follower_t *follower = &explorer->config.follower;
+    int32_t robot_velocity[ALE_AXES];
+    int32_t sensor_velocity[ALE_AXES];
+    velocity_per_tick(estimate, robot_velocity);
+    ale_sensor_velocity(robot_velocity, follower->sensor, sensor_velocity);
+    explorer->scan = *scan;
+    if (!ale_deskew(&explorer->scan, sensor_velocity, explorer->bearing_bam)) {
+        for (int32_t k = 0; k < scan->beams; k++) {
+            explorer->bearing_bam[k] = ale_scan_bearing(scan, k);
+        }
+    }
+    const ale_pose_t sensor = ale_pose_compose(estimate->map, follower->sensor);
+    ale_grid_add_scan(&explorer->grid, &explorer->scan, explorer->bearing_bam, sensor);
+    ale_grid_add_disc(&explorer->grid, (ale_point_t){estimate->map.x_um, estimate->map.y_um},
+                      follower->shape.width_um / 2);
+}
+
+static void predict_pose(ale_explorer_t *explorer, const ale_estimate_t *estimate, int64_t now_us)
+{
+    int32_t velocity[ALE_AXES];
+    velocity_per_tick(estimate, velocity);
+    const int64_t ahead_us = ale_clamp64(now_us - estimate->stamp_us, 0, LONGEST_AHEAD_US);
+    explorer->pose = ale_pose_compose(estimate->map, ale_motion_sweep(velocity, ahead_us));
+}
+
+/* Where the way ahead stays closed although the map says it is open, a step back shows more of it. */
+static ale_velocity_t back_off(ale_explorer_t *explorer, ale_velocity_t wanted, const ale_scan_t *scan)
+{
+    const ale_follower_t *follower = &explorer->config.follower;
+    const bool stands = wanted.speed_um_s < SLOWEST_UM_S && ale_abs64(wanted.turn_urad_s) < SLOWEST_URAD_S;
+    explorer->steps_stuck = stands ? explorer->steps_stuck + 1 : 0;
+    if (explorer->steps_stuck > STUCK_STEPS) {
+        explorer->steps_stuck = 0;
+        explorer->steps_back = BACKING_STEPS;
+    }
+    if (explorer->steps_back == 0) {
+        return wanted;
+    }
+    explorer->steps_back--;
+    const int32_t back_um_s =
+        ale_safe_speed_um_s(scan, &follower->sensor, &follower->shape, -follower->shape.blind_um_s, 0);
+    return (ale_velocity_t){back_um_s, 0};
+}
+
+static int64_t distance_um(ale_point_t a, ale_point_t b)
+{
+    const int64_t dx = (int64_t)a.x_um - b.x_um;
+    const int64_t dy = (int64_t)a.y_um - b.y_um;
+    return ale_isqrt((uint64_t)(dx * dx + dy * dy));
+}
+
+static void plan_exploring(ale_explorer_t *explorer, ale_point_t robot)
+{
+    if (ale_planner_explore(&explorer->planner, &explorer->grid, robot, explorer->goal, &explorer->route)) {
+        explorer->goal = explorer->route.goal;
+    } else {
+        explorer->goal = ALE_GRID_NONE;
+        explorer->state = ALE_EXPLORER_RETURNING;
+        got_on(explorer);
+    }
+}
+
+static void plan(ale_explorer_t *explorer)
+{
+    const ale_point_t robot = {explorer->pose.x_um, explorer->pose.y_um};
+    explorer->steps_since_plan = 0;
+    ale_planner_look(&explorer->planner, &explorer->grid);
+    if (explorer->state == ALE_EXPLORER_EXPLORING) {
+        plan_exploring(explorer, robot);
+    }
+    if (explorer->state == ALE_EXPLORER_RETURNING || explorer->state == ALE_EXPLORER_BLOCKED) {
+        const ale_point_t home = {explorer->home.x_um, explorer->home.y_um};
+        const bool open = ale_planner_go(&explorer->planner, &explorer->grid, robot, home, &explorer->route);
+        explorer->state = open ? ALE_EXPLORER_RETURNING : ALE_EXPLORER_BLOCKED;
+    }
+}
+
+/* A robot that does not get on gives its goal up; on the way home it asks for the way anew and says so. */
+static void watch_progress(ale_explorer_t *explorer)
+{
+    const ale_point_t robot = {explorer->pose.x_um, explorer->pose.y_um};
+    explorer->steps_at_anchor++;
+    if (distance_um(robot, explorer->anchor) > GOT_ON_UM) {
+        got_on(explorer);
+    } else if (explorer->steps_at_anchor > STALL_STEPS) {
+        const bool exploring = explorer->state == ALE_EXPLORER_EXPLORING;
+        const bool given_up = exploring && explorer->goal != ALE_GRID_NONE &&
+                              ale_planner_refuse(&explorer->planner, explorer->goal);
+        explorer->state =
+            given_up ? ALE_EXPLORER_EXPLORING : (exploring ? ALE_EXPLORER_RETURNING : ALE_EXPLORER_BLOCKED);
+        explorer->goal = ALE_GRID_NONE;
+        explorer->steps_since_plan = PLAN_EVERY;
+        got_on(explorer);
+    }
+}
+
+static ale_velocity_t drive_route(ale_explorer_t *explorer, const ale_scan_t *scan)
+{
+    const ale_follower_t *follower = &explorer->config.follower;
+    const ale_point_t robot = {explorer->pose.x_um, explorer->pose.y_um};
+    if (explorer->route.count == 0) {
+        return standing;
+    }
+    const ale_point_t carrot =
+        ale_planner_carrot(&explorer->planner, &explorer->grid, &explorer->route, robot, CARROT_UM);
+    const int64_t way_um = ale_max64((int64_t)explorer->route.cost * UM_PER_CM, ALE_GRID_CELL_UM);
+    return back_off(explorer, ale_follow(follower, explorer->pose, carrot, way_um, scan), scan);
+}
+
+static ale_velocity_t drive_home(ale_explorer_t *explorer, const ale_scan_t *scan)
+{
+    const ale_point_t robot = {explorer->pose.x_um, explorer->pose.y_um};
+    const ale_point_t home = {explorer->home.x_um, explorer->home.y_um};
+    const int64_t left_um = distance_um(robot, home);
+    if (left_um <= HOME_UM) {
+        explorer->state = ALE_EXPLORER_TURNING;
+        return standing;
+    }
+    if (left_um > HOME_NEAR_UM || explorer->route.count > HOME_NEAR_CELLS) {
+        return drive_route(explorer, scan);
+    }
+    return ale_follow(&explorer->config.follower, explorer->pose, home, left_um, scan);
+}
+
+static ale_velocity_t turn_home(ale_explorer_t *explorer)
+{
+    const uint32_t wanted_bam = explorer->home.theta_bam;
+    if (ale_abs64(ale_bam_diff(wanted_bam, explorer->pose.theta_bam)) <= HOME_TURN_BAM) {
+        explorer->state = ALE_EXPLORER_FINISHED;
+        return standing;
+    }
+    const int32_t turn = ale_turn_towards(&explorer->config.follower, explorer->pose.theta_bam, wanted_bam);
+    return (ale_velocity_t){0, turn};
+}
+
+static ale_velocity_t drive(ale_explorer_t *explorer, const ale_scan_t *scan)
+{
+    switch (explorer->state) {
+    case ALE_EXPLORER_EXPLORING:
+        return drive_route(explorer, scan);
+    case ALE_EXPLORER_RETURNING:
+        return drive_home(explorer, scan);
+    case ALE_EXPLORER_TURNING:
+        return turn_home(explorer);
+    case ALE_EXPLORER_OFF:
+    case ALE_EXPLORER_FINISHED:
+    case ALE_EXPLORER_BLOCKED:
+        break;
+    }
+    return standing;
+}
+
+ale_velocity_t ale_explorer_step(ale_explorer_t *explorer, const ale_scan_t *scan,
+                                 const ale_estimate_t *estimate, int64_t now_us)
+{
+    const bool idle = explorer->state == ALE_EXPLORER_OFF || explorer->state == ALE_EXPLORER_FINISHED;
+    if (idle || estimate->state == ALE_STATE_LOST) {
+        return standing;
+    }
+    if (!explorer->begun) {
+        begin(explorer, estimate->map);
+    }
+    if (!estimate->predicted) {
+        add_scan(explorer, scan, estimate);
+    }
+    predict_pose(explorer, estimate, now_us);
+    explorer->steps_since_plan++;
+    if (explorer->steps_since_plan >= PLAN_EVERY) {
+        plan(explorer);
+    }
+    watch_progress(explorer);
+    return drive(explorer, scan);
+}

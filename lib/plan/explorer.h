@@ -1,0 +1,67 @@
+/* Exploration: sees all that the robot can reach, then drives back to where it began.
+ *
+ *   ale_explorer_init(explorer, &config);
+ *   ale_explorer_request(explorer, true);
+ *   velocity = ale_explorer_step(explorer, &scan, &estimate, now_us);      every scan
+ *
+ *   OFF -- on --> EXPLORING -- nothing left to see --> RETURNING -- at the start --> TURNING --> FINISHED
+ *                   any of them -- off --> OFF;  a way home that stays closed --> BLOCKED, until it opens
+ *
+ * The grid begins anew with every "on". While the pose is lost the robot stands. Goals that it cannot get to
+ * are given up and counted. One owner thread, never the estimate task: a step in which ways are planned takes
+ * some 10 ms of a PC, and the structure 20 MB. No allocation, no clock, every loop bounded by the grid's
+ * capacity. */
+#ifndef ALE_PLAN_EXPLORER_H
+#define ALE_PLAN_EXPLORER_H
+
+#include "plan/follower.h"
+#include "plan/grid.h"
+#include "plan/planner.h"
+#include "track/pipeline.h"
+
+typedef struct {
+    ale_follower_t follower; /* shape, mounting, speeds */
+    int32_t clearance_um;    /* room that planned ways keep beyond width and margin */
+} ale_explorer_config_t;
+
+ale_explorer_config_t ale_explorer_default_config(void);
+
+typedef enum {
+    ALE_EXPLORER_OFF,
+    ALE_EXPLORER_EXPLORING,
+    ALE_EXPLORER_RETURNING,
+    ALE_EXPLORER_TURNING,
+    ALE_EXPLORER_FINISHED,
+    ALE_EXPLORER_BLOCKED
+} ale_explorer_state_t;
+
+typedef struct {
+    ale_explorer_config_t config;
+    ale_explorer_state_t state;
+    bool begun;      /* home is known, the grid is about it */
+    ale_pose_t home; /* where it was switched on, map frame */
+    ale_pose_t pose; /* where the robot is now */
+    uint32_t steps_since_plan;
+    ale_route_t route;
+    ale_cell_t goal;    /* of the way before, ALE_GRID_NONE: none */
+    ale_point_t anchor; /* where the robot was when it last got on */
+    uint32_t steps_at_anchor;
+    uint32_t steps_stuck; /* the way ahead is closed */
+    uint32_t steps_back;  /* still to be driven backwards */
+    ale_grid_t grid;
+    ale_planner_t planner;
+    ale_scan_t scan; /* straightened */
+    uint32_t bearing_bam[ALE_MAX_BEAMS];
+} ale_explorer_t;
+
+void ale_explorer_init(ale_explorer_t *explorer, const ale_explorer_config_t *config);
+
+/* On: begins anew, unless it is at it; off: stops. */
+void ale_explorer_request(ale_explorer_t *explorer, bool on);
+
+/* One scan (blind sectors masked) with its estimate; now_us, of the same clock, is when the velocity will be
+ * in force. Returns what to drive; all zero when there is nothing to do. */
+ale_velocity_t ale_explorer_step(ale_explorer_t *explorer, const ale_scan_t *scan,
+                                 const ale_estimate_t *estimate, int64_t now_us);
+
+#endif

@@ -1,0 +1,213 @@
+#include "plan/planner.h"
+
+#include "base/fixed.h"
+
+enum { STRAIGHT_CM = 5, DIAGONAL_CM = 7, FULL_PENALTY = 3, SQUEEZED_FACTOR = 8 };
+enum { END_CELLS = 10, REFUSED_CELLS = 6, SAME_GOAL_CELLS = 8, KEEP_COST = 150 };
+_Static_assert(DIAGONAL_CM *SQUEEZED_FACTOR <= ALE_WAVEFRONT_MAX_STEP,
+               "steps must fit the wavefront's buckets");
+_Static_assert(END_CELLS > 0 && STRAIGHT_CM * 10000 == ALE_GRID_CELL_UM, "clearance counts in centimetres");
+
+typedef struct {
+    const ale_planner_t *planner;
+    const ale_grid_t *grid;
+    ale_cell_t start;
+    ale_cell_t end; /* ALE_GRID_NONE: not known yet */
+} search_t;
+
+void ale_planner_init(ale_planner_t *planner, const ale_planner_config_t *config)
+{
+    planner->config = *config;
+    planner->refused_count = 0;
+    ale_clearance_init(&planner->clearance);
+}
+
+void ale_planner_look(ale_planner_t *planner, ale_grid_t *grid)
+{
+    ale_clearance_update(&planner->clearance, grid, ale_grid_take_changed(grid));
+}
+
+static bool within(ale_cell_t a, ale_cell_t b, int64_t cells)
+{
+    const int64_t dx = (int64_t)(a % ALE_GRID_SIDE) - b % ALE_GRID_SIDE;
+    const int64_t dy = (int64_t)(a / ALE_GRID_SIDE) - b / ALE_GRID_SIDE;
+    return dx * dx + dy * dy <= cells * cells;
+}
+
+static bool near_an_end(const search_t *search, ale_cell_t cell)
+{
+    return within(cell, search->start, END_CELLS) ||
+           (search->end != ALE_GRID_NONE && within(cell, search->end, END_CELLS));
+}
+
+/* What a step into the cell costs, as a factor on its length; 0: no room. */
+static uint32_t factor_of(const search_t *search, ale_cell_t cell)
+{
+    const ale_planner_config_t *config = &search->planner->config;
+    const int32_t room_cm = search->planner->clearance.to_occupied_cm[cell];
+    if (!ale_grid_is_free(search->grid, cell)) {
+        return 0;
+    }
+    if (room_cm >= config->comfort_cm) {
+        return 1;
+    }
+    if (room_cm >= config->body_cm) {
+        const int32_t band_cm = config->comfort_cm - config->body_cm;
+        return 1 + (uint32_t)((FULL_PENALTY * (config->comfort_cm - room_cm) + band_cm / 2) / band_cm);
+    }
+    return room_cm >= config->squeeze_cm && near_an_end(search, cell) ? SQUEEZED_FACTOR : 0;
+}
+
+static void enter_neighbours(const search_t *search, ale_wavefront_t *front, ale_cell_t cell)
+{
+    for (int32_t dy = -1; dy <= 1; dy++) {
+        for (int32_t dx = -1; dx <= 1; dx++) {
+            const ale_cell_t next = (ale_cell_t)((int32_t)cell + dy * ALE_GRID_SIDE + dx);
+            const uint32_t factor = next != cell ? factor_of(search, next) : 0;
+            if (factor > 0) {
+                const uint32_t length_cm = dx != 0 && dy != 0 ? DIAGONAL_CM : STRAIGHT_CM;
+                ale_wavefront_enter(front, next, cell, factor * length_cm);
+            }
+        }
+    }
+}
+
+static bool is_refused(const ale_planner_t *planner, ale_cell_t cell)
+{
+    for (uint32_t k = 0; k < planner->refused_count; k++) {
+        if (within(cell, planner->refused[k], REFUSED_CELLS)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_worth_seeing(const ale_planner_t *planner, ale_cell_t cell)
+{
+    return planner->clearance.to_unseen_cm[cell] <= planner->config.see_cm &&
+           planner->clearance.to_occupied_cm[cell] >= planner->config.body_cm && !is_refused(planner, cell);
+}
+
+/* The way's cells beyond the route's room are left out: they are counted first, from the goal back. */
+static void trace(const ale_wavefront_t *front, ale_cell_t start, ale_cell_t goal, ale_route_t *route)
+{
+    uint32_t length = 1;
+    for (ale_cell_t cell = goal; cell != start && length < ALE_GRID_CELLS; cell = front->from[cell]) {
+        length++;
+    }
+    ale_cell_t cell = goal;
+    for (uint32_t k = length; k > 0; k--) {
+        if (k <= ALE_ROUTE_CELLS) {
+            route->cell[k - 1] = cell;
+        }
+        cell = front->from[cell];
+    }
+    route->count = length < ALE_ROUTE_CELLS ? length : ALE_ROUTE_CELLS;
+    route->goal = goal;
+    route->cost = front->cost[goal];
+}
+
+/* The nearest goal, or the last one while it is still worth it and not much farther. */
+static ale_cell_t next_goal(const search_t *search, ale_wavefront_t *front, ale_cell_t last_goal)
+{
+    ale_cell_t best = ALE_GRID_NONE;
+    for (uint32_t k = 0; k < ALE_GRID_CELLS; k++) {
+        const ale_cell_t cell = ale_wavefront_next(front);
+        if (cell == ALE_GRID_NONE ||
+            (best != ALE_GRID_NONE && front->cost[cell] > front->cost[best] + KEEP_COST)) {
+            break;
+        }
+        if (is_worth_seeing(search->planner, cell)) {
+            const bool kept = last_goal == ALE_GRID_NONE || within(cell, last_goal, SAME_GOAL_CELLS);
+            best = best == ALE_GRID_NONE || kept ? cell : best;
+            if (kept) {
+                break;
+            }
+        }
+        enter_neighbours(search, front, cell);
+    }
+    return best;
+}
+
+bool ale_planner_explore(ale_planner_t *planner, const ale_grid_t *grid, ale_point_t robot,
+                         ale_cell_t last_goal, ale_route_t *route)
+{
+    const search_t search = {planner, grid, ale_grid_cell(grid, robot), ALE_GRID_NONE};
+    route->count = 0;
+    if (search.start == ALE_GRID_NONE) {
+        return false;
+    }
+    ale_wavefront_begin(&planner->front, grid, search.start);
+    const ale_cell_t goal = next_goal(&search, &planner->front, last_goal);
+    if (goal != ALE_GRID_NONE) {
+        trace(&planner->front, search.start, goal, route);
+    }
+    return goal != ALE_GRID_NONE;
+}
+
+bool ale_planner_go(ale_planner_t *planner, const ale_grid_t *grid, ale_point_t robot, ale_point_t place,
+                    ale_route_t *route)
+{
+    const search_t search = {planner, grid, ale_grid_cell(grid, robot), ale_grid_cell(grid, place)};
+    route->count = 0;
+    if (search.start == ALE_GRID_NONE || search.end == ALE_GRID_NONE) {
+        return false;
+    }
+    ale_wavefront_begin(&planner->front, grid, search.start);
+    ale_cell_t cell = ale_wavefront_next(&planner->front);
+    for (uint32_t k = 0; k < ALE_GRID_CELLS && cell != ALE_GRID_NONE && cell != search.end; k++) {
+        enter_neighbours(&search, &planner->front, cell);
+        cell = ale_wavefront_next(&planner->front);
+    }
+    if (cell != ALE_GRID_NONE) {
+        trace(&planner->front, search.start, cell, route);
+    }
+    return cell != ALE_GRID_NONE;
+}
+
+bool ale_planner_refuse(ale_planner_t *planner, ale_cell_t goal)
+{
+    if (planner->refused_count == ALE_MAX_REFUSED) {
+        return false;
+    }
+    planner->refused[planner->refused_count++] = goal;
+    return true;
+}
+
+/* Half a cell at a time; where the robot stands too near already, it must not come nearer. */
+static bool is_clear_line(const ale_planner_t *planner, const ale_grid_t *grid, ale_point_t from,
+                          ale_point_t to)
+{
+    const ale_cell_t start = ale_grid_cell(grid, from);
+    if (start == ALE_GRID_NONE) {
+        return false;
+    }
+    const uint8_t *room_cm = planner->clearance.to_occupied_cm;
+    const int64_t needed_cm = ale_min64(planner->config.body_cm, room_cm[start]);
+    const int64_t dx_um = (int64_t)to.x_um - from.x_um;
+    const int64_t dy_um = (int64_t)to.y_um - from.y_um;
+    const int64_t steps = 1 + ale_max64(ale_abs64(dx_um), ale_abs64(dy_um)) / (ALE_GRID_CELL_UM / 2);
+    for (int64_t k = 1; k <= steps; k++) {
+        const ale_point_t p = {from.x_um + (int32_t)(dx_um * k / steps),
+                               from.y_um + (int32_t)(dy_um * k / steps)};
+        const ale_cell_t cell = ale_grid_cell(grid, p);
+        if (cell == ALE_GRID_NONE || !ale_grid_is_free(grid, cell) || room_cm[cell] < needed_cm) {
+            return false;
+        }
+    }
+    return true;
+}
+
+ale_point_t ale_planner_carrot(const ale_planner_t *planner, const ale_grid_t *grid, const ale_route_t *route,
+                               ale_point_t robot, int32_t reach_um)
+{
+    const uint32_t last = route->count - 1;
+    const uint32_t reach = (uint32_t)(reach_um / ALE_GRID_CELL_UM);
+    for (uint32_t k = reach < last ? reach : last; k > 1; k--) {
+        const ale_point_t p = ale_grid_middle(grid, route->cell[k]);
+        if (is_clear_line(planner, grid, robot, p)) {
+            return p;
+        }
+    }
+    return ale_grid_middle(grid, route->cell[last > 0 ? 1 : 0]);
+}

@@ -1,0 +1,66 @@
+/* Ways over the grid: to what is worth seeing next, or to a place; always with room for the robot's disc.
+ *
+ *   ale_planner_look(planner, grid);                        the grid has changed
+ *   if (ale_planner_explore(planner, grid, robot, last_goal, &route)) ... else: all that can be reached is
+ * seen
+ *
+ * The robot's centre may go where cells are free and the nearest occupied one is `body_cm` away; ways that
+ * keep `comfort_cm` are cheaper. Worth seeing is every unseen patch within `see_cm` of where the centre may
+ * go: when there is none left, all that the disc could sweep is known. The nearest goal by the cost of its
+ * way is taken, and kept until another is clearly nearer. Frontiers: Yamauchi, CIRA 1997. One owner thread.
+ */
+#ifndef ALE_PLAN_PLANNER_H
+#define ALE_PLAN_PLANNER_H
+
+#include "plan/clearance.h"
+#include "plan/grid.h"
+#include "plan/wavefront.h"
+
+enum { ALE_ROUTE_CELLS = 64, ALE_MAX_REFUSED = 64 };
+
+typedef struct {
+    int32_t body_cm;    /* below ALE_CLEARANCE_FAR_CM, as all of these */
+    int32_t squeeze_cm; /* at least this, within half a metre of both ends of a way */
+    int32_t comfort_cm; /* above body_cm */
+    int32_t see_cm;
+} ale_planner_config_t;
+
+/* A way's first cells, from the robot on. */
+typedef struct {
+    uint32_t count; /* 1..ALE_ROUTE_CELLS; 0: no way */
+    ale_cell_t cell[ALE_ROUTE_CELLS];
+    ale_cell_t goal;
+    uint32_t cost; /* of the whole way: centimetres, more where it is narrow */
+} ale_route_t;
+
+typedef struct {
+    ale_planner_config_t config;
+    ale_clearance_t clearance;
+    ale_wavefront_t front;
+    uint32_t refused_count;
+    ale_cell_t refused[ALE_MAX_REFUSED];
+} ale_planner_t;
+
+void ale_planner_init(ale_planner_t *planner, const ale_planner_config_t *config);
+
+/* Takes the grid's changes: before ways are asked for. O(cells changed, and those around them). */
+void ale_planner_look(ale_planner_t *planner, ale_grid_t *grid);
+
+/* The way from `robot` to what is to be seen next. last_goal: of the way before, ALE_GRID_NONE at first.
+ * False, with route->count 0: there is nothing left, or the robot stands outside the grid. O(cells seen). */
+bool ale_planner_explore(ale_planner_t *planner, const ale_grid_t *grid, ale_point_t robot,
+                         ale_cell_t last_goal, ale_route_t *route);
+
+/* The way from `robot` to `place`. False, with route->count 0: there is none. O(cells seen). */
+bool ale_planner_go(ale_planner_t *planner, const ale_grid_t *grid, ale_point_t robot, ale_point_t place,
+                    ale_route_t *route);
+
+/* Goals within 30 cm of this one are not taken any more. False: no room, already ALE_MAX_REFUSED. */
+bool ale_planner_refuse(ale_planner_t *planner, ale_cell_t goal);
+
+/* The farthest cell of the way, at most so many straight cells along it as fit reach_um, that the robot may
+ * head for in a straight line; the next one when there is none. route->count > 0. */
+ale_point_t ale_planner_carrot(const ale_planner_t *planner, const ale_grid_t *grid, const ale_route_t *route,
+                               ale_point_t robot, int32_t reach_um);
+
+#endif

@@ -1,0 +1,128 @@
+// lib/plan/explorer.c: its states, in a room whose poses are known. Whole explorations: tests/tools/explore.
+#include <cmath>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "lib/track/room.h"
+
+extern "C" {
+#include "plan/explorer.h"
+}
+
+namespace
+{
+
+class Explorer : public ::testing::Test
+{
+  protected:
+    Explorer() : explorer_(std::make_unique<ale_explorer_t>())
+    {
+        const ale_explorer_config_t config = ale_explorer_default_config();
+        ale_explorer_init(explorer_.get(), &config);
+    }
+
+    // One scan at the robot's place; then the robot does at once what it is told, for a tenth of a second.
+    ale_velocity_t step(uint8_t state = ALE_STATE_GOOD, bool predicted = false)
+    {
+        room::Sensor sensor;
+        sensor.beam_time_ns = 0;
+        const ale_scan_t scan = room::scan_at(
+            walls_, sensor, [&](double) { return pose_; }, 0.1 * steps_, rng_);
+        ale_estimate_t estimate = {};
+        estimate.stamp_us = scan.stamp_us;
+        estimate.map = convert::pose(pose_);
+        estimate.state = state;
+        estimate.predicted = predicted;
+        const ale_velocity_t velocity = ale_explorer_step(explorer_.get(), &scan, &estimate, scan.stamp_us);
+        pose_ = reference::compose(pose_, {velocity.speed_um_s * 1e-7, 0, velocity.turn_urad_s * 1e-7});
+        steps_++;
+        return velocity;
+    }
+
+    static bool stands(const ale_velocity_t &velocity)
+    {
+        return velocity.speed_um_s == 0 && velocity.turn_urad_s == 0;
+    }
+
+    std::unique_ptr<ale_explorer_t> explorer_;
+    std::vector<room::Wall> walls_ = room::l_shape();
+    reference::Pose pose_{0.5, -0.5, 0.3};
+    std::mt19937 rng_{1};
+    int steps_ = 0;
+};
+
+} // namespace
+
+TEST_F(Explorer, StandsUntilItIsAskedAndWhenItIsToldToStop)
+{
+    EXPECT_TRUE(stands(step()));
+    EXPECT_EQ(explorer_->state, ALE_EXPLORER_OFF);
+    ale_explorer_request(explorer_.get(), true);
+    EXPECT_FALSE(stands(step()));
+    EXPECT_EQ(explorer_->state, ALE_EXPLORER_EXPLORING);
+    ale_explorer_request(explorer_.get(), false);
+    EXPECT_TRUE(stands(step()));
+    EXPECT_EQ(explorer_->state, ALE_EXPLORER_OFF);
+}
+
+TEST_F(Explorer, StandsWhileThePoseIsLost)
+{
+    ale_explorer_request(explorer_.get(), true);
+    EXPECT_FALSE(stands(step()));
+    EXPECT_TRUE(stands(step(ALE_STATE_LOST)));
+    EXPECT_FALSE(stands(step()));
+}
+
+TEST_F(Explorer, SeesTheWholeRoomAndComesBackToPlaceAndHeading)
+{
+    const reference::Pose start = pose_;
+    ale_explorer_request(explorer_.get(), true);
+    while (explorer_->state != ALE_EXPLORER_FINISHED && steps_ < 2000) {
+        step();
+        for (int k = 0; k < 36; k++) {
+            ASSERT_GT(room::distance(walls_, pose_[0], pose_[1], k * reference::pi / 18), 0.2)
+                << "step " << steps_;
+        }
+    }
+    ASSERT_EQ(explorer_->state, ALE_EXPLORER_FINISHED);
+    EXPECT_LT(std::hypot(pose_[0] - start[0], pose_[1] - start[1]), 0.05);
+    EXPECT_LT(std::fabs(reference::wrap(pose_[2] - start[2])), 0.1);
+    EXPECT_EQ(explorer_->planner.refused_count, 0u);
+    for (double y = -1.8; y < 0.8; y += 0.1) {
+        for (double x = -0.8; x < 3.4; x += 0.1) {
+            EXPECT_TRUE(ale_grid_is_free(&explorer_->grid,
+                                         ale_grid_cell(&explorer_->grid, {convert::um(x), convert::um(y)})))
+                << x << ' ' << y;
+        }
+    }
+    EXPECT_TRUE(stands(step())) << "and then stands";
+    ale_explorer_request(explorer_.get(), true);
+    step();
+    EXPECT_EQ(explorer_->state, ALE_EXPLORER_EXPLORING) << "asked again, it begins anew";
+}
+
+TEST_F(Explorer, PredictedScansAddNothing)
+{
+    ale_explorer_request(explorer_.get(), true);
+    step(ALE_STATE_WEAK, true);
+    EXPECT_EQ(explorer_->grid.seen, 0u);
+    step(ALE_STATE_WEAK, false);
+    EXPECT_GT(explorer_->grid.seen, 1000u);
+}
+
+TEST_F(Explorer, AGoalThatCannotBeReachedIsGivenUpAndTheRobotGoesHome)
+{
+    // Something that the scanner does not see holds the robot: it never gets on.
+    ale_explorer_request(explorer_.get(), true);
+    const reference::Pose held = pose_;
+    while (explorer_->state == ALE_EXPLORER_EXPLORING && steps_ < 20000) {
+        step();
+        pose_.head<2>() = held.head<2>();
+    }
+    EXPECT_GT(explorer_->planner.refused_count, 0u);
+    for (int k = 0; k < 200 && explorer_->state != ALE_EXPLORER_FINISHED; k++) {
+        step();
+    }
+    EXPECT_EQ(explorer_->state, ALE_EXPLORER_FINISHED) << "home is where it stands";
+}

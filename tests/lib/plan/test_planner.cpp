@@ -1,0 +1,189 @@
+// lib/plan/planner.c on drawn floors.
+#include <cmath>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "lib/track/convert.h"
+#include "maze.h"
+
+extern "C" {
+#include "plan/planner.h"
+}
+
+namespace
+{
+
+constexpr int scale = 6; // a character is 30 cm
+const ale_planner_config_t small_robot = {28, 20, 43, 20};
+
+struct Floor {
+    explicit Floor(const std::vector<std::string> &drawing, const ale_planner_config_t &config = small_robot)
+        : lines(drawing), grid(maze::drawn(drawing, scale)), planner(std::make_unique<ale_planner_t>())
+    {
+        ale_planner_init(planner.get(), &config);
+        ale_planner_look(planner.get(), grid.get());
+    }
+
+    ale_point_t at(char c) const
+    {
+        return maze::place(*grid, lines, c, scale);
+    }
+    bool go(char from, char to)
+    {
+        return ale_planner_go(planner.get(), grid.get(), at(from), at(to), &route);
+    }
+    bool explore(char from, ale_cell_t last = ALE_GRID_NONE)
+    {
+        return ale_planner_explore(planner.get(), grid.get(), at(from), last, &route);
+    }
+    double goal_distance_cm(char c) const
+    {
+        const ale_point_t goal = ale_grid_middle(grid.get(), route.goal);
+        return std::hypot(goal.x_um - at(c).x_um, goal.y_um - at(c).y_um) * 1e-4;
+    }
+
+    std::vector<std::string> lines;
+    std::unique_ptr<ale_grid_t> grid;
+    std::unique_ptr<ale_planner_t> planner;
+    ale_route_t route = {};
+};
+
+const std::vector<std::string> two_rooms = {
+    "####################", "#........#.........#", "#........#.........#", "#..A.....#.........#",
+    "#........#....B....#", "#........#.........#", "#..................#", "#..................#",
+    "#........#.........#", "####################"};
+const std::vector<std::string> narrow_door = {
+    "####################", "#........#.........#", "#........#.........#", "#..A..........B....#",
+    "#........#.........#", "#........#.........#", "####################"};
+const std::vector<std::string> open_end = {"############################", "#............C..............",
+                                           "#..A........................", "#...........................",
+                                           "############################"};
+
+} // namespace
+
+TEST(Planner, GoesThroughTheDoorAndKeepsItsWidthClear)
+{
+    Floor floor(two_rooms);
+    ASSERT_TRUE(floor.go('A', 'B'));
+    EXPECT_EQ(floor.route.cell[0], ale_grid_cell(floor.grid.get(), floor.at('A')));
+    EXPECT_EQ(floor.route.goal, ale_grid_cell(floor.grid.get(), floor.at('B')));
+    for (uint32_t k = 0; k < floor.route.count; k++) {
+        EXPECT_GE(floor.planner->clearance.to_occupied_cm[floor.route.cell[k]], small_robot.body_cm);
+        if (k > 0) {
+            const auto step = static_cast<int64_t>(floor.route.cell[k]) - floor.route.cell[k - 1];
+            EXPECT_TRUE(std::abs(step) == 1 || std::abs(std::abs(step) - ALE_GRID_SIDE) <= 1)
+                << "cells adjoin";
+        }
+    }
+}
+
+TEST(Planner, ADoorNarrowerThanTheRobotIsNoWay)
+{
+    Floor floor(narrow_door); // 30 cm
+    EXPECT_FALSE(floor.go('A', 'B'));
+    EXPECT_EQ(floor.route.count, 0u);
+    const ale_planner_config_t thin = {12, 10, 20, 10};
+    Floor passable(narrow_door, thin);
+    EXPECT_TRUE(passable.go('A', 'B'));
+}
+
+TEST(Planner, PrefersTheWideWayToTheNarrowOne)
+{
+    Floor floor(two_rooms);
+    ASSERT_TRUE(floor.go('A', 'B'));
+    int tight = 0;
+    for (uint32_t k = 0; k < floor.route.count; k++) {
+        tight += floor.planner->clearance.to_occupied_cm[floor.route.cell[k]] < 30 ? 1 : 0;
+    }
+    EXPECT_LE(tight, 6) << "only in the door, if at all";
+}
+
+TEST(Planner, AClosedFloorThatWasSeenWholeHasNothingLeft)
+{
+    Floor floor(two_rooms);
+    EXPECT_FALSE(floor.explore('A'));
+}
+
+TEST(Planner, TheOpenEndIsWhatIsExplored)
+{
+    Floor floor(open_end);
+    ASSERT_TRUE(floor.explore('A'));
+    const ale_point_t goal = ale_grid_middle(floor.grid.get(), floor.route.goal);
+    EXPECT_GT(goal.x_um, floor.at('C').x_um + 4000000);
+    EXPECT_LE(floor.planner->clearance.to_unseen_cm[floor.route.goal], small_robot.see_cm);
+    EXPECT_EQ(floor.route.count, static_cast<uint32_t>(ALE_ROUTE_CELLS)) << "the way's beginning";
+    EXPECT_NEAR(floor.route.cost, (goal.x_um - floor.at('A').x_um) * 1e-4, 60);
+}
+
+TEST(Planner, TheNearerOfTwoOpenEndsIsTakenAndTheLastOneIsKept)
+{
+    const std::vector<std::string> both = {"############################", "............................",
+                                           "..........A.................", "............................",
+                                           "############################"};
+    Floor floor(both);
+    ASSERT_TRUE(floor.explore('A'));
+    const ale_cell_t near = floor.route.goal;
+    EXPECT_LT(ale_grid_middle(floor.grid.get(), near).x_um, floor.at('A').x_um);
+    ASSERT_TRUE(ale_planner_refuse(floor.planner.get(), near));
+    ASSERT_TRUE(floor.explore('A'));
+    EXPECT_NE(floor.route.goal, near);
+}
+
+TEST(Planner, AGoalIsKeptWhileTheOtherIsNotClearlyNearer)
+{
+    const std::vector<std::string> both = {"############################", "............................",
+                                           ".............A..............", "............................",
+                                           "############################"};
+    Floor floor(both);
+    const ale_cell_t right = ale_grid_cell(floor.grid.get(), floor.at('A')) + 14 * scale - 4;
+    ASSERT_TRUE(floor.explore('A', right));
+    EXPECT_GT(ale_grid_middle(floor.grid.get(), floor.route.goal).x_um, floor.at('A').x_um);
+    ASSERT_TRUE(floor.explore('A'));
+    EXPECT_LT(ale_grid_middle(floor.grid.get(), floor.route.goal).x_um, floor.at('A').x_um)
+        << "which is nearer";
+}
+
+TEST(Planner, FindsItsWayOutOfATightPlace)
+{
+    const std::vector<std::string> tight = {
+        "####################", "#..................#", "#..................#", "#..............B...#",
+        "#..................#", "#A.................#", "####################"};
+    const ale_planner_config_t wide = {40, 10, 55, 35};
+    Floor floor(tight, wide);
+    EXPECT_LT(floor.planner->clearance.to_occupied_cm[ale_grid_cell(floor.grid.get(), floor.at('A'))], 40);
+    EXPECT_TRUE(floor.go('A', 'B'));
+}
+
+TEST(Planner, TheCarrotIsAsFarAheadAsTheStraightLineIsClear)
+{
+    Floor floor(two_rooms);
+    ASSERT_TRUE(floor.go('A', 'B'));
+    const ale_point_t robot = floor.at('A');
+    const ale_point_t carrot =
+        ale_planner_carrot(floor.planner.get(), floor.grid.get(), &floor.route, robot, 700000);
+    const double reach = std::hypot(carrot.x_um - robot.x_um, carrot.y_um - robot.y_um);
+    EXPECT_GT(reach, 500000);
+    EXPECT_LT(reach, 1000000);
+
+    const ale_cell_t at_door = floor.route.cell[floor.route.count / 2];
+    const ale_point_t there = ale_grid_middle(floor.grid.get(), at_door);
+    ASSERT_TRUE(ale_planner_go(floor.planner.get(), floor.grid.get(), there, floor.at('B'), &floor.route));
+    const ale_point_t next =
+        ale_planner_carrot(floor.planner.get(), floor.grid.get(), &floor.route, there, 3000000);
+    for (int k = 0; k <= 50; k++) {
+        const ale_point_t p = {there.x_um + (next.x_um - there.x_um) / 50 * k,
+                               there.y_um + (next.y_um - there.y_um) / 50 * k};
+        EXPECT_GE(floor.planner->clearance.to_occupied_cm[ale_grid_cell(floor.grid.get(), p)],
+                  small_robot.body_cm - 3);
+    }
+}
+
+TEST(Planner, OutsideTheGridThereIsNoWay)
+{
+    Floor floor(two_rooms);
+    const ale_point_t far = {30000000, 0};
+    EXPECT_FALSE(
+        ale_planner_explore(floor.planner.get(), floor.grid.get(), far, ALE_GRID_NONE, &floor.route));
+    EXPECT_FALSE(ale_planner_go(floor.planner.get(), floor.grid.get(), floor.at('A'), far, &floor.route));
+}

@@ -1,0 +1,46 @@
+// Whole explorations in a closed loop with the simulator, scored by geometry alone. One run again:
+// build/bin/ale-explore --world tools/worlds/NAME.world --seed N --map map.png
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+#include "explore/closed_loop.h"
+#include "explore/options.h"
+#include "explore/score.h"
+
+namespace
+{
+
+class Exploration : public ::testing::TestWithParam<std::tuple<const char *, int>>
+{
+};
+
+TEST_P(Exploration, maps_all_that_can_be_reached_hits_nothing_and_comes_back)
+{
+    const auto [name, seed] = GetParam();
+    const sim::World world = sim::load_world(std::string("tools/worlds/") + name + ".world");
+    const ale_config_t config = ale_config_default();
+    sim::WorldSource::Options source;
+    source.journey.seed = static_cast<uint64_t>(seed);
+    source.journey.slip = sim::driven_slip;
+    source.journey.collision_radius = config.robot.width_um * 5e-7;
+    explore::ClosedLoop loop(world, source, config);
+    loop.run(900);
+    ASSERT_TRUE(loop.finished()) << "after " << loop.seconds() << " s";
+    EXPECT_EQ(loop.collisions(), 0u);
+    const explore::Score score =
+        explore::score(world, 2 * source.journey.collision_radius,
+                       [&](sim::Point p) { return explore::said_of(loop.explorer().grid, p); });
+    EXPECT_GE(score.mapped, 0.98);
+    EXPECT_LE(score.wrong, 0.01);
+    const sim::Pose last = loop.truth().back();
+    const double off = sim::distance({last.x, last.y}, {world.start.x, world.start.y});
+    // The office is one loop of 77 m, and this pose does not close loops: it drifts.
+    EXPECT_LE(off, std::string(name) == "office" ? 0.25 : explore::farthest_off);
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Exploration,
+                         ::testing::Combine(::testing::Values("apartment", "office", "arena"),
+                                            ::testing::Values(1, 2, 3)));
+
+} // namespace

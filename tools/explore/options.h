@@ -1,0 +1,40 @@
+/* Command line of ale-explore. */
+#ifndef ALE_EXPLORE_OPTIONS_H
+#define ALE_EXPLORE_OPTIONS_H
+
+#include <string>
+
+#include "sim/world_source.h"
+
+extern "C" {
+#include "config.h"
+}
+
+namespace explore
+{
+
+/* When an exploration went well: part of the reachable area mapped, metres from the start at its end. */
+constexpr double least_mapped = 0.95;
+constexpr double farthest_off = 0.1;
+
+struct Options {
+    std::string world;
+    std::string map;
+    ale_config_t config = ale_config_default();
+    sim::WorldSource::Options source;
+    uint64_t first_seed = 1;
+    uint64_t seeds = 1;
+    double longest_s = 1800;
+
+    double width() const
+    {
+        return config.robot.width_um * 1e-6;
+    }
+};
+
+/* -1, or the exit code where the answer was given already. Throws sim::WrongUse. */
+int parse_options(int argc, char **argv, Options &options);
+
+} // namespace explore
+
+#endif
