@@ -77,12 +77,19 @@ class Browser:
 
     def drag(self, x1, y1, x2, y2):
         self._pointer([self._to(x1, y1), {"type": "pointerDown", "button": 0}, self._to(x2, y2),
-                       {"type": "pointerUp", "button": 0}])
+                       {"type": "pause", "duration": 200}, {"type": "pointerUp", "button": 0}])
 
     def click(self, element_id):
         x, y = self.run("const r = document.getElementById(arguments[0]).getBoundingClientRect();"
                         "return [Math.round(r.x + r.width / 2), Math.round(r.y + r.height / 2)]", element_id)
         self._pointer([self._to(x, y), {"type": "pointerDown", "button": 0}, {"type": "pointerUp", "button": 0}])
+
+    def hold(self, key, seconds):
+        """Presses a key for so long."""
+        self._call("POST", f"{self.session}/actions", {"actions": [
+            {"type": "key", "id": "keyboard", "actions": [{"type": "keyDown", "value": key},
+                                                          {"type": "pause", "duration": round(seconds * 1000)},
+                                                          {"type": "keyUp", "value": key}]}]})
 
     @staticmethod
     def _to(x, y):

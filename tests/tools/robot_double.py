@@ -52,6 +52,8 @@ class RobotDouble:
         self.boot = boot
         self.scan = 0
         self.state = 2
+        self.who_drives = ""
+        self.answer = ("", 0, "")  # operator, counter and result of the last command
 
     @property
     def where(self):
@@ -102,11 +104,13 @@ class RobotDouble:
             line = ale.line_t()
             line.x1, line.y1 = to_robot(self.where, x1, y1)
             line.x2, line.y2 = to_robot(self.where, x2, y2)
+            line.alpha = math.atan2(line.y2 - line.y1, line.x2 - line.x1) + math.pi / 2
+            line.cov = [1e-6, 0.0, 4e-6]
             features.lines.append(line)
         for x, y in ((-2.0, -1.6), (-2.0, 2.0), (3.0, 2.0)):
             corner = ale.corner_t()
             corner.x, corner.y = to_robot(self.where, x, y)
-            corner.kind = 1
+            corner.kind, corner.cov = 1, [9e-6, 2e-6, 4e-6]
             features.corners.append(corner)
         features.num_lines, features.num_corners = len(features.lines), len(features.corners)
         self.bus.publish("ALE_FEATURES", features.encode())
@@ -160,4 +164,7 @@ class RobotDouble:
         status.counter_name = ["bad_checksum", "scans_lost", "odometry", "resets"]
         status.counter_value = [3, 1, 200, 0]
         status.num_counters = 4
+        status.robot, status.takes_commands = "double", True
+        status.who_drives, status.command_obeyed = self.who_drives, True
+        status.command_operator, status.command_counter, status.command_result = self.answer
         self.bus.publish("ALE_STATUS", status.encode())

@@ -10,13 +10,14 @@ import subprocess
 import threading
 import time
 import urllib.error
+import urllib.request
 
 import ale
 import lcm
 import pytest
 
 from robot_double import WALLS
-from watching import BINARIES, Console, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
+from watching import BINARIES, Console, alice, commands, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
 from web_socket import Refused, WebSocket
 
 
@@ -34,7 +35,7 @@ def test_it_says_what_it_is():
 
 
 @pytest.mark.parametrize("arguments", [["--http", "nonsense"], ["--http", "127.0.0.1:70000"], ["--http", "127.0.0.1:8x"],
-                                       ["--http", ":8080"], ["--http", "no.such.host.invalid:80"], ["--unknown"], ["word"]])
+                                       ["--http", ":8080"], ["--token", "short"], ["--token", "with blanks in it"], ["--http", "no.such.host.invalid:80"], ["--unknown"], ["word"]])
 def test_wrong_use_is_told_in_one_line_and_ends_with_2(arguments):
     done = run_console(*arguments)
     assert done.returncode == 2
@@ -51,7 +52,61 @@ def test_a_port_that_is_taken_is_named():
 
 def test_keys_that_cannot_be_read_are_named(tmp_path):
     done = run_console("--keys", str(tmp_path / "absent"))
-    assert done.returncode == 1 and "absent" in done.stderr
+    assert done.returncode == 1 and "absent" in done.stderr and one_line(done.stderr)
+
+
+def command(page, *words):
+    page.send(json.dumps({"type": "command", "words": words}))
+    return page.wait_for("sent")
+
+
+def test_a_command_of_the_page_leaves_signed_for_this_start_of_this_robot(alice, robot, commands):
+    page = WebSocket(alice.url)
+    assert page.wait_for("hello")["operator"] == "alice"
+    assert "no robot" in command(page, "stop")["refusal"]
+    robot.publish_status()
+    assert page.wait_for("status")["takes_commands"] is True
+    numbers = [command(page, "relocate", "1.5", "-2", "0.1")["number"], command(page, "drive", "0.1", "0")["number"]]
+    sent = commands(2)
+    assert [(c.verb, c.args) for c in sent] == [("relocate", ["1.5", "-2", "0.1"]), ("drive", ["0.1", "0"])]
+    assert [c.counter for c in sent] == numbers and numbers[1] > numbers[0]
+    for one in sent:
+        assert (one.robot, one.boot, one.operator_name, one.num_signature) == ("double", robot.boot, "alice", 64)
+        assert one.utime < one.expiry_utime <= one.utime + 10_000_000
+
+
+def test_one_page_drives_at_a_time(alice, robot, commands):
+    robot.publish_status()
+    first, second = WebSocket(alice.url), WebSocket(alice.url)
+    first.wait_for("status")
+    assert command(first, "drive", "0.1", "0")["refusal"] is None
+    assert "another page" in command(second, "drive", "0.1", "0")["refusal"]
+    assert command(second, "stop")["refusal"] is None  # anybody may stop it
+    assert [c.verb for c in commands(2)] == ["drive", "stop"]
+
+
+def test_a_console_without_a_key_sends_nothing(console, robot):
+    page = WebSocket(console.url)
+    assert page.wait_for("hello")["operator"] is None
+    robot.publish_status()
+    page.wait_for("status")
+    assert "--keys" in command(page, "stop")["refusal"]
+
+
+@pytest.mark.parametrize("options", [["--token", "abcdefghijkl1"], []], ids=["given", "its own, because it can be reached"])
+def test_with_a_token_page_and_web_socket_are_for_those_who_have_it(lcm_url, options):
+    running = Console(lcm_url, "127.0.0.1:0" if options else "0.0.0.0:0", *options)
+    address, token = running.url.replace("0.0.0.0", "127.0.0.1").split("?token=")
+    assert len(token) >= 12
+    for wrong in ("", "?token=", "?token=" + token[:-1], "?token=" + token + "x", "?token=" + "x" * len(token)):
+        with pytest.raises(urllib.error.HTTPError) as refused:
+            urllib.request.urlopen(address + wrong, timeout=10)
+        assert refused.value.code == 403
+        with pytest.raises(Refused, match="403"):
+            WebSocket(address + wrong)
+    assert urllib.request.urlopen(f"{address}?token={token}", timeout=10).status == 200
+    WebSocket(f"{address}?token={token}").wait_for("hello")
+    assert running.end() == 0
 
 
 @pytest.mark.skipif(os.geteuid() != 0 or shutil.which("unshare") is None, reason="needs root and unshare to take the network away")
@@ -198,7 +253,7 @@ def test_a_client_that_does_not_keep_up_skips_to_the_newest(console, robot):
 
 
 @pytest.mark.parametrize("text", ["", "nonsense", "[1]", '{"type":"got"}', '{"type":"got","count":-1}',
-                                  '{"type":"got","count":1000000}', '{"type":"drive","v":1}', "x" * 1000])
+                                  '{"type":"got","count":1000000}', '{"type":"drive","v":1}', "x" * 2000])
 def test_a_client_that_talks_nonsense_is_hung_up_on_and_nobody_else(console, robot, text):
     other, rude = WebSocket(console.url), WebSocket(console.url)
     rude.send(text)

@@ -5,7 +5,7 @@ import time
 import pytest
 
 import browser
-from watching import Console, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
+from watching import Console, alice, commands, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
 
 pytestmark = pytest.mark.skipif(bool(browser.missing()), reason=f"no browser test: {browser.missing()}")
 
@@ -183,6 +183,83 @@ def test_it_fits_a_tablet_either_way(page, pulse, width, height):
             assert 0 < right <= width
     finally:
         page.resize(1280, 800)
+
+
+@pytest.fixture
+def cockpit(chromium, alice, pulse):
+    """The page of a console that may command a robot."""
+    chromium.open(alice.url)
+    chromium.wait_for("document.body.dataset.control === 'yes'")
+    yield chromium
+    assert chromium.errors() == []
+
+
+def middle(page, element_id):
+    return page.run("const r = document.getElementById(arguments[0]).getBoundingClientRect();"
+                    "return [r.x + r.width / 2, r.y + r.height / 2].map(Math.round)", element_id)
+
+
+def test_without_a_key_it_says_so_and_shows_no_controls(page, pulse):
+    page.wait_for("document.getElementById('control-note').textContent.includes('--keys')")
+    assert page.run("return document.getElementById('stick').offsetParent") is None
+
+
+def test_the_stick_drives_while_it_is_held_and_then_stands(cockpit, commands):
+    x, y = middle(cockpit, "stick")
+    cockpit.drag(x, y, x, y - 60)
+    sent = [[float(word) for word in c.args] for c in commands(lambda heard: heard and heard[-1].args == ["0.000", "0.000"])]
+    assert max(v for v, _ in sent) == pytest.approx(0.3, abs=0.05) and max(abs(w) for _, w in sent) < 0.05
+    assert sent[-1] == [0, 0]
+
+
+def test_the_keys_drive_and_space_stops(cockpit, commands):
+    cockpit.hold("a", 0.3)
+    cockpit.hold(" ", 0.05)
+    heard = commands(lambda heard: any(c.verb == "stop" for c in heard))
+    assert ["0.000", "0.800"] in [c.args for c in heard]
+    assert "stop" in [c.verb for c in heard]
+
+
+def test_buttons_ask_for_what_they_say_and_twice_where_something_is_lost(cockpit, commands):
+    cockpit.click("explore")
+    cockpit.click("save-map")
+    cockpit.click("reset")
+    assert cockpit.text("reset") == "sure?"
+    cockpit.click("reset")
+    assert cockpit.text("reset") == "reset"
+    cockpit.click("freeze")
+    assert [[c.verb, *c.args] for c in commands(4)] == [
+        ["explore", "on"], ["save_map", "map"], ["reset"], ["set", "freeze_map", "yes"]]
+
+
+def test_you_are_here_is_a_press_and_a_drag_on_the_map(cockpit, commands):
+    cockpit.click("relocate")
+    cockpit.drag(400, 400, 400, 300)
+    one, = commands(1)
+    assert one.verb == "relocate" and float(one.args[2]) == pytest.approx(1.5708, abs=0.01)
+    cockpit.wait_for("document.getElementById('hint').hidden")
+
+
+def test_what_came_of_a_command_and_who_drives_is_said(cockpit, commands, robot):
+    cockpit.click("save-map")
+    robot.who_drives = "bob"
+    robot.answer = ("alice", commands(1)[0].counter, "saved map.map: 12 walls")
+    cockpit.wait_for("document.getElementById('answer').textContent === 'saved map.map: 12 walls'")
+    assert cockpit.text("who-drives") == "bob"
+
+
+def test_measuring_tells_the_distance_between_two_points(page, pulse):
+    page.wait_for("document.getElementById('map-lines').textContent === '12'")
+    time.sleep(1)  # the camera glides
+    a_metre = page.run("return document.getElementById('scale-bar').offsetWidth") / number(page.text("scale-text"))
+    page.click("measure")
+    before = pixels(page, "pointed")["count"]
+    page.drag(300, 400, 300 + round(a_metre), 400)
+    assert pixels(page, "pointed")["count"] > before + 200
+    where = page.run("return document.getElementById('map').dataset.measured")
+    assert number(where) == pytest.approx(1, abs=0.02)
+    page.click("measure")
+    assert pixels(page, "pointed")["count"] == before
 
 
 def test_a_scan_taken_while_turning_is_straightened(page, robot):

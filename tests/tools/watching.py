@@ -4,8 +4,11 @@ import pathlib
 import subprocess
 import sys
 import threading
+import time
 import urllib.request
 
+import ale
+import lcm
 import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools" / "python"))
@@ -14,7 +17,7 @@ from lcm_url import free_lcm_url  # noqa: E402
 
 from robot_double import RobotDouble  # noqa: E402
 
-BINARIES = pathlib.Path(os.environ.get("ALE_BUILD", "build")) / "bin"
+BINARIES = pathlib.Path(os.environ.get("ALE_BUILD", "build")).resolve() / "bin"
 
 
 @pytest.fixture
@@ -25,8 +28,8 @@ def lcm_url():
 class Console:
     """ale-console on a free port."""
 
-    def __init__(self, lcm_url, http="127.0.0.1:0"):
-        self.process = subprocess.Popen([BINARIES / "ale-console", "--http", http, "--lcm-url", lcm_url],
+    def __init__(self, lcm_url, http="127.0.0.1:0", *options):
+        self.process = subprocess.Popen([BINARIES / "ale-console", "--http", http, "--lcm-url", lcm_url, *options],
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.url = self.process.stdout.readline().strip()
 
@@ -45,6 +48,29 @@ def console(lcm_url):
     yield running
     if running.process.poll() is None:
         assert running.end() == 0
+
+
+@pytest.fixture
+def alice(lcm_url, tmp_path):
+    """A console with the key of an operator."""
+    subprocess.run([BINARIES / "ale-keys", "alice"], cwd=tmp_path, check=True, capture_output=True, timeout=10)
+    running = Console(lcm_url, "127.0.0.1:0", "--keys", str(tmp_path / "alice.key"))
+    yield running
+    assert running.end() == 0
+
+
+@pytest.fixture
+def commands(lcm_url):
+    """Commands as they pass on LCM: waits for so many, or until they meet a condition."""
+    heard, bus = [], lcm.LCM(lcm_url)
+    bus.subscribe("ALE_COMMAND", lambda _, data: heard.append(ale.command_t.decode(data)))
+
+    def wait(wanted, seconds=5):
+        end = time.monotonic() + seconds
+        while not (wanted(heard) if callable(wanted) else len(heard) >= wanted) and time.monotonic() < end:
+            bus.handle_timeout(50)
+        return heard
+    return wait
 
 
 @pytest.fixture

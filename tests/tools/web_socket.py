@@ -19,7 +19,7 @@ class WebSocket:
         self.buffer = b""
         self.received = 0
         key = base64.b64encode(os.urandom(16)).decode()
-        lines = ["GET / HTTP/1.1", f"Host: {host or place.netloc}", "Upgrade: websocket", "Connection: Upgrade",
+        lines = [f"GET /{'?' + place.query if place.query else ''} HTTP/1.1", f"Host: {host or place.netloc}", "Upgrade: websocket", "Connection: Upgrade",
                  f"Sec-WebSocket-Key: {key}", "Sec-WebSocket-Version: 13"]
         if origin:
             lines.append(f"Origin: {origin}")

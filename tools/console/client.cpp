@@ -21,7 +21,12 @@ std::optional<std::string> Client::choose(Board::Clock::time_point now)
 {
     if (life_ != board_.life()) {
         life_ = board_.life();
-        return hello_message();
+        return hello_message(operator_name_);
+    }
+    if (!answers_.empty()) {
+        std::string answer = std::move(answers_.front());
+        answers_.pop_front();
+        return answer;
     }
     if (link_due_) {
         link_due_ = false;
@@ -67,11 +72,25 @@ void Client::link_due()
 
 bool Client::heard(const std::string &text)
 {
-    const std::optional<uint64_t> count = drawn_count(text);
-    if (!count || *count < drawn_ || *count > sent_) {
+    const std::optional<PageMessage> message = page_message(text);
+    return message && (message->words.empty() ? got(message->drawn) : command(message->words));
+}
+
+bool Client::got(uint64_t count)
+{
+    if (count < drawn_ || count > sent_) {
         return false;
     }
-    drawn_ = *count;
+    drawn_ = count;
+    return true;
+}
+
+bool Client::command(const std::vector<std::string> &words)
+{
+    if (answers_.size() >= most_answers) {
+        return false;
+    }
+    answers_.push_back(sent_message(words[0], command_(words)));
     return true;
 }
 

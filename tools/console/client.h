@@ -1,6 +1,6 @@
 /* One browser at the web socket: what he gets next, and when he has enough for now.
  *
- * A page says how many messages it has drawn ({"type":"got","count":n}). More than `window` messages are
+ * A page says how many messages it has drawn (got). More than `window` messages are
  * never on the way to it: a slow page, or one in a hidden tab, skips to the newest state instead of
  * falling behind, and what it skipped is counted. Web thread only. */
 #ifndef CONSOLE_CLIENT_H
@@ -8,10 +8,14 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "console/board.h"
+#include "console/commander.h"
 
 namespace console
 {
@@ -21,7 +25,11 @@ class Client
   public:
     static constexpr uint64_t window = 32;
 
-    explicit Client(const Board &board) : board_(board)
+    using Command = std::function<Sent(const std::vector<std::string> &words)>;
+
+    /* operator_name: in whose name it commands; empty: it cannot. */
+    Client(const Board &board, std::string operator_name, Command command)
+        : board_(board), operator_name_(std::move(operator_name)), command_(std::move(command))
     {
     }
 
@@ -46,7 +54,16 @@ class Client
     std::optional<std::string> next_topic();
     std::optional<std::string> next_trail();
 
+    /* Answers that a page has not fetched yet; more, and it is no page that waits for them. */
+    static constexpr size_t most_answers = 64;
+
+    bool got(uint64_t count);
+    bool command(const std::vector<std::string> &words);
+
     const Board &board_;
+    std::string operator_name_;
+    Command command_;
+    std::deque<std::string> answers_;
     uint64_t life_ = 0; /* the robot's life that the page was told of */
     bool link_due_ = true;
     uint64_t sent_ = 0;

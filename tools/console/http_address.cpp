@@ -67,6 +67,11 @@ std::string HttpAddress::url() const
     return "http://" + (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(port) + "/";
 }
 
+bool is_loopback(const HttpAddress &address)
+{
+    return address.ipv6 ? address.host == "::1" : address.host.rfind("127.", 0) == 0;
+}
+
 HttpAddress parse_http_address(const std::string &text)
 {
     const size_t colon = text.rfind(':');

@@ -17,6 +17,9 @@ struct HttpAddress {
     std::string url() const;
 };
 
+/* Whether only this machine reaches it. */
+bool is_loopback(const HttpAddress &address);
+
 /* ADDR:PORT, e.g. 127.0.0.1:8080, localhost:8080, [::1]:8080, 0.0.0.0:0 (port 0: any free one).
  * Throws std::invalid_argument saying what is wrong with it. */
 HttpAddress parse_http_address(const std::string &text);

@@ -1,5 +1,7 @@
 /* ale-console: the operator's page. LCM in on one thread, the web on another, the board between them. */
+#include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -8,10 +10,12 @@
 #include <thread>
 
 #include <getopt.h>
+#include <sodium.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include "console/board.h"
+#include "console/commander.h"
 #include "console/http_address.h"
 #include "console/lcm_feed.h"
 #include "console/robot_watch.h"
@@ -21,27 +25,37 @@ namespace
 {
 
 constexpr char usage[] =
-    "usage: ale-console [--lcm-url URL] [--http ADDR:PORT] [--keys FILE]\n"
-    "The operator's console: serves a web page that shows what the robot publishes over LCM.\n"
+    "usage: ale-console [--lcm-url URL] [--http ADDR:PORT] [--token TEXT] [--keys FILE]\n"
+    "The operator's console: serves a web page that shows what the robot publishes over LCM and commands "
+    "it.\n"
     "  --lcm-url URL     where the robot publishes (default: LCM_DEFAULT_URL, else LCM's own default)\n"
     "  --http ADDR:PORT  where the page is served (default 127.0.0.1:8080; port 0: any free one)\n"
-    "  --keys FILE       keys for the operator's commands (must be readable; this version sends none)\n"
+    "  --token TEXT      only those who have it in the address may open the page; without one given, a page\n"
+    "                    that can be reached from elsewhere gets one of its own\n"
+    "  --keys FILE       the operator's key (ale-keys makes it); without it the page only watches\n"
     "  --help, --version\n"
     "Prints the page's address on stdout. Ends with Ctrl-C or SIGTERM.\n";
+
+constexpr size_t least_token = 12;
+constexpr size_t longest_token = 128;
 
 struct Options {
     std::string lcm_url;
     std::string http = "127.0.0.1:8080";
     std::string keys;
+    std::string token;
 };
 
 /* The exit code when the command line has been answered already, else -1. */
 int parse(int argc, char **argv, Options &options)
 {
-    static const option known[] = {
-        {"lcm-url", required_argument, nullptr, 'l'}, {"http", required_argument, nullptr, 'a'},
-        {"keys", required_argument, nullptr, 'k'},    {"help", no_argument, nullptr, 'h'},
-        {"version", no_argument, nullptr, 'v'},       {nullptr, 0, nullptr, 0}};
+    static const option known[] = {{"lcm-url", required_argument, nullptr, 'l'},
+                                   {"http", required_argument, nullptr, 'a'},
+                                   {"keys", required_argument, nullptr, 'k'},
+                                   {"help", no_argument, nullptr, 'h'},
+                                   {"version", no_argument, nullptr, 'v'},
+                                   {"token", required_argument, nullptr, 't'},
+                                   {nullptr, 0, nullptr, 0}};
     for (int choice; (choice = getopt_long(argc, argv, "", known, nullptr)) != -1;) {
         switch (choice) {
         case 'l':
@@ -52,6 +66,9 @@ int parse(int argc, char **argv, Options &options)
             break;
         case 'k':
             options.keys = optarg;
+            break;
+        case 't':
+            options.token = optarg;
             break;
         case 'h':
             std::fputs(usage, stdout);
@@ -80,6 +97,24 @@ void limit_memory()
 #endif
 }
 
+/* The token that is asked for; none on the loopback unless one was given. */
+std::string token_for(const Options &options, const console::HttpAddress &address)
+{
+    if (!options.token.empty() || console::is_loopback(address)) {
+        return options.token;
+    }
+    unsigned char random[16];
+    char hex[2 * sizeof random + 1];
+    randombytes_buf(random, sizeof random);
+    return sodium_bin2hex(hex, sizeof hex, random, sizeof random);
+}
+
+bool is_token(const std::string &text)
+{
+    return text.size() >= least_token && text.size() <= longest_token &&
+           std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) != 0; });
+}
+
 void follow_robot(console::LcmFeed &feed, console::Board &board, const std::atomic<bool> &stopping)
 {
     while (!stopping) {
@@ -92,10 +127,11 @@ void run(const Options &options, const console::HttpAddress &address, const sigs
 {
     console::Board board;
     console::LcmFeed feed(options.lcm_url);
-    console::RobotWatch watch(board);
+    console::Commander commander(options.lcm_url, options.keys);
+    console::RobotWatch watch(board, commander);
     watch.subscribe(feed);
-    console::WebServer server(board, address);
-    std::printf("%s\n", server.address().url().c_str());
+    console::WebServer server(board, commander, address, token_for(options, address));
+    std::printf("%s\n", server.url().c_str());
     std::fflush(stdout);
 
     std::atomic<bool> stopping{false};
@@ -130,8 +166,12 @@ int main(int argc, char **argv)
     if (answered >= 0) {
         return answered;
     }
-    if (!options.keys.empty() && access(options.keys.c_str(), R_OK) != 0) {
-        std::fprintf(stderr, "ale-console: cannot read the keys: %s\n", options.keys.c_str());
+    if (!options.token.empty() && !is_token(options.token)) {
+        std::fputs("ale-console: --token wants 12 to 128 letters and digits\n", stderr);
+        return 2;
+    }
+    if (sodium_init() < 0) {
+        std::fputs("ale-console: no random numbers on this machine\n", stderr);
         return 1;
     }
     /* Blocked before any thread exists, so that all inherit it and only sigwait sees them. */

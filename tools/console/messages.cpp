@@ -82,9 +82,11 @@ std::string text_of(const json &message)
 
 } // namespace
 
-std::string hello_message()
+std::string hello_message(const std::string &operator_name)
 {
-    return text_of({{"type", "hello"}, {"protocol", 1}});
+    return text_of({{"type", "hello"},
+                    {"protocol", 2},
+                    {"operator", operator_name.empty() ? json(nullptr) : json(operator_name)}});
 }
 
 std::string pose_message(const ale::pose_t &pose)
@@ -119,6 +121,8 @@ std::string features_message(const ale::features_t &features)
                          {"y1", number(line.y1)},
                          {"x2", number(line.x2)},
                          {"y2", number(line.y2)},
+                         {"alpha", number(line.alpha)},
+                         {"cov", variances(line.cov, 3)},
                          {"rmse", number(line.rmse, 1e5)},
                          {"ends", json::array({line.first_end, line.last_end})}});
     }
@@ -201,7 +205,17 @@ std::string status_message(const ale::status_t &status)
                     {"driver", status.driver_state},
                     {"device", status.device},
                     {"scan_rate_hz", number(status.scan_rate_hz, 100)},
-                    {"counters", counters}});
+                    {"counters", counters},
+                    {"robot", status.robot},
+                    {"takes_commands", status.takes_commands != 0},
+                    {"who_drives", status.who_drives},
+                    {"exploration", status.exploration},
+                    {"map_frozen", status.map_frozen != 0},
+                    {"command",
+                     {{"operator", status.command_operator},
+                      {"number", status.command_counter},
+                      {"obeyed", status.command_obeyed != 0},
+                      {"result", status.command_result}}}});
 }
 
 std::string trail_message(const TrailPiece &piece)
@@ -229,14 +243,41 @@ std::string link_message(const LinkHealth &link, uint64_t skipped)
                     {"skipped", skipped}});
 }
 
-std::optional<uint64_t> drawn_count(const std::string &text)
+std::string sent_message(const std::string &verb, const Sent &sent)
+{
+    const bool refused = !sent.refusal.empty();
+    return text_of({{"type", "sent"},
+                    {"verb", verb},
+                    {"number", refused ? json(nullptr) : json(sent.number)},
+                    {"refusal", refused ? json(sent.refusal) : json(nullptr)}});
+}
+
+namespace
+{
+
+/* A list of texts, or nothing. */
+std::optional<std::vector<std::string>> words_of(const json &list)
+{
+    const bool texts =
+        list.is_array() && !list.empty() &&
+        std::all_of(list.begin(), list.end(), [](const json &word) { return word.is_string(); });
+    return texts ? std::optional(list.get<std::vector<std::string>>()) : std::nullopt;
+}
+
+} // namespace
+
+std::optional<PageMessage> page_message(const std::string &text)
 {
     const json message = json::parse(text, nullptr, false);
-    if (!message.is_object() || !message.contains("type") || message["type"] != "got" ||
-        !message.contains("count") || !message["count"].is_number_unsigned()) {
+    if (!message.is_object()) {
         return std::nullopt;
     }
-    return message["count"].get<uint64_t>();
+    const json type = message.value("type", json());
+    if (type == "got" && message.contains("count") && message["count"].is_number_unsigned()) {
+        return PageMessage{message["count"].get<uint64_t>(), {}};
+    }
+    const auto words = type == "command" ? words_of(message.value("words", json())) : std::nullopt;
+    return words ? std::optional(PageMessage{0, *words}) : std::nullopt;
 }
 
 } // namespace console

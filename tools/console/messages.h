@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ale/features_t.hpp"
 #include "ale/map_t.hpp"
@@ -13,11 +14,13 @@
 #include "ale/scan_t.hpp"
 #include "ale/status_t.hpp"
 #include "console/board.h"
+#include "console/commander.h"
 
 namespace console
 {
 
-std::string hello_message();
+/* operator_name empty: no command can be given here. */
+std::string hello_message(const std::string &operator_name);
 std::string pose_message(const ale::pose_t &pose);
 std::string features_message(const ale::features_t &features);
 std::string scan_message(const ale::scan_t &scan);
@@ -26,8 +29,16 @@ std::string status_message(const ale::status_t &status);
 std::string trail_message(const TrailPiece &piece);
 std::string link_message(const LinkHealth &link, uint64_t skipped);
 
-/* The count of {"type":"got","count":n} from a page; nothing when the text is anything else. */
-std::optional<uint64_t> drawn_count(const std::string &text);
+/* What became of a page's command: on its way to the robot under that number, or not and why. */
+std::string sent_message(const std::string &verb, const Sent &sent);
+
+/* What a page says: {"type":"got","count":n}, or {"type":"command","words":["drive","0.2","0"]} (then words
+ * is not empty). Nothing when the text is anything else. */
+struct PageMessage {
+    uint64_t drawn = 0;
+    std::vector<std::string> words;
+};
+std::optional<PageMessage> page_message(const std::string &text);
 
 } // namespace console
 

@@ -90,6 +90,7 @@ void RobotWatch::status(const ale::status_t &status)
     }
     boot_ = status.boot;
     restart_known_ = false;
+    commander_.saw(status);
     board_.pin(Topic::status, status_message(status));
 }
 

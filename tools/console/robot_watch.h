@@ -11,6 +11,7 @@
 #include "ale/scan_t.hpp"
 #include "ale/status_t.hpp"
 #include "console/board.h"
+#include "console/commander.h"
 #include "console/lcm_feed.h"
 #include "console/map_parts.h"
 
@@ -20,7 +21,7 @@ namespace console
 class RobotWatch
 {
   public:
-    explicit RobotWatch(Board &board) : board_(board)
+    RobotWatch(Board &board, Commander &commander) : board_(board), commander_(commander)
     {
     }
 
@@ -38,6 +39,7 @@ class RobotWatch
     void extend_trail(const ale::pose_t &pose);
 
     Board &board_;
+    Commander &commander_;
     MapParts map_parts_;
     std::optional<ale::pose_t> last_pose_;
     std::optional<int64_t> boot_;

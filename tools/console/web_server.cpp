@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <libwebsockets.h>
+#include <sodium.h>
 #include <unistd.h>
 
 #include "console/page.h"
@@ -18,7 +19,7 @@ namespace
 {
 
 constexpr lws_usec_t link_period_us = 250000;
-constexpr size_t longest_page_message = 256;
+constexpr size_t longest_page_message = 1024;
 
 /* The page needs nothing from elsewhere, and nobody may frame it. */
 constexpr std::string_view security_policy =
@@ -70,6 +71,7 @@ int serve_file(lws *connection, const ale_page_file_t &file)
                                     end) != 0 ||
         !add_header(connection, "content-security-policy:", security_policy, &at, end) ||
         !add_header(connection, "x-content-type-options:", "nosniff", &at, end) ||
+        !add_header(connection, "referrer-policy:", "no-referrer", &at, end) ||
         !add_header(connection, "cache-control:", "no-cache", &at, end) ||
         lws_finalize_write_http_header(connection, start, &at, end) != 0) {
         return -1;
@@ -82,7 +84,10 @@ int serve_file(lws *connection, const ale_page_file_t &file)
     return lws_http_transaction_completed(connection) != 0 ? -1 : 0;
 }
 
-int serve(lws *connection, std::string_view path)
+constexpr char token_wanted[] =
+    "<p>This console wants its token: open the address that ale-console printed when it started.";
+
+int serve(lws *connection, std::string_view path, bool has_token)
 {
     if (lws_hdr_total_length(connection, WSI_TOKEN_GET_URI) <= 0) {
         return lws_return_http_status(connection, HTTP_STATUS_METHOD_NOT_ALLOWED, nullptr);
@@ -90,6 +95,9 @@ int serve(lws *connection, std::string_view path)
     const ale_page_file_t *file = find_page_file(path);
     if (file == nullptr) {
         return lws_return_http_status(connection, HTTP_STATUS_NOT_FOUND, nullptr);
+    }
+    if (std::string_view(file->name) == "index.html" && !has_token) {
+        return lws_return_http_status(connection, HTTP_STATUS_FORBIDDEN, token_wanted);
     }
     return serve_file(connection, *file);
 }
@@ -110,11 +118,11 @@ struct WebCallbacks {
         const std::string_view text(static_cast<const char *>(data), data == nullptr ? 0 : length);
         switch (reason) {
         case LWS_CALLBACK_HTTP:
-            return serve(connection, text);
+            return serve(connection, text, server->has_token(connection));
         case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION:
             return server->accepts(connection) ? 0 : refuse(connection);
         case LWS_CALLBACK_ESTABLISHED:
-            server->connections_.emplace(connection, WebServer::Connection{Client(server->board_), {}});
+            server->connections_.emplace(connection, WebServer::Connection{server->new_client(), {}});
             lws_callback_on_writable(connection);
             return 0;
         case LWS_CALLBACK_SERVER_WRITEABLE:
@@ -183,7 +191,8 @@ const lws_retry_bo_t keep_alive = {nullptr, 0, 0, 15, 30, 0};
 
 } // namespace
 
-WebServer::WebServer(Board &board, const HttpAddress &address) : board_(board), address_(address)
+WebServer::WebServer(Board &board, Commander &commander, const HttpAddress &address, std::string token)
+    : board_(board), commander_(commander), address_(address), token_(std::move(token))
 {
     require_free(address_);
     char name[256] = "";
@@ -236,10 +245,33 @@ void WebServer::wake()
     lws_cancel_service(context_);
 }
 
+std::string WebServer::url() const
+{
+    return address_.url() + (token_.empty() ? "" : "?token=" + token_);
+}
+
+bool WebServer::has_token(lws *connection) const
+{
+    constexpr size_t longest = 256;
+    char argument[longest];
+    const char *given =
+        lws_get_urlarg_by_name(connection, "token=", argument, static_cast<int>(sizeof argument));
+    const std::string_view text(given == nullptr ? "" : given);
+    return token_.empty() ||
+           (text.size() == token_.size() && sodium_memcmp(text.data(), token_.data(), token_.size()) == 0);
+}
+
+Client WebServer::new_client()
+{
+    const uint64_t page = ++pages_;
+    return {board_, commander_.operator_name(),
+            [this, page](const std::vector<std::string> &words) { return commander_.send(page, words); }};
+}
+
 bool WebServer::accepts(lws *connection) const
 {
-    return origin_is_ours(header(connection, WSI_TOKEN_ORIGIN), header(connection, WSI_TOKEN_HOST),
-                          machine_name_);
+    return has_token(connection) && origin_is_ours(header(connection, WSI_TOKEN_ORIGIN),
+                                                   header(connection, WSI_TOKEN_HOST), machine_name_);
 }
 
 void WebServer::send_next(lws *connection)

@@ -1,8 +1,10 @@
 /* The page over HTTP, and the board over a web socket to every browser that asks.
  *
- *   WebServer server(board, parse_http_address("127.0.0.1:8080"));   (throws std::runtime_error)
- *   server.run(stop);                                                (until another thread stops it)
+ *   WebServer server(board, commander, parse_http_address("127.0.0.1:8080"), token);   (throws
+ * std::runtime_error) server.run();                                                    (until another thread
+ * stops it)
  *
+ * With a token, page and web socket are for those who have it in the address (?token=...).
  * One thread runs the server; wake() and stop() may be called from any. */
 #ifndef CONSOLE_WEB_SERVER_H
 #define CONSOLE_WEB_SERVER_H
@@ -15,6 +17,7 @@
 
 #include "console/board.h"
 #include "console/client.h"
+#include "console/commander.h"
 #include "console/http_address.h"
 
 struct lws;
@@ -26,7 +29,8 @@ namespace console
 class WebServer
 {
   public:
-    WebServer(Board &board, const HttpAddress &address);
+    /* token empty: none is asked for. */
+    WebServer(Board &board, Commander &commander, const HttpAddress &address, std::string token);
     ~WebServer();
     WebServer(const WebServer &) = delete;
     WebServer &operator=(const WebServer &) = delete;
@@ -36,6 +40,9 @@ class WebServer
     {
         return address_;
     }
+
+    /* What a person opens. */
+    std::string url() const;
 
     void run();
     void stop();
@@ -52,13 +59,18 @@ class WebServer
         std::string heard; /* of a message that has not come whole yet */
     };
 
+    bool has_token(lws *connection) const;
     bool accepts(lws *connection) const;
+    Client new_client();
     void send_next(lws *connection);
     void offer_all();
     void links_due();
 
     Board &board_;
+    Commander &commander_;
     HttpAddress address_;
+    std::string token_;
+    uint64_t pages_ = 0;
     std::string machine_name_;
     lws_context *context_ = nullptr;
     std::unordered_map<lws *, Connection> connections_;

@@ -14,6 +14,12 @@ using nlohmann::json;
 namespace
 {
 
+/* A page that may not command. */
+Client watcher(const Board &board)
+{
+    return {board, "", [](const auto &) { return console::Sent{0, "no key"}; }};
+}
+
 std::optional<json> next(Client &client)
 {
     const auto text = client.next(Board::Clock::now());
@@ -46,7 +52,7 @@ TEST(Client, GreetingAndLinkComeFirst)
 {
     Board board;
     board.pin(Topic::pose, message_of("pose", 1));
-    Client client(board);
+    Client client = watcher(board);
     EXPECT_EQ(next(client)->value("type", ""), "hello");
     EXPECT_EQ(next(client)->value("type", ""), "link");
     EXPECT_EQ(next(client)->value("type", ""), "trail");
@@ -58,7 +64,7 @@ TEST(Client, NothingIsSentTwice)
 {
     Board board;
     board.pin(Topic::pose, message_of("pose", 1));
-    Client client(board);
+    Client client = watcher(board);
     EXPECT_EQ(drain(client)["pose"], 1);
     EXPECT_TRUE(drain(client).empty());
     board.pin(Topic::pose, message_of("pose", 2));
@@ -69,7 +75,7 @@ TEST(Client, NothingIsSentTwice)
 TEST(Client, ASlowClientGetsTheNewestAndWhatItMissedIsCounted)
 {
     Board board;
-    Client client(board);
+    Client client = watcher(board);
     board.pin(Topic::pose, message_of("pose", 1));
     drain(client);
     for (int k = 2; k <= 11; k++) {
@@ -86,7 +92,7 @@ TEST(Client, WhatWasThereBeforeItCameIsNotMissed)
     for (int k = 0; k < 100; k++) {
         board.pin(Topic::pose, message_of("pose", k));
     }
-    Client client(board);
+    Client client = watcher(board);
     drain(client);
     EXPECT_EQ(client.skipped(), 0U);
 }
@@ -94,7 +100,7 @@ TEST(Client, WhatWasThereBeforeItCameIsNotMissed)
 TEST(Client, NoTopicStarvesAnother)
 {
     Board board;
-    Client client(board);
+    Client client = watcher(board);
     drain(client);
     std::map<std::string, int> counts;
     for (int k = 0; k < 30; k++) { // each time all are new, and one message gets through
@@ -112,7 +118,7 @@ TEST(Client, NoTopicStarvesAnother)
 TEST(Client, NeverMoreThanTheWindowIsOnTheWay)
 {
     Board board;
-    Client client(board);
+    Client client = watcher(board);
     uint64_t sent = 0;
     for (int k = 0; k < 1000; k++) {
         board.pin(Topic::pose, message_of("pose", k));
@@ -130,7 +136,7 @@ TEST(Client, NeverMoreThanTheWindowIsOnTheWay)
 TEST(Client, APageThatSpeaksNonsenseIsNotBelieved)
 {
     Board board;
-    Client client(board);
+    Client client = watcher(board);
     drain(client); // three messages
     EXPECT_TRUE(got(client, 2));
     EXPECT_FALSE(got(client, 1)) << "fewer than before";
@@ -146,7 +152,7 @@ TEST(Client, ARestartedRobotIsAnnouncedBeforeItsFirstNews)
 {
     Board board;
     board.extend_trail({1, 1, true});
-    Client client(board);
+    Client client = watcher(board);
     drain(client);
     board.clear();
     board.pin(Topic::pose, message_of("pose", 0));
@@ -163,7 +169,7 @@ TEST(Client, ALongTrailComesInPieces)
     for (int k = 0; k < 5000; k++) {
         board.extend_trail({static_cast<float>(k), 0, k == 0});
     }
-    Client client(board);
+    Client client = watcher(board);
     size_t values = 0;
     int pieces = 0;
     while (const auto message = next(client)) {
@@ -175,4 +181,60 @@ TEST(Client, ALongTrailComesInPieces)
     }
     EXPECT_EQ(pieces, 3);
     EXPECT_EQ(values, 2U * (5000 + 1)); // the jump at the start is a pair of nulls
+}
+
+TEST(Client, GreetingNamesTheOperatorOfTheConsole)
+{
+    Board board;
+    Client nobody = watcher(board);
+    EXPECT_TRUE(next(nobody)->at("operator").is_null());
+    Client alice(board, "alice", nullptr);
+    EXPECT_EQ(next(alice)->at("operator"), "alice");
+}
+
+TEST(Client, CommandIsHandedOnWordByWordAndAnsweredOnce)
+{
+    Board board;
+    std::vector<std::string> heard;
+    Client client(board, "alice", [&](const auto &words) {
+        heard = words;
+        return console::Sent{42, ""};
+    });
+    drain(client);
+    ASSERT_TRUE(client.heard(R"({"type":"command","words":["drive","0.2","0"]})"));
+    EXPECT_EQ(heard, (std::vector<std::string>{"drive", "0.2", "0"}));
+    const auto answer = next(client);
+    EXPECT_EQ(answer->value("type", ""), "sent");
+    EXPECT_EQ(answer->at("verb"), "drive");
+    EXPECT_EQ(answer->at("number"), 42);
+    EXPECT_TRUE(answer->at("refusal").is_null());
+    EXPECT_FALSE(next(client));
+}
+
+TEST(Client, RefusedCommandIsAnsweredWithTheReason)
+{
+    Board board;
+    Client client = watcher(board);
+    drain(client);
+    ASSERT_TRUE(client.heard(R"({"type":"command","words":["stop"]})"));
+    const auto answer = next(client);
+    EXPECT_EQ(answer->at("refusal"), "no key");
+    EXPECT_TRUE(answer->at("number").is_null());
+}
+
+TEST(Client, CommandThatIsNoneAndAFloodOfCommandsEndTheConnection)
+{
+    Board board;
+    Client client = watcher(board);
+    for (const char *text :
+         {R"({"type":"command"})", R"({"type":"command","words":[]})",
+          R"({"type":"command","words":["drive",1]})", R"({"type":"command","words":"stop"})",
+          R"({"type":["command"],"words":["stop"]})"}) {
+        EXPECT_FALSE(client.heard(text)) << text;
+    }
+    bool taken = true;
+    for (int k = 0; k < 1000 && taken; k++) {
+        taken = client.heard(R"({"type":"command","words":["stop"]})");
+    }
+    EXPECT_FALSE(taken);
 }

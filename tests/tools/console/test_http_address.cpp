@@ -68,3 +68,13 @@ TEST(HttpAddress, AForeignNameMadeToResolveToUsIsNotOurs)
     EXPECT_FALSE(origin_is_ours("http://robot.evil.example", "robot.evil.example", "robot"));
     EXPECT_FALSE(origin_is_ours("http://:8080", ":8080", ""));
 }
+
+TEST(HttpAddress, LoopbackIsWhatOnlyThisMachineReaches)
+{
+    for (const char *text : {"127.0.0.1:1", "127.3.2.1:1", "localhost:1", "[::1]:1"}) {
+        EXPECT_TRUE(console::is_loopback(console::parse_http_address(text))) << text;
+    }
+    for (const char *text : {"0.0.0.0:1", "192.168.1.2:1", "[::]:1"}) {
+        EXPECT_FALSE(console::is_loopback(console::parse_http_address(text))) << text;
+    }
+}

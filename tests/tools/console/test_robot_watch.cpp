@@ -34,7 +34,8 @@ class RobotWatched : public testing::Test
 {
   protected:
     Board board;
-    RobotWatch watch{board};
+    console::Commander commander{"", ""};
+    RobotWatch watch{board, commander};
 };
 
 } // namespace

@@ -4,17 +4,22 @@ import { Scene } from "./scene.js";
 import { View } from "./view.js";
 import { Painter } from "./paint.js";
 import { Health } from "./health.js";
+import { Pointing } from "./pointing.js";
+import { Control } from "./control.js";
 
 const canvas = document.getElementById("map");
 const scene = new Scene();
 const view = new View(canvas, scene, () => painter.wanted());
-const painter = new Painter(canvas, scene, view);
+const pointing = new Pointing(canvas, view, () => painter.wanted());
+const painter = new Painter(canvas, scene, view, pointing);
 const health = new Health();
 const link = new Link((message) => {
   scene.take(message);
+  control.take(message);
   health.take(message, scene);
   painter.wanted();
 });
+const control = new Control(link, pointing);
 
 for (const [id, action] of Object.entries({
   "zoom-in": () => view.zoom(1.4),

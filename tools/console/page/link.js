@@ -1,7 +1,7 @@
 // The web socket to ale-console: opens it, opens it again, tells it what has been drawn, and knows how old
 // the news is. Pacing: the console keeps at most a few messages on their way, so a slow page sees the newest.
 
-const PROTOCOL = 1;
+const PROTOCOL = 2;
 const SILENCE_MS = 800; // the console speaks four times a second
 const POSE_SILENCE_MS = 700; // a pose comes with every scan, ten a second from a URG
 const RETRY_MS = 400;
@@ -19,7 +19,7 @@ export class Link {
   }
 
   open() {
-    this.socket = new WebSocket(`ws://${location.host}/`);
+    this.socket = new WebSocket(`ws://${location.host}/${location.search}`);
     this.received = 0;
     this.told = 0;
     this.posesSinceOpened = 0;
@@ -27,11 +27,15 @@ export class Link {
     this.socket.onclose = () => setTimeout(() => this.open(), RETRY_MS);
   }
 
+  send(message) {
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+  }
+
   // Everything received so far is on the screen.
   drawn() {
     if (this.received !== this.told && this.socket.readyState === WebSocket.OPEN) {
       this.told = this.received;
-      this.socket.send(JSON.stringify({ type: "got", count: this.told }));
+      this.send({ type: "got", count: this.told });
     }
   }
 

@@ -9,12 +9,26 @@ const HEADING_LENGTH = 3; // radii of the robot
 const SURE_AFTER_SCANS = 10; // a wall seen less often is drawn paler
 const FRESH_TRAIL_POINTS = 250;
 const GRID_LEAST_PX = 44;
+const BAND_LEAST_PX = 2.5;
+const FAR_PX = 1e4; // an ellipse far beyond the screen is as good as this one
+
+const shown = (variance) => ELLIPSE_SIGMAS * ELLIPSE_MAGNIFIED * Math.sqrt(Math.max(0, variance));
+
+// The path of a covariance around the origin, drawn from least pixels outwards.
+function ellipse(context, [xx, xy, yy], least, scale) {
+  const middle = (xx + yy) / 2;
+  const spread = Math.hypot((xx - yy) / 2, xy);
+  const axis = (variance) => Math.min(FAR_PX, least + shown(variance) * scale);
+  context.beginPath();
+  context.ellipse(0, 0, axis(middle + spread), axis(middle - spread), -Math.atan2(2 * xy, xx - yy) / 2, 0, 2 * Math.PI);
+}
 
 export class Painter {
-  constructor(canvas, scene, view) {
+  constructor(canvas, scene, view, pointing) {
     this.canvas = canvas;
     this.scene = scene;
     this.view = view;
+    this.pointing = pointing;
     this.context = canvas.getContext("2d");
     this.due = true;
   }
@@ -42,11 +56,12 @@ export class Painter {
     this.#sight();
     this.#trail();
     this.#points();
-    this.#currentLines(7, 0.28);
+    this.#lineBands();
     this.#walls();
     this.#currentLines(1.75, 1);
     this.#corners();
     this.#robot();
+    this.#pointedAt();
     this.#scaleBar();
   }
 
@@ -163,6 +178,25 @@ export class Painter {
     c.globalAlpha = 1;
   }
 
+  // Three sigma to either side, magnified like the robot's.
+  #lineBands() {
+    const c = this.context;
+    c.fillStyle = this.colour("line");
+    c.globalAlpha = 0.25;
+    this.scene.lines.forEach(([x1, y1, x2, y2], k) => {
+      const [px, py] = this.view.toScreen(x1, y1);
+      const [qx, qy] = this.view.toScreen(x2, y2);
+      const length = Math.hypot(qx - px, qy - py) || 1;
+      const [nx, ny] = [-(qy - py) / length, (qx - px) / length];
+      const [a, b] = this.scene.lineSigmas[k].map((sigma) => BAND_LEAST_PX + shown(sigma * sigma) * this.view.scale);
+      c.beginPath();
+      for (const [x, y, w] of [[px, py, a], [qx, qy, b], [qx, qy, -b], [px, py, -a]]) c.lineTo(x + w * nx, y + w * ny);
+      c.closePath();
+      c.fill();
+    });
+    c.globalAlpha = 1;
+  }
+
   #points() {
     const c = this.context;
     c.fillStyle = this.colour("scan");
@@ -178,14 +212,62 @@ export class Painter {
     c.fillStyle = this.colour("corner");
     c.strokeStyle = this.colour("ground");
     c.lineWidth = 1.5;
-    for (const [x, y] of this.scene.corners) {
+    this.scene.corners.forEach(([x, y], k) => {
       const [px, py] = this.view.toScreen(x, y);
+      this.#cornerEllipse(px, py, this.scene.cornerCovs[k]);
       c.beginPath();
       for (const [dx, dy] of [[0, -6], [6, 0], [0, 6], [-6, 0]]) c.lineTo(px + dx, py + dy);
       c.closePath();
       c.fill();
       c.stroke();
+    });
+  }
+
+  #cornerEllipse(px, py, cov) {
+    if (cov.some((v) => !Number.isFinite(v))) return;
+    const c = this.context;
+    c.save();
+    c.translate(px, py);
+    c.strokeStyle = this.colour("corner");
+    ellipse(c, cov, 6, this.view.scale);
+    c.stroke();
+    c.restore();
+  }
+
+  // What the operator measures, or where he says the robot is.
+  #pointedAt() {
+    const { mode, from, to } = this.pointing;
+    if (!from) return;
+    const c = this.context;
+    const [px, py] = this.view.toScreen(...from);
+    const [qx, qy] = this.view.toScreen(...to);
+    c.strokeStyle = c.fillStyle = this.colour("pointed");
+    c.lineWidth = 2;
+    c.beginPath();
+    c.moveTo(px, py);
+    c.lineTo(qx, qy);
+    c.stroke();
+    for (const [x, y] of mode === "pose" ? [[px, py]] : [[px, py], [qx, qy]]) {
+      c.beginPath();
+      c.arc(x, y, 5, 0, 2 * Math.PI);
+      c.fill();
     }
+    if (mode !== "measure") return;
+    this.canvas.dataset.measured = this.pointing.metres.toFixed(3);
+    this.#label(`${this.pointing.metres.toFixed(3)} m`, (px + qx) / 2, (py + qy) / 2);
+  }
+
+  #label(text, x, y) {
+    const c = this.context;
+    c.font = "600 15px system-ui, sans-serif";
+    const width = c.measureText(text).width + 16;
+    c.fillStyle = this.colour("pointed");
+    c.beginPath();
+    c.roundRect(x - width / 2, y - 34, width, 24, 6);
+    c.fill();
+    c.fillStyle = this.colour("ground");
+    c.textAlign = "center";
+    c.fillText(text, x, y - 17);
   }
 
   #robot() {
@@ -217,15 +299,8 @@ export class Painter {
   #uncertainty(pose, radius) {
     const [xx, xy, , , yy, , , , tt] = pose.cov;
     if ([xx, xy, yy, tt].some((v) => v === null)) return;
-    const middle = (xx + yy) / 2;
-    const spread = Math.hypot((xx - yy) / 2, xy);
-    const shown = (variance) => ELLIPSE_SIGMAS * ELLIPSE_MAGNIFIED * Math.sqrt(Math.max(0, variance));
-    const far = 1e4; // an ellipse far beyond the screen is as good as this one
-    const axis = (variance) => Math.min(far, radius + 1.5 + shown(variance) * this.view.scale);
     const c = this.context;
-    c.beginPath();
-    c.ellipse(0, 0, axis(middle + spread), axis(middle - spread),
-              -Math.atan2(2 * xy, xx - yy) / 2, 0, 2 * Math.PI);
+    ellipse(c, [xx, xy, yy], radius + 1.5, this.view.scale);
     c.globalAlpha = 0.14;
     c.fill();
     c.globalAlpha = 0.9;

@@ -22,7 +22,9 @@ export class Scene {
     this.recent = new Map(); // scan number -> pose message: features and scans are drawn where they were taken
     this.features = null;
     this.lines = []; // of the newest scan, [x1, y1, x2, y2]
+    this.lineSigmas = []; // across the line at its ends, metres
     this.corners = []; // [x, y]
+    this.cornerCovs = []; // [xx, xy, yy] in the map
     this.scan = null;
     this.points = []; // [x, y, ...] of the newest scan
     this.sight = []; // outline of what the scanner sees, [x, y, ...], sensor first
@@ -65,7 +67,9 @@ export class Scene {
     if (!pose) return;
     const sensor = compose(pose.map, message.sensor);
     this.lines = message.lines.map((l) => [...apply(sensor, l.x1, l.y1), ...apply(sensor, l.x2, l.y2)]);
+    this.lineSigmas = message.lines.map(endSigmas);
     this.corners = message.corners.map((c) => apply(sensor, c.x, c.y));
+    this.cornerCovs = message.corners.map((c) => turned(c.cov, sensor[2]));
   }
 
   // Each beam is placed from where the robot was at the beam's own time: the scan of a turning robot is bent.
@@ -101,6 +105,22 @@ export class Scene {
     }
     return all;
   }
+}
+
+// How far the line may lie to the side at its two ends: rho and alpha are uncertain together.
+function endSigmas(line) {
+  const [aa, ar, rr] = line.cov;
+  return [[line.x1, line.y1], [line.x2, line.y2]].map(([x, y]) => {
+    const along = -x * Math.sin(line.alpha) + y * Math.cos(line.alpha);
+    return Math.sqrt(Math.max(0, rr - 2 * along * ar + along * along * aa)) || 0;
+  });
+}
+
+// A covariance seen from a frame that is turned by theta.
+function turned([xx, xy, yy], theta) {
+  const [c, s] = [Math.cos(theta), Math.sin(theta)];
+  return [c * c * xx - 2 * c * s * xy + s * s * yy, c * s * (xx - yy) + (c * c - s * s) * xy,
+          s * s * xx + 2 * c * s * xy + c * c * yy];
 }
 
 function join(a, b) {

@@ -44,6 +44,10 @@ const COUNTERS = {
   resets: "scanner reset", reopens: "port opened again", hardware_faults: "scanner faults",
   identity_warnings: "odd identity lines", odometry: "odometry received", odometry_ring_full: "odometry, no room",
   odometry_refused: "odometry refused", messages_unsent: "messages not sent",
+  command_malformed: "commands, malformed", command_unsigned: "commands, unsigned",
+  command_stranger: "commands, of a stranger", command_forged: "commands, forged",
+  command_other_robot: "commands for another robot", command_replayed: "commands, replayed",
+  command_late: "commands, too late", command_lasting: "commands, lasting too long",
 };
 const DROPS = ["scans_lost", "overloaded", "scan_ring_full", "result_ring_full"];
 const TRAFFIC = ["odometry", "identity_warnings"];
