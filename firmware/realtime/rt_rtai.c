@@ -232,7 +232,7 @@ int ale_rt_start(const ale_rt_config_t *config, ale_rt_report_t *report)
     memset(&state, 0, sizeof state);
     state.config = *config;
     if (access(ALE_RTAI_SCHEDULER, R_OK) < 0) {
-        return fail(report, "this kernel has no RTAI (" ALE_RTAI_SCHEDULER " is not there): load its modules "
+        return fail(report, "this kernel has no RTAI (no /proc/rtai/scheduler): load its modules "
                             "(rtai_hal, rtai_sched, rtai_sem), or use a build without RT=rtai");
     }
     sched_getaffinity(0, sizeof state.cpus, &state.cpus);
@@ -414,12 +414,14 @@ void ale_rt_release_post(ale_rt_release_t *release)
     rt_sem_signal(release->semaphore);
 }
 
-/* Waits for a span rather than until a moment: the count of RTAI's timer is then never mixed with
- * nanoseconds. */
+/* Waits for a span rather than until a moment: counts of RTAI's timer are then never mixed with nanoseconds.
+ * A wait that blocked returns the count after it, which is 0; one that did not block, the count before it. */
 bool ale_rt_release_wait(ale_rt_release_t *release, int64_t until_ns)
 {
     const int64_t left_ns = until_ns - ale_rt_now_ns();
-    const int result = left_ns > 0 ? rt_sem_wait_timed(release->semaphore, nano2count(left_ns))
-                                   : rt_sem_wait_if(release->semaphore);
-    return result > 0 && result < RTE_LOWERR;
+    if (left_ns <= 0) {
+        const int count = rt_sem_wait_if(release->semaphore);
+        return count > 0 && count < RTE_LOWERR;
+    }
+    return rt_sem_wait_timed(release->semaphore, nano2count(left_ns)) < RTE_LOWERR;
 }

@@ -12,6 +12,7 @@ import ale
 import lcm
 
 BINARIES = pathlib.Path(os.environ.get("ALE_BUILD", "build")).resolve() / "bin"
+FIRMWARE = pathlib.Path(os.environ.get("ALE_SLAMD", BINARIES / "ale-slamd")).resolve()
 WORLDS = pathlib.Path(__file__).resolve().parents[2] / "tools" / "worlds"
 TYPES = {"ALE_POSE": ale.pose_t, "ALE_FEATURES": ale.features_t, "ALE_SCAN": ale.scan_t, "ALE_MAP": ale.map_t,
          "ALE_STATUS": ale.status_t}
@@ -25,6 +26,11 @@ def wait_until(condition, seconds, what):
         time.sleep(0.01)
 
 
+def program_path(name):
+    """Of the build, or the firmware that is to be tested in its place (ALE_SLAMD)."""
+    return FIRMWARE if name == "ale-slamd" else BINARIES / name
+
+
 class Program:
     """One program with its output in files."""
 
@@ -33,7 +39,7 @@ class Program:
         self.out_path = folder / f"{name}.{time.monotonic_ns()}.out"
         self.err_path = self.out_path.with_suffix(".err")
         with open(self.out_path, "w", encoding="utf-8") as out, open(self.err_path, "w", encoding="utf-8") as err:
-            self.process = subprocess.Popen([*prefix, BINARIES / name, *map(str, words)], stdout=out, stderr=err,
+            self.process = subprocess.Popen([*prefix, program_path(name), *map(str, words)], stdout=out, stderr=err,
                                             stdin=subprocess.DEVNULL)
 
     def out(self):

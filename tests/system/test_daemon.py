@@ -7,12 +7,12 @@ import subprocess
 
 import pytest
 
-from chain import BINARIES, wait_until
+from chain import FIRMWARE, wait_until
 
 
 def ask(*words, prefix=()):
     """Runs ale-slamd to its end: status, stdout, stderr."""
-    done = subprocess.run([*prefix, BINARIES / "ale-slamd", *map(str, words)], stdin=subprocess.DEVNULL,
+    done = subprocess.run([*prefix, FIRMWARE, *map(str, words)], stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=20, check=False)
     return done.returncode, done.stdout, done.stderr
 

@@ -7,7 +7,6 @@
 
 RT ?= posix
 RTAI_CONFIG ?= rtai-config
-RTAI_EMULATION = tests/rtai/rtai-config
 
 rtai_config = $(shell ALE_BUILD=$(abspath $(BUILD)) $(1) $(2) 2>/dev/null)
 rtai_cflags = -std=gnu11 -Wno-cpp $(patsubst -I%,-isystem %,$(filter-out -I.,$(filter -I% -D%,$(call rtai_config,$(1),--lxrt-cflags))))

@@ -20,13 +20,14 @@ $(BUILD)/libale_tool_parts.a: $(call objects,$(TOOL_PARTS))
 $(BUILD)/libale_test_shared.a: $(call objects,$(TEST_SHARED_SOURCES))
 	$(archive)
 
+include tests/rtai/rtai.mk
 TEST_ARCHIVES = $(if $(TEST_SHARED_SOURCES),$(BUILD)/libale_test_shared.a) $(FIRMWARE_ARCHIVES)
 $(BUILD)/tests/tools/%: $(OBJ)/tests/tools/%.cpp.o $(BUILD)/libale_tool_parts.a $(BUILD)/libale_export.a $(TEST_ARCHIVES)
 	$(call link,-lgtest_main -lgtest)
 $(BUILD)/tests/%: $(OBJ)/tests/%.cpp.o $(TEST_ARCHIVES)
 	$(call link,-lgtest_main -lgtest)
 
-.PHONY: unit unit-programs system venv
+.PHONY: unit unit-programs system system-rtai venv
 unit-programs: $(SELECTED_TESTS)
 unit: unit-programs ## unit and property tests (T=part of a path selects)
 	@$(PYTHON) tools/make/run_tests.py unit $(SELECTED_TESTS)
@@ -40,6 +41,9 @@ venv: $(VENV)/ready
 
 system: programs lcm-types venv ## tests of the real programs over pseudo terminals and LCM (T=word selects)
 	@$(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(if $(T),-k "$(T)")
+
+system-rtai: programs lcm-types venv $(BUILD)/rtai/ale-slamd ## the system tests with the firmware on an emulated RTAI (T=file of tests/system)
+	@ALE_SLAMD=$(BUILD)/rtai/ale-slamd $(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(or $(T),tests/system)
 
 .PHONY: proofs
 proofs: programs ## bounded by construction: symbols, call graph, soft-float build, system call filter (part of make test)
@@ -91,6 +95,8 @@ SUB = $(MAKE) --no-print-directory -s
 CHECKED = $(SUB) BUILD=$(BUILD)/asan SANITIZE=address,undefined OPT=-O1
 ROBOT_TESTS = tests/lib tests/drivers tests/firmware
 THREADED = $(SUB) BUILD=$(BUILD)/tsan SANITIZE=thread OPT=-O1 T=tests/firmware
+RTAI_SYSTEM_TESTS = tests/system/test_daemon.py tests/system/test_latency.py
+RTAI_BUILD = BUILD=$(BUILD)/rtai-build RT=rtai RTAI_CONFIG=$(RTAI_EMULATION_CONFIG)
 .PHONY: test test-all
 test: deps-test ## all tests on this machine; the last line counts them
 	@$(PYTHON) tools/make/run_tests.py begin
@@ -100,13 +106,15 @@ test: deps-test ## all tests on this machine; the last line counts them
 	@$(CHECKED) -j2 T="$(ROBOT_TESTS)" unit-programs
 	-@$(CHECKED) T="$(ROBOT_TESTS)" unit
 	@echo "== unit tests of the tools"
-	@$(SUB) -j2 T=tests/tools unit-programs
-	-@$(SUB) T=tests/tools unit
+	@$(SUB) -j2 T="tests/tools tests/rtai" unit-programs
+	-@$(SUB) T="tests/tools tests/rtai" unit
 	@echo "== thread sanitizer"
 	@$(THREADED) -j2 unit-programs
 	-@$(THREADED) unit
 	@echo "== the real programs over pseudo terminals and LCM"
 	-@$(SUB) system
+	@echo "== the firmware as an RTAI program, on an emulated RTAI"
+	-@$(SUB) T="$(RTAI_SYSTEM_TESTS)" system-rtai
 	@echo "== fuzzers"
 	@$(SUB) -j2 fuzz-programs
 	-@$(PYTHON) tools/make/run_tests.py fuzz --seconds $(SHORT_FUZZ_SECONDS) $(FUZZ_PROGRAMS)
@@ -122,4 +130,7 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, all" $(SUB) same-bytes SAME_BYTES_BUILDS="gcc:-O0 gcc:-O3 clang:-O0 clang:-O3"
 	@echo "== the same bytes on other machines, emulated"
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, aarch64 armhf s390x" $(SUB) cross
+	@echo "== the firmware as an RTAI program, on an emulated RTAI"
+	-@$(PYTHON) tools/make/run_tests.py command "make RT=rtai" $(SUB) $(RTAI_BUILD) -j2 programs
+	-@$(SUB) system-rtai
 	@$(PYTHON) tools/make/run_tests.py sum
