@@ -45,6 +45,13 @@ void ale_lag_add_heading(ale_lag_t *lag, const ale_heading_t *heading)
     lag->count++;
 }
 
+void ale_lag_turn(ale_lag_t *lag, uint32_t turn_bam)
+{
+    for (uint32_t i = 0; i < ALE_LAG_HEADINGS; i++) {
+        lag->heading[i].theta_bam += turn_bam;
+    }
+}
+
 /* Heading at an instant that the row covers, urad from the row's first: cubic through two headings and their
  * turning (Hermite), exact while the robot's acceleration is constant. */
 static int64_t heading_urad(const ale_lag_t *lag, int64_t t_us)

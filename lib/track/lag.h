@@ -46,6 +46,9 @@ void ale_lag_init(ale_lag_t *lag, int32_t prior_us);
  * a third of a second begins the row anew. */
 void ale_lag_add_heading(ale_lag_t *lag, const ale_heading_t *heading);
 
+/* The map was turned: the headings so far turn with it. */
+void ale_lag_turn(ale_lag_t *lag, uint32_t turn_bam);
+
 /* Compares the samples of the wheels whose surroundings the headings now cover; renews lag_us, sigma_us. */
 void ale_lag_update(ale_lag_t *lag, const ale_wheels_t *wheels);
 

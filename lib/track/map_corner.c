@@ -69,7 +69,7 @@ static void observe(ale_map_corner_t *m, const ale_map_corner_t *c)
     m->seen++;
 }
 
-static void add(ale_map_corners_t *corners, const ale_map_corner_t *c)
+static void add(ale_map_corners_t *corners, const ale_map_corner_t *c, uint32_t scan)
 {
     int32_t place = corners->count < ALE_MAP_MAX_CORNERS ? corners->count : NO_CORNER;
     for (int32_t i = 0; place == NO_CORNER && i < ALE_MAP_MAX_CORNERS; i++) {
@@ -81,10 +81,11 @@ static void add(ale_map_corners_t *corners, const ale_map_corner_t *c)
     }
     corners->count = (uint16_t)ale_max64(corners->count, place + 1);
     corners->corner[place] = *c;
+    corners->born[place] = scan;
 }
 
 uint16_t ale_map_corners_update(ale_map_corners_t *corners, const ale_features_t *features, ale_pose_t sensor,
-                                bool grow)
+                                uint32_t scan, bool grow)
 {
     uint16_t known = 0;
     for (uint32_t i = 0; i < features->corner_count && i < ALE_CORNERS_PER_SCAN; i++) {
@@ -94,7 +95,7 @@ uint16_t ale_map_corners_update(ale_map_corners_t *corners, const ale_features_t
             observe(&corners->corner[found], &c);
             known++;
         } else if (grow) {
-            add(corners, &c);
+            add(corners, &c, scan);
         }
     }
     return known;

@@ -44,6 +44,7 @@ static void begin(ale_local_map_t *map, const ale_view_t *view, const ale_fit_t 
     wall.var_offset_um2 += ale_view_offset_var(view, &fit->motion.cov);
     wall.var_angle_urad2 += ale_view_angle_var(&fit->motion.cov);
     wall.drift = ale_drift_of_new_wall(here, &fit->motion.cov);
+    wall.born = scan;
     wall.seen = 1;
     wall.last_scan = scan;
     ale_local_map_add(map, &wall);
@@ -65,7 +66,8 @@ static void update_mark(ale_marks_t *marks, const ale_view_t *view, const ale_fi
                                                .var_um2 = var_um2,
                                                .spot = spot,
                                                .seen = 1,
-                                               .last_scan = scan});
+                                               .last_scan = scan,
+                                               .born = scan});
         }
     }
 }

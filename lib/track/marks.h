@@ -20,6 +20,7 @@ typedef struct {
     uint16_t seen;   /* 0: the place is free */
     uint8_t spot;
     uint8_t missed;
+    uint32_t born; /* scan that saw it first */
 } ale_mark_t;
 
 typedef struct {

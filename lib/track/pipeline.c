@@ -106,6 +106,12 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
     pipeline->search = (ale_search_t){0, 0};
     ale_witness_clear(&pipeline->witness);
     pipeline->started = false;
+    pipeline->looked = false;
+    pipeline->epoch++;
+    pipeline->corrections = 0;
+    pipeline->keyframes = 0;
+    pipeline->broken = false;
+    pipeline->moved = false;
     pipeline->view_count = 0;
     memset(&pipeline->features, 0, sizeof pipeline->features);
     memset(&pipeline->fit, 0, sizeof pipeline->fit);
@@ -159,6 +165,7 @@ static void look(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t velocit
 {
     int32_t sensor_velocity[ALE_AXES];
     p->scan = *raw;
+    p->looked = true;
     ale_scan_mask(&p->scan, p->config.blind, p->config.blind_count);
     ale_sensor_velocity(velocity, p->config.sensor, sensor_velocity);
     p->straightened = ale_deskew(&p->scan, sensor_velocity, p->bearing_bam);
@@ -195,7 +202,10 @@ static void advance_smooth(ale_pipeline_t *p, ale_pose_t from, ale_pose_t predic
         ale_abs64(way.x_um) <= reach_um && ale_abs64(way.y_um) <= reach_um &&
         (int64_t)way.x_um * way.x_um + (int64_t)way.y_um * way.y_um <= reach_um * reach_um &&
         turn_urad <= reach_urad;
-    p->smooth = ale_pose_compose(p->smooth, possible ? way : ale_pose_between(from, predicted));
+    const bool along = possible && !p->moved;
+    p->broken = p->broken || !possible;
+    p->moved = false;
+    p->smooth = ale_pose_compose(p->smooth, along ? way : ale_pose_between(from, predicted));
 }
 
 /* What a good scan teaches about the wheels: their lag from turns, their scale from the way. */
@@ -218,9 +228,12 @@ static void teach_wheels(ale_pipeline_t *p, const ale_motion_t *before, const al
 /* The scan goes into the map. */
 static void take_in(ale_pipeline_t *p, bool grow)
 {
+    if (p->frozen) {
+        return;
+    }
     const ale_pose_t sensor = ale_pose_compose(p->fit.motion.pose, p->config.sensor);
     ale_map_update(&p->map, p->view, p->view_count, &p->fit, p->drift, p->scans, grow);
-    p->matched_corners = ale_map_corners_update(&p->map.corners, &p->features, sensor, grow);
+    p->matched_corners = ale_map_corners_update(&p->map.corners, &p->features, sensor, p->scans, grow);
 }
 
 static void begin(ale_pipeline_t *p, const ale_scan_t *scan)
@@ -241,7 +254,7 @@ static ale_sights_t look_around(ale_pipeline_t *p)
 {
     const ale_pose_t sensor = ale_pose_compose(p->motion.pose, p->config.sensor);
     return ale_fade(&p->fade, &p->map, &p->scan, bearings(p), sensor, p->scans,
-                    p->tracker.state == ALE_STATE_GOOD);
+                    p->tracker.state == ALE_STATE_GOOD && !p->frozen);
 }
 
 static int64_t sigma_of(const ale_matrix_t *cov, int axis)
@@ -348,6 +361,7 @@ static void track(ale_pipeline_t *p, const ale_motion_t *before, const ale_motio
 /* Lost: looks for the place that fits, a bounded number of hypotheses a scan, and leaves the map alone. */
 static void search(ale_pipeline_t *p)
 {
+    p->broken = true;
     const ale_point_t anywhere = {0, 0};
     ale_local_map_approach(&p->map, anywhere, WHOLE_MAP_UM);
     const ale_hypothesis_t best = ale_search(&p->search, &p->map, p->view, p->view_count);
@@ -453,6 +467,7 @@ void ale_pipeline_scan(ale_pipeline_t *pipeline, const ale_scan_t *scan, ale_est
 void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estimate_t *out)
 {
     ale_wheel_motion_t wheels;
+    pipeline->looked = false;
     if (pipeline->started) {
         const ale_pose_t before = pipeline->motion.pose;
         predict(pipeline, stamp_us, &wheels);

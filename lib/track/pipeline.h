@@ -91,6 +91,8 @@ typedef struct {
 } ale_map_t;
 
 typedef struct ale_pipeline ale_pipeline_t;
+typedef struct ale_keyframe ale_keyframe_t;
+typedef struct ale_correction ale_correction_t;
 
 uint32_t ale_pipeline_size(void);
 
@@ -104,6 +106,21 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline);
 void ale_pipeline_odometry(ale_pipeline_t *pipeline, const ale_odometry_t *sample);
 void ale_pipeline_scan(ale_pipeline_t *pipeline, const ale_scan_t *scan, ale_estimate_t *out);
 void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estimate_t *out);
+
+/* For the mapper: the scan last handed over, when it is worth keeping (see keyframe.h). Copies at most
+ * sizeof(ale_keyframe_t). False: it is not, and *out is untouched. */
+bool ale_pipeline_keyframe(ale_pipeline_t *pipeline, ale_keyframe_t *out);
+
+/* From the mapper, between two scans: map and map pose move as loops have shown; the smooth pose does not. A
+ * correction made for another map (epoch) is ignored. O(map * log count). */
+void ale_pipeline_correct(ale_pipeline_t *pipeline, const ale_correction_t *correction);
+
+/* "You are here", within about 0.4 m and 0.2 rad: the map stays, the map pose is put there, state weak until
+ * scans agree. */
+void ale_pipeline_relocate(ale_pipeline_t *pipeline, ale_pose_t pose);
+
+/* Pure localisation: while frozen the map stays byte for byte as it is, corrections apart. */
+void ale_pipeline_freeze_map(ale_pipeline_t *pipeline, bool frozen);
 
 /* Features of the scan last handed over: sensor frame at the scan's stamp, straightened. */
 const ale_features_t *ale_pipeline_features(const ale_pipeline_t *pipeline);

@@ -32,8 +32,9 @@ typedef struct {
     int64_t var_angle_urad2;
     ale_drift_t drift;
     uint32_t id;
+    uint32_t born;      /* number of the scan that saw it first */
     uint32_t seen;      /* scans that supported it */
-    uint32_t last_scan; /* number of the last one */
+    uint32_t last_scan; /* of the last one that did */
     uint16_t missed;    /* scans that looked through it since */
 } ale_wall_t;
 

@@ -73,6 +73,8 @@ TEST_INCLUDES = $(TOOL_INCLUDES) -Itests
 
 $(OBJ)/lib/%.o: INCLUDES = $(LIB_INCLUDES)
 $(OBJ)/lib/graph/%.o: INCLUDES = $(LIB_INCLUDES) -isystem /usr/include/eigen3
+# The same bytes on every machine: sums in the order written, no fused or vector arithmetic.
+$(OBJ)/lib/graph/%.o: CXX_FLAGS += -ffp-contract=off -fno-tree-vectorize -DEIGEN_DONT_VECTORIZE
 $(OBJ)/drivers/%.o: INCLUDES = $(DRIVER_INCLUDES)
 $(OBJ)/firmware/%.o: INCLUDES = $(FIRMWARE_INCLUDES)
 $(OBJ)/tools/%.o: INCLUDES = $(TOOL_INCLUDES)

@@ -30,6 +30,7 @@ constexpr char usage[] =
     "  --points                draw the points of the scans faintly behind the map (.svg, .png)\n"
     "  --timing F.csv          thread CPU time of every stage of every scan\n"
     "  --odometry on|off       use the odometry of the log (default on)\n"
+    "  --loops on|off          close loops (default on)\n"
     "  --sensor X,Y,THETA      where the laser sits on the robot, metres and radians (default: what "
     "--config\n"
     "                          says, else what the log says)\n"
@@ -51,6 +52,7 @@ enum Option {
     POINTS,
     TIMING,
     ODOMETRY,
+    LOOPS,
     SENSOR,
     LOAD_MAP,
     SAVE_MAP,
@@ -69,6 +71,7 @@ const option known_options[] = {{"config", required_argument, nullptr, CONFIG},
                                 {"points", no_argument, nullptr, POINTS},
                                 {"timing", required_argument, nullptr, TIMING},
                                 {"odometry", required_argument, nullptr, ODOMETRY},
+                                {"loops", required_argument, nullptr, LOOPS},
                                 {"sensor", required_argument, nullptr, SENSOR},
                                 {"load-map", required_argument, nullptr, LOAD_MAP},
                                 {"save-map", required_argument, nullptr, SAVE_MAP},
@@ -145,6 +148,9 @@ int take_option(int choice, ReplayOptions &options)
     case ODOMETRY:
         return parse_choice(optarg, "off", "on", options.use_odometry) ? -1
                                                                        : wrong_use("--odometry is on or off");
+    case LOOPS:
+        return parse_choice(optarg, "off", "on", options.close_loops) ? -1
+                                                                      : wrong_use("--loops is on or off");
     case SENSOR:
         options.sensor = parse_pose(optarg);
         return options.sensor ? -1 : wrong_use("--sensor is X,Y,THETA: at most 100 m and half a turn");

@@ -26,6 +26,7 @@ struct ReplayOptions {
     std::string save_map;
     std::optional<ale_pose_t> sensor;
     bool laser_frame = false;
+    bool close_loops = true;
     bool use_odometry = true;
     bool lines_only = false;
     bool points = false;

@@ -8,6 +8,7 @@
 #include "export/map_image.h"
 #include "export/scan_cloud.h"
 #include "replay/features_file.h"
+#include "replay/loops.h"
 #include "replay/poses_file.h"
 #include "replay/robot_config.h"
 #include "replay/summary.h"
@@ -60,6 +61,7 @@ class Replay
     void put_estimate(const ale_estimate_t &estimate);
     ale_pose_t framed(const ale_pose_t &robot) const;
     void load_map();
+    void close_loops();
     void finish();
     void draw_maps();
 
@@ -76,6 +78,7 @@ class Replay
     std::optional<TextFile> trajectory_file_;
     std::optional<TimingFile> timing_file_;
 
+    std::optional<Loops> loops_;
     std::vector<ScanPose> track_;
     StageClock clock_;
     ReplayCounts counts_;
@@ -108,6 +111,9 @@ void Replay::begin(const char *recorded_config)
         pipeline_ = core_object<ale_pipeline_t>(ale_pipeline_size());
         status = ale_pipeline_init(pipeline_.get(), &config_.pipeline);
         ale_pipeline_set_hook(pipeline_.get(), &hook);
+        if (options_.close_loops) {
+            loops_.emplace();
+        }
     }
     if (status < 0) {
         throw std::invalid_argument("the configuration has a value that the core refuses");
@@ -150,6 +156,9 @@ void Replay::extract(const ale_scan_t &scan)
 
 void Replay::track(const ale_scan_t &scan)
 {
+    if (loops_) {
+        loops_->before_scan(pipeline_.get(), static_cast<uint32_t>(counts_.scans));
+    }
     clock_.begin_scan();
     ale_pipeline_scan(pipeline_.get(), &scan, &estimate_);
     clock_.end_scan();
@@ -193,6 +202,9 @@ ale_pose_t Replay::framed(const ale_pose_t &robot) const
 
 void Replay::put_estimate(const ale_estimate_t &estimate)
 {
+    if (loops_) {
+        loops_->after_scan(pipeline_.get(), estimate);
+    }
     track_.push_back({estimate.stamp_us, estimate.map, estimate.velocity_x_um_s, estimate.velocity_y_um_s,
                       estimate.velocity_theta_urad_s, !estimate.predicted});
     if (poses_file_) {
@@ -274,8 +286,21 @@ void Replay::draw_maps()
     }
 }
 
+/* From here on the track is the one that all loops have corrected. */
+void Replay::close_loops()
+{
+    loops_->finish(pipeline_.get());
+    for (size_t scan = 0; scan < track_.size(); scan++) {
+        track_[scan].robot = loops_->corrected(static_cast<uint32_t>(scan));
+    }
+    print_loops(loops_->statistics(), loops_->longest_ns());
+}
+
 void Replay::finish()
 {
+    if (loops_) {
+        close_loops();
+    }
     if (trajectory_file_) {
         for (const ScanPose &pose : track_) {
             put_tum_line(*trajectory_file_, {pose.stamp_us, framed(pose.robot)});

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 
+#include "graph/mapper.h"
 #include "replay/log_reader.h"
 
 namespace ale
@@ -37,6 +38,9 @@ struct ReplayCounts {
 };
 
 void print_summary(const std::string &path, const LogReader &log, const ReplayCounts &counts);
+
+/* What came of the places that were seen again; nothing when there were none. */
+void print_loops(const ale_mapper_statistics_t &loops, int64_t longest_ns);
 
 } // namespace ale
 

@@ -99,8 +99,8 @@ TEST_F(Map, WhenFullTheOldestUnconfirmedWallMakesRoomAndThenWallsAreRefused)
 
 TEST_F(Map, MarksAreFoundByPlaceAndDirectionAndAveraged)
 {
-    ale_marks_add(&map->marks,
-                  &(const ale_mark_t &)ale_mark_t{{1000000, -50000}, convert::bam(0), 1, 9000000, 1, 0, 0});
+    ale_marks_add(&map->marks, &(const ale_mark_t &)ale_mark_t{
+                                   {1000000, -50000}, convert::bam(0), 1, 9000000, 1, 0, 0, 0});
     EXPECT_EQ(ale_marks_find(&map->marks, {1200000, -50000}, 0, false, 100000), ALE_NO_MARK);
     EXPECT_EQ(ale_marks_find(&map->marks, {1020000, -60000}, convert::bam(2), false, 100000), ALE_NO_MARK);
     const int32_t found = ale_marks_find(&map->marks, {1020000, -60000}, convert::bam(0.3), false, 100000);
@@ -130,13 +130,13 @@ TEST_F(Map, CornersAreMetAgainAndConfirmed)
     f.corner_count = 1;
     f.corner[0].p = {1000000, 500000};
     f.corner[0].cov_um2[0] = f.corner[0].cov_um2[2] = 4000000;
-    EXPECT_EQ(ale_map_corners_update(&map->corners, &f, {0, 0, 0}, true), 0);
+    EXPECT_EQ(ale_map_corners_update(&map->corners, &f, {0, 0, 0}, 0, true), 0);
     f.corner[0].p.x_um += 10000;
-    EXPECT_EQ(ale_map_corners_update(&map->corners, &f, {0, 0, 0}, true), 1);
+    EXPECT_EQ(ale_map_corners_update(&map->corners, &f, {0, 0, 0}, 0, true), 1);
     EXPECT_EQ(map->corners.count, 1);
     EXPECT_NEAR(map->corners.corner[0].p.x_um, 1005000, 1);
     f.corner[0].kind = ALE_CORNER_CONCAVE;
-    EXPECT_EQ(ale_map_corners_update(&map->corners, &f, {0, 0, 0}, false), 0);
+    EXPECT_EQ(ale_map_corners_update(&map->corners, &f, {0, 0, 0}, 0, false), 0);
     EXPECT_EQ(map->corners.count, 1);
 }
 

@@ -1,0 +1,266 @@
+#include "graph/loop_closer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+namespace ale
+{
+
+namespace
+{
+
+constexpr size_t loop_candidates = 3;
+constexpr double loop_min_path_m = 6.0;   // nearer than this along the path it is the same visit
+constexpr double loop_reach_m = 2.5;      // places this near, beside what drift may have done
+constexpr double drift_per_metre = 0.008; // how far the guess may have drifted
+constexpr double drift_rad_per_metre = 0.002;
+constexpr double max_window_m = 2.0;
+constexpr double max_window_rad = 0.35;
+constexpr int patch_nodes = 6;         // to each side of the place
+constexpr double patch_reach_m = 4.0;  // and as far from it
+constexpr double clear_overlap = 0.55; // one node's word, confirmed by another
+constexpr double least_overlap = 0.30; // much is out of sight: more nodes must agree
+constexpr double most_ambiguity = 0.85;
+constexpr size_t partners_when_clear = 1;
+constexpr size_t partners_when_sparse = 3;
+// Nearer than this the tracker has recognised the place itself, better than a loop edge would tie it.
+constexpr double known_m = 0.10;
+constexpr double known_rad = 0.02;
+constexpr size_t pending_loops = 12;
+constexpr double agreement_m = 0.15;
+constexpr double agreement_rad = 0.035;
+constexpr int optimise_iterations = 10;
+constexpr double believable_chi2 = 30; // of a loop edge after optimisation
+constexpr double weak_doubt = 3;       // how much worse a motion is known that wheels had to tell
+constexpr double broken_doubt = 50;    // or nobody
+
+// Relative motion between neighbouring nodes as the tracker measured it.
+Eigen::Matrix3d motion_information(const Pose &motion, const Node &to)
+{
+    const double distance = std::hypot(motion.x, motion.y);
+    const double turn = std::abs(motion.theta);
+    const double doubt = to.broken ? broken_doubt : (to.weak ? weak_doubt : 1);
+    const double sigma_m = doubt * (0.004 + 0.008 * distance + 0.004 * turn);
+    const double sigma_rad = doubt * (0.0015 + 0.002 * distance + 0.004 * turn);
+    return Eigen::Vector3d(1 / (sigma_m * sigma_m), 1 / (sigma_m * sigma_m), 1 / (sigma_rad * sigma_rad))
+        .asDiagonal();
+}
+
+// The matcher's information counts points as independent, which they are not: bounded by what a match is
+// worth.
+Eigen::Matrix3d tempered(const Eigen::Matrix3d &information)
+{
+    const double least_variance_m2 = 0.01 * 0.01;
+    const double least_variance_rad2 = 0.003 * 0.003;
+    const Eigen::Vector3d floor(least_variance_m2, least_variance_m2, least_variance_rad2);
+    const Eigen::Matrix3d regular = information + Eigen::Matrix3d::Identity() * 1e-3;
+    return (regular.inverse() + Eigen::Matrix3d(floor.asDiagonal())).inverse();
+}
+
+// How well the tracker knows a place that it has recognised.
+Eigen::Matrix3d known_information()
+{
+    const double sigma_m = 0.015;
+    const double sigma_rad = 0.004;
+    return Eigen::Vector3d(1 / (sigma_m * sigma_m), 1 / (sigma_m * sigma_m), 1 / (sigma_rad * sigma_rad))
+        .asDiagonal();
+}
+
+bool near(const Pose &guess, const LoopMatch &match, double overlap)
+{
+    const Pose off = between(guess, match.pose);
+    return match.found && match.overlap >= overlap && std::hypot(off.x, off.y) < known_m &&
+           std::abs(off.theta) < known_rad;
+}
+
+} // namespace
+
+bool LoopCloser::add(Node node, const Pose &motion)
+{
+    nodes_.push_back(std::move(node));
+    link_to_previous(motion);
+    bool moved = false;
+    for (const int there : candidates()) {
+        statistics_.candidates++;
+        Loop loop;
+        switch (look_for_loop(there, &loop)) {
+        case Sight::unclear:
+            statistics_.unclear++;
+            continue;
+        case Sight::known:
+            statistics_.known++;
+            graph_.add_edge({loop.from, loop.to, loop.measured, loop.information, true});
+            continue;
+        case Sight::displaced:
+            break;
+        }
+        const std::vector<Loop> partners = partners_of(loop);
+        if (partners.size() >= (loop.overlap >= clear_overlap ? partners_when_clear : partners_when_sparse)) {
+            moved = close(loop, partners) || moved;
+        }
+        pending_.push_back(loop);
+        if (pending_.size() > pending_loops) {
+            pending_.pop_front();
+            statistics_.unconfirmed++;
+        }
+    }
+    return moved;
+}
+
+void LoopCloser::link_to_previous(const Pose &motion)
+{
+    const int k = static_cast<int>(nodes_.size()) - 1;
+    const Node &here = nodes_.back();
+    if (k == 0) {
+        graph_.add_pose(motion);
+        return;
+    }
+    graph_.add_pose(compose(graph_.poses().back(), motion));
+    graph_.add_edge({k - 1, k, motion, motion_information(motion, here), false});
+}
+
+// Earlier nodes near the present pose, visited long ago: the nearest of each visit.
+std::vector<int> LoopCloser::candidates() const
+{
+    struct Place {
+        int k;
+        double distance;
+    };
+    const Pose &here = graph_.poses().back();
+    std::vector<Place> places;
+    for (size_t k = 0; k < nodes_.size(); k++) {
+        const double driven_m = nodes_.back().path_m - nodes_[k].path_m;
+        if (driven_m < loop_min_path_m) {
+            break;
+        }
+        const Pose &there = graph_.poses()[k];
+        const double distance = std::hypot(there.x - here.x, there.y - here.y);
+        if (distance < loop_reach_m + std::min(max_window_m, drift_per_metre * driven_m)) {
+            places.push_back({static_cast<int>(k), distance});
+        }
+    }
+    std::stable_sort(places.begin(), places.end(),
+                     [](const Place &a, const Place &b) { return a.distance < b.distance; });
+    std::vector<int> chosen;
+    for (const Place &place : places) {
+        const bool same_visit = std::any_of(chosen.begin(), chosen.end(),
+                                            [&](int k) { return std::abs(k - place.k) <= 2 * patch_nodes; });
+        if (!same_visit && chosen.size() < loop_candidates) {
+            chosen.push_back(place.k);
+        }
+    }
+    return chosen;
+}
+
+// What the nodes around k saw, in the frame of k.
+std::vector<SurfacePoint> LoopCloser::patch_around(int k, int before, int after) const
+{
+    const Pose &middle = graph_.poses()[static_cast<size_t>(k)];
+    const int first = std::max(0, k - before);
+    const int last = std::min(static_cast<int>(nodes_.size()) - 1, k + after);
+    std::vector<SurfacePoint> patch;
+    for (int i = first; i <= last; i++) {
+        const Pose seen = between(middle, graph_.poses()[static_cast<size_t>(i)]);
+        if (std::hypot(seen.x, seen.y) > patch_reach_m) {
+            continue;
+        }
+        const Eigen::Matrix2d r = rotation(seen.theta);
+        const Eigen::Vector2d t(seen.x, seen.y);
+        for (const SurfacePoint &point : nodes_[static_cast<size_t>(i)].points) {
+            patch.push_back({r * point.p + t, r * point.normal});
+        }
+    }
+    return patch;
+}
+
+std::vector<CornerMark> LoopCloser::corners_around(int k, int before, int after) const
+{
+    const Pose &middle = graph_.poses()[static_cast<size_t>(k)];
+    const int first = std::max(0, k - before);
+    const int last = std::min(static_cast<int>(nodes_.size()) - 1, k + after);
+    std::vector<CornerMark> corners;
+    for (int i = first; i <= last; i++) {
+        const Pose seen = between(middle, graph_.poses()[static_cast<size_t>(i)]);
+        for (CornerMark corner : nodes_[static_cast<size_t>(i)].corners) {
+            corner.p = apply(seen, corner.p);
+            corner.bisector = wrapped(corner.bisector + seen.theta);
+            corners.push_back(corner);
+        }
+    }
+    return corners;
+}
+
+LoopCloser::Sight LoopCloser::look_for_loop(int there, Loop *loop) const
+{
+    const int here = static_cast<int>(nodes_.size()) - 1;
+    const double driven_m = nodes_.back().path_m - nodes_[static_cast<size_t>(there)].path_m;
+    const SearchWindow window{std::min(max_window_m, 0.3 + drift_per_metre * driven_m),
+                              std::min(max_window_rad, 0.07 + drift_rad_per_metre * driven_m)};
+    const SurfaceField field(patch_around(there, patch_nodes, patch_nodes));
+    const Pose guess = between(graph_.poses()[static_cast<size_t>(there)], graph_.poses().back());
+    const std::vector<SurfacePoint> seen = patch_around(here, 2, 0);
+    *loop = {there, here, guess, known_information(), 1};
+    if (near(guess, match_near(seen, field, guess), clear_overlap)) {
+        return Sight::known;
+    }
+    const LoopMatch match =
+        match_patch(seen, nodes_.back().corners, field, corners_around(there, 2, 2), guess, window);
+    if (!match.found || match.overlap < least_overlap || match.ambiguity > most_ambiguity) {
+        return Sight::unclear;
+    }
+    if (near(guess, match, least_overlap)) {
+        return Sight::known;
+    }
+    *loop = {there, here, match.pose, tempered(match.information), match.overlap};
+    return Sight::displaced;
+}
+
+// Other loops, found from other nodes, that say the same: going round by both gives no displacement.
+std::vector<LoopCloser::Loop> LoopCloser::partners_of(const Loop &loop) const
+{
+    std::vector<Loop> partners;
+    for (const Loop &other : pending_) {
+        if (other.to == loop.to) {
+            continue;
+        }
+        const Pose along_there = between(graph_.poses()[static_cast<size_t>(other.from)],
+                                         graph_.poses()[static_cast<size_t>(loop.from)]);
+        const Pose along_here = between(graph_.poses()[static_cast<size_t>(other.to)],
+                                        graph_.poses()[static_cast<size_t>(loop.to)]);
+        const Pose gap = between(compose(other.measured, along_here), compose(along_there, loop.measured));
+        if (std::hypot(gap.x, gap.y) < agreement_m && std::abs(gap.theta) < agreement_rad) {
+            partners.push_back(other);
+        }
+    }
+    return partners;
+}
+
+bool LoopCloser::is_tied(const Loop &loop) const
+{
+    return std::any_of(graph_.edges().begin(), graph_.edges().end(),
+                       [&](const GraphEdge &edge) { return edge.from == loop.from && edge.to == loop.to; });
+}
+
+// Ties the loop and those that agree with it; takes all back when the graph then contradicts them.
+bool LoopCloser::close(const Loop &loop, const std::vector<Loop> &partners)
+{
+    const PoseGraph before = graph_;
+    for (const Loop &partner : partners) {
+        if (!is_tied(partner)) {
+            graph_.add_edge({partner.from, partner.to, partner.measured, partner.information, true});
+        }
+    }
+    graph_.add_edge({loop.from, loop.to, loop.measured, loop.information, true});
+    const GraphReport report = graph_.optimise(optimise_iterations);
+    if (!report.solved || graph_.residual2(graph_.edges().back()) > believable_chi2) {
+        graph_ = before;
+        statistics_.contradicted++;
+        return false;
+    }
+    statistics_.loops++;
+    return true;
+}
+
+} // namespace ale

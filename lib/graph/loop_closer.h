@@ -1,0 +1,80 @@
+// Closes loops: nodes in, corrected poses out.
+//
+//   LoopCloser closer;
+//   if (closer.add(node)) { ... closer.poses() have moved ... }
+//
+// A loop is believed only when matching finds the place clearly (overlap, no second place nearly as good),
+// and other nodes nearby find the same shift; it is taken back when the graph then contradicts it. Where the
+// tracker has recognised the place itself nothing is to be corrected: the tie is noted as the tracker knows
+// it, so that later corrections keep it. Work of one call: at most loop_candidates matches, and one
+// optimisation when a loop was believed.
+#ifndef ALE_GRAPH_LOOP_CLOSER_H
+#define ALE_GRAPH_LOOP_CLOSER_H
+
+#include <deque>
+#include <vector>
+
+#include "graph/loop_match.h"
+#include "graph/node.h"
+#include "graph/pose_graph.h"
+
+namespace ale
+{
+
+struct LoopStatistics {
+    uint32_t candidates;   // places looked at
+    uint32_t known;        // the tracker has recognised the place itself: nothing to correct
+    uint32_t unclear;      // too little overlap, or a second place nearly as good
+    uint32_t unconfirmed;  // too few other nodes agreed
+    uint32_t contradicted; // taken back after optimisation
+    uint32_t loops;        // believed
+};
+
+class LoopCloser
+{
+  public:
+    // `motion` is the node's pose as seen from the node before; of the first one its pose in the map. True
+    // when earlier poses moved.
+    bool add(Node node, const Pose &motion);
+
+    const std::vector<Node> &nodes() const
+    {
+        return nodes_;
+    }
+    const std::vector<Pose> &poses() const
+    {
+        return graph_.poses();
+    }
+    const LoopStatistics &statistics() const
+    {
+        return statistics_;
+    }
+
+  private:
+    struct Loop {
+        int from;
+        int to;
+        Pose measured;
+        Eigen::Matrix3d information;
+        double overlap;
+    };
+    enum class Sight { unclear, known, displaced };
+
+    void link_to_previous(const Pose &motion);
+    std::vector<int> candidates() const;
+    Sight look_for_loop(int there, Loop *loop) const;
+    std::vector<Loop> partners_of(const Loop &loop) const;
+    bool close(const Loop &loop, const std::vector<Loop> &partners);
+    bool is_tied(const Loop &loop) const;
+    std::vector<SurfacePoint> patch_around(int k, int before, int after) const;
+    std::vector<CornerMark> corners_around(int k, int before, int after) const;
+
+    std::vector<Node> nodes_;
+    PoseGraph graph_;
+    std::deque<Loop> pending_;
+    LoopStatistics statistics_{};
+};
+
+} // namespace ale
+
+#endif

@@ -1,0 +1,254 @@
+#include "graph/loop_match.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace ale
+{
+
+namespace
+{
+
+constexpr size_t glanced_points = 32; // of all hypotheses, to choose those that are scored
+constexpr size_t scored_points = 120;
+constexpr size_t scored_hypotheses = 600;
+constexpr size_t max_hypotheses = 20000;
+constexpr double window_step_m = 0.10;
+constexpr double window_step_rad = 0.035;
+constexpr double distinct_m = 0.40; // two places farther apart than this are different answers
+constexpr double distinct_rad = 0.26;
+constexpr int refine_passes = 12;
+constexpr size_t refined_hypotheses = 6;
+constexpr double corner_angle_tolerance_rad = 0.30;
+constexpr double inlier_m = 0.06;
+constexpr double facing = 0.5; // least cosine between normals of a pair
+constexpr double surface_sigma_m = 0.01;
+
+struct Hypothesis {
+    Pose pose;
+    double score;
+};
+
+std::vector<SurfacePoint> thinned(const std::vector<SurfacePoint> &points, size_t count)
+{
+    std::vector<SurfacePoint> few;
+    const size_t step = std::max<size_t>(1, points.size() / count);
+    for (size_t k = 0; k < points.size(); k += step) {
+        few.push_back(points[k]);
+    }
+    return few;
+}
+
+double score_of(const Pose &pose, const std::vector<SurfacePoint> &points, const SurfaceField &field)
+{
+    const Eigen::Matrix2d r = rotation(pose.theta);
+    const Eigen::Vector2d t(pose.x, pose.y);
+    double sum = 0;
+    for (const SurfacePoint &point : points) {
+        sum += field.likeness(r * point.p + t);
+    }
+    return points.empty() ? 0 : sum / static_cast<double>(points.size());
+}
+
+bool inside(const Pose &pose, const Pose &guess, const SearchWindow &window)
+{
+    return std::hypot(pose.x - guess.x, pose.y - guess.y) <= window.half_m &&
+           std::abs(wrapped(pose.theta - guess.theta)) <= window.half_rad;
+}
+
+// Section IV of the paper: one corner of each side is laid on the other; their bisectors give the rotation.
+void hypotheses_from_corners(const std::vector<CornerMark> &corners,
+                             const std::vector<CornerMark> &field_corners, const Pose &guess,
+                             const SearchWindow &window, std::vector<Pose> *out)
+{
+    for (const CornerMark &here : corners) {
+        for (const CornerMark &there : field_corners) {
+            if (here.convex != there.convex ||
+                std::abs(here.angle - there.angle) > corner_angle_tolerance_rad) {
+                continue;
+            }
+            const double theta = wrapped(there.bisector - here.bisector);
+            const Eigen::Vector2d p = there.p - rotation(theta) * here.p;
+            const Pose pose{p.x(), p.y(), theta};
+            if (inside(pose, guess, window) && out->size() < max_hypotheses) {
+                out->push_back(pose);
+            }
+        }
+    }
+}
+
+void hypotheses_from_window(const Pose &guess, const SearchWindow &window, std::vector<Pose> *out)
+{
+    const int steps = static_cast<int>(std::ceil(window.half_m / window_step_m));
+    const int turns = static_cast<int>(std::ceil(window.half_rad / window_step_rad));
+    for (int turn = -turns; turn <= turns; turn++) {
+        for (int row = -steps; row <= steps; row++) {
+            for (int column = -steps; column <= steps; column++) {
+                if (out->size() >= max_hypotheses) {
+                    return;
+                }
+                out->push_back({guess.x + column * window_step_m, guess.y + row * window_step_m,
+                                wrapped(guess.theta + turn * window_step_rad)});
+            }
+        }
+    }
+}
+
+struct Fit {
+    Pose pose;
+    Eigen::Matrix3d information; // patch frame, rotation about the node
+    double overlap;
+    double rms_m;
+};
+
+// One least-squares pass, point to surface along the normal, with pairs nearer than gate_m.
+Fit refine_once(const Pose &pose, const std::vector<SurfacePoint> &points, const SurfaceField &field,
+                double gate_m)
+{
+    Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    const Eigen::Matrix2d r = rotation(pose.theta);
+    const Eigen::Vector2d t(pose.x, pose.y);
+    double sum2 = 0;
+    size_t inliers = 0;
+    size_t pairs = 0;
+    for (const SurfacePoint &point : points) {
+        const Eigen::Vector2d lever = r * point.p;
+        const SurfacePoint *there = field.nearest(lever + t);
+        if (!there || there->normal.isZero()) {
+            continue;
+        }
+        const Eigen::Vector2d n = r * point.normal;
+        if (!point.normal.isZero() && n.dot(there->normal) < facing) {
+            continue;
+        }
+        const double residual = there->normal.dot(lever + t - there->p);
+        if (std::abs(residual) > gate_m) {
+            continue;
+        }
+        const Eigen::Vector3d j(there->normal.x(), there->normal.y(),
+                                lever.x() * there->normal.y() - lever.y() * there->normal.x());
+        const double x = residual / gate_m;
+        const double weight = (1 - x * x) * (1 - x * x);
+        h += weight * j * j.transpose();
+        b += weight * j * residual;
+        pairs++;
+        if (std::abs(residual) < inlier_m) {
+            inliers++;
+            sum2 += residual * residual;
+        }
+    }
+    Fit fit{pose, h / (surface_sigma_m * surface_sigma_m), 0, 0};
+    fit.overlap = points.empty() ? 0 : static_cast<double>(inliers) / static_cast<double>(points.size());
+    fit.rms_m = inliers ? std::sqrt(sum2 / static_cast<double>(inliers)) : 0;
+    if (pairs >= 10) {
+        const Eigen::Matrix3d damped = h + Eigen::Vector3d(1e-3, 1e-3, 1e-3).asDiagonal().toDenseMatrix();
+        const Eigen::Vector3d step = -damped.ldlt().solve(b);
+        fit.pose = {pose.x + step(0), pose.y + step(1), wrapped(pose.theta + step(2))};
+    }
+    return fit;
+}
+
+Fit refine(const Pose &start, const std::vector<SurfacePoint> &points, const SurfaceField &field)
+{
+    Fit fit{start, Eigen::Matrix3d::Zero(), 0, 0};
+    for (int pass = 0; pass < refine_passes; pass++) {
+        const double gate_m = pass < 4 ? 0.25 : (pass < 8 ? 0.12 : 0.06);
+        fit = refine_once(fit.pose, points, field, gate_m);
+    }
+    return fit;
+}
+
+bool distinct(const Pose &a, const Pose &b)
+{
+    return std::hypot(a.x - b.x, a.y - b.y) > distinct_m ||
+           std::abs(wrapped(a.theta - b.theta)) > distinct_rad;
+}
+
+std::vector<Hypothesis> scored_by(const std::vector<Pose> &poses, const std::vector<SurfacePoint> &points,
+                                  const SurfaceField &field)
+{
+    std::vector<Hypothesis> scored;
+    scored.reserve(poses.size());
+    for (const Pose &pose : poses) {
+        scored.push_back({pose, score_of(pose, points, field)});
+    }
+    std::stable_sort(scored.begin(), scored.end(),
+                     [](const Hypothesis &a, const Hypothesis &b) { return a.score > b.score; });
+    return scored;
+}
+
+// The hypotheses worth a closer look, scored, best first.
+std::vector<Hypothesis> promising(const std::vector<Pose> &poses, const std::vector<SurfacePoint> &scan,
+                                  const SurfaceField &field)
+{
+    const std::vector<Hypothesis> glanced = scored_by(poses, thinned(scan, glanced_points), field);
+    std::vector<Pose> chosen;
+    for (size_t k = 0; k < std::min(glanced.size(), scored_hypotheses); k++) {
+        chosen.push_back(glanced[k].pose);
+    }
+    return scored_by(chosen, thinned(scan, scored_points), field);
+}
+
+// The best few hypotheses that are different places, best first.
+std::vector<Hypothesis> best_distinct(const std::vector<Hypothesis> &all)
+{
+    std::vector<Hypothesis> best;
+    for (const Hypothesis &h : all) {
+        const bool is_new = std::all_of(
+            best.begin(), best.end(), [&](const Hypothesis &other) { return distinct(h.pose, other.pose); });
+        if (is_new) {
+            best.push_back(h);
+        }
+        if (best.size() == refined_hypotheses) {
+            break;
+        }
+    }
+    return best;
+}
+
+LoopMatch as_match(const Fit &fit, double ambiguity)
+{
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+    turn.block<2, 2>(0, 0) = rotation(fit.pose.theta);
+    return {true, fit.pose, turn.transpose() * fit.information * turn, fit.overlap, ambiguity, fit.rms_m};
+}
+
+} // namespace
+
+LoopMatch match_patch(const std::vector<SurfacePoint> &scan, const std::vector<CornerMark> &corners,
+                      const SurfaceField &field, const std::vector<CornerMark> &field_corners,
+                      const Pose &guess, const SearchWindow &window)
+{
+    std::vector<Pose> poses;
+    hypotheses_from_corners(corners, field_corners, guess, window, &poses);
+    hypotheses_from_window(guess, window, &poses);
+    const std::vector<Hypothesis> scored = promising(poses, scan, field);
+    std::vector<Hypothesis> refined;
+    std::vector<Fit> fits;
+    for (const Hypothesis &h : best_distinct(scored)) {
+        fits.push_back(refine(h.pose, scan, field));
+        refined.push_back({fits.back().pose, score_of(fits.back().pose, scan, field)});
+    }
+    if (refined.empty()) {
+        return {false, guess, Eigen::Matrix3d::Zero(), 0, 1, 0};
+    }
+    size_t best = 0;
+    for (size_t k = 1; k < refined.size(); k++) {
+        best = refined[k].score > refined[best].score ? k : best;
+    }
+    double other = 0;
+    for (const Hypothesis &h : refined) {
+        other = distinct(h.pose, refined[best].pose) ? std::max(other, h.score) : other;
+    }
+    return as_match(fits[best], refined[best].score > 0 ? other / refined[best].score : 1);
+}
+
+LoopMatch match_near(const std::vector<SurfacePoint> &scan, const SurfaceField &field, const Pose &guess)
+{
+    return as_match(refine(guess, scan, field), 0);
+}
+
+} // namespace ale

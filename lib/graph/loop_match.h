@@ -1,0 +1,39 @@
+// Where a node lies in a patch of the map: hypotheses from corners and from a window around the guess,
+// scored by overlap, the best refined by least squares, and judged against the runner-up.
+//
+// Work: at most max_hypotheses * scored_points field look-ups and refine_passes passes over the points.
+#ifndef ALE_GRAPH_LOOP_MATCH_H
+#define ALE_GRAPH_LOOP_MATCH_H
+
+#include <vector>
+
+#include "graph/node.h"
+#include "graph/surface_field.h"
+
+namespace ale
+{
+
+struct SearchWindow {
+    double half_m; // how far the guess may be off
+    double half_rad;
+};
+
+struct LoopMatch {
+    bool found;
+    Pose pose;                   // of the node in the patch
+    Eigen::Matrix3d information; // of that pose, in the node's own frame
+    double overlap;              // share of the node's points that lie on the patch's surfaces, 0..1
+    double ambiguity;            // score of the best other place over that of this one, 0..1
+    double rms_m;                // of the inliers along the normal
+};
+
+LoopMatch match_patch(const std::vector<SurfacePoint> &scan, const std::vector<CornerMark> &corners,
+                      const SurfaceField &field, const std::vector<CornerMark> &field_corners,
+                      const Pose &guess, const SearchWindow &window);
+
+// Refines the guess alone: for a place that the tracker seems to know. ambiguity is 0.
+LoopMatch match_near(const std::vector<SurfacePoint> &scan, const SurfaceField &field, const Pose &guess);
+
+} // namespace ale
+
+#endif

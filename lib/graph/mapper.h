@@ -1,0 +1,67 @@
+/* The mapper behind the real-time loop, as C sees it: keyframes in, corrections of the map out.
+ *
+ *   ale_mapper_t *mapper = ale_mapper_create();
+ *   ale_mapper_add(mapper, &keyframe);
+ *   if (ale_mapper_correction(mapper, &correction)) ... hand it to ale_pipeline_correct ...
+ *   ale_mapper_destroy(mapper);
+ *
+ * For an ordinary thread: allocates, and takes milliseconds. Not thread-safe. The same keyframes give the
+ * same corrections on every machine: no clock, no vector instructions, trigonometry from lib/base. */
+#ifndef ALE_GRAPH_MAPPER_H
+#define ALE_GRAPH_MAPPER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "track/correction.h"
+#include "track/keyframe.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* In replay a correction that follows from the keyframe of scan k takes effect before scan k + this. */
+enum { ALE_CORRECTION_DELAY_SCANS = 5 };
+
+typedef struct ale_mapper ale_mapper_t;
+
+typedef struct {
+    uint32_t keyframes;
+    uint32_t candidates;   /* places looked at again */
+    uint32_t known;        /* where the tracker was right */
+    uint32_t unclear;      /* too little overlap, or another place fits nearly as well */
+    uint32_t unconfirmed;  /* no other keyframe agreed */
+    uint32_t contradicted; /* taken back: the graph disagreed */
+    uint32_t loops;        /* believed */
+    uint32_t refused;      /* keyframes lost because memory ran out */
+} ale_mapper_statistics_t;
+
+/* A keyframe as the graph now places it. */
+typedef struct {
+    uint32_t scan;
+    ale_pose_t smooth; /* as it was handed in */
+    ale_pose_t pose;   /* map frame, corrected by all loops so far */
+} ale_mapper_pose_t;
+
+/* NULL: out of memory. */
+ale_mapper_t *ale_mapper_create(void);
+void ale_mapper_destroy(ale_mapper_t *mapper);
+
+/* Takes a keyframe and looks for loops. A keyframe of a new epoch begins the graph anew; one of the same
+ * epoch must be of a later scan. 0, or -1: out of memory; it is counted, and the graph begins anew with
+ * the next keyframe. */
+int ale_mapper_add(ale_mapper_t *mapper, const ale_keyframe_t *keyframe);
+
+/* Fills *out with what has moved since the last one that was handed out. Each must be applied, in order. */
+bool ale_mapper_correction(ale_mapper_t *mapper, ale_correction_t *out);
+
+ale_mapper_statistics_t ale_mapper_statistics(const ale_mapper_t *mapper);
+
+/* The keyframes of this epoch, in order: k < statistics.keyframes. */
+ale_mapper_pose_t ale_mapper_pose(const ale_mapper_t *mapper, uint32_t k);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,63 @@
+// Pose graph: poses tied by relative measurements, solved by damped Gauss-Newton with sparse Cholesky.
+//
+//   PoseGraph graph;
+//   graph.add_pose(first);  graph.add_pose(second);
+//   graph.add_edge({0, 1, measured, information, false});
+//   graph.optimise(10);
+//
+// The first pose is held. Loop edges carry a robust kernel (dynamic covariance scaling, Agarwal et al. 2013):
+// a loop that contradicts the rest loses its weight instead of bending the map.
+// Not thread-safe. Work of one iteration: sparse LDL^T of 3n x 3n, n poses.
+#ifndef ALE_GRAPH_POSE_GRAPH_H
+#define ALE_GRAPH_POSE_GRAPH_H
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "graph/se2.h"
+
+namespace ale
+{
+
+struct GraphEdge {
+    int from;
+    int to;
+    Pose measured;               // `to` as seen from `from`
+    Eigen::Matrix3d information; // of (x, y, theta) of the measurement; 1/m^2, 1/(m rad), 1/rad^2
+    bool robust;
+};
+
+struct GraphReport {
+    int iterations;
+    double chi2; // weighted, robust edges scaled
+    bool solved; // false: the system could not be factorised; the poses are as they were
+};
+
+class PoseGraph
+{
+  public:
+    int add_pose(const Pose &pose);
+    void add_edge(const GraphEdge &edge);
+    GraphReport optimise(int max_iterations);
+
+    const std::vector<Pose> &poses() const
+    {
+        return poses_;
+    }
+    const std::vector<GraphEdge> &edges() const
+    {
+        return edges_;
+    }
+
+    // Mahalanobis square of an edge's residual at the present poses, not scaled.
+    double residual2(const GraphEdge &edge) const;
+
+  private:
+    std::vector<Pose> poses_;
+    std::vector<GraphEdge> edges_;
+};
+
+} // namespace ale
+
+#endif

@@ -1,0 +1,111 @@
+#include "graph/scan_node.h"
+
+namespace ale
+{
+
+namespace
+{
+
+constexpr int neighbour_beams = 3; // to each side, for the normal of a point that lies on no line
+constexpr double neighbour_gap_m = 0.12;
+
+struct Beams {
+    std::vector<Eigen::Vector2d> p; // sensor's frame
+    std::vector<bool> valid;
+};
+
+Beams beams_of(const ale_scan_t &scan, const uint32_t *bearing_bam)
+{
+    Beams beams;
+    for (int k = 0; k < scan.beams; k++) {
+        const uint32_t bearing = bearing_bam ? bearing_bam[k] : ale_scan_bearing(&scan, k);
+        const double range = scan.range_um[k] * 1e-6;
+        beams.p.emplace_back(range * ale_cos_q30(bearing) / 1073741824.0,
+                             range * ale_sin_q30(bearing) / 1073741824.0);
+        beams.valid.push_back(scan.flag[k] == ALE_BEAM_VALID && scan.range_um[k] > 0);
+    }
+    return beams;
+}
+
+// The line of each beam, or -1.
+std::vector<int> lines_of(const ale_features_t &features, size_t beams)
+{
+    std::vector<int> line(beams, -1);
+    for (int k = 0; k < features.line_count; k++) {
+        for (size_t beam = features.line[k].first; beam <= features.line[k].last && beam < beams; beam++) {
+            line[beam] = k;
+        }
+    }
+    return line;
+}
+
+Eigen::Vector2d towards_sensor(const Eigen::Vector2d &normal, const Eigen::Vector2d &p)
+{
+    return normal.dot(p) > 0 ? Eigen::Vector2d(-normal) : normal;
+}
+
+// Normal of a point off the lines, from the chord of its neighbours; zero where the surface is not
+// continuous.
+Eigen::Vector2d neighbourhood_normal(const Beams &beams, size_t beam)
+{
+    if (beam < neighbour_beams || beam + neighbour_beams >= beams.p.size()) {
+        return {0, 0};
+    }
+    for (size_t k = beam - neighbour_beams; k < beam + neighbour_beams; k++) {
+        if (!beams.valid[k] || !beams.valid[k + 1] ||
+            (beams.p[k + 1] - beams.p[k]).norm() > neighbour_gap_m) {
+            return {0, 0};
+        }
+    }
+    const Eigen::Vector2d chord = beams.p[beam + neighbour_beams] - beams.p[beam - neighbour_beams];
+    return towards_sensor(Eigen::Vector2d(-chord.y(), chord.x()).normalized(), beams.p[beam]);
+}
+
+// The point of the line itself where the beam meets it: free of the beam's own noise.
+Eigen::Vector2d on_line(const ale_line_t &line, const Eigen::Vector2d &p)
+{
+    const double alpha = static_cast<int32_t>(line.alpha_bam) / bam_per_radian;
+    const Eigen::Vector2d n(cosine(alpha), sine(alpha));
+    return p - n * (n.dot(p) - line.rho_um * 1e-6);
+}
+
+Eigen::Vector2d line_normal(const ale_line_t &line, const Eigen::Vector2d &p)
+{
+    const double alpha = static_cast<int32_t>(line.alpha_bam) / bam_per_radian;
+    return towards_sensor({cosine(alpha), sine(alpha)}, p);
+}
+
+CornerMark corner_of(const ale_corner_t &corner, const Pose &sensor)
+{
+    const double bisector = static_cast<int32_t>(corner.bisector_bam) / bam_per_radian;
+    return {apply(sensor, {corner.p.x_um * 1e-6, corner.p.y_um * 1e-6}), wrapped(bisector + sensor.theta),
+            corner.angle_bam / bam_per_radian, corner.kind == ALE_CORNER_CONVEX};
+}
+
+} // namespace
+
+Node node_of(const ale_keyframe_t &keyframe)
+{
+    const Pose sensor = from_core(keyframe.sensor);
+    const Eigen::Matrix2d turn = rotation(sensor.theta);
+    const Beams beams = beams_of(keyframe.taken, keyframe.straightened ? keyframe.bearing_bam : nullptr);
+    const std::vector<int> line = lines_of(keyframe.features, beams.p.size());
+    Node node{keyframe.scan, from_core(keyframe.smooth), 0, keyframe.broken, keyframe.weak, {}, {}};
+    Eigen::Vector2d last(1e9, 1e9);
+    for (size_t k = 0; k < beams.p.size(); k++) {
+        if (!beams.valid[k] || (beams.p[k] - last).norm() < node_point_spacing_m) {
+            continue;
+        }
+        last = beams.p[k];
+        const ale_line_t *on = line[k] < 0 ? nullptr : &keyframe.features.line[line[k]];
+        const Eigen::Vector2d p = on ? on_line(*on, beams.p[k]) : beams.p[k];
+        const Eigen::Vector2d normal = on ? line_normal(*on, beams.p[k]) : neighbourhood_normal(beams, k);
+        node.points.push_back({apply(sensor, p), turn * normal});
+    }
+    for (int k = 0; k < keyframe.features.corner_count; k++) {
+        node.corners.push_back(corner_of(keyframe.features.corner[k], sensor));
+    }
+    return node;
+}
+
+} // namespace ale

@@ -1,0 +1,23 @@
+// From a keyframe of the core to a node of the graph: the boundary at which floating point begins.
+#ifndef ALE_GRAPH_SCAN_NODE_H
+#define ALE_GRAPH_SCAN_NODE_H
+
+#include "graph/node.h"
+
+extern "C" {
+#include "track/keyframe.h"
+}
+
+namespace ale
+{
+
+// Points at least this far apart are kept: enough for matching, and bounded by what a scan can show.
+constexpr double node_point_spacing_m = 0.04;
+
+// Points of a line lie on it and carry its normal; other points the normal of their neighbourhood, if it has
+// one. path_m is left 0.
+Node node_of(const ale_keyframe_t &keyframe);
+
+} // namespace ale
+
+#endif

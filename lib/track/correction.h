@@ -1,0 +1,34 @@
+/* What the mapper has found out about the past: where the map must move so that loops close.
+ *
+ * The robot's way, as it was tracked, is bent piece by piece: what was first seen in scan s moves by the
+ * shift of the last keyframe at or before s. A shift maps points of the map as it was to the map as it is
+ * now, p' = R p + t; the robot itself, and what it has seen since, moves by the last one. */
+#ifndef ALE_TRACK_CORRECTION_H
+#define ALE_TRACK_CORRECTION_H
+
+#include <stdint.h>
+
+#include "base/pose.h"
+#include "track/local_map.h"
+
+enum { ALE_CORRECTION_SHIFTS = 2048 };
+
+typedef struct {
+    uint32_t scan; /* from this scan on */
+    ale_pose_t shift;
+} ale_shift_t;
+
+struct ale_correction {
+    uint32_t epoch; /* of the map it was made for: see ale_keyframe_t */
+    uint32_t count;
+    ale_shift_t shift[ALE_CORRECTION_SHIFTS]; /* scans ascending */
+};
+
+/* The shift of a scan; none before the first keyframe. O(log count). */
+ale_pose_t ale_correction_at(const ale_correction_t *correction, uint32_t scan);
+
+/* Moves walls, marks and corners by the shifts of the scans that saw them first, and doubts walls that moved
+ * unlike their neighbours. `spare` is working memory. O(map * log count). */
+void ale_local_map_correct(ale_local_map_t *map, const ale_correction_t *correction, ale_marks_t *spare);
+
+#endif

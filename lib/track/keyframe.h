@@ -1,0 +1,33 @@
+/* A keyframe: a scan worth remembering, handed from the estimate task to the mapper, whole and by value.
+ *
+ * One is taken when the robot has gone on by half a metre or turned by half a radian and is not lost. */
+#ifndef ALE_TRACK_KEYFRAME_H
+#define ALE_TRACK_KEYFRAME_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/pose.h"
+#include "base/scan.h"
+#include "extract/extract.h"
+#include "track/pipeline.h"
+
+enum { ALE_KEYFRAME_STEP_UM = 500000, ALE_KEYFRAME_TURN_MRAD = 500 };
+
+struct ale_keyframe {
+    uint32_t epoch;       /* grows when the map is begun anew: what was mapped before is then void */
+    uint32_t corrections; /* taken in by the map since then */
+    uint32_t scan;
+    int64_t stamp_us;
+    ale_pose_t smooth; /* relative motion is measured by this: no correction is in it */
+    ale_pose_t map;
+    bool broken; /* lost, or put elsewhere, since the keyframe before: smooth does not tie them */
+    bool weak;   /* part of the pose rests on the prediction alone */
+    ale_pose_t sensor;
+    ale_scan_t taken;
+    bool straightened; /* bearing_bam holds, else the scan's own bearings */
+    uint32_t bearing_bam[ALE_MAX_BEAMS];
+    ale_features_t features;
+};
+
+#endif

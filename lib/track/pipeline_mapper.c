@@ -1,0 +1,95 @@
+/* What passes between the pipeline and the mapper, and what puts the robot elsewhere in the map. */
+#include <stddef.h>
+#include <string.h>
+
+#include "base/fixed.h"
+#include "base/trig.h"
+#include "track/correction.h"
+#include "track/keyframe.h"
+#include "track/pipeline.h"
+#include "track/pipeline_state.h"
+
+enum {
+    LOOP_SIGMA_UM = 30000, /* how well a corrected pose lies to the walls that it comes back to */
+    LOOP_SIGMA_URAD = 10000,
+    SHOWN_SIGMA_UM = 200000, /* how well a person shows where the robot stands */
+    SHOWN_SIGMA_URAD = 100000,
+    MOVED_UM = 5000,
+    MOVED_BAM = 2 * ALE_BAM_PER_MRAD
+};
+
+static bool has_gone_on(const ale_pipeline_t *p)
+{
+    const ale_pose_t way = ale_pose_between(p->keyframe_smooth, p->smooth);
+    const int64_t x = way.x_um;
+    const int64_t y = way.y_um;
+    return x * x + y * y > (int64_t)ALE_KEYFRAME_STEP_UM * ALE_KEYFRAME_STEP_UM ||
+           ale_abs64((int32_t)way.theta_bam) > (int64_t)ALE_KEYFRAME_TURN_MRAD * ALE_BAM_PER_MRAD;
+}
+
+bool ale_pipeline_keyframe(ale_pipeline_t *p, ale_keyframe_t *out)
+{
+    if (!p->started || !p->looked || p->tracker.state == ALE_STATE_LOST) {
+        return false;
+    }
+    if (p->keyframes > 0 && !p->broken && !has_gone_on(p)) {
+        return false;
+    }
+    out->epoch = p->epoch;
+    out->corrections = p->corrections;
+    out->scan = p->scans - 1;
+    out->stamp_us = p->scan.stamp_us;
+    out->smooth = p->smooth;
+    out->map = p->motion.pose;
+    out->broken = p->broken;
+    out->weak = p->tracker.state != ALE_STATE_GOOD;
+    out->sensor = p->config.sensor;
+    out->taken = p->scan;
+    out->straightened = p->straightened;
+    memcpy(out->bearing_bam, p->bearing_bam, sizeof out->bearing_bam);
+    out->features = p->features;
+    p->keyframe_smooth = p->smooth;
+    p->keyframes++;
+    p->broken = false;
+    return true;
+}
+
+static void correct_robot(ale_pipeline_t *p, ale_pose_t shift)
+{
+    const ale_pose_t before = p->motion.pose;
+    p->motion.pose = ale_pose_compose(shift, before);
+    ale_lag_turn(&p->lag, shift.theta_bam);
+    const bool moved = ale_abs64((int64_t)p->motion.pose.x_um - before.x_um) > MOVED_UM ||
+                       ale_abs64((int64_t)p->motion.pose.y_um - before.y_um) > MOVED_UM ||
+                       ale_abs64((int32_t)shift.theta_bam) > MOVED_BAM;
+    if (moved) {
+        ale_motion_widen(&p->motion, LOOP_SIGMA_UM, LOOP_SIGMA_URAD);
+        p->moved = true;
+    }
+}
+
+void ale_pipeline_correct(ale_pipeline_t *p, const ale_correction_t *correction)
+{
+    if (correction->epoch != p->epoch || correction->count == 0 ||
+        correction->count > ALE_CORRECTION_SHIFTS) {
+        return;
+    }
+    ale_local_map_correct(&p->map, correction, &p->spare_marks);
+    correct_robot(p, correction->shift[correction->count - 1].shift);
+    p->corrections++;
+}
+
+void ale_pipeline_relocate(ale_pipeline_t *p, ale_pose_t pose)
+{
+    p->motion.pose = pose;
+    ale_motion_widen(&p->motion, SHOWN_SIGMA_UM, SHOWN_SIGMA_URAD);
+    ale_tracker_found(&p->tracker);
+    p->map.near_radius_um = 0;
+    p->moved = true;
+    p->broken = true;
+}
+
+void ale_pipeline_freeze_map(ale_pipeline_t *p, bool frozen)
+{
+    p->frozen = frozen;
+}

@@ -1,0 +1,166 @@
+// lib/track/correction, pipeline_mapper: the map moves as loops say, and what must not move does not.
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "room.h"
+
+extern "C" {
+#include "track/correction.h"
+#include "track/keyframe.h"
+#include "track/local_map.h"
+}
+
+namespace
+{
+
+using Correction = std::unique_ptr<ale_correction_t>;
+
+Correction correction_of(std::vector<std::pair<uint32_t, reference::Pose>> shifts, uint32_t epoch)
+{
+    auto c = std::make_unique<ale_correction_t>();
+    c->epoch = epoch;
+    for (const auto &[scan, shift] : shifts) {
+        c->shift[c->count++] = {scan, convert::pose(shift)};
+    }
+    return c;
+}
+
+struct Driven {
+    room::Pipeline pipeline;
+    ale_estimate_t last = {};
+    std::unique_ptr<ale_keyframe_t> keyframe = std::make_unique<ale_keyframe_t>();
+    std::vector<uint32_t> keyframes; // their scans
+    int next = 0;
+    std::mt19937 rng{5};
+
+    Driven() : pipeline(room::make(ale_pipeline_default_config()))
+    {
+    }
+
+    void drive(int scans)
+    {
+        room::Sensor sensor;
+        sensor.noise = 0.003;
+        for (const int end = next + scans; next < end; next++) {
+            const ale_scan_t scan = room::scan_at(room::l_shape(), sensor, room::path, 1 + 0.1 * next, rng);
+            ale_pipeline_scan(pipeline.get(), &scan, &last);
+            if (ale_pipeline_keyframe(pipeline.get(), keyframe.get())) {
+                keyframes.push_back(keyframe->scan);
+            }
+        }
+    }
+
+    std::unique_ptr<ale_map_t> map() const
+    {
+        auto m = std::make_unique<ale_map_t>();
+        ale_pipeline_copy_map(pipeline.get(), m.get());
+        return m;
+    }
+};
+
+double distance(ale_point_t a, const reference::Pose &shift, ale_point_t b)
+{
+    const reference::Pose p = reference::compose(shift, {a.x_um * 1e-6, a.y_um * 1e-6, 0});
+    return std::hypot(p[0] - b.x_um * 1e-6, p[1] - b.y_um * 1e-6);
+}
+
+TEST(Correction, AScanMovesWithTheLastKeyframeBeforeIt)
+{
+    const Correction c = correction_of({{10, {1, 0, 0}}, {20, {2, 0, 0}}, {35, {3, 0, 0}}}, 1);
+    for (const auto &[scan, x] : std::vector<std::pair<uint32_t, double>>{
+             {0, 0}, {9, 0}, {10, 1}, {19, 1}, {20, 2}, {34, 2}, {35, 3}, {4000000000U, 3}}) {
+        EXPECT_EQ(ale_correction_at(c.get(), scan).x_um, convert::um(x)) << scan;
+    }
+}
+
+TEST(Correction, KeyframesComeWithTheWayAndNotWithTime)
+{
+    Driven d;
+    d.drive(120);
+    ASSERT_GT(d.keyframes.size(), 5U);
+    EXPECT_EQ(d.keyframes.front(), 0U);
+    EXPECT_LT(d.keyframes.size(), 30U);
+    EXPECT_FALSE(ale_pipeline_keyframe(d.pipeline.get(), d.keyframe.get()));
+}
+
+TEST(Correction, WallsCornersAndRobotMoveLikeTheTwinAndTheSmoothPoseDoesNot)
+{
+    Driven d;
+    d.drive(80);
+    const reference::Pose shift(0.4, -0.25, 0.1);
+    const auto before = d.map();
+    const ale_estimate_t at = d.last;
+    ale_pipeline_correct(d.pipeline.get(), correction_of({{0, shift}}, d.keyframe->epoch).get());
+    const auto after = d.map();
+    ASSERT_EQ(before->line_count, after->line_count);
+    ASSERT_GT(before->line_count, 6);
+    for (int i = 0; i < before->line_count; i++) {
+        EXPECT_LT(distance(before->line[i].start, shift, after->line[i].start), 3e-6);
+        EXPECT_LT(distance(before->line[i].end, shift, after->line[i].end), 3e-6);
+    }
+    ASSERT_EQ(before->corner_count, after->corner_count);
+    for (int i = 0; i < before->corner_count; i++) {
+        EXPECT_LT(distance(before->corner[i].p, shift, after->corner[i].p), 3e-6);
+    }
+    d.drive(1);
+    const reference::Pose moved = reference::compose(shift, convert::pose(at.map));
+    EXPECT_LT((convert::pose(d.last.map) - moved).head<2>().norm(), 0.08);
+    EXPECT_LT((convert::pose(d.last.smooth) - convert::pose(at.smooth)).head<2>().norm(), 0.08);
+}
+
+TEST(Correction, TrackingGoesOnAsIfNothingHadHappened)
+{
+    Driven plain;
+    plain.drive(140);
+    Driven bent;
+    bent.drive(80);
+    const reference::Pose shift(-0.3, 0.2, -0.15);
+    ale_pipeline_correct(bent.pipeline.get(), correction_of({{0, shift}}, bent.keyframe->epoch).get());
+    bent.drive(60);
+    const reference::Pose expected = reference::compose(shift, convert::pose(plain.last.map));
+    EXPECT_LT((convert::pose(bent.last.map) - expected).head<2>().norm(), 0.006);
+    EXPECT_EQ(bent.last.state, ALE_STATE_GOOD);
+    EXPECT_LE(bent.map()->line_count, plain.map()->line_count + 2);
+}
+
+TEST(Correction, ACorrectionOfAnotherMapIsIgnored)
+{
+    Driven d;
+    d.drive(20);
+    const auto before = d.map();
+    ale_pipeline_correct(d.pipeline.get(), correction_of({{0, {1, 1, 1}}}, d.keyframe->epoch + 1).get());
+    const auto after = d.map();
+    EXPECT_EQ(std::memcmp(before.get(), after.get(), sizeof *after), 0);
+}
+
+TEST(Correction, AFrozenMapStaysAsItIsByteForByte)
+{
+    Driven d;
+    d.drive(60);
+    ale_pipeline_freeze_map(d.pipeline.get(), true);
+    const auto before = d.map();
+    d.drive(60);
+    const auto after = d.map();
+    EXPECT_EQ(d.last.state, ALE_STATE_GOOD);
+    EXPECT_EQ(std::memcmp(before->line, after->line, sizeof after->line), 0);
+    EXPECT_EQ(std::memcmp(before->corner, after->corner, sizeof after->corner), 0);
+}
+
+TEST(Correction, ARobotThatIsShownWhereItStandsGoesOnFromThere)
+{
+    Driven d;
+    d.drive(60);
+    const reference::Pose at = convert::pose(d.last.map);
+    ale_pose_t wrong = convert::pose(reference::Pose(at[0] + 0.25, at[1] - 0.15, at[2] + 0.08));
+    const ale_pose_t smooth = d.last.smooth;
+    ale_pipeline_relocate(d.pipeline.get(), wrong);
+    d.drive(1);
+    EXPECT_LT((convert::pose(d.last.smooth) - convert::pose(smooth)).head<2>().norm(), 0.1);
+    d.drive(9);
+    const reference::Pose truth = room::since_start(room::path(1), room::path(1 + 0.1 * (d.next - 1)));
+    EXPECT_LT((convert::pose(d.last.map) - truth).head<2>().norm(), 0.01);
+    EXPECT_EQ(d.last.state, ALE_STATE_GOOD);
+}
+
+} // namespace

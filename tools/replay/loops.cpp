@@ -1,0 +1,103 @@
+#include "replay/loops.h"
+
+#include <algorithm>
+#include <ctime>
+#include <new>
+
+extern "C" {
+#include "base/fixed.h"
+#include "base/trig.h"
+#include "track/correction.h"
+#include "track/keyframe.h"
+}
+
+namespace ale
+{
+
+namespace
+{
+
+int64_t thread_time_ns()
+{
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return int64_t{now.tv_sec} * 1000000000 + now.tv_nsec;
+}
+
+/* From a to b, `part` of `whole` of the way. */
+ale_pose_t blend(ale_pose_t a, ale_pose_t b, uint32_t part, uint32_t whole)
+{
+    const auto between = [part, whole](int64_t from, int64_t to) {
+        return static_cast<int32_t>(from + ale_round_div((to - from) * part, whole));
+    };
+    const int64_t turn_bam = ale_bam_diff(b.theta_bam, a.theta_bam);
+    return {between(a.x_um, b.x_um), between(a.y_um, b.y_um),
+            a.theta_bam + static_cast<uint32_t>(ale_round_div(turn_bam * part, whole))};
+}
+
+/* Where a keyframe puts a scan that was tracked together with it. */
+ale_pose_t placed(const ale_mapper_pose_t &keyframe, const ale_pose_t &smooth)
+{
+    return ale_pose_compose(keyframe.pose, ale_pose_between(keyframe.smooth, smooth));
+}
+
+} // namespace
+
+Loops::Loops() : mapper_(ale_mapper_create()), keyframe_(std::make_unique<ale_keyframe_t>())
+{
+    if (!mapper_) {
+        throw std::bad_alloc();
+    }
+}
+
+void Loops::before_scan(ale_pipeline_t *pipeline, uint32_t scan)
+{
+    while (!due_.empty() && due_.front().scan <= scan) {
+        ale_pipeline_correct(pipeline, due_.front().correction.get());
+        due_.pop_front();
+    }
+}
+
+void Loops::after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate)
+{
+    tracked_.push_back({estimate.smooth, estimate.map});
+    if (!ale_pipeline_keyframe(pipeline, keyframe_.get())) {
+        return;
+    }
+    broken_.push_back(keyframe_->broken);
+    const int64_t start_ns = thread_time_ns();
+    ale_mapper_add(mapper_.get(), keyframe_.get());
+    auto correction = std::make_unique<ale_correction_t>();
+    if (ale_mapper_correction(mapper_.get(), correction.get())) {
+        due_.push_back({estimate.scan + ALE_CORRECTION_DELAY_SCANS, std::move(correction)});
+    }
+    longest_ns_ = std::max(longest_ns_, thread_time_ns() - start_ns);
+}
+
+void Loops::finish(ale_pipeline_t *pipeline)
+{
+    before_scan(pipeline, UINT32_MAX);
+    const uint32_t count = statistics().keyframes;
+    for (uint32_t k = 0; k < count; k++) {
+        keyframes_.push_back(ale_mapper_pose(mapper_.get(), k));
+    }
+}
+
+ale_pose_t Loops::corrected(uint32_t scan) const
+{
+    const Tracked &tracked = tracked_[scan];
+    const auto after = std::upper_bound(
+        keyframes_.begin(), keyframes_.end(), scan,
+        [](uint32_t number, const ale_mapper_pose_t &keyframe) { return number < keyframe.scan; });
+    const bool tied = after != keyframes_.end() && !broken_[static_cast<size_t>(after - keyframes_.begin())];
+    if (after == keyframes_.begin()) {
+        return tied ? placed(*after, tracked.smooth) : tracked.map;
+    }
+    const ale_mapper_pose_t &before = *(after - 1);
+    const ale_pose_t from_before = placed(before, tracked.smooth);
+    return tied ? blend(from_before, placed(*after, tracked.smooth), scan - before.scan,
+                        after->scan - before.scan)
+                : from_before;
+}
+
+} // namespace ale

@@ -1,0 +1,73 @@
+/* The mapper beside a replay: what the firmware's mapper thread does, at fixed scans instead of when it is
+ * done. */
+#ifndef ALE_REPLAY_LOOPS_H
+#define ALE_REPLAY_LOOPS_H
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <vector>
+
+extern "C" {
+#include "track/pipeline.h"
+}
+#include "graph/mapper.h"
+
+namespace ale
+{
+
+class Loops
+{
+  public:
+    Loops();
+
+    /* Before scan `scan` is handed to the pipeline: corrections that are due take effect. */
+    void before_scan(ale_pipeline_t *pipeline, uint32_t scan);
+
+    /* After the pipeline has answered it. */
+    void after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate);
+
+    /* After the last scan: what is still under way takes effect, and every scan's pose is known. */
+    void finish(ale_pipeline_t *pipeline);
+
+    /* Map pose of a scan, corrected by all loops; after finish(). Between two keyframes the way as tracked is
+     * bent to meet both. */
+    ale_pose_t corrected(uint32_t scan) const;
+
+    ale_mapper_statistics_t statistics() const
+    {
+        return ale_mapper_statistics(mapper_.get());
+    }
+    int64_t longest_ns() const
+    {
+        return longest_ns_;
+    }
+
+  private:
+    struct Tracked {
+        ale_pose_t smooth;
+        ale_pose_t map;
+    };
+    struct Due {
+        uint32_t scan;
+        std::unique_ptr<ale_correction_t> correction;
+    };
+    struct Destroy {
+        void operator()(ale_mapper_t *mapper) const
+        {
+            ale_mapper_destroy(mapper);
+        }
+    };
+
+    std::unique_ptr<ale_mapper_t, Destroy> mapper_;
+    std::unique_ptr<ale_keyframe_t> keyframe_;
+    std::deque<Due> due_;
+    std::vector<Tracked> tracked_;             /* by scan */
+    std::vector<ale_mapper_pose_t> keyframes_; /* after finish() */
+    std::vector<bool> broken_;                 /* by keyframe: nothing ties it to the one before */
+    int64_t longest_ns_ = 0;
+};
+
+} // namespace ale
+
+#endif
