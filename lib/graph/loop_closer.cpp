@@ -39,7 +39,7 @@ constexpr double broken_doubt = 50;    // or nobody
 // Relative motion between neighbouring nodes as the tracker measured it.
 Eigen::Matrix3d motion_information(const Pose &motion, const Node &to)
 {
-    const double distance = std::hypot(motion.x, motion.y);
+    const double distance = length(motion.x, motion.y);
     const double turn = std::abs(motion.theta);
     const double doubt = to.broken ? broken_doubt : (to.weak ? weak_doubt : 1);
     const double sigma_m = doubt * (0.004 + 0.008 * distance + 0.004 * turn);
@@ -71,7 +71,7 @@ Eigen::Matrix3d known_information()
 bool near(const Pose &guess, const LoopMatch &match, double overlap)
 {
     const Pose off = between(guess, match.pose);
-    return match.found && match.overlap >= overlap && std::hypot(off.x, off.y) < known_m &&
+    return match.found && match.overlap >= overlap && length(off.x, off.y) < known_m &&
            std::abs(off.theta) < known_rad;
 }
 
@@ -136,7 +136,7 @@ std::vector<int> LoopCloser::candidates() const
             break;
         }
         const Pose &there = graph_.poses()[k];
-        const double distance = std::hypot(there.x - here.x, there.y - here.y);
+        const double distance = length(there.x - here.x, there.y - here.y);
         if (distance < loop_reach_m + std::min(max_window_m, drift_per_metre * driven_m)) {
             places.push_back({static_cast<int>(k), distance});
         }
@@ -163,7 +163,7 @@ std::vector<SurfacePoint> LoopCloser::patch_around(int k, int before, int after)
     std::vector<SurfacePoint> patch;
     for (int i = first; i <= last; i++) {
         const Pose seen = between(middle, graph_.poses()[static_cast<size_t>(i)]);
-        if (std::hypot(seen.x, seen.y) > patch_reach_m) {
+        if (length(seen.x, seen.y) > patch_reach_m) {
             continue;
         }
         const Eigen::Matrix2d r = rotation(seen.theta);
@@ -230,7 +230,7 @@ std::vector<LoopCloser::Loop> LoopCloser::partners_of(const Loop &loop) const
         const Pose along_here = between(graph_.poses()[static_cast<size_t>(other.to)],
                                         graph_.poses()[static_cast<size_t>(loop.to)]);
         const Pose gap = between(compose(other.measured, along_here), compose(along_there, loop.measured));
-        if (std::hypot(gap.x, gap.y) < agreement_m && std::abs(gap.theta) < agreement_rad) {
+        if (length(gap.x, gap.y) < agreement_m && std::abs(gap.theta) < agreement_rad) {
             partners.push_back(other);
         }
     }

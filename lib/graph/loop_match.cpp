@@ -54,7 +54,7 @@ double score_of(const Pose &pose, const std::vector<SurfacePoint> &points, const
 
 bool inside(const Pose &pose, const Pose &guess, const SearchWindow &window)
 {
-    return std::hypot(pose.x - guess.x, pose.y - guess.y) <= window.half_m &&
+    return length(pose.x - guess.x, pose.y - guess.y) <= window.half_m &&
            std::abs(wrapped(pose.theta - guess.theta)) <= window.half_rad;
 }
 
@@ -163,8 +163,7 @@ Fit refine(const Pose &start, const std::vector<SurfacePoint> &points, const Sur
 
 bool distinct(const Pose &a, const Pose &b)
 {
-    return std::hypot(a.x - b.x, a.y - b.y) > distinct_m ||
-           std::abs(wrapped(a.theta - b.theta)) > distinct_rad;
+    return length(a.x - b.x, a.y - b.y) > distinct_m || std::abs(wrapped(a.theta - b.theta)) > distinct_rad;
 }
 
 std::vector<Hypothesis> scored_by(const std::vector<Pose> &poses, const std::vector<SurfacePoint> &points,

@@ -25,7 +25,7 @@ Pose shift_of(const Pose &before, const Pose &after)
 
 bool is_worth_it(const Pose &before, const Pose &after)
 {
-    return std::hypot(after.x - before.x, after.y - before.y) > worth_m ||
+    return ale::length(after.x - before.x, after.y - before.y) > worth_m ||
            std::abs(ale::wrapped(after.theta - before.theta)) > worth_rad;
 }
 
@@ -70,7 +70,7 @@ void add(ale_mapper &mapper, const ale_keyframe_t &keyframe)
     Pose motion;
     if (!mapper.known.empty()) {
         motion = ale::between(mapper.known.back(), pose);
-        node.path_m = mapper.closer.nodes().back().path_m + std::hypot(motion.x, motion.y);
+        node.path_m = mapper.closer.nodes().back().path_m + ale::length(motion.x, motion.y);
     }
     mapper.known.push_back(pose);
     mapper.closer.add(std::move(node), mapper.known.size() == 1 ? pose : motion);

@@ -42,6 +42,12 @@ inline double wrapped(double radians)
     return radians - 2 * pi * std::nearbyint(radians / (2 * pi));
 }
 
+// Of a vector; std::hypot differs between mathematics libraries in the last digit, the square root does not.
+inline double length(double x, double y)
+{
+    return std::sqrt(x * x + y * y);
+}
+
 // A pose maps points of its own frame to the frame it is given in.
 struct Pose {
     double x = 0;
