@@ -35,6 +35,10 @@ ale_config_t ale_config_default(void)
         .priority = 80,
         .cpu = -1,
         .lock_memory = true,
+        .map_folder = "/var/lib/ale-slam",
+        .name = "robot",
+        .drive_um_s = 500000,
+        .drive_urad_s = 1000000,
         .recorder_megabytes = 8,
     };
     return config;

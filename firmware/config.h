@@ -14,6 +14,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "command/command.h"
 #include "plan/explorer.h"
 #include "plan/robot_shape.h"
 #include "track/pipeline.h"
@@ -38,7 +39,12 @@ typedef struct {
     int32_t priority; /* 1..97, 0: not real time */
     int32_t cpu;      /* of the estimate task; -1: any */
     bool lock_memory;
-    char map[ALE_CONFIG_PATH];             /* loaded at start; empty: none */
+    char map[ALE_CONFIG_PATH]; /* loaded at start; empty: none */
+    char map_folder[ALE_CONFIG_PATH];
+    char name[ALE_NAME_BYTES];             /* the robot's */
+    char keys[ALE_CONFIG_PATH];            /* of those who may command it; empty: nobody */
+    int32_t drive_um_s;                    /* most that an operator may drive, */
+    int32_t drive_urad_s;                  /* and turn */
     char recorder_folder[ALE_CONFIG_PATH]; /* where flight recordings go; empty: nothing is recorded */
     int32_t recorder_megabytes;
 } ale_config_t;

@@ -87,8 +87,7 @@ const ale_config_key_t ale_config_keys[] = {
      "which stays on this computer; ttl=1 reaches the local network."},
     {"lcm", "publish_scan", BOOL(publish_scan), "Send every scan's ranges as ALE_SCAN."},
     {"lcm", "publish_bot_core", BOOL(publish_bot_core),
-     "Send scan and pose also as bot_core messages (ALE_BOT_LIDAR, ALE_BOT_POSE) for viewers that know "
-     "those."},
+     "Send scan and pose also as bot_core messages (LASER, POSE) for viewers that know those."},
 
     {"realtime", "priority", NUMBER(priority, 0, 0, 97),
      "Real-time priority of the estimate task; its helpers run just below. 0: an ordinary program."},
@@ -96,6 +95,14 @@ const ale_config_key_t ale_config_keys[] = {
     {"realtime", "lock_memory", BOOL(lock_memory), "Keep all memory from being paged out."},
 
     {"map", "file", TEXT(map), "Map to start from. Empty: none, the first scan is the origin."},
+    {"map", "folder", TEXT(map_folder),
+     "Where maps are saved and loaded by name; made when it is not there."},
+
+    {"commands", "robot", TEXT(name), "The robot's name: a command is for one robot."},
+    {"commands", "keys", TEXT(keys),
+     "Public keys of those who may command it (ale-keys makes them). Empty: it takes no commands."},
+    {"commands", "drive_speed", NUMBER(drive_um_s, 6, 0, 20000000), "Most that an operator may drive, m/s,"},
+    {"commands", "drive_turn", NUMBER(drive_urad_s, 6, 0, 20000000), "and turn, rad/s."},
 
     {"recorder", "folder", TEXT(recorder_folder),
      "Where flight recordings are written: on a fault, a missed deadline or a command. Empty: none."},

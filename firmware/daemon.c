@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "acquire.h"
+#include "drive.h"
 #include "estimate.h"
 #include "exchange.h"
 #include "lcm/bus.h"
@@ -22,6 +23,7 @@ struct ale_daemon {
     ale_rt_task_t *estimate;
     ale_acquire_t *acquire;
     ale_telemetry_t *telemetry;
+    ale_drive_t *drive;
 };
 
 static int fail(int exit_code, const char *reason)
@@ -98,9 +100,14 @@ static int start_tasks(ale_daemon_t *daemon)
     ale_rt_report(&report);
     fprintf(stderr, "ale-slamd: %s: %s\n", report.realtime ? "real time" : "real time degraded", report.text);
     if (daemon->acquire) {
-        daemon->telemetry = ale_telemetry_start(config, &daemon->exchange, daemon->bus, &report);
+        daemon->telemetry =
+            ale_telemetry_start(config, &daemon->options->keys, &daemon->exchange, daemon->bus, &report);
     }
-    if (!daemon->telemetry) {
+    const bool drives = daemon->options->keys.count > 0;
+    if (daemon->telemetry && drives) {
+        daemon->drive = ale_drive_start(config, &daemon->exchange);
+    }
+    if (!daemon->telemetry || (drives && !daemon->drive)) {
         return fail(1, "threads cannot be started");
     }
     return 0;
@@ -139,6 +146,7 @@ static void stop_estimate(ale_daemon_t *daemon)
 
 void ale_daemon_stop(ale_daemon_t *daemon)
 {
+    ale_drive_stop(daemon->drive);
     ale_acquire_stop(daemon->acquire);
     stop_estimate(daemon);
     ale_telemetry_stop(daemon->telemetry);

@@ -66,7 +66,7 @@ ale_estimator_t *ale_estimator_create(const ale_config_t *config, ale_exchange_t
     estimator->exchange = exchange;
     estimator->map_ns = -ALE_MAP_PERIOD_NS;
     estimator->pipeline = pipeline;
-    estimator->keep_scans = config->publish_scan || config->publish_bot_core;
+    estimator->keep_scans = config->publish_scan || config->publish_bot_core || config->keys[0] != '\0';
     estimator->result = &estimator->spare;
     const ale_stage_hook_t hook = {.end_of = end_of_stage, .user = estimator};
     ale_pipeline_set_hook(pipeline, &hook);
@@ -160,8 +160,34 @@ static void show_map(ale_estimator_t *estimator)
     estimator->map_ns = now_ns;
 }
 
+static void fulfil(ale_estimator_t *estimator, const ale_request_t *request)
+{
+    bool fresh = false;
+    switch (request->kind) {
+    case ALE_REQUEST_RESET:
+        ale_pipeline_reset(estimator->pipeline);
+        break;
+    case ALE_REQUEST_LOAD_MAP:
+        ale_pipeline_load_map(estimator->pipeline,
+                              ale_snapshot_newest(estimator->exchange->loaded_map, &fresh), request->pose,
+                              request->pose_known);
+        break;
+    }
+    estimator->map_waits = true;
+}
+
+static void take_requests(ale_estimator_t *estimator)
+{
+    ale_ring_t *requests = estimator->exchange->requests;
+    for (uint32_t ready = ale_ring_ready(requests); ready > 0; ready--) {
+        fulfil(estimator, ale_ring_at(requests, 0));
+        ale_ring_release(requests);
+    }
+}
+
 void ale_estimator_step(ale_estimator_t *estimator)
 {
+    take_requests(estimator);
     take_odometry(estimator);
     for (uint32_t waiting = ale_ring_ready(estimator->exchange->scans); waiting > 0; waiting--) {
         answer_oldest(estimator, waiting - 1);

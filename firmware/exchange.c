@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "base/fixed.h"
+#include "drive.h"
 #include "urg/urg_device.h"
 
 #define LOOK_NS 250000
@@ -18,11 +19,19 @@ int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock)
         .results = ale_ring_create(sizeof(ale_result_t), ALE_RESULT_SLOTS),
         .map = ale_snapshot_create(sizeof(ale_map_t)),
         .health = ale_snapshot_create(sizeof(ale_urg_health_t)),
+        .requests = ale_ring_create(sizeof(ale_request_t), ALE_REQUEST_SLOTS),
+        .loaded_map = ale_snapshot_create(sizeof(ale_map_t)),
+        .drive_orders = ale_snapshot_create(sizeof(ale_drive_orders_t)),
+        .drive_scan = ale_snapshot_create(sizeof(ale_scan_t)),
+        .exploration = ale_snapshot_create(sizeof(ale_wish_t)),
+        .drive_again = ale_rt_release_create(),
         .arrived = ale_rt_release_create(),
         .under_way = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK),
     };
     const bool complete = exchange->scans && exchange->odometry && exchange->results && exchange->map &&
-                          exchange->health && exchange->arrived && exchange->under_way >= 0;
+                          exchange->health && exchange->requests && exchange->loaded_map &&
+                          exchange->drive_orders && exchange->drive_scan && exchange->exploration &&
+                          exchange->drive_again && exchange->arrived && exchange->under_way >= 0;
     if (!complete) {
         ale_exchange_close(exchange);
     }
@@ -36,6 +45,12 @@ void ale_exchange_close(ale_exchange_t *exchange)
     ale_ring_destroy(exchange->results);
     ale_snapshot_destroy(exchange->map);
     ale_snapshot_destroy(exchange->health);
+    ale_ring_destroy(exchange->requests);
+    ale_snapshot_destroy(exchange->loaded_map);
+    ale_snapshot_destroy(exchange->drive_orders);
+    ale_snapshot_destroy(exchange->drive_scan);
+    ale_snapshot_destroy(exchange->exploration);
+    ale_rt_release_destroy(exchange->drive_again);
     ale_rt_release_destroy(exchange->arrived);
     if (exchange->under_way >= 0) {
         close(exchange->under_way);

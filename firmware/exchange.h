@@ -6,6 +6,11 @@
  *      │                            └─────── odometry ───────────────┤
  *      └──────────── health of the scanner (newest) ─────────────────┘
  *
+ *              requests                  orders, scan (newest)
+ *   estimate ◄──────────── telemetry ──────────────────────────► drive ◄── wish (newest) ── exploration
+ *      ▲                      ▲ jobs
+ *      └── loaded map ── map keeper
+ *
  * Rings and snapshots have one writer and one reader each. Times are of the clock inside (clock.h). */
 #ifndef ALE_FIRMWARE_EXCHANGE_H
 #define ALE_FIRMWARE_EXCHANGE_H
@@ -22,8 +27,8 @@
 #include "snapshot.h"
 #include "track/pipeline.h"
 
-/* Several seconds of scans at 10 Hz, and of odometry at 100 Hz. */
-enum { ALE_SCAN_SLOTS = 64, ALE_RESULT_SLOTS = 64, ALE_ODOMETRY_SLOTS = 512 };
+/* Several seconds of scans at 10 Hz, and of odometry at 100 Hz; requests are those of people. */
+enum { ALE_SCAN_SLOTS = 64, ALE_RESULT_SLOTS = 64, ALE_ODOMETRY_SLOTS = 512, ALE_REQUEST_SLOTS = 16 };
 
 typedef struct {
     bool lost;          /* the device sent it, it cannot be used: scan.stamp_us alone counts */
@@ -48,6 +53,15 @@ typedef struct {
     ale_scan_t scan; /* only when scans are published */
 } ale_result_t;
 
+typedef enum { ALE_REQUEST_RESET, ALE_REQUEST_LOAD_MAP } ale_request_kind_t;
+
+/* What an operator wants of the estimate task, done between two scans. */
+typedef struct {
+    ale_request_kind_t kind;
+    bool pose_known; /* load: the robot is at `pose` of the map; otherwise it is lost until found */
+    ale_pose_t pose;
+} ale_request_t;
+
 typedef struct {
     ale_clock_t clock;
     ale_ring_t *scans;             /* ale_scan_record_t: acquire to estimate */
@@ -55,6 +69,12 @@ typedef struct {
     ale_ring_t *results;           /* ale_result_t: estimate to telemetry */
     ale_snapshot_t *map;           /* ale_map_t: estimate to telemetry */
     ale_snapshot_t *health;        /* ale_urg_health_t: acquire to telemetry */
+    ale_ring_t *requests;          /* ale_request_t: telemetry to estimate */
+    ale_snapshot_t *loaded_map;    /* ale_map_t: map keeper to estimate */
+    ale_snapshot_t *drive_orders;  /* ale_drive_orders_t: telemetry to drive */
+    ale_snapshot_t *drive_scan;    /* ale_scan_t: telemetry to drive */
+    ale_snapshot_t *exploration;   /* ale_wish_t: exploration to drive */
+    ale_rt_release_t *drive_again; /* wakes the drive thread: something has changed */
     ale_rt_release_t *arrived;     /* releases the estimate task */
     struct ale_recorder *recorder; /* is told by acquire and telemetry; NULL: none is wanted */
     int under_way; /* event descriptor: a scan has gone to the estimate task, or health has changed */

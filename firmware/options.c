@@ -22,7 +22,7 @@ static const char help[] =
     "  --port DEV       serial device of the scanner (sensor.port)\n"
     "  --lcm-url URL    where messages go (lcm.url)\n"
     "  --map FILE       map to start from (map.file)\n"
-    "  --keys FILE      keys of those who may command the robot; commands are not taken by this version\n"
+    "  --keys FILE      keys of those who may command the robot (commands.keys); ale-keys makes them\n"
     "  --check-config   reads the configuration and says whether it is fine\n"
     "  --print-config   prints the whole configuration, commented, as a file to start from\n"
     "  --time-scale X   the clock runs X times as fast (0.01 to 100), with a simulator's --speed X\n"
@@ -147,18 +147,6 @@ static bool read_scale(const char *word, int32_t *scale_ppm)
     return true;
 }
 
-static bool check_keys(const char *path)
-{
-    if (path && access(path, R_OK) < 0) {
-        fprintf(stderr, "ale-slamd: --keys %s: %s\n", path, strerror(errno));
-        return false;
-    }
-    if (path) {
-        fputs("ale-slamd: --keys: this version takes no commands, the keys are not used\n", stderr);
-    }
-    return true;
-}
-
 static bool read_config(const words_t *words, ale_config_t *config)
 {
     ale_config_error_t error;
@@ -169,7 +157,19 @@ static bool read_config(const words_t *words, ale_config_t *config)
     }
     return override("--port", words->port, config->port, sizeof config->port) &&
            override("--lcm-url", words->lcm_url, config->lcm_url, sizeof config->lcm_url) &&
-           override("--map", words->map, config->map, sizeof config->map);
+           override("--map", words->map, config->map, sizeof config->map) &&
+           override("--keys", words->keys, config->keys, sizeof config->keys);
+}
+
+static bool read_keys(const char *path, ale_keys_t *keys)
+{
+    char error[ALE_KEYS_ERROR];
+    *keys = (ale_keys_t){0};
+    if (path[0] != '\0' && ale_keys_load(path, keys, error) < 0) {
+        fprintf(stderr, "ale-slamd: %s\n", error);
+        return false;
+    }
+    return true;
 }
 
 ale_options_result_t ale_options_read(int count, char **arguments, ale_options_t *options, FILE *out)
@@ -180,7 +180,7 @@ ale_options_result_t ale_options_read(int count, char **arguments, ale_options_t
         return result;
     }
     if (!read_config(&words, &options->config) || !read_scale(words.time_scale, &options->scale_ppm) ||
-        !check_keys(words.keys)) {
+        !read_keys(options->config.keys, &options->keys)) {
         return ALE_OPTIONS_REFUSED;
     }
     if (words.print) {

@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "command/keys.h"
 #include "config.h"
 
 typedef enum {
@@ -16,6 +17,7 @@ typedef enum {
 
 typedef struct {
     ale_config_t config; /* the file's, with what the command line sets over it */
+    ale_keys_t keys;     /* of those who may command the robot */
     int32_t scale_ppm;   /* of the clock */
 } ale_options_t;
 

@@ -8,12 +8,15 @@
 #include <sys/random.h>
 
 #include "base/fixed.h"
+#include "commands.h"
+#include "map_keeper.h"
 #include "recorder.h"
 #include "statistics.h"
 #include "supervisor.h"
 
 #define NS_PER_S 1000000000
 #define STATUS_PERIOD_NS NS_PER_S
+#define NEWS_PERIOD_NS 50000000 /* between statuses that tell of commands */
 #define WHOLE_MAP_PERIOD_NS (10LL * NS_PER_S)
 #define PART_NS 1000000 /* between bursts of map parts */
 
@@ -26,6 +29,8 @@ struct ale_telemetry {
     ale_rt_task_t *task;
     ale_rt_report_t realtime;
     int64_t boot;
+    ale_map_keeper_t *keeper;
+    ale_commands_t *commands;
     ale_supervisor_t supervisor;
     ale_statistics_t statistics;
     const ale_urg_health_t *health;
@@ -33,6 +38,7 @@ struct ale_telemetry {
     int16_t next_part;    /* of the map; all sent: its number of parts */
     int64_t next_whole_map_ns;
     int64_t next_status_ns;
+    int64_t last_status_ns;
     ale_status_report_t report;
 };
 
@@ -49,13 +55,29 @@ static void take_odometry(void *user, const ale_odometry_t *sample)
     }
 }
 
+static void take_command(void *user, const uint8_t *bytes, size_t count)
+{
+    ale_telemetry_t *telemetry = user;
+    ale_commands_take(telemetry->commands, bytes, count, telemetry->map);
+}
+
+/* For the drive thread, which looks where it goes. */
+static void show_scan_to_drive(ale_exchange_t *exchange, const ale_scan_t *scan)
+{
+    *(ale_scan_t *)ale_snapshot_back(exchange->drive_scan) = *scan;
+    ale_snapshot_publish(exchange->drive_scan);
+}
+
 static void send_scan(ale_telemetry_t *telemetry, const ale_result_t *result)
 {
     const ale_config_t *config = telemetry->config;
     const int64_t utime = ale_clock_to_utime(&telemetry->exchange->clock, result->estimate.stamp_us);
     ale_bus_send_features(telemetry->bus, &result->features, utime, result->estimate.scan,
                           config->pipeline.sensor);
-    if (config->publish_scan) {
+    if (config->keys[0] != '\0') {
+        show_scan_to_drive(telemetry->exchange, &result->scan);
+    }
+    if (ale_commands_publish_scan(telemetry->commands)) {
         ale_bus_send_scan(telemetry->bus, &result->scan, utime, result->estimate.scan,
                           config->pipeline.sensor);
     }
@@ -138,7 +160,10 @@ static void send_status(ale_telemetry_t *telemetry)
     ale_supervisor_report(telemetry->health, ale_clock_now_us(clock), report);
     ale_statistics_counters(&telemetry->statistics, telemetry->health, telemetry->exchange,
                             ale_bus_refused(telemetry->bus), ale_bus_unsent(telemetry->bus), report);
+    ale_commands_report(telemetry->commands, &report->operation);
+    ale_commands_counters(telemetry->commands, report);
     ale_bus_send_status(telemetry->bus, report);
+    telemetry->last_status_ns = ale_rt_now_ns();
 }
 
 static bool map_under_way(const ale_telemetry_t *telemetry)
@@ -194,6 +219,11 @@ static void work(ale_telemetry_t *telemetry)
     watch_scanner(telemetry);
     const int64_t now_ns = ale_rt_now_ns();
     send_map(telemetry, now_ns);
+    ale_commands_work(telemetry->commands);
+    if (ale_commands_news(telemetry->commands)) {
+        telemetry->next_status_ns =
+            ale_min64(telemetry->next_status_ns, telemetry->last_status_ns + NEWS_PERIOD_NS);
+    }
     if (now_ns >= telemetry->next_status_ns) {
         send_status(telemetry);
         telemetry->next_status_ns = ale_max64(telemetry->next_status_ns + STATUS_PERIOD_NS, now_ns);
@@ -205,6 +235,9 @@ static void run(ale_rt_task_t *self, void *user)
     ale_telemetry_t *telemetry = user;
     if (ale_bus_on_odometry(telemetry->bus, take_odometry, telemetry) < 0) {
         fputs("ale-slamd: LCM refuses the subscription of odometry: going on without\n", stderr);
+    }
+    if (ale_bus_on_command(telemetry->bus, take_command, telemetry) < 0) {
+        fputs("ale-slamd: LCM refuses the subscription of commands: none will be taken\n", stderr);
     }
     while (!ale_rt_task_stopping(self)) {
         wait_for_work(telemetry);
@@ -223,7 +256,18 @@ static int64_t boot_nonce(void)
     return nonce & INT64_MAX;
 }
 
-ale_telemetry_t *ale_telemetry_start(const ale_config_t *config, ale_exchange_t *exchange, ale_bus_t *bus,
+static int start_commands(ale_telemetry_t *telemetry, const ale_keys_t *keys)
+{
+    telemetry->keeper = ale_map_keeper_start(telemetry->config, telemetry->exchange);
+    if (telemetry->keeper) {
+        telemetry->commands = ale_commands_create(telemetry->config, keys, telemetry->boot,
+                                                  telemetry->exchange, telemetry->keeper);
+    }
+    return telemetry->commands ? 0 : -1;
+}
+
+ale_telemetry_t *ale_telemetry_start(const ale_config_t *config, const ale_keys_t *keys,
+                                     ale_exchange_t *exchange, ale_bus_t *bus,
                                      const ale_rt_report_t *realtime)
 {
     ale_telemetry_t *telemetry = calloc(1, sizeof *telemetry);
@@ -236,10 +280,12 @@ ale_telemetry_t *ale_telemetry_start(const ale_config_t *config, ale_exchange_t 
     telemetry->realtime = *realtime;
     telemetry->boot = boot_nonce();
     telemetry->next_status_ns = ale_rt_now_ns() + STATUS_PERIOD_NS;
-    telemetry->task = ale_rt_task_start(&(ale_rt_task_config_t){
-        .name = "ale-telemetry", .kind = ALE_RT_ORDINARY, .body = run, .user = telemetry});
+    if (start_commands(telemetry, keys) == 0) {
+        telemetry->task = ale_rt_task_start(&(ale_rt_task_config_t){
+            .name = "ale-telemetry", .kind = ALE_RT_ORDINARY, .body = run, .user = telemetry});
+    }
     if (!telemetry->task) {
-        free(telemetry);
+        ale_telemetry_stop(telemetry);
         return NULL;
     }
     return telemetry;
@@ -250,8 +296,12 @@ void ale_telemetry_stop(ale_telemetry_t *telemetry)
     if (!telemetry) {
         return;
     }
-    ale_rt_task_stop(telemetry->task);
-    eventfd_write(telemetry->exchange->under_way, 1);
-    ale_rt_task_join(telemetry->task);
+    if (telemetry->task) {
+        ale_rt_task_stop(telemetry->task);
+        eventfd_write(telemetry->exchange->under_way, 1);
+        ale_rt_task_join(telemetry->task);
+    }
+    ale_map_keeper_stop(telemetry->keeper);
+    ale_commands_destroy(telemetry->commands);
     free(telemetry);
 }

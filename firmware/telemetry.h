@@ -1,4 +1,5 @@
-/* The telemetry thread: results out over LCM, odometry in from it, status and map at their own pace.
+/* The telemetry thread: results out over LCM, odometry and commands in from it, status and map at
+ * their own pace.
  *
  * It is not woken by the estimate task, which makes no system call but its wait: the acquire thread
  * announces a scan under way, and until its result is there the thread looks every quarter of a millisecond.
@@ -6,6 +7,7 @@
 #ifndef ALE_FIRMWARE_TELEMETRY_H
 #define ALE_FIRMWARE_TELEMETRY_H
 
+#include "command/keys.h"
 #include "config.h"
 #include "exchange.h"
 #include "lcm/bus.h"
@@ -14,9 +16,10 @@
 typedef struct ale_telemetry ale_telemetry_t;
 
 /* Takes the bus over as its only user. LCM's receive thread is started by this one: it shares locks with it,
- * so it must not wait behind other programs with a lower priority. NULL: no memory or no threads. config and
- * exchange must outlive it. */
-ale_telemetry_t *ale_telemetry_start(const ale_config_t *config, ale_exchange_t *exchange, ale_bus_t *bus,
+ * so it must not wait behind other programs with a lower priority. keys: of those who are obeyed. NULL: no
+ * memory or no threads. config and exchange must outlive it. */
+ale_telemetry_t *ale_telemetry_start(const ale_config_t *config, const ale_keys_t *keys,
+                                     ale_exchange_t *exchange, ale_bus_t *bus,
                                      const ale_rt_report_t *realtime);
 
 /* Sends what is still waiting, then stops; the bus is the caller's again. NULL: nothing. */

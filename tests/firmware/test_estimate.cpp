@@ -48,6 +48,30 @@ class Estimate : public testing::Test
         ale_ring_commit(exchange.scans);
         return true;
     }
+    void request(const ale_request_t &wanted)
+    {
+        auto *slot = static_cast<ale_request_t *>(ale_ring_reserve(exchange.requests));
+        ASSERT_NE(slot, nullptr);
+        *slot = wanted;
+        ale_ring_commit(exchange.requests);
+    }
+    /* As a pipeline of its own sees it from the middle. */
+    std::unique_ptr<ale_map_t> map_of_the_room()
+    {
+        std::vector<uint8_t> memory(ale_pipeline_size());
+        auto *pipeline = reinterpret_cast<ale_pipeline_t *>(memory.data());
+        EXPECT_EQ(ale_pipeline_init(pipeline, &config.pipeline), 0);
+        auto scan = std::make_unique<ale_scan_t>();
+        ale_estimate_t estimate;
+        for (int k = 1; k <= 10; k++) {
+            room::fill(*scan, 0, 0, kPeriod * k);
+            ale_pipeline_scan(pipeline, scan.get(), &estimate);
+        }
+        auto map = std::make_unique<ale_map_t>();
+        ale_pipeline_copy_map(pipeline, map.get());
+        EXPECT_GE(map->line_count, 3);
+        return map;
+    }
     bool pop(ale_result_t &result)
     {
         if (ale_ring_ready(exchange.results) == 0) {
@@ -256,6 +280,38 @@ TEST_F(Estimate, AsATaskItAnswersEverythingBeforeItEnds)
     consumer.join();
     EXPECT_EQ(disorder, 0);
     EXPECT_EQ(answers, kCount - static_cast<int>(ale_ring_refused(exchange.results)));
+}
+
+TEST_F(Estimate, AResetBetweenTwoScansMakesTheNextOneTheOrigin)
+{
+    auto result = std::make_unique<ale_result_t>();
+    const auto drive_to = [&](int k, double x) {
+        ASSERT_TRUE(push(kPeriod * k, false, x));
+        ale_estimator_step(estimator);
+        ASSERT_TRUE(pop(*result));
+    };
+    for (int k = 1; k <= 10; k++) {
+        drive_to(k, 0.02 * k);
+    }
+    EXPECT_NEAR(result->estimate.map.x_um, 180000, 5000);
+    request({ALE_REQUEST_RESET, false, {}});
+    drive_to(11, 0.2);
+    EXPECT_NEAR(result->estimate.map.x_um, 0, 5000);
+}
+
+TEST_F(Estimate, ALoadedMapWithAKnownPoseIsWhereTheRobotIs)
+{
+    auto result = std::make_unique<ale_result_t>();
+    *static_cast<ale_map_t *>(ale_snapshot_back(exchange.loaded_map)) = *map_of_the_room();
+    ale_snapshot_publish(exchange.loaded_map);
+    request({ALE_REQUEST_LOAD_MAP, true, {300000, 0, 0}});
+    for (int k = 1; k <= 10; k++) {
+        ASSERT_TRUE(push(kPeriod * k, false, 0.3));
+        ale_estimator_step(estimator);
+        ASSERT_TRUE(pop(*result));
+    }
+    EXPECT_NEAR(result->estimate.map.x_um, 300000, 10000);
+    EXPECT_EQ(result->estimate.state, ALE_STATE_GOOD);
 }
 
 } // namespace

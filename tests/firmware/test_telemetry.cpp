@@ -84,9 +84,10 @@ class Telemetry : public testing::Test
         ale_bus_close(bus);
         ale_rt_stop();
     }
+    const ale_keys_t keys{}; /* nobody's */
     void start()
     {
-        telemetry = ale_telemetry_start(&config, &exchange, bus, &report);
+        telemetry = ale_telemetry_start(&config, &keys, &exchange, bus, &report);
         ASSERT_NE(telemetry, nullptr);
     }
     void stop()

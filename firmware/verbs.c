@@ -1,0 +1,217 @@
+#include "verbs.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/fixed.h"
+#include "decimal.h"
+#include "log/text.h"
+
+enum { MICRO = 6 };
+
+#define ANSWER(commands, obeyed, ...)                                                                        \
+    (snprintf((commands)->result, sizeof(commands)->result, __VA_ARGS__), (obeyed))
+
+static bool read_metres(const char *text, int32_t *um)
+{
+    int64_t value = 0;
+    if (ale_decimal_parse(text, MICRO, &value) < 0 || ale_abs64(value) > INT32_MAX) {
+        return false;
+    }
+    *um = (int32_t)value;
+    return true;
+}
+
+/* Three words: metres, metres, radians. */
+static bool read_pose(const char words[][ALE_COMMAND_ARG_BYTES], ale_pose_t *pose)
+{
+    const ale_span_t angle = {.at = words[2], .end = words[2] + strlen(words[2])};
+    return read_metres(words[0], &pose->x_um) && read_metres(words[1], &pose->y_um) &&
+           ale_text_angle(angle, &pose->theta_bam);
+}
+
+static void give_orders(ale_commands_t *commands)
+{
+    *(ale_drive_orders_t *)ale_snapshot_back(commands->exchange->drive_orders) = commands->orders;
+    ale_snapshot_publish(commands->exchange->drive_orders);
+    ale_rt_release_post(commands->exchange->drive_again);
+}
+
+static bool drive(ale_commands_t *commands, const ale_command_t *command)
+{
+    ale_drive_desk_t *desk = &commands->desk;
+    int32_t v_um_s = 0;
+    int32_t w_urad_s = 0;
+    if (!read_metres(command->arg[0], &v_um_s) || !read_metres(command->arg[1], &w_urad_s)) {
+        return ANSWER(commands, false, "drive wants m/s and rad/s");
+    }
+    v_um_s = (int32_t)ale_clamp64(v_um_s, -commands->drive_um_s, commands->drive_um_s);
+    w_urad_s = (int32_t)ale_clamp64(w_urad_s, -commands->drive_urad_s, commands->drive_urad_s);
+    const bool same = strcmp(ale_drive_desk_holder(desk, commands->now_us), command->operator_name) == 0;
+    switch (ale_drive_desk_drive(desk, command->operator_name, v_um_s, w_urad_s, commands->now_us)) {
+    case ALE_DESK_TAKEN:
+        return ANSWER(commands, false, "%s drives", desk->holder);
+    case ALE_DESK_STOPPED:
+        return ANSWER(commands, false, "stopped: let go first");
+    case ALE_DESK_HIS:
+        break;
+    }
+    commands->orders.operator_wish = desk->wish;
+    give_orders(commands);
+    commands->news = commands->news || !same;
+    return ANSWER(commands, true, "%s drives", command->operator_name);
+}
+
+static bool stop(ale_commands_t *commands, const ale_command_t *command)
+{
+    ale_drive_desk_stop(&commands->desk, commands->now_us);
+    commands->orders = (ale_drive_orders_t){0};
+    give_orders(commands);
+    return ANSWER(commands, true, "stopped by %s", command->operator_name);
+}
+
+bool ale_verbs_request(ale_commands_t *commands, const ale_request_t *request)
+{
+    ale_request_t *slot = ale_ring_reserve(commands->exchange->requests);
+    if (!slot) {
+        return false;
+    }
+    *slot = *request;
+    ale_ring_commit(commands->exchange->requests);
+    ale_rt_release_post(commands->exchange->arrived);
+    return true;
+}
+
+static bool ask_estimate(ale_commands_t *commands, ale_request_t request, const char *done)
+{
+    return ale_verbs_request(commands, &request) ? ANSWER(commands, true, "%s", done)
+                                                 : ANSWER(commands, false, "too much at once: try again");
+}
+
+static bool reset(ale_commands_t *commands, const ale_command_t *command)
+{
+    (void)command;
+    return ask_estimate(commands, (ale_request_t){.kind = ALE_REQUEST_RESET}, "map and pose forgotten");
+}
+
+static bool begin_job(ale_commands_t *commands, const ale_command_t *command, bool begun)
+{
+    if (!begun) {
+        return ANSWER(commands, false, "busy with another map: try again");
+    }
+    commands->job_waits = true;
+    commands->job_counter = command->counter;
+    memcpy(commands->job_operator, command->operator_name, sizeof commands->job_operator);
+    return true;
+}
+
+static bool save_map(ale_commands_t *commands, const ale_command_t *command)
+{
+    if (!ale_is_name(command->arg[0])) {
+        return ANSWER(commands, false, "a map's name is letters, digits, '-', '_', '.'");
+    }
+    if (!commands->newest_map) {
+        return ANSWER(commands, false, "no map yet");
+    }
+    return begin_job(commands, command,
+                     ale_map_keeper_save(commands->keeper, command->arg[0], commands->newest_map));
+}
+
+static bool load_map(ale_commands_t *commands, const ale_command_t *command)
+{
+    ale_request_t request = {.kind = ALE_REQUEST_LOAD_MAP, .pose_known = command->args > 1};
+    if (!ale_is_name(command->arg[0])) {
+        return ANSWER(commands, false, "a map's name is letters, digits, '-', '_', '.'");
+    }
+    if (request.pose_known && (command->args != 4 || !read_pose(&command->arg[1], &request.pose))) {
+        return ANSWER(commands, false, "load_map wants a name, or a name and x y theta");
+    }
+    commands->job_request = request;
+    return begin_job(commands, command, ale_map_keeper_load(commands->keeper, command->arg[0]));
+}
+
+/* Settings that operators may change until the next start. */
+static bool set_limit(ale_commands_t *commands, const ale_command_t *command, int32_t *limit, int64_t most)
+{
+    int32_t value = 0;
+    if (!read_metres(command->arg[1], &value) || value < 0 || value > most) {
+        char most_text[ALE_DECIMAL_TEXT];
+        ale_decimal_print(most, MICRO, most_text);
+        return ANSWER(commands, false, "%s is a number from 0 to %s", command->arg[0], most_text);
+    }
+    *limit = value;
+    return ANSWER(commands, true, "%s is %s", command->arg[0], command->arg[1]);
+}
+
+static bool set_drive_speed(ale_commands_t *commands, const ale_command_t *command)
+{
+    return set_limit(commands, command, &commands->drive_um_s,
+                     1000LL * commands->config->pipeline.max_speed_mm_s);
+}
+
+static bool set_drive_turn(ale_commands_t *commands, const ale_command_t *command)
+{
+    return set_limit(commands, command, &commands->drive_urad_s,
+                     1000LL * commands->config->pipeline.max_turn_mrad_s);
+}
+
+static bool set_publish_scan(ale_commands_t *commands, const ale_command_t *command)
+{
+    const bool on = strcmp(command->arg[1], "yes") == 0;
+    if (!on && strcmp(command->arg[1], "no") != 0) {
+        return ANSWER(commands, false, "publish_scan is yes or no");
+    }
+    commands->publish_scan = on;
+    return ANSWER(commands, true, "publish_scan is %s", command->arg[1]);
+}
+
+typedef bool (*handler_t)(ale_commands_t *commands, const ale_command_t *command);
+
+typedef struct {
+    const char *name;
+    uint32_t least_args;
+    uint32_t most_args;
+    handler_t handler;
+} verb_t;
+
+static const verb_t settings[] = {
+    {"drive_speed", 2, 2, set_drive_speed},
+    {"drive_turn", 2, 2, set_drive_turn},
+    {"publish_scan", 2, 2, set_publish_scan},
+};
+
+/* NULL: none of that name. */
+static const verb_t *find(const verb_t *table, size_t count, const char *name)
+{
+    for (size_t k = 0; k < count; k++) {
+        if (strcmp(table[k].name, name) == 0) {
+            return &table[k];
+        }
+    }
+    return NULL;
+}
+
+static bool set(ale_commands_t *commands, const ale_command_t *command)
+{
+    const verb_t *setting = find(settings, sizeof settings / sizeof settings[0], command->arg[0]);
+    return setting ? setting->handler(commands, command)
+                   : ANSWER(commands, false, "no setting %s", command->arg[0]);
+}
+
+static const verb_t verbs[] = {
+    {"drive", 2, 2, drive},       {"stop", 0, 0, stop},         {"reset", 0, 0, reset},
+    {"save_map", 1, 1, save_map}, {"load_map", 1, 4, load_map}, {"set", 2, 2, set},
+};
+
+bool ale_verbs_obey(ale_commands_t *commands, const ale_command_t *command)
+{
+    const verb_t *verb = find(verbs, sizeof verbs / sizeof verbs[0], command->verb);
+    if (!verb) {
+        return ANSWER(commands, false, "no verb %s", command->verb);
+    }
+    if (command->args < verb->least_args || command->args > verb->most_args) {
+        return ANSWER(commands, false, "%s: %u arguments are too %s", verb->name, command->args,
+                      command->args < verb->least_args ? "few" : "many");
+    }
+    return verb->handler(commands, command);
+}

@@ -1,0 +1,191 @@
+/* What the motors are told, as a pure choice and as the thread publishes it. */
+#include <gtest/gtest.h>
+#include <lcm/lcm.h>
+#include <unistd.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ale/drive_t.hpp"
+#include "room.hpp"
+
+extern "C" {
+#include "drive.h"
+#include "lcm/bus.h"
+}
+
+/* As in test_telemetry.cpp: GLib orders LCM's mutex by means that the sanitizer does not see. */
+extern "C" const char *__tsan_default_suppressions()
+{
+    return "race:g_static_rec_mutex_lock";
+}
+
+namespace
+{
+
+constexpr int64_t kNow = 5000000;
+
+class DriveChoice : public testing::Test
+{
+  protected:
+    void SetUp() override
+    {
+        config = ale_config_default();
+        room::fill(*scan, 0, 0, kNow - 100000);
+    }
+    ale_set_point_t choose(int64_t now = kNow)
+    {
+        return ale_drive_choose(&orders, &exploration, scan.get(), &config, now);
+    }
+    ale_config_t config{};
+    std::unique_ptr<ale_scan_t> scan = std::make_unique<ale_scan_t>();
+    ale_drive_orders_t orders{};
+    ale_wish_t exploration{};
+};
+
+TEST_F(DriveChoice, WithoutAWishItStandsStill)
+{
+    EXPECT_EQ(choose().v_um_s, 0);
+    EXPECT_EQ(choose().w_urad_s, 0);
+}
+
+TEST_F(DriveChoice, AWishHoldsUntilItsMomentAndNoLonger)
+{
+    orders.operator_wish = {200000, 100000, kNow};
+    EXPECT_EQ(choose(kNow - 1).v_um_s, 200000);
+    EXPECT_EQ(choose(kNow - 1).w_urad_s, 100000);
+    EXPECT_EQ(choose(kNow).v_um_s, 0);
+    EXPECT_EQ(choose(kNow).w_urad_s, 0);
+}
+
+TEST_F(DriveChoice, TheOperatorGoesBeforeExplorationAndAStopBeforeBoth)
+{
+    exploration = {100000, 0, kNow + 1};
+    EXPECT_EQ(choose().v_um_s, 0) << "nobody has asked for exploration";
+    orders.exploring = true;
+    EXPECT_EQ(choose().v_um_s, 100000);
+    orders.operator_wish = {200000, 0, kNow + 1};
+    EXPECT_EQ(choose().v_um_s, 200000);
+    orders = {};
+    EXPECT_EQ(choose().v_um_s, 0);
+}
+
+TEST_F(DriveChoice, TowardsAWallItIsSlowedOnTheSameArcAndThenTurnsOnly)
+{
+    orders.operator_wish = {3000000, 1500000, kNow + 1};
+    const ale_set_point_t slow = choose();
+    EXPECT_GT(slow.v_um_s, 0);
+    EXPECT_LT(slow.v_um_s, 2000000);
+    EXPECT_NEAR(slow.w_urad_s, slow.v_um_s / 2, 1);
+    room::fill(*scan, room::kHalfLength - 0.22, 0, kNow - 100000);
+    orders.operator_wish = {300000, 150000, kNow + 1};
+    EXPECT_EQ(choose().v_um_s, 0);
+    EXPECT_EQ(choose().w_urad_s, 150000);
+}
+
+TEST_F(DriveChoice, WithoutAFreshScanNothingMoves)
+{
+    orders.operator_wish = {200000, 100000, kNow + 10000000};
+    EXPECT_GT(choose(scan->stamp_us + 500000).v_um_s, 0);
+    EXPECT_EQ(choose(scan->stamp_us + 500001).v_um_s, 0);
+    EXPECT_EQ(choose(scan->stamp_us + 500001).w_urad_s, 0);
+    *scan = {};
+    EXPECT_EQ(choose(100000).v_um_s, 0);
+}
+
+/* The thread, with snapshots that the test fills. Skipped without a multicast route. */
+class DriveThread : public testing::Test
+{
+  protected:
+    void SetUp() override
+    {
+        config = ale_config_default();
+        const std::string url = "udpm://239.255.76.67:" + std::to_string(20000 + getpid() % 30000) + "?ttl=0";
+        std::snprintf(config.lcm_url, sizeof config.lcm_url, "%s", url.c_str());
+        ale_rt_report_t report;
+        const ale_rt_config_t realtime = {0, -1, false};
+        ASSERT_EQ(ale_rt_start(&realtime, &report), 0);
+        ASSERT_EQ(ale_exchange_open(&exchange, ale_clock_start(ALE_CLOCK_REAL)), 0);
+        char error[ALE_BUS_ERROR] = "";
+        ale_bus_t *probe = ale_bus_open(config.lcm_url, error);
+        if (!probe) {
+            GTEST_SKIP() << error;
+        }
+        ale_bus_close(probe);
+        lcm = lcm_create(config.lcm_url);
+        lcm_subscription_set_queue_capacity(lcm_subscribe(lcm, "ALE_DRIVE", take, this), 0);
+        drive = ale_drive_start(&config, &exchange);
+        ASSERT_NE(drive, nullptr);
+    }
+    void TearDown() override
+    {
+        ale_drive_stop(drive);
+        if (lcm) {
+            lcm_destroy(lcm);
+        }
+        ale_exchange_close(&exchange);
+        ale_rt_stop();
+    }
+    static void take(const lcm_recv_buf_t *buffer, const char *, void *user)
+    {
+        ale::drive_t message;
+        ASSERT_GT(message.decode(buffer->data, 0, static_cast<int>(buffer->data_size)), 0);
+        static_cast<DriveThread *>(user)->heard.push_back(message);
+    }
+    void order(const ale_drive_orders_t &orders)
+    {
+        room::fill(*static_cast<ale_scan_t *>(ale_snapshot_back(exchange.drive_scan)), 0, 0,
+                   ale_clock_now_us(&exchange.clock));
+        ale_snapshot_publish(exchange.drive_scan);
+        *static_cast<ale_drive_orders_t *>(ale_snapshot_back(exchange.drive_orders)) = orders;
+        ale_snapshot_publish(exchange.drive_orders);
+        ale_rt_release_post(exchange.drive_again);
+    }
+    void hear_until(const std::function<bool()> &condition)
+    {
+        while (!condition()) {
+            ASSERT_GT(lcm_handle_timeout(lcm, 5000), 0) << "nothing came for 5 s";
+        }
+    }
+
+    ale_config_t config{};
+    ale_exchange_t exchange{};
+    lcm_t *lcm = nullptr;
+    ale_drive_t *drive = nullptr;
+    std::vector<ale::drive_t> heard;
+};
+
+TEST_F(DriveThread, TellsTheMotorsAgainAndAgainAlsoToStandStill)
+{
+    hear_until([&] { return heard.size() >= 11; });
+    for (const ale::drive_t &message : heard) {
+        EXPECT_EQ(message.v, 0);
+    }
+    const int64_t span_us = heard[10].utime - heard[0].utime;
+    EXPECT_GE(span_us, 10 * ALE_DRIVE_PERIOD_US * 9 / 10);
+}
+
+TEST_F(DriveThread, AWishEndsOnTheMicrosecondClockWithoutAnybodysHelp)
+{
+    const int64_t until_us = ale_clock_now_us(&exchange.clock) + ALE_DEAD_MAN_US;
+    order({{200000, 0, until_us}, false});
+    hear_until([&] { return !heard.empty() && heard.back().v > 0; });
+    hear_until([&] { return heard.back().v == 0; });
+    EXPECT_GE(heard.back().utime, ale_clock_to_utime(&exchange.clock, until_us));
+    EXPECT_LT(heard[heard.size() - 2].utime, ale_clock_to_utime(&exchange.clock, until_us));
+}
+
+TEST_F(DriveThread, EndsWithStandingStill)
+{
+    order({{200000, 0, ale_clock_now_us(&exchange.clock) + 400000}, false});
+    hear_until([&] { return !heard.empty() && heard.back().v > 0; });
+    ale_drive_stop(drive);
+    drive = nullptr;
+    while (lcm_handle_timeout(lcm, 200) > 0) {
+    }
+    EXPECT_EQ(heard.back().v, 0);
+}
+
+} // namespace

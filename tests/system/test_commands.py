@@ -1,0 +1,214 @@
+"""Signed commands to the running robot: driving and its dead-man, who drives, hostile commands, saved maps."""
+import random
+import subprocess
+import threading
+import time
+
+import ale
+import lcm
+import pytest
+
+from chain import BINARIES, wait_until
+
+DEAD_MAN_US = 300000
+TURN_US = 40000  # the drive thread's period
+
+
+class Motors:
+    """Keeps ALE_DRIVE and ALE_COMMAND as they pass."""
+
+    def __init__(self, url):
+        self.set_points = []
+        self.commands = []
+        self.bus = lcm.LCM(url)
+        self.bus.subscribe("ALE_DRIVE", lambda _, data: self.set_points.append(ale.drive_t.decode(data)))
+        self.bus.subscribe("ALE_COMMAND", lambda _, data: self.commands.append(data))
+        self.stopping = threading.Event()
+        self.thread = threading.Thread(target=self._listen)
+        self.thread.start()
+
+    def _listen(self):
+        while not self.stopping.is_set():
+            self.bus.handle_timeout(50)
+
+    def stop(self):
+        self.stopping.set()
+        self.thread.join()
+
+
+class Rover:
+    """The chain with two operators who have keys."""
+
+    def __init__(self, chain):
+        self.chain = chain
+        self.keys = chain.folder / "robot.keys"
+        for name in ("alice", "bob"):
+            self.tool("ale-keys", name, "--secret", self.key(name), "--robot", self.keys)
+        chain.simulator("--world", "tools/worlds/home.world", "--drive")
+        self.firmware = self.start()
+        self.motors = Motors(chain.url)
+
+    def start(self, *words):
+        config = f"[commands]\nrobot = rover\n[map]\nfolder = {self.chain.folder / 'maps'}\n[recorder]\nfolder =\n"
+        before = len(self.chain.listener.poses)
+        firmware = self.chain.firmware(config, "--keys", self.keys, *words)
+        wait_until(lambda: len(self.chain.listener.poses) > before + 5, 20, "poses")
+        return firmware
+
+    def key(self, name):
+        return self.chain.folder / f"{name}.key"
+
+    def tool(self, name, *words):
+        return subprocess.run([BINARIES / name, *map(str, words)], stdin=subprocess.DEVNULL, text=True, timeout=30,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+
+    def send(self, who, *words):
+        """Whether the robot obeyed, and what it said."""
+        done = self.tool("ale-send", "--keys", self.key(who), "--lcm-url", self.chain.url, *words)
+        return done.returncode == 0, (done.stdout + done.stderr).strip()
+
+    def counters(self):
+        return self.chain.listener.counters()
+
+
+@pytest.fixture(scope="module")
+def rover(long_chain):
+    running = Rover(long_chain)
+    yield running
+    running.motors.stop()
+
+
+def test_the_set_point_is_zero_300_ms_after_the_last_valid_command(rover):
+    rover.motors.set_points.clear()
+    assert rover.send("alice", "drive", "0.2", "0.3") == (True, "rover: alice drives")
+    points = rover.motors.set_points
+    wait_until(lambda: any(p.v > 0 for p in points) and points[-1].v == 0, 5, "the end of driving")
+    moving = [p for p in points if p.v > 0]
+    end = next(p for p in points if p.utime > moving[-1].utime)
+    commands = [ale.command_t.decode(data) for data in rover.motors.commands]
+    sent = max(c.utime for c in commands if c.verb == "drive")
+    first_to_zero = end.utime - moving[0].utime
+    print(f"zero {first_to_zero / 1000:.2f} ms after the first set point, {(end.utime - sent) / 1000:.2f} ms after "
+          "the command was made")
+    assert DEAD_MAN_US - 2000 <= first_to_zero <= DEAD_MAN_US + 20000
+    assert moving[-1].utime - moving[0].utime < DEAD_MAN_US
+    assert all(abs(p.v - 0.2) < 1e-6 and abs(p.w - 0.3) < 1e-6 for p in moving)
+
+
+def test_set_points_come_20_times_a_second_at_least(rover):
+    rover.motors.set_points.clear()
+    wait_until(lambda: len(rover.motors.set_points) > 26, 5, "set points")
+    points = rover.motors.set_points[:26]
+    assert points[25].utime - points[0].utime < 25 * 50000
+
+
+def test_driving_drives_and_everyone_sees_who(rover):
+    start = rover.chain.listener.poses[-1]
+    driving = threading.Thread(target=rover.send, args=("alice", "--seconds", "2", "drive", "0.3", "0"))
+    driving.start()
+    wait_until(lambda: rover.chain.listener.statuses[-1].who_drives == "alice", 5, "her name")
+    assert rover.send("bob", "drive", "0.3", "0") == (False, "rover: alice drives")
+    driving.join()
+    end = rover.chain.listener.poses[-1]
+    assert 0.3 < end.map_x - start.map_x < 0.8 or abs(end.map_y - start.map_y) > 0.1
+    assert rover.send("bob", "stop") == (True, "rover: stopped by bob")
+
+
+def test_a_stop_is_stronger_than_a_stick_that_is_still_held(rover):
+    driving = threading.Thread(target=rover.send, args=("alice", "--seconds", "2", "drive", "0.1", "0"))
+    driving.start()
+    wait_until(lambda: rover.motors.set_points[-1].v > 0, 5, "driving")
+    assert rover.send("bob", "stop")[0]
+    stopped = len(rover.motors.set_points)
+    driving.join()
+    assert len(rover.motors.set_points) > stopped + 10
+    assert all(p.v == 0 for p in rover.motors.set_points[stopped + 2:])
+
+
+def test_10000_hostile_commands_are_all_counted_and_none_is_obeyed(rover):
+    """Replayed, out of order, truncated, changed, and signed by nobody: as anyone on the network can send them."""
+    rng = random.Random(7)
+    bus = rover.chain.listener.bus
+    for speed in ("0.01", "0.02", "0.03"):
+        assert rover.send("alice", "drive", speed, "0")[0]
+    assert rover.send("alice", "stop")[0]
+    heard = list(rover.motors.commands)
+    wait_until(lambda: rover.motors.set_points[-1].v == 0, 5, "rest")
+    rover.motors.set_points.clear()
+    before = rover.counters()
+    genuine = before["command_genuine"]
+    refused = sum(value for name, value in before.items() if name.startswith("command_") and name not in
+                  ("command_genuine", "command_refused"))
+    for k in range(10000):
+        data = bytearray(rng.choice(heard))
+        if k % 4 == 1:
+            data = data[:rng.randrange(len(data))]
+        elif k % 4 == 2:
+            data[rng.randrange(len(data))] ^= 1 + rng.randrange(255)
+        elif k % 4 == 3:
+            command = ale.command_t.decode(bytes(data))
+            command.counter += 10**12
+            command.signature = b""
+            command.num_signature = 0
+            data = command.encode()
+        bus.publish("ALE_COMMAND", bytes(data))
+        if k % 20 == 19:
+            time.sleep(0.004)
+
+    def counted():
+        now = rover.counters()
+        assert now["command_genuine"] == genuine
+        return sum(value for name, value in now.items() if name.startswith("command_") and name not in
+                   ("command_genuine", "command_refused")) - refused
+    wait_until(lambda: counted() >= 10000, 20, "10000 refusals")
+    assert counted() == 10000
+    after = rover.counters()
+    assert after["command_unsigned"] - before["command_unsigned"] == 2500
+    assert after["command_replayed"] - before["command_replayed"] >= 2500
+    assert after["command_malformed"] - before["command_malformed"] >= 2500
+    assert after["command_forged"] > before["command_forged"]
+    assert all(p.v == 0 and p.w == 0 for p in rover.motors.set_points)
+    assert rover.firmware.running()
+    assert rover.send("alice", "set", "drive_speed", "0.5")[0], "and an honest one is still obeyed"
+
+
+def test_a_map_is_saved_found_again_after_a_restart_and_an_old_command_is_not_obeyed_then(rover):
+    assert rover.send("bob", "save_map", "home")[1].startswith("rover: saved home: ")
+    assert rover.send("bob", "load_map", "nowhere")[0] is False
+    assert rover.send("bob", "reset") == (True, "rover: map and pose forgotten")
+    assert rover.send("bob", "load_map", "home", "0", "0", "0")[1].startswith("rover: loaded home: ")
+    old = [data for data in rover.motors.commands if ale.command_t.decode(data).verb == "reset"]
+    assert rover.firmware.end() == 0
+    boots = {status.boot for status in rover.chain.listener.statuses}
+    rover.firmware = rover.start("--map", rover.chain.folder / "maps" / "home.map")
+    wait_until(lambda: rover.chain.listener.statuses[-1].boot not in boots, 5, "a status of the new start")
+    rover.chain.listener.bus.publish("ALE_COMMAND", old[-1])
+    wait_until(lambda: rover.counters()["command_replayed"] == 1, 5, "the refusal")
+    assert rover.counters()["command_genuine"] == 0
+
+
+def test_without_keys_nobody_is_obeyed_and_the_sender_is_told(rover):
+    assert rover.firmware.end() == 0
+    boots = {status.boot for status in rover.chain.listener.statuses}
+    firmware = rover.chain.firmware()
+    wait_until(lambda: rover.chain.listener.statuses[-1].boot not in boots, 10, "a status of the new start")
+    obeyed, words = rover.send("alice", "stop")
+    assert not obeyed and "takes no commands" in words
+    assert firmware.end() == 0
+
+
+@pytest.mark.parametrize("words, status, part", [
+    ([], 2, "--keys is missing"),
+    (["--keys", "KEY"], 2, "which verb"),
+    (["--keys", "absent", "stop"], 2, "absent"),
+    (["--keys", "KEY", "--seconds", "2", "stop"], 2, "--seconds"),
+    (["--keys", "KEY", "--robot", "nobody", "stop"], 1, "no robot nobody is heard"),
+])
+def test_ale_send_says_in_one_line_what_is_wrong(chain, words, status, part):
+    key = chain.folder / "alice.key"
+    subprocess.run([BINARIES / "ale-keys", "alice", "--secret", key, "--robot", chain.folder / "robot.keys"],
+                   check=True, stdout=subprocess.DEVNULL)
+    done = subprocess.run([BINARIES / "ale-send", "--lcm-url", chain.url, *[str(key) if w == "KEY" else w for w in words]],
+                          stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, timeout=20, check=False)
+    assert done.returncode == status
+    assert part in done.stderr and done.stderr.count("\n") == 1
