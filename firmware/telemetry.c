@@ -39,6 +39,7 @@ struct ale_telemetry {
     int64_t next_whole_map_ns;
     int64_t next_status_ns;
     int64_t last_status_ns;
+    bool news; /* of commands, not yet in a status */
     ale_status_report_t report;
 };
 
@@ -53,12 +54,6 @@ static void take_odometry(void *user, const ale_odometry_t *sample)
         ale_ring_commit(exchange->odometry);
         ale_recorder_odometry(exchange->recorder, ale_ring_committed(exchange->odometry) - 1, &inside);
     }
-}
-
-static void take_command(void *user, const uint8_t *bytes, size_t count)
-{
-    ale_telemetry_t *telemetry = user;
-    ale_commands_take(telemetry->commands, bytes, count, telemetry->map);
 }
 
 /* For the drive thread, which looks where it goes. */
@@ -164,6 +159,18 @@ static void send_status(ale_telemetry_t *telemetry)
     ale_commands_counters(telemetry->commands, report);
     ale_bus_send_status(telemetry->bus, report);
     telemetry->last_status_ns = ale_rt_now_ns();
+    telemetry->news = false;
+}
+
+/* An answer that nobody has heard yet goes out before another may take its place. */
+static void take_command(void *user, const uint8_t *bytes, size_t count)
+{
+    ale_telemetry_t *telemetry = user;
+    if (telemetry->news) {
+        send_status(telemetry);
+    }
+    ale_commands_take(telemetry->commands, bytes, count, telemetry->map);
+    telemetry->news = ale_commands_news(telemetry->commands);
 }
 
 static bool map_under_way(const ale_telemetry_t *telemetry)
@@ -220,7 +227,8 @@ static void work(ale_telemetry_t *telemetry)
     const int64_t now_ns = ale_rt_now_ns();
     send_map(telemetry, now_ns);
     ale_commands_work(telemetry->commands);
-    if (ale_commands_news(telemetry->commands)) {
+    telemetry->news = ale_commands_news(telemetry->commands) || telemetry->news;
+    if (telemetry->news) {
         telemetry->next_status_ns =
             ale_min64(telemetry->next_status_ns, telemetry->last_status_ns + NEWS_PERIOD_NS);
     }

@@ -47,7 +47,7 @@ static bool drive(ale_commands_t *commands, const ale_command_t *command)
     }
     v_um_s = (int32_t)ale_clamp64(v_um_s, -commands->drive_um_s, commands->drive_um_s);
     w_urad_s = (int32_t)ale_clamp64(w_urad_s, -commands->drive_urad_s, commands->drive_urad_s);
-    const bool same = strcmp(ale_drive_desk_holder(desk, commands->now_us), command->operator_name) == 0;
+    const bool begins = commands->now_us >= desk->wish.valid_until_us;
     switch (ale_drive_desk_drive(desk, command->operator_name, v_um_s, w_urad_s, commands->now_us)) {
     case ALE_DESK_TAKEN:
         return ANSWER(commands, false, "%s drives", desk->holder);
@@ -58,7 +58,7 @@ static bool drive(ale_commands_t *commands, const ale_command_t *command)
     }
     commands->orders.operator_wish = desk->wish;
     give_orders(commands);
-    commands->news = commands->news || !same;
+    commands->news = commands->news || begins;
     return ANSWER(commands, true, "%s drives", command->operator_name);
 }
 

@@ -1,4 +1,5 @@
 """Signed commands to the running robot: driving and its dead-man, who drives, hostile commands, saved maps."""
+import math
 import random
 import subprocess
 import threading
@@ -90,7 +91,7 @@ def test_the_set_point_is_zero_300_ms_after_the_last_valid_command(rover):
     first_to_zero = end.utime - moving[0].utime
     print(f"zero {first_to_zero / 1000:.2f} ms after the first set point, {(end.utime - sent) / 1000:.2f} ms after "
           "the command was made")
-    assert DEAD_MAN_US - 2000 <= first_to_zero <= DEAD_MAN_US + 20000
+    assert DEAD_MAN_US - 2000 <= first_to_zero <= DEAD_MAN_US + 50000
     assert moving[-1].utime - moving[0].utime < DEAD_MAN_US
     assert all(abs(p.v - 0.2) < 1e-6 and abs(p.w - 0.3) < 1e-6 for p in moving)
 
@@ -106,11 +107,12 @@ def test_driving_drives_and_everyone_sees_who(rover):
     start = rover.chain.listener.poses[-1]
     driving = threading.Thread(target=rover.send, args=("alice", "--seconds", "2", "drive", "0.3", "0"))
     driving.start()
+    wait_until(lambda: rover.motors.set_points[-1].v > 0, 5, "driving")
     wait_until(lambda: rover.chain.listener.statuses[-1].who_drives == "alice", 5, "her name")
     assert rover.send("bob", "drive", "0.3", "0") == (False, "rover: alice drives")
     driving.join()
     end = rover.chain.listener.poses[-1]
-    assert 0.3 < end.map_x - start.map_x < 0.8 or abs(end.map_y - start.map_y) > 0.1
+    assert 0.4 < math.hypot(end.map_x - start.map_x, end.map_y - start.map_y) < 0.9
     assert rover.send("bob", "stop") == (True, "rover: stopped by bob")
 
 
@@ -127,10 +129,10 @@ def test_a_stop_is_stronger_than_a_stick_that_is_still_held(rover):
 
 def test_10000_hostile_commands_are_all_counted_and_none_is_obeyed(rover):
     """Replayed, out of order, truncated, changed, and signed by nobody: as anyone on the network can send them."""
+    time.sleep(DEAD_MAN_US * 1e-6)  # the last test's stick is let go
     rng = random.Random(7)
     bus = rover.chain.listener.bus
-    for speed in ("0.01", "0.02", "0.03"):
-        assert rover.send("alice", "drive", speed, "0")[0]
+    assert rover.send("alice", "--seconds", "0.5", "drive", "0.01", "0")[0]
     assert rover.send("alice", "stop")[0]
     heard = list(rover.motors.commands)
     wait_until(lambda: rover.motors.set_points[-1].v == 0, 5, "rest")
@@ -169,6 +171,7 @@ def test_10000_hostile_commands_are_all_counted_and_none_is_obeyed(rover):
     assert after["command_forged"] > before["command_forged"]
     assert all(p.v == 0 and p.w == 0 for p in rover.motors.set_points)
     assert rover.firmware.running()
+    rover.motors.commands.clear()
     assert rover.send("alice", "set", "drive_speed", "0.5")[0], "and an honest one is still obeyed"
 
 
