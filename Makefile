@@ -18,7 +18,7 @@ include tools/make/tests.mk
 include tools/make/cross.mk
 -include $(filter-out tools/make/%,$(wildcard tools/*/*.mk))
 
-.PHONY: help deps deps-test all run install clean
+.PHONY: help deps deps-test all run explore install clean
 help: ## list the targets
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | sort | expand -t 14
 
@@ -33,6 +33,10 @@ deps-test: deps
 run: deps ## the whole chain: simulator, firmware, console; LOG=path plays a recording, SPEED=x faster
 	@$(MAKE) --no-print-directory -s -j$$(nproc) programs
 	@$(PYTHON) tools/make/run.py --build $(BUILD) $(if $(LOG),--log $(LOG)) $(if $(SPEED),--speed $(SPEED))
+
+explore: deps ## the robot explores the arena by itself, console open; WORLD=path another world, SPEED=x faster
+	@$(MAKE) --no-print-directory -s -j$$(nproc) programs
+	@$(PYTHON) tools/make/explore.py --build $(BUILD) $(if $(WORLD),--world $(WORLD)) $(if $(SPEED),--speed $(SPEED))
 
 PREFIX ?= /usr/local
 install: all ## install programs, library, headers and types under $(DESTDIR)$(PREFIX)

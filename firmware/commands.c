@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "explore_thread.h"
 #include "recorder.h"
 #include "verbs.h"
 
@@ -71,9 +72,19 @@ void ale_commands_take(ale_commands_t *commands, const uint8_t *bytes, size_t co
     record(commands, &command);
 }
 
+/* That an exploration has begun or ended is news. */
+static void watch_exploration(ale_commands_t *commands)
+{
+    ale_explore_t *explore = commands->exchange->explore;
+    const bool on = explore && ale_explore_is_on(explore);
+    commands->news = commands->news || on != commands->explored;
+    commands->explored = on;
+}
+
 void ale_commands_work(ale_commands_t *commands)
 {
     ale_map_outcome_t outcome;
+    watch_exploration(commands);
     if (!commands->job_waits || !ale_map_keeper_done(commands->keeper, &outcome)) {
         return;
     }
@@ -106,6 +117,12 @@ void ale_commands_report(const ale_commands_t *commands, ale_operation_report_t 
     snprintf(report->robot, sizeof report->robot, "%s", commands->config->name);
     snprintf(report->who_drives, sizeof report->who_drives, "%s",
              ale_drive_desk_holder(&commands->desk, now_us));
+    if (commands->exchange->explore) {
+        ale_explore_words(commands->exchange->explore, report->exploration);
+        if (report->who_drives[0] == '\0' && ale_explore_is_on(commands->exchange->explore)) {
+            snprintf(report->who_drives, sizeof report->who_drives, "exploration");
+        }
+    }
     memcpy(report->command_operator, commands->operator_name, sizeof report->command_operator);
     memcpy(report->command_result, commands->result, sizeof report->command_result);
 }

@@ -6,6 +6,7 @@
 #include "drive.h"
 #include "estimate.h"
 #include "exchange.h"
+#include "explore_thread.h"
 #include "lcm/bus.h"
 #include "realtime/rt.h"
 #include "recorder.h"
@@ -96,6 +97,10 @@ static int start_tasks(ale_daemon_t *daemon)
     if (daemon->estimate) {
         daemon->acquire = ale_acquire_start(config, &daemon->exchange);
     }
+    const bool drives = daemon->options->keys.count > 0;
+    if (daemon->acquire && drives) {
+        daemon->exchange.explore = ale_explore_start(config, &daemon->exchange);
+    }
     ale_rt_report_t report;
     ale_rt_report(&report);
     fprintf(stderr, "ale-slamd: %s: %s\n", report.realtime ? "real time" : "real time degraded", report.text);
@@ -103,11 +108,10 @@ static int start_tasks(ale_daemon_t *daemon)
         daemon->telemetry =
             ale_telemetry_start(config, &daemon->options->keys, &daemon->exchange, daemon->bus, &report);
     }
-    const bool drives = daemon->options->keys.count > 0;
     if (daemon->telemetry && drives) {
         daemon->drive = ale_drive_start(config, &daemon->exchange);
     }
-    if (!daemon->telemetry || (drives && !daemon->drive)) {
+    if (!daemon->telemetry || (drives && (!daemon->drive || !daemon->exchange.explore))) {
         return fail(1, "threads cannot be started");
     }
     return 0;
@@ -150,6 +154,7 @@ void ale_daemon_stop(ale_daemon_t *daemon)
     ale_acquire_stop(daemon->acquire);
     stop_estimate(daemon);
     ale_telemetry_stop(daemon->telemetry);
+    ale_explore_stop(daemon->exchange.explore);
     ale_recorder_stop(daemon->recorder);
     ale_estimator_destroy(daemon->estimator);
     if (daemon->exchange_open) {

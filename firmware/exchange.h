@@ -8,7 +8,7 @@
  *
  *              requests                  orders, scan (newest)
  *   estimate ◄──────────── telemetry ──────────────────────────► drive ◄── wish (newest) ── exploration
- *      ▲                      ▲ jobs
+ *      ▲                      ▲ jobs  └──── scans with poses, on or off ───────────────────────►┘
  *      └── loaded map ── map keeper
  *
  * Rings and snapshots have one writer and one reader each. Times are of the clock inside (clock.h). */
@@ -76,6 +76,7 @@ typedef struct {
     ale_snapshot_t *exploration;   /* ale_wish_t: exploration to drive */
     ale_rt_release_t *drive_again; /* wakes the drive thread: something has changed */
     ale_rt_release_t *arrived;     /* releases the estimate task */
+    struct ale_explore *explore;   /* is told by telemetry; NULL: nobody may ask for it */
     struct ale_recorder *recorder; /* is told by acquire and telemetry; NULL: none is wanted */
     int under_way; /* event descriptor: a scan has gone to the estimate task, or health has changed */
 } ale_exchange_t;

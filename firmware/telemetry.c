@@ -9,6 +9,7 @@
 
 #include "base/fixed.h"
 #include "commands.h"
+#include "explore_thread.h"
 #include "map_keeper.h"
 #include "recorder.h"
 #include "statistics.h"
@@ -56,10 +57,17 @@ static void take_odometry(void *user, const ale_odometry_t *sample)
     }
 }
 
-/* For the drive thread, which looks where it goes. */
-static void show_scan_to_drive(ale_exchange_t *exchange, const ale_scan_t *scan)
+/* For those who look where the robot goes: without what the scanner sees of the robot itself. */
+static void show_scan(ale_telemetry_t *telemetry, const ale_result_t *result)
 {
-    *(ale_scan_t *)ale_snapshot_back(exchange->drive_scan) = *scan;
+    ale_exchange_t *exchange = telemetry->exchange;
+    const ale_pipeline_config_t *pipeline = &telemetry->config->pipeline;
+    ale_scan_t *scan = ale_snapshot_back(exchange->drive_scan);
+    *scan = result->scan;
+    ale_scan_mask(scan, pipeline->blind, pipeline->blind_count);
+    if (exchange->explore) {
+        ale_explore_take(exchange->explore, scan, &result->estimate);
+    }
     ale_snapshot_publish(exchange->drive_scan);
 }
 
@@ -70,7 +78,7 @@ static void send_scan(ale_telemetry_t *telemetry, const ale_result_t *result)
     ale_bus_send_features(telemetry->bus, &result->features, utime, result->estimate.scan,
                           config->pipeline.sensor);
     if (config->keys[0] != '\0') {
-        show_scan_to_drive(telemetry->exchange, &result->scan);
+        show_scan(telemetry, result);
     }
     if (ale_commands_publish_scan(telemetry->commands)) {
         ale_bus_send_scan(telemetry->bus, &result->scan, utime, result->estimate.scan,

@@ -5,6 +5,7 @@
 
 #include "base/fixed.h"
 #include "decimal.h"
+#include "explore_thread.h"
 #include "log/text.h"
 
 enum { MICRO = 6 };
@@ -67,7 +68,25 @@ static bool stop(ale_commands_t *commands, const ale_command_t *command)
     ale_drive_desk_stop(&commands->desk, commands->now_us);
     commands->orders = (ale_drive_orders_t){0};
     give_orders(commands);
+    if (commands->exchange->explore) {
+        ale_explore_request(commands->exchange->explore, false);
+    }
     return ANSWER(commands, true, "stopped by %s", command->operator_name);
+}
+
+static bool explore(ale_commands_t *commands, const ale_command_t *command)
+{
+    const bool on = strcmp(command->arg[0], "on") == 0;
+    if (!on && strcmp(command->arg[0], "off") != 0) {
+        return ANSWER(commands, false, "explore on, or off");
+    }
+    if (!commands->exchange->explore) {
+        return ANSWER(commands, false, "this robot does not explore");
+    }
+    ale_explore_request(commands->exchange->explore, on);
+    commands->orders.exploring = on;
+    give_orders(commands);
+    return ANSWER(commands, true, on ? "explores" : "exploration is off");
 }
 
 bool ale_verbs_request(ale_commands_t *commands, const ale_request_t *request)
@@ -201,6 +220,7 @@ static bool set(ale_commands_t *commands, const ale_command_t *command)
 static const verb_t verbs[] = {
     {"drive", 2, 2, drive},       {"stop", 0, 0, stop},         {"reset", 0, 0, reset},
     {"save_map", 1, 1, save_map}, {"load_map", 1, 4, load_map}, {"set", 2, 2, set},
+    {"explore", 1, 1, explore},
 };
 
 bool ale_verbs_obey(ale_commands_t *commands, const ale_command_t *command)

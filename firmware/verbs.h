@@ -19,6 +19,7 @@ struct ale_commands {
     int32_t drive_urad_s;
     int64_t now_us; /* of the command that is obeyed */
     bool news;
+    bool explored;  /* was on when last looked at */
     bool job_waits; /* a map is being saved or loaded: */
     char job_operator[ALE_NAME_BYTES];
     int64_t job_counter;

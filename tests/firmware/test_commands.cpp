@@ -19,6 +19,7 @@ extern "C" {
 #include "command/operator.h"
 #include "commands.h"
 #include "drive.h"
+#include "explore_thread.h"
 }
 
 using signed_command::boot;
@@ -247,6 +248,35 @@ TEST_F(Commands, ShortListOfSettings)
     EXPECT_EQ(ask(alice, {"set", "publish_scan", "perhaps"})[0], '-');
     EXPECT_TRUE(ale_commands_publish_scan(commands)) << "a refused value changes nothing";
     EXPECT_EQ(ask(alice, {"set", "colour", "blue"}), "-no setting colour");
+}
+
+TEST_F(Commands, ExplorationIsSwitchedOnAndOffAndEndedByAStop)
+{
+    EXPECT_EQ(ask(alice, {"explore", "on"}), "-this robot does not explore");
+    exchange.explore = ale_explore_start(&config, &exchange);
+    ASSERT_NE(exchange.explore, nullptr);
+    EXPECT_EQ(ask(alice, {"explore", "round"}), "-explore on, or off");
+    EXPECT_FALSE(ale_explore_is_on(exchange.explore));
+
+    EXPECT_EQ(ask(alice, {"explore", "on"}), "+explores");
+    EXPECT_TRUE(ale_explore_is_on(exchange.explore));
+    EXPECT_TRUE(orders().exploring);
+    ale_operation_report_t report;
+    ale_commands_report(commands, &report);
+    EXPECT_STREQ(report.who_drives, "exploration");
+    EXPECT_EQ(ask(bob, {"drive", "0.1", "0"}), "+bob drives");
+    ale_commands_report(commands, &report);
+    EXPECT_STREQ(report.who_drives, "bob") << "an operator goes before it";
+    EXPECT_TRUE(orders().exploring) << "which goes on when he lets go";
+
+    EXPECT_EQ(ask(alice, {"explore", "off"}), "+exploration is off");
+    EXPECT_FALSE(ale_explore_is_on(exchange.explore));
+    EXPECT_FALSE(orders().exploring);
+    EXPECT_EQ(ask(alice, {"explore", "on"}), "+explores");
+    EXPECT_EQ(ask(bob, {"stop"}), "+stopped by bob");
+    EXPECT_FALSE(ale_explore_is_on(exchange.explore));
+    EXPECT_FALSE(orders().exploring);
+    ale_explore_stop(exchange.explore);
 }
 
 TEST_F(Commands, NonsenseIsAnsweredInWords)

@@ -145,6 +145,12 @@ def ask(command):
     return done.stdout
 
 
+def require_programs(binaries, names):
+    for name in names:
+        if not (binaries / name).exists():
+            raise Failure(f"{binaries / name} is missing: run make first")
+
+
 def recording_of(world, folder, binaries):
     """The recording of a drive through a world, made once by the simulator."""
     recording = folder / f"{world.stem}.log"
@@ -230,9 +236,7 @@ def run(arguments):
     binaries = arguments.build / "bin"
     folder = arguments.build / "run"
     folder.mkdir(parents=True, exist_ok=True)
-    for name in PROGRAMS:
-        if not (binaries / name).exists():
-            raise Failure(f"{binaries / name} is missing: run make first")
+    require_programs(binaries, PROGRAMS)
     for old in [*results(folder), folder / "urg"]:
         old.unlink(missing_ok=True)
     prepare_multicast()

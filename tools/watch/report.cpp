@@ -50,6 +50,13 @@ std::string latency(const Record &record)
     return record.status() ? format("latency %.2f ms", record.status()->latency_p50_us / 1e3) : "latency -";
 }
 
+/* What the robot does by itself, in its own words. */
+std::string by_itself(const Record &record)
+{
+    const bool says = record.status() && !record.status()->exploration.empty();
+    return says ? "  " + record.status()->exploration : "";
+}
+
 } // namespace
 
 std::string status_line(const Record &record, double elapsed_s, double silent_s)
@@ -66,7 +73,7 @@ std::string status_line(const Record &record, double elapsed_s, double silent_s)
                   static_cast<double>(pose.map_y), heading_deg) +
            seen(record) + "  " + worst_stage(record) + "  " +
            format("dropped %" PRId64 "  ", record.predicted() + record.missing()) + latency(record) +
-           (silent_s >= 1 ? format("  SILENT for %.0f s", silent_s) : "");
+           by_itself(record) + (silent_s >= 1 ? format("  SILENT for %.0f s", silent_s) : "");
 }
 
 std::string summary_line(const Record &record, uint64_t malformed)

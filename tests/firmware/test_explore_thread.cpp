@@ -1,0 +1,121 @@
+/* The exploration thread between the exchange's snapshots, with scans of a room. */
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "room.hpp"
+
+extern "C" {
+#include "drive_desk.h"
+#include "explore_thread.h"
+}
+
+namespace
+{
+
+class ExploreThread : public testing::Test
+{
+  protected:
+    void SetUp() override
+    {
+        config = ale_config_default();
+        ale_rt_report_t report;
+        const ale_rt_config_t realtime = {0, -1, false};
+        ASSERT_EQ(ale_rt_start(&realtime, &report), 0);
+        ASSERT_EQ(ale_exchange_open(&exchange, ale_clock_start(ALE_CLOCK_REAL)), 0);
+        explore = ale_explore_start(&config, &exchange);
+        ASSERT_NE(explore, nullptr);
+    }
+    void TearDown() override
+    {
+        ale_explore_stop(explore);
+        ale_exchange_close(&exchange);
+        ale_rt_stop();
+    }
+
+    void give_scan(uint8_t state = ALE_STATE_GOOD)
+    {
+        const auto scan = std::make_unique<ale_scan_t>();
+        ale_estimate_t estimate{};
+        estimate.stamp_us = ale_clock_now_us(&exchange.clock);
+        estimate.state = state;
+        room::fill(*scan, 0, 0, estimate.stamp_us);
+        ale_explore_take(explore, scan.get(), &estimate);
+    }
+    ale_wish_t wish()
+    {
+        bool fresh = false;
+        return *static_cast<const ale_wish_t *>(ale_snapshot_newest(exchange.exploration, &fresh));
+    }
+    bool wishes_to_move()
+    {
+        const ale_wish_t newest = wish();
+        return newest.v_um_s != 0 || newest.w_urad_s != 0;
+    }
+    std::string words()
+    {
+        char text[ALE_ANSWER_BYTES];
+        ale_explore_words(explore, text);
+        return text;
+    }
+    /* Gives scans until the condition holds. */
+    bool comes(const std::function<bool()> &condition, uint8_t state = ALE_STATE_GOOD)
+    {
+        for (int k = 0; k < 500 && !condition(); k++) {
+            give_scan(state);
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+        return condition();
+    }
+
+    ale_config_t config;
+    ale_exchange_t exchange;
+    ale_explore_t *explore = nullptr;
+};
+
+TEST_F(ExploreThread, DoesNothingUntilAskedThenWishesToMoveForThreeScansAtATime)
+{
+    give_scan();
+    EXPECT_FALSE(ale_explore_is_on(explore));
+    EXPECT_EQ(words(), "");
+    EXPECT_FALSE(wishes_to_move());
+    ale_explore_request(explore, true);
+    EXPECT_TRUE(ale_explore_is_on(explore)) << "at once, for those who report it";
+    const int64_t before_us = ale_clock_now_us(&exchange.clock);
+    ASSERT_TRUE(comes([&] { return wishes_to_move(); }));
+    EXPECT_GT(wish().valid_until_us, before_us);
+    EXPECT_LE(wish().valid_until_us, ale_clock_now_us(&exchange.clock) + ALE_EXPLORE_WISH_LIFE_US);
+    EXPECT_TRUE(comes([&] { return words().find("explores: ") == 0; })) << words();
+}
+
+TEST_F(ExploreThread, OffTakesTheWishBack)
+{
+    ale_explore_request(explore, true);
+    ASSERT_TRUE(comes([&] { return wishes_to_move(); }));
+    ale_explore_request(explore, false);
+    EXPECT_FALSE(ale_explore_is_on(explore));
+    EXPECT_TRUE(comes([&] { return !wishes_to_move() && words().empty(); }));
+    EXPECT_EQ(wish().valid_until_us, 0);
+}
+
+TEST_F(ExploreThread, SaysThatItWaitsForThePose)
+{
+    ale_explore_request(explore, true);
+    ASSERT_TRUE(comes([&] { return words() == "waits: the pose is lost"; }, ALE_STATE_LOST));
+    EXPECT_FALSE(wishes_to_move());
+}
+
+TEST_F(ExploreThread, AskedTwiceItGoesOn)
+{
+    ale_explore_request(explore, true);
+    ASSERT_TRUE(comes([&] { return wishes_to_move(); }));
+    ale_explore_request(explore, true);
+    EXPECT_TRUE(ale_explore_is_on(explore));
+    EXPECT_TRUE(comes([&] { return wishes_to_move(); }));
+}
+
+} // namespace
