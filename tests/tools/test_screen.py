@@ -1,0 +1,77 @@
+"""ale-screen as its user meets it: one picture, or a live screen on a terminal."""
+import os
+import pty
+import select
+import subprocess
+import time
+
+import pytest
+
+from watching import BINARIES, lcm_url, pulse, robot  # noqa: F401 (fixtures)
+
+
+def run(*arguments, **more):
+    return subprocess.run([BINARIES / "ale-screen", *arguments], capture_output=True, text=True, timeout=20, check=False, **more)
+
+
+def test_it_says_what_it_is_and_what_it_is_not_asked():
+    assert "--once" in run("--help").stdout
+    assert run("--version").stdout.startswith("ale-screen ")
+    assert run("--unknown").returncode == 2 and run("word").returncode == 2
+
+
+def test_without_a_terminal_it_says_so(lcm_url):
+    done = run("--lcm-url", lcm_url, stdin=subprocess.DEVNULL)
+    assert done.returncode == 1 and "no terminal" in done.stderr
+
+
+def test_one_picture_has_the_state_the_map_and_the_numbers(lcm_url, pulse):
+    # The double sends its map with its first scan only.
+    with subprocess.Popen([BINARIES / "ale-screen", "--lcm-url", lcm_url, "--once"], stdout=subprocess.PIPE, text=True) as one:
+        while one.poll() is None:
+            pulse.robot.publish_map()
+            time.sleep(0.1)
+        picture = one.stdout.read()
+    assert one.returncode == 0
+    assert picture.startswith(" GOOD") and "double" in picture.splitlines()[0]
+    assert "12 walls" in picture and "URG" not in picture.splitlines()[0]
+    assert sum(picture.count(chr(code)) for code in range(0x2801, 0x2900)) > 100
+    assert "streaming" in picture and "3 bad_checksum" in picture
+
+
+class Terminal:
+    """The program on a pseudo terminal of its own."""
+
+    def __init__(self, *arguments):
+        self.pid, self.fd = pty.fork()
+        if self.pid == 0:
+            os.execve(BINARIES / "ale-screen", ["ale-screen", *arguments],
+                      {**os.environ, "TERM": "xterm-256color", "LC_ALL": "C.UTF-8", "COLUMNS": "100", "LINES": "30"})
+        self.seen = b""
+
+    def wait_for(self, text, seconds=10):
+        end = time.monotonic() + seconds
+        while text not in self.seen and time.monotonic() < end:
+            if select.select([self.fd], [], [], 0.1)[0]:
+                self.seen += os.read(self.fd, 65536)
+        assert text in self.seen
+
+    def end(self, key):
+        os.write(self.fd, key)
+        while True:
+            try:
+                if not os.read(self.fd, 65536):
+                    break
+            except OSError:
+                break
+        return os.waitstatus_to_exitcode(os.waitpid(self.pid, 0)[1])
+
+
+@pytest.mark.parametrize("key", [b"q", b"\x03"])
+def test_a_live_screen_shows_the_state_and_ends_by_key_or_ctrl_c(lcm_url, pulse, key):
+    terminal = Terminal("--lcm-url", lcm_url)
+    terminal.wait_for(b"GOOD")
+    terminal.wait_for(b"heading")
+    pulse.stop()
+    terminal.wait_for(b"LINK LOST")
+    assert terminal.end(key) == 0

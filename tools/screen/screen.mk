@@ -1,0 +1,1 @@
+$(BUILD)/bin/ale-screen: LIBRARIES += -lncursesw -ltinfo
