@@ -1,7 +1,8 @@
 #include "latency/report.h"
 
-#include <cstdarg>
 #include <cstdio>
+
+#include "export/formatted.h"
 
 namespace latency
 {
@@ -11,16 +12,6 @@ namespace
 
 constexpr uint32_t octaves = 43;
 constexpr uint32_t first_octave = 9; /* all below a microsecond is one row */
-
-__attribute__((format(printf, 1, 2))) std::string format(const char *words, ...)
-{
-    char text[160];
-    va_list arguments;
-    va_start(arguments, words);
-    std::vsnprintf(text, sizeof text, words, arguments);
-    va_end(arguments);
-    return text;
-}
 
 double microseconds(int64_t time_ns)
 {
@@ -32,10 +23,10 @@ std::string quantiles(const Latencies &latencies)
     std::string text = "microseconds      scans    median       p99     worst  at scan\n";
     for (size_t k = 0; k < span_count; k++) {
         const SpanTimes &span = latencies[static_cast<Span>(k)];
-        text += format("%-12s %10u %9.1f %9.1f %9.1f %8d\n", span_names[k], span.times.count,
-                       microseconds(ale_durations_quantile(&span.times, 500)),
-                       microseconds(ale_durations_quantile(&span.times, 990)),
-                       microseconds(span.times.worst_ns), span.worst_scan);
+        text += ale::formatted("%-12s %10u %9.1f %9.1f %9.1f %8d\n", span_names[k], span.times.count,
+                               microseconds(ale_durations_quantile(&span.times, 500)),
+                               microseconds(ale_durations_quantile(&span.times, 990)),
+                               microseconds(span.times.worst_ns), span.worst_scan);
     }
     return text;
 }
@@ -62,10 +53,10 @@ bool anything_in(const Latencies &latencies, uint32_t octave)
 
 std::string histogram_row(const Latencies &latencies, uint32_t octave)
 {
-    std::string row = format("%12.1f", microseconds(int64_t{2} << octave));
+    std::string row = ale::formatted("%12.1f", microseconds(int64_t{2} << octave));
     for (size_t k = 0; k < span_count; k++) {
         const uint32_t count = count_in_row(latencies, k, octave);
-        row += count > 0 ? format(" %8u", count) : format(" %8s", ".");
+        row += count > 0 ? ale::formatted(" %8u", count) : ale::formatted(" %8s", ".");
     }
     return row + "\n";
 }
@@ -82,7 +73,7 @@ std::string histogram(const Latencies &latencies)
     }
     std::string text = "       up to";
     for (const char *name : span_names) {
-        text += format(" %8s", name);
+        text += ale::formatted(" %8s", name);
     }
     text += "\n";
     for (uint32_t octave = first; octave < last; octave++) {
@@ -95,8 +86,8 @@ std::string histogram(const Latencies &latencies)
 
 std::string report(const Latencies &latencies)
 {
-    return format("poses %lld, of them predicted %lld\n", static_cast<long long>(latencies.poses()),
-                  static_cast<long long>(latencies.predicted())) +
+    return ale::formatted("poses %lld, of them predicted %lld\n", static_cast<long long>(latencies.poses()),
+                          static_cast<long long>(latencies.predicted())) +
            quantiles(latencies) + "\n" + histogram(latencies);
 }
 

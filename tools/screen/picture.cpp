@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
 
+#include "export/formatted.h"
 #include "screen/braille.h"
 
 namespace text_screen
@@ -18,16 +18,6 @@ constexpr int numbers_columns = 37;
 constexpr int label_columns = 13;
 constexpr double silence_s = 0.7; /* a URG gives ten scans a second */
 constexpr double degrees = 180 / M_PI;
-
-__attribute__((format(printf, 1, 2))) std::string print(const char *format, ...)
-{
-    std::array<char, 256> text{};
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text.data(), text.size(), format, arguments);
-    va_end(arguments);
-    return text.data();
-}
 
 /* ASCII only, cut or filled up to so many cells. */
 std::string fit(std::string text, int columns)
@@ -61,11 +51,11 @@ Row banner(const RobotState &state, double age_s, int columns)
 {
     const Standing now = standing(state, age_s);
     const std::string robot = state.status ? state.status->robot : "";
-    const std::string age = state.pose ? print("pose %.1f s ago ", age_s) : "no robot heard yet ";
-    const std::string left = print(" %s", now.word);
+    const std::string age = state.pose ? ale::formatted("pose %.1f s ago ", age_s) : "no robot heard yet ";
+    const std::string left = ale::formatted(" %s", now.word);
     const std::string right = robot + "  " + age;
     const int gap = columns - static_cast<int>(left.size());
-    std::string text = left + print("%*s", std::max(gap, 0), right.c_str());
+    std::string text = left + ale::formatted("%*s", std::max(gap, 0), right.c_str());
     return {{{fit(std::move(text), columns), now.mood}}, true};
 }
 
@@ -75,7 +65,7 @@ class Numbers
   public:
     void say(const char *label, const std::string &text, Mood mood = Mood::plain)
     {
-        rows_.push_back({{fit(print(" %s", label), label_columns), Mood::dim},
+        rows_.push_back({{fit(ale::formatted(" %s", label), label_columns), Mood::dim},
                          {fit(text, numbers_columns - label_columns), mood}});
     }
 
@@ -89,12 +79,16 @@ class Numbers
 
 void say_pose(const ale::pose_t &pose, Numbers &numbers)
 {
-    numbers.say("x", print("%8.3f m  +- %.1f mm", pose.map_x, 1e3 * std::sqrt(std::fabs(pose.cov[0]))));
-    numbers.say("y", print("%8.3f m  +- %.1f mm", pose.map_y, 1e3 * std::sqrt(std::fabs(pose.cov[4]))));
-    numbers.say("heading", print("%8.1f    +- %.2f deg", std::remainder(pose.map_theta, 2 * M_PI) * degrees,
-                                 std::sqrt(std::fabs(pose.cov[8])) * degrees));
-    numbers.say("moves", print("%.2f m/s %.0f deg/s", std::hypot(pose.vx, pose.vy), pose.omega * degrees));
-    numbers.say("scan", print("%d%s", pose.scan, pose.predicted ? "  predicted" : ""),
+    numbers.say("x",
+                ale::formatted("%8.3f m  +- %.1f mm", pose.map_x, 1e3 * std::sqrt(std::fabs(pose.cov[0]))));
+    numbers.say("y",
+                ale::formatted("%8.3f m  +- %.1f mm", pose.map_y, 1e3 * std::sqrt(std::fabs(pose.cov[4]))));
+    numbers.say("heading",
+                ale::formatted("%8.1f    +- %.2f deg", std::remainder(pose.map_theta, 2 * M_PI) * degrees,
+                               std::sqrt(std::fabs(pose.cov[8])) * degrees));
+    numbers.say("moves",
+                ale::formatted("%.2f m/s %.0f deg/s", std::hypot(pose.vx, pose.vy), pose.omega * degrees));
+    numbers.say("scan", ale::formatted("%d%s", pose.scan, pose.predicted ? "  predicted" : ""),
                 pose.predicted ? Mood::weak : Mood::plain);
 }
 
@@ -102,8 +96,8 @@ void say_features(const RobotState &state, Numbers &numbers)
 {
     const int lines = state.features ? state.features->num_lines : 0;
     const int corners = state.features ? state.features->num_corners : 0;
-    numbers.say("seen", print("%d lines, %d corners", lines, corners));
-    numbers.say("map", print("%d walls, %d corners", state.map.num_lines, state.map.num_corners));
+    numbers.say("seen", ale::formatted("%d lines, %d corners", lines, corners));
+    numbers.say("map", ale::formatted("%d walls, %d corners", state.map.num_lines, state.map.num_corners));
 }
 
 void say_counters(const ale::status_t &status, Numbers &numbers)
@@ -111,9 +105,10 @@ void say_counters(const ale::status_t &status, Numbers &numbers)
     const size_t count = std::min(status.counter_name.size(), status.counter_value.size());
     for (size_t k = 0; k < count; k++) {
         if (status.counter_value[k] > 0) {
-            numbers.say(
-                "", print("%7lld ", static_cast<long long>(status.counter_value[k])) + status.counter_name[k],
-                Mood::dim);
+            numbers.say("",
+                        ale::formatted("%7lld ", static_cast<long long>(status.counter_value[k])) +
+                            status.counter_name[k],
+                        Mood::dim);
         }
     }
 }
@@ -121,10 +116,10 @@ void say_counters(const ale::status_t &status, Numbers &numbers)
 void say_status(const ale::status_t &status, Numbers &numbers)
 {
     numbers.say("scan takes",
-                print("%.0f us, worst %.0f", status.stage_last_us[5], status.stage_worst_us[5]));
-    numbers.say("latency",
-                print("%.2f ms, p99 %.2f", status.latency_p50_us / 1e3, status.latency_p99_us / 1e3));
-    numbers.say("deadlines", print("%d missed", status.deadline_misses),
+                ale::formatted("%.0f us, worst %.0f", status.stage_last_us[5], status.stage_worst_us[5]));
+    numbers.say("latency", ale::formatted("%.2f ms, p99 %.2f", status.latency_p50_us / 1e3,
+                                          status.latency_p99_us / 1e3));
+    numbers.say("deadlines", ale::formatted("%d missed", status.deadline_misses),
                 status.deadline_misses > 0 ? Mood::weak : Mood::plain);
     numbers.say("real time", status.realtime ? "yes" : "no", status.realtime ? Mood::good : Mood::weak);
     numbers.say("scanner", status.driver_state);
@@ -150,7 +145,8 @@ Numbers numbers_of(const RobotState &state)
         say_status(*state.status, numbers);
     }
     if (state.malformed > 0) {
-        numbers.say("malformed", print("%llu messages", static_cast<unsigned long long>(state.malformed)),
+        numbers.say("malformed",
+                    ale::formatted("%llu messages", static_cast<unsigned long long>(state.malformed)),
                     Mood::weak);
     }
     return numbers;

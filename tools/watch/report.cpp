@@ -4,9 +4,9 @@
 #include <array>
 #include <cinttypes>
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
 
+#include "export/formatted.h"
 #include "export/text_file.h"
 #include "export/trajectory.h"
 
@@ -20,34 +20,24 @@ constexpr double degrees_per_radian = 57.29577951308232;
 constexpr std::array<const char *, stage_count> stage_names = {"deskew", "smooth", "extract", "match", "map"};
 constexpr std::array<const char *, 3> state_names = {"LOST", "weak", "good"};
 
-__attribute__((format(printf, 1, 2))) std::string format(const char *pattern, ...)
-{
-    char text[256];
-    va_list values;
-    va_start(values, pattern);
-    /* NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): it was started one line above. */
-    vsnprintf(text, sizeof text, pattern, values);
-    va_end(values);
-    return text;
-}
-
 std::string seen(const Record &record)
 {
     const auto walls = record.map() ? record.map()->lines.size() : 0;
-    return format("lines %2d corners %2d  map %3zu", record.lines(), record.corners(), walls);
+    return ale::formatted("lines %2d corners %2d  map %3zu", record.lines(), record.corners(), walls);
 }
 
 std::string worst_stage(const Record &record)
 {
     const auto &worst = record.worst_stage_ns();
     const auto largest = std::max_element(worst.begin(), worst.end());
-    return format("worst %s %.2f ms", stage_names[static_cast<size_t>(largest - worst.begin())],
-                  *largest / 1e6);
+    return ale::formatted("worst %s %.2f ms", stage_names[static_cast<size_t>(largest - worst.begin())],
+                          *largest / 1e6);
 }
 
 std::string latency(const Record &record)
 {
-    return record.status() ? format("latency %.2f ms", record.status()->latency_p50_us / 1e3) : "latency -";
+    return record.status() ? ale::formatted("latency %.2f ms", record.status()->latency_p50_us / 1e3)
+                           : "latency -";
 }
 
 /* What the robot does by itself, in its own words. */
@@ -62,27 +52,27 @@ std::string by_itself(const Record &record)
 std::string status_line(const Record &record, double elapsed_s, double silent_s)
 {
     if (record.poses().empty()) {
-        return format("%5.0f s  poses %5d  none yet", elapsed_s, 0);
+        return ale::formatted("%5.0f s  poses %5d  none yet", elapsed_s, 0);
     }
     const ale::pose_t &pose = record.poses().back().pose;
     const double heading_deg =
         std::remainder(static_cast<double>(pose.map_theta) * degrees_per_radian, 360.0);
-    return format("%5.0f s  poses %5zu  %s  ", elapsed_s, record.poses().size(),
-                  state_names[static_cast<unsigned char>(pose.state)]) +
-           format("x %7.3f y %7.3f heading %6.1f  ", static_cast<double>(pose.map_x),
-                  static_cast<double>(pose.map_y), heading_deg) +
+    return ale::formatted("%5.0f s  poses %5zu  %s  ", elapsed_s, record.poses().size(),
+                          state_names[static_cast<unsigned char>(pose.state)]) +
+           ale::formatted("x %7.3f y %7.3f heading %6.1f  ", static_cast<double>(pose.map_x),
+                          static_cast<double>(pose.map_y), heading_deg) +
            seen(record) + "  " + worst_stage(record) + "  " +
-           format("dropped %" PRId64 "  ", record.predicted() + record.missing()) + latency(record) +
-           by_itself(record) + (silent_s >= 1 ? format("  SILENT for %.0f s", silent_s) : "");
+           ale::formatted("dropped %" PRId64 "  ", record.predicted() + record.missing()) + latency(record) +
+           by_itself(record) + (silent_s >= 1 ? ale::formatted("  SILENT for %.0f s", silent_s) : "");
 }
 
 std::string summary_line(const Record &record, uint64_t malformed)
 {
-    return format("%zu poses, %" PRId64 " missing, %" PRId64 " predicted; ", record.poses().size(),
-                  record.missing(), record.predicted()) +
-           format("good %" PRId64 ", weak %" PRId64 ", lost %" PRId64 "; ", record.in_state(2),
-                  record.in_state(1), record.in_state(0)) +
-           format("%" PRIu64 " malformed messages", malformed);
+    return ale::formatted("%zu poses, %" PRId64 " missing, %" PRId64 " predicted; ", record.poses().size(),
+                          record.missing(), record.predicted()) +
+           ale::formatted("good %" PRId64 ", weak %" PRId64 ", lost %" PRId64 "; ", record.in_state(2),
+                          record.in_state(1), record.in_state(0)) +
+           ale::formatted("%" PRIu64 " malformed messages", malformed);
 }
 
 void write_trajectory(const Record &record, const std::string &path)
