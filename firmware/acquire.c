@@ -2,10 +2,10 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <sys/eventfd.h>
 
 #include "recorder.h"
 #include "urg/urg_device.h"
+#include "wake.h"
 
 struct ale_acquire {
     ale_exchange_t *exchange;
@@ -68,7 +68,7 @@ static void tell_health(ale_acquire_t *acquire)
     memcpy(ale_snapshot_back(acquire->exchange->health), ale_urg_health(acquire->urg),
            sizeof(ale_urg_health_t));
     ale_snapshot_publish(acquire->exchange->health);
-    eventfd_write(acquire->exchange->under_way, 1);
+    ale_wake_post(acquire->exchange->under_way);
 }
 
 static void run(ale_rt_task_t *self, void *user)

@@ -91,11 +91,8 @@ void ale_commands_work(ale_commands_t *commands)
     commands->job_waits = false;
     commands->news = true;
     memcpy(commands->result, outcome.text, sizeof commands->result);
-    bool obeyed = outcome.fine;
-    if (outcome.loaded && outcome.fine && !ale_verbs_request(commands, &commands->job_request)) {
-        snprintf(commands->result, sizeof commands->result, "too much at once: try again");
-        obeyed = false;
-    }
+    const bool obeyed =
+        outcome.fine && (!outcome.loaded || ale_verbs_request(commands, &commands->job_request));
     answer(commands, commands->job_operator, commands->job_counter, obeyed);
 }
 
@@ -111,6 +108,7 @@ void ale_commands_report(const ale_commands_t *commands, ale_operation_report_t 
     const int64_t now_us = ale_clock_now_us(&commands->exchange->clock);
     *report = (ale_operation_report_t){
         .takes_commands = commands->verifier.keys.count > 0,
+        .map_frozen = commands->map_frozen,
         .command_counter = commands->counter,
         .command_obeyed = commands->obeyed,
     };

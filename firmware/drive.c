@@ -5,6 +5,7 @@
 #include "base/fixed.h"
 #include "lcm/bus.h"
 #include "plan/safe_speed.h"
+#include "wake.h"
 
 struct ale_drive {
     const ale_config_t *config;
@@ -56,7 +57,7 @@ static void wait_for_turn(const ale_drive_t *drive, const ale_wish_t *first, con
         const int64_t left_us = wishes[k]->valid_until_us - now_us;
         wait_us = left_us > 0 ? ale_min64(wait_us, left_us) : wait_us;
     }
-    ale_rt_release_wait(drive->exchange->drive_again, ale_rt_now_ns() + ale_clock_real_ns(clock, wait_us));
+    ale_wake_wait(drive->exchange->drive_again, ale_clock_real_ns(clock, wait_us));
 }
 
 static void run(ale_rt_task_t *self, void *user)
@@ -103,7 +104,7 @@ void ale_drive_stop(ale_drive_t *drive)
         return;
     }
     ale_rt_task_stop(drive->task);
-    ale_rt_release_post(drive->exchange->drive_again);
+    ale_wake_post(drive->exchange->drive_again);
     ale_rt_task_join(drive->task);
     ale_bus_close(drive->bus);
     free(drive);

@@ -167,6 +167,12 @@ static void fulfil(ale_estimator_t *estimator, const ale_request_t *request)
     case ALE_REQUEST_RESET:
         ale_pipeline_reset(estimator->pipeline);
         break;
+    case ALE_REQUEST_RELOCATE:
+        ale_pipeline_relocate(estimator->pipeline, request->pose);
+        break;
+    case ALE_REQUEST_FREEZE:
+        ale_pipeline_freeze_map(estimator->pipeline, request->on);
+        break;
     case ALE_REQUEST_LOAD_MAP:
         ale_pipeline_load_map(estimator->pipeline,
                               ale_snapshot_newest(estimator->exchange->loaded_map, &fresh), request->pose,

@@ -1,12 +1,11 @@
 #include "exchange.h"
 
 #include <string.h>
-#include <sys/eventfd.h>
-#include <unistd.h>
 
 #include "base/fixed.h"
 #include "drive.h"
 #include "urg/urg_device.h"
+#include "wake.h"
 
 #define LOOK_NS 250000
 
@@ -24,14 +23,14 @@ int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock)
         .drive_orders = ale_snapshot_create(sizeof(ale_drive_orders_t)),
         .drive_scan = ale_snapshot_create(sizeof(ale_scan_t)),
         .exploration = ale_snapshot_create(sizeof(ale_wish_t)),
-        .drive_again = ale_rt_release_create(),
+        .drive_again = ale_wake_open(),
         .arrived = ale_rt_release_create(),
-        .under_way = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK),
+        .under_way = ale_wake_open(),
     };
     const bool complete = exchange->scans && exchange->odometry && exchange->results && exchange->map &&
                           exchange->health && exchange->requests && exchange->loaded_map &&
                           exchange->drive_orders && exchange->drive_scan && exchange->exploration &&
-                          exchange->drive_again && exchange->arrived && exchange->under_way >= 0;
+                          exchange->drive_again >= 0 && exchange->arrived && exchange->under_way >= 0;
     if (!complete) {
         ale_exchange_close(exchange);
     }
@@ -50,13 +49,11 @@ void ale_exchange_close(ale_exchange_t *exchange)
     ale_snapshot_destroy(exchange->drive_orders);
     ale_snapshot_destroy(exchange->drive_scan);
     ale_snapshot_destroy(exchange->exploration);
-    ale_rt_release_destroy(exchange->drive_again);
+    ale_wake_close(exchange->drive_again);
     ale_rt_release_destroy(exchange->arrived);
-    if (exchange->under_way >= 0) {
-        close(exchange->under_way);
-    }
+    ale_wake_close(exchange->under_way);
     memset(exchange, 0, sizeof *exchange);
-    exchange->under_way = -1;
+    exchange->drive_again = exchange->under_way = -1;
 }
 
 /* What is on its way is read first: a result that comes in between is then seen as ready. */

@@ -53,12 +53,18 @@ typedef struct {
     ale_scan_t scan; /* only when scans are published */
 } ale_result_t;
 
-typedef enum { ALE_REQUEST_RESET, ALE_REQUEST_LOAD_MAP } ale_request_kind_t;
+typedef enum {
+    ALE_REQUEST_RESET,
+    ALE_REQUEST_RELOCATE, /* the robot is at `pose` of the map */
+    ALE_REQUEST_LOAD_MAP, /* at `pose`, if that is known; otherwise lost until found */
+    ALE_REQUEST_FREEZE,   /* the map is only looked at, while `on` */
+} ale_request_kind_t;
 
 /* What an operator wants of the estimate task, done between two scans. */
 typedef struct {
     ale_request_kind_t kind;
-    bool pose_known; /* load: the robot is at `pose` of the map; otherwise it is lost until found */
+    bool pose_known;
+    bool on;
     ale_pose_t pose;
 } ale_request_t;
 
@@ -74,10 +80,10 @@ typedef struct {
     ale_snapshot_t *drive_orders;  /* ale_drive_orders_t: telemetry to drive */
     ale_snapshot_t *drive_scan;    /* ale_scan_t: telemetry to drive */
     ale_snapshot_t *exploration;   /* ale_wish_t: exploration to drive */
-    ale_rt_release_t *drive_again; /* wakes the drive thread: something has changed */
     ale_rt_release_t *arrived;     /* releases the estimate task */
     struct ale_explore *explore;   /* is told by telemetry; NULL: nobody may ask for it */
     struct ale_recorder *recorder; /* is told by acquire and telemetry; NULL: none is wanted */
+    int drive_again;               /* wakes the drive thread (wake.h): something has changed */
     int under_way; /* event descriptor: a scan has gone to the estimate task, or health has changed */
 } ale_exchange_t;
 

@@ -9,6 +9,7 @@
 #include "realtime/rt.h"
 #include "ring.h"
 #include "snapshot.h"
+#include "wake.h"
 
 #define IDLE_NS 200000000
 #define EFFECT_US 40000 /* until the motors obey: the drive's message and its controller */
@@ -34,7 +35,7 @@ struct ale_explore {
     ale_exchange_t *exchange;
     ale_ring_t *seen;
     ale_snapshot_t *doing;
-    ale_rt_release_t *news;
+    int news; /* descriptor (wake.h) */
     ale_rt_task_t *task;
     /* Counts requests; odd: on. */
     atomic_uint request;
@@ -60,7 +61,7 @@ static void publish_wish(ale_explore_t *explore, ale_velocity_t velocity, int64_
     *(ale_wish_t *)ale_snapshot_back(explore->exchange->exploration) = (ale_wish_t){
         .v_um_s = velocity.speed_um_s, .w_urad_s = velocity.turn_urad_s, .valid_until_us = valid_until_us};
     ale_snapshot_publish(explore->exchange->exploration);
-    ale_rt_release_post(explore->exchange->drive_again);
+    ale_wake_post(explore->exchange->drive_again);
 }
 
 static void hear_request(ale_explore_t *explore)
@@ -87,7 +88,7 @@ static void run(ale_rt_task_t *self, void *user)
 {
     ale_explore_t *explore = user;
     while (!ale_rt_task_stopping(self)) {
-        ale_rt_release_wait(explore->news, ale_rt_now_ns() + IDLE_NS);
+        ale_wake_wait(explore->news, IDLE_NS);
         hear_request(explore);
         for (uint32_t ready = ale_ring_ready(explore->seen); ready > 0; ready--) {
             use(explore, ale_ring_at(explore->seen, 0));
@@ -101,7 +102,7 @@ static void destroy(ale_explore_t *explore)
 {
     ale_ring_destroy(explore->seen);
     ale_snapshot_destroy(explore->doing);
-    ale_rt_release_destroy(explore->news);
+    ale_wake_close(explore->news);
     free(explore);
 }
 
@@ -114,10 +115,10 @@ ale_explore_t *ale_explore_start(const ale_config_t *config, ale_exchange_t *exc
     explore->exchange = exchange;
     explore->seen = ale_ring_create(sizeof(seen_t), SCAN_SLOTS);
     explore->doing = ale_snapshot_create(sizeof(doing_t));
-    explore->news = ale_rt_release_create();
+    explore->news = ale_wake_open();
     const ale_explorer_config_t explorer = ale_config_explorer(config);
     ale_explorer_init(&explore->explorer, &explorer);
-    if (explore->seen && explore->doing && explore->news) {
+    if (explore->seen && explore->doing && explore->news >= 0) {
         explore->task = ale_rt_task_start(&(ale_rt_task_config_t){
             .name = "ale-explore", .kind = ALE_RT_BACKGROUND, .body = run, .user = explore});
     }
@@ -134,7 +135,7 @@ void ale_explore_stop(ale_explore_t *explore)
         return;
     }
     ale_rt_task_stop(explore->task);
-    ale_rt_release_post(explore->news);
+    ale_wake_post(explore->news);
     ale_rt_task_join(explore->task);
     destroy(explore);
 }
@@ -144,7 +145,7 @@ void ale_explore_request(ale_explore_t *explore, bool on)
     const uint32_t request = atomic_load_explicit(&explore->request, memory_order_relaxed);
     const uint32_t step = (request % 2 == 1) == on ? 2 : 1;
     atomic_store_explicit(&explore->request, request + step, memory_order_release);
-    ale_rt_release_post(explore->news);
+    ale_wake_post(explore->news);
 }
 
 static doing_t newest_doing(ale_explore_t *explore)
@@ -170,7 +171,7 @@ void ale_explore_take(ale_explore_t *explore, const ale_scan_t *scan, const ale_
         seen->scan = *scan;
         seen->estimate = *estimate;
         ale_ring_commit(explore->seen);
-        ale_rt_release_post(explore->news);
+        ale_wake_post(explore->news);
     }
 }
 

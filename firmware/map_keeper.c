@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/eventfd.h>
 #include <sys/stat.h>
 
 #include "store/map_file.h"
+#include "wake.h"
 
 #define LOOK_NS 1000000000
 enum { FOLDER_RIGHTS = 0755, PATH_BYTES = ALE_CONFIG_PATH + ALE_COMMAND_ARG_BYTES + 8 };
@@ -19,7 +19,7 @@ struct ale_map_keeper {
     const ale_config_t *config;
     ale_exchange_t *exchange;
     ale_rt_task_t *task;
-    ale_rt_release_t *ordered;
+    int ordered; /* descriptor (wake.h) */
     atomic_int turn;
     bool load;
     char name[ALE_COMMAND_ARG_BYTES];
@@ -71,14 +71,14 @@ static void work(ale_map_keeper_t *keeper)
         save(keeper, path);
     }
     atomic_store_explicit(&keeper->turn, DONE, memory_order_release);
-    eventfd_write(keeper->exchange->under_way, 1);
+    ale_wake_post(keeper->exchange->under_way);
 }
 
 static void run(ale_rt_task_t *self, void *user)
 {
     ale_map_keeper_t *keeper = user;
     while (!ale_rt_task_stopping(self)) {
-        ale_rt_release_wait(keeper->ordered, ale_rt_now_ns() + LOOK_NS);
+        ale_wake_wait(keeper->ordered, LOOK_NS);
         work(keeper);
     }
     work(keeper);
@@ -92,14 +92,14 @@ ale_map_keeper_t *ale_map_keeper_start(const ale_config_t *config, ale_exchange_
     }
     keeper->config = config;
     keeper->exchange = exchange;
-    keeper->ordered = ale_rt_release_create();
+    keeper->ordered = ale_wake_open();
     atomic_init(&keeper->turn, IDLE);
-    if (keeper->ordered) {
+    if (keeper->ordered >= 0) {
         keeper->task = ale_rt_task_start(&(ale_rt_task_config_t){
-            .name = "ale-maps", .kind = ALE_RT_ORDINARY, .body = run, .user = keeper});
+            .name = "ale-maps", .kind = ALE_RT_BACKGROUND, .body = run, .user = keeper});
     }
     if (!keeper->task) {
-        ale_rt_release_destroy(keeper->ordered);
+        ale_wake_close(keeper->ordered);
         free(keeper);
         return NULL;
     }
@@ -112,9 +112,9 @@ void ale_map_keeper_stop(ale_map_keeper_t *keeper)
         return;
     }
     ale_rt_task_stop(keeper->task);
-    ale_rt_release_post(keeper->ordered);
+    ale_wake_post(keeper->ordered);
     ale_rt_task_join(keeper->task);
-    ale_rt_release_destroy(keeper->ordered);
+    ale_wake_close(keeper->ordered);
     free(keeper);
 }
 
@@ -129,7 +129,7 @@ static bool order(ale_map_keeper_t *keeper, const char *name, const ale_map_t *m
         keeper->map = *map;
     }
     atomic_store_explicit(&keeper->turn, ORDERED, memory_order_release);
-    ale_rt_release_post(keeper->ordered);
+    ale_wake_post(keeper->ordered);
     return true;
 }
 

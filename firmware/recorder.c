@@ -1,21 +1,19 @@
 #include "recorder.h"
 
-#include <poll.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/eventfd.h>
-#include <unistd.h>
 
 #include "flight_file.h"
 #include "flight_ring.h"
 #include "flight_words.h"
 #include "realtime/rt.h"
 #include "store/little_endian.h"
+#include "wake.h"
 
 #define NS_PER_MS 1000000LL
-#define LOOK_MS 50
+#define LOOK_NS 50000000
 #define PATIENCE_NS (1000 * NS_PER_MS)  /* after which bytes are taken that make no scan */
 #define AFTERMATH_NS (3000 * NS_PER_MS) /* recorded on after a fault */
 #define QUIET_NS (60000 * NS_PER_MS)    /* between recordings that nobody asked for */
@@ -142,7 +140,7 @@ void ale_recorder_trigger(ale_recorder_t *recorder, ale_record_reason_t reason)
 {
     if (recorder) {
         atomic_fetch_or(&recorder->wanted, 1U << reason);
-        eventfd_write(recorder->wake, 1);
+        ale_wake_post(recorder->wake);
     }
 }
 
@@ -314,10 +312,7 @@ static void write_if_due(ale_recorder_t *recorder, int64_t now_ns)
 
 static void wait_for_work(const ale_recorder_t *recorder)
 {
-    struct pollfd source = {.fd = recorder->wake, .events = POLLIN};
-    eventfd_t woken = 0;
-    poll(&source, 1, LOOK_MS);
-    eventfd_read(recorder->wake, &woken);
+    ale_wake_wait(recorder->wake, LOOK_NS);
 }
 
 static void run(ale_rt_task_t *self, void *user)
@@ -361,9 +356,7 @@ static void destroy(ale_recorder_t *recorder)
         ale_ring_destroy(recorder->told);
     }
     ale_flight_ring_destroy(recorder->flight);
-    if (recorder->wake >= 0) {
-        close(recorder->wake);
-    }
+    ale_wake_close(recorder->wake);
     free(recorder->config_text);
     free(recorder);
 }
@@ -379,7 +372,7 @@ ale_recorder_t *ale_recorder_start(const ale_config_t *config)
     recorder->acquired = ale_ring_create(sizeof(item_t), BYTES_SLOTS);
     recorder->told = ale_ring_create(sizeof(item_t), WORDS_SLOTS);
     recorder->flight = ale_flight_ring_create((uint32_t)config->recorder_megabytes * MEGABYTE);
-    recorder->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    recorder->wake = ale_wake_open();
     recorder->moved_ns = ale_rt_now_ns();
     if (recorder->config_text && recorder->acquired && recorder->told && recorder->flight &&
         recorder->wake >= 0) {
@@ -397,7 +390,7 @@ void ale_recorder_stop(ale_recorder_t *recorder)
 {
     if (recorder) {
         ale_rt_task_stop(recorder->task);
-        eventfd_write(recorder->wake, 1);
+        ale_wake_post(recorder->wake);
         ale_rt_task_join(recorder->task);
         destroy(recorder);
     }

@@ -14,6 +14,7 @@
 #include "recorder.h"
 #include "statistics.h"
 #include "supervisor.h"
+#include "wake.h"
 
 #define NS_PER_S 1000000000
 #define STATUS_PERIOD_NS NS_PER_S
@@ -314,7 +315,7 @@ void ale_telemetry_stop(ale_telemetry_t *telemetry)
     }
     if (telemetry->task) {
         ale_rt_task_stop(telemetry->task);
-        eventfd_write(telemetry->exchange->under_way, 1);
+        ale_wake_post(telemetry->exchange->under_way);
         ale_rt_task_join(telemetry->task);
     }
     ale_map_keeper_stop(telemetry->keeper);

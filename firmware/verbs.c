@@ -7,6 +7,7 @@
 #include "decimal.h"
 #include "explore_thread.h"
 #include "log/text.h"
+#include "wake.h"
 
 enum { MICRO = 6 };
 
@@ -35,7 +36,7 @@ static void give_orders(ale_commands_t *commands)
 {
     *(ale_drive_orders_t *)ale_snapshot_back(commands->exchange->drive_orders) = commands->orders;
     ale_snapshot_publish(commands->exchange->drive_orders);
-    ale_rt_release_post(commands->exchange->drive_again);
+    ale_wake_post(commands->exchange->drive_again);
 }
 
 static bool drive(ale_commands_t *commands, const ale_command_t *command)
@@ -83,6 +84,10 @@ static bool explore(ale_commands_t *commands, const ale_command_t *command)
     if (!commands->exchange->explore) {
         return ANSWER(commands, false, "this robot does not explore");
     }
+    const char *holder = ale_drive_desk_holder(&commands->desk, commands->now_us);
+    if (on && holder[0] != '\0' && strcmp(holder, command->operator_name) != 0) {
+        return ANSWER(commands, false, "%s drives", holder);
+    }
     ale_explore_request(commands->exchange->explore, on);
     commands->orders.exploring = on;
     give_orders(commands);
@@ -93,7 +98,7 @@ bool ale_verbs_request(ale_commands_t *commands, const ale_request_t *request)
 {
     ale_request_t *slot = ale_ring_reserve(commands->exchange->requests);
     if (!slot) {
-        return false;
+        return ANSWER(commands, false, "too much at once: try again");
     }
     *slot = *request;
     ale_ring_commit(commands->exchange->requests);
@@ -103,14 +108,22 @@ bool ale_verbs_request(ale_commands_t *commands, const ale_request_t *request)
 
 static bool ask_estimate(ale_commands_t *commands, ale_request_t request, const char *done)
 {
-    return ale_verbs_request(commands, &request) ? ANSWER(commands, true, "%s", done)
-                                                 : ANSWER(commands, false, "too much at once: try again");
+    return ale_verbs_request(commands, &request) && ANSWER(commands, true, "%s", done);
 }
 
 static bool reset(ale_commands_t *commands, const ale_command_t *command)
 {
     (void)command;
     return ask_estimate(commands, (ale_request_t){.kind = ALE_REQUEST_RESET}, "map and pose forgotten");
+}
+
+static bool relocate(ale_commands_t *commands, const ale_command_t *command)
+{
+    ale_request_t request = {.kind = ALE_REQUEST_RELOCATE};
+    if (!read_pose(command->arg, &request.pose)) {
+        return ANSWER(commands, false, "relocate wants x y theta, metres and radians");
+    }
+    return ask_estimate(commands, request, "put there: weak until scans agree");
 }
 
 static bool begin_job(ale_commands_t *commands, const ale_command_t *command, bool begun)
@@ -174,14 +187,33 @@ static bool set_drive_turn(ale_commands_t *commands, const ale_command_t *comman
                      1000LL * commands->config->pipeline.max_turn_mrad_s);
 }
 
+/* A setting that is yes or no; *on is untouched when the word is neither. */
+static bool set_switch(ale_commands_t *commands, const ale_command_t *command, bool *on)
+{
+    const bool yes = strcmp(command->arg[1], "yes") == 0;
+    if (!yes && strcmp(command->arg[1], "no") != 0) {
+        return ANSWER(commands, false, "%s is yes or no", command->arg[0]);
+    }
+    *on = yes;
+    return ANSWER(commands, true, "%s is %s", command->arg[0], command->arg[1]);
+}
+
 static bool set_publish_scan(ale_commands_t *commands, const ale_command_t *command)
 {
-    const bool on = strcmp(command->arg[1], "yes") == 0;
-    if (!on && strcmp(command->arg[1], "no") != 0) {
-        return ANSWER(commands, false, "publish_scan is yes or no");
+    return set_switch(commands, command, &commands->publish_scan);
+}
+
+static bool set_freeze_map(ale_commands_t *commands, const ale_command_t *command)
+{
+    bool on = commands->map_frozen;
+    if (!set_switch(commands, command, &on)) {
+        return false;
     }
-    commands->publish_scan = on;
-    return ANSWER(commands, true, "publish_scan is %s", command->arg[1]);
+    if (!ale_verbs_request(commands, &(ale_request_t){.kind = ALE_REQUEST_FREEZE, .on = on})) {
+        return false;
+    }
+    commands->map_frozen = on;
+    return true;
 }
 
 typedef bool (*handler_t)(ale_commands_t *commands, const ale_command_t *command);
@@ -197,6 +229,7 @@ static const verb_t settings[] = {
     {"drive_speed", 2, 2, set_drive_speed},
     {"drive_turn", 2, 2, set_drive_turn},
     {"publish_scan", 2, 2, set_publish_scan},
+    {"freeze_map", 2, 2, set_freeze_map},
 };
 
 /* NULL: none of that name. */
@@ -219,8 +252,8 @@ static bool set(ale_commands_t *commands, const ale_command_t *command)
 
 static const verb_t verbs[] = {
     {"drive", 2, 2, drive},       {"stop", 0, 0, stop},         {"reset", 0, 0, reset},
-    {"save_map", 1, 1, save_map}, {"load_map", 1, 4, load_map}, {"set", 2, 2, set},
-    {"explore", 1, 1, explore},
+    {"save_map", 1, 1, save_map}, {"load_map", 1, 4, load_map}, {"relocate", 3, 3, relocate},
+    {"explore", 1, 1, explore},   {"set", 2, 2, set},
 };
 
 bool ale_verbs_obey(ale_commands_t *commands, const ale_command_t *command)

@@ -14,7 +14,8 @@ struct ale_commands {
     ale_drive_desk_t desk;
     ale_drive_orders_t orders;
     const ale_map_t *newest_map; /* while a command is obeyed */
-    bool publish_scan;           /* as set by the configuration and by operators */
+    bool map_frozen;
+    bool publish_scan; /* as set by the configuration and by operators */
     int32_t drive_um_s;
     int32_t drive_urad_s;
     int64_t now_us; /* of the command that is obeyed */
@@ -35,7 +36,7 @@ struct ale_commands {
  * begun sets job_waits: its answer comes later. */
 bool ale_verbs_obey(ale_commands_t *commands, const ale_command_t *command);
 
-/* False: the estimate task has not taken the last ones yet. */
+/* False, and the answer is written: the estimate task has not taken the last ones yet. */
 bool ale_verbs_request(ale_commands_t *commands, const ale_request_t *request);
 
 #endif

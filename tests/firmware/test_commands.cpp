@@ -188,6 +188,24 @@ TEST_F(Commands, ResetIsARequestToTheEstimateTask)
     EXPECT_EQ(ask(alice, {"reset"}), "-too much at once: try again");
 }
 
+TEST_F(Commands, RelocatingAndFreezingAreRequestsToo)
+{
+    EXPECT_EQ(ask(alice, {"relocate", "1", "-2.5", "-1.5"}), "+put there: weak until scans agree");
+    EXPECT_EQ(ask(alice, {"relocate", "1", "far", "0"})[0], '-');
+    EXPECT_EQ(ask(alice, {"set", "freeze_map", "yes"}), "+freeze_map is yes");
+    EXPECT_EQ(ask(alice, {"set", "freeze_map", "maybe"}), "-freeze_map is yes or no");
+    const auto all = requests();
+    ASSERT_EQ(all.size(), 2U);
+    EXPECT_EQ(all[0].kind, ALE_REQUEST_RELOCATE);
+    EXPECT_EQ(all[0].pose.y_um, -2500000);
+    EXPECT_NEAR(static_cast<int32_t>(all[0].pose.theta_bam) * (M_PI / 2147483648.0), -1.5, 1e-8);
+    EXPECT_EQ(all[1].kind, ALE_REQUEST_FREEZE);
+    EXPECT_TRUE(all[1].on);
+    ale_operation_report_t report;
+    ale_commands_report(commands, &report);
+    EXPECT_TRUE(report.map_frozen);
+}
+
 TEST_F(Commands, AMapIsSavedAndLoadedByName)
 {
     EXPECT_EQ(job({"save_map", "kitchen"}), "+saved kitchen: 3 lines, 0 corners");

@@ -14,6 +14,7 @@
 extern "C" {
 #include "drive.h"
 #include "lcm/bus.h"
+#include "wake.h"
 }
 
 /* As in test_telemetry.cpp: GLib orders LCM's mutex by means that the sanitizer does not see. */
@@ -141,7 +142,7 @@ class DriveThread : public testing::Test
         ale_snapshot_publish(exchange.drive_scan);
         *static_cast<ale_drive_orders_t *>(ale_snapshot_back(exchange.drive_orders)) = orders;
         ale_snapshot_publish(exchange.drive_orders);
-        ale_rt_release_post(exchange.drive_again);
+        ale_wake_post(exchange.drive_again);
     }
     void hear_until(const std::function<bool()> &condition)
     {

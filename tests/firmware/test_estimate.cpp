@@ -294,7 +294,7 @@ TEST_F(Estimate, AResetBetweenTwoScansMakesTheNextOneTheOrigin)
         drive_to(k, 0.02 * k);
     }
     EXPECT_NEAR(result->estimate.map.x_um, 180000, 5000);
-    request({ALE_REQUEST_RESET, false, {}});
+    request({ALE_REQUEST_RESET, false, false, {}});
     drive_to(11, 0.2);
     EXPECT_NEAR(result->estimate.map.x_um, 0, 5000);
 }
@@ -304,7 +304,7 @@ TEST_F(Estimate, ALoadedMapWithAKnownPoseIsWhereTheRobotIs)
     auto result = std::make_unique<ale_result_t>();
     *static_cast<ale_map_t *>(ale_snapshot_back(exchange.loaded_map)) = *map_of_the_room();
     ale_snapshot_publish(exchange.loaded_map);
-    request({ALE_REQUEST_LOAD_MAP, true, {300000, 0, 0}});
+    request({ALE_REQUEST_LOAD_MAP, true, false, {300000, 0, 0}});
     for (int k = 1; k <= 10; k++) {
         ASSERT_TRUE(push(kPeriod * k, false, 0.3));
         ale_estimator_step(estimator);
@@ -312,6 +312,39 @@ TEST_F(Estimate, ALoadedMapWithAKnownPoseIsWhereTheRobotIs)
     }
     EXPECT_NEAR(result->estimate.map.x_um, 300000, 10000);
     EXPECT_EQ(result->estimate.state, ALE_STATE_GOOD);
+}
+
+TEST_F(Estimate, RelocationPutsTheRobotWhereTheOperatorSays)
+{
+    auto result = std::make_unique<ale_result_t>();
+    for (int k = 1; k <= 20; k++) {
+        ASSERT_TRUE(push(kPeriod * k));
+        ale_estimator_step(estimator);
+        ASSERT_TRUE(pop(*result));
+        if (k == 10) {
+            request({ALE_REQUEST_RELOCATE, false, false, {100000, 50000, 0}});
+        }
+        if (k == 11) {
+            EXPECT_NE(result->estimate.state, ALE_STATE_LOST);
+        }
+    }
+    EXPECT_NEAR(result->estimate.map.x_um, 0, 10000) << "what it sees says otherwise, and it is near enough";
+}
+
+TEST_F(Estimate, AFrozenMapStaysAsItIs)
+{
+    auto result = std::make_unique<ale_result_t>();
+    for (const bool frozen : {true, false}) {
+        request({ALE_REQUEST_FREEZE, false, frozen, {}});
+        bool changed = false;
+        for (int k = 1; k <= 10; k++) {
+            ASSERT_TRUE(push(kPeriod * (k + (frozen ? 0 : 10))));
+            ale_estimator_step(estimator);
+            ASSERT_TRUE(pop(*result));
+            changed = changed || result->estimate.map_changed;
+        }
+        EXPECT_NE(changed, frozen);
+    }
 }
 
 } // namespace
