@@ -290,7 +290,8 @@ TEST_F(Commands, ExplorationIsSwitchedOnAndOffAndEndedByAStop)
     EXPECT_EQ(ask(alice, {"explore", "off"}), "+exploration is off");
     EXPECT_FALSE(ale_explore_is_on(exchange.explore));
     EXPECT_FALSE(orders().exploring);
-    EXPECT_EQ(ask(alice, {"explore", "on"}), "+explores");
+    EXPECT_EQ(ask(alice, {"explore", "on"}), "-bob drives") << "one drives at a time";
+    EXPECT_EQ(ask(bob, {"explore", "on"}), "+explores");
     EXPECT_EQ(ask(bob, {"stop"}), "+stopped by bob");
     EXPECT_FALSE(ale_explore_is_on(exchange.explore));
     EXPECT_FALSE(orders().exploring);
