@@ -9,9 +9,9 @@ enum {
     MOST_RELATIVE_Q36 = 1 << 29, /* no error is believed to exceed 9 % of the range */
     OWN_SCALED_BITS = 37,
     MEAN_SHIFT = 2,      /* of a mean's mm */
-    DIRECTION_SHIFT = 6, /* of the scatter, so that its product with two means fits int64 */
-    SCATTER_BITS = 30,   /* centred moments are scaled to this many bits: their products fit int64 */
-    ROUND = 16,          /* a run is round when its width is more than this part of its length, squared */
+    DIRECTION_SHIFT = 8, /* of the scatter, so that its product with two means fits int64 */
+    SCATTER_BITS = 32,   /* centred moments are scaled to this many bits: their products fit int64 */
+    ROUND = 64,          /* a run is round when its width is more than this part of its length, squared */
     VAR_FLOOR_Q8 = 16    /* (0.25 mm)^2: no range is known better than its quantum of 1 mm */
 };
 
@@ -69,7 +69,9 @@ static inline int64_t small_eigenvalue(int64_t a, int64_t b, int64_t c)
     if (first * ROUND <= trace) {
         return det / (trace - first);
     }
-    return (trace - (int64_t)ale_isqrt((uint64_t)((a - c) * (a - c) + 4 * b * b))) / 2;
+    const uint64_t difference = (uint64_t)ale_abs64(a - c);
+    const uint64_t twice_b = (uint64_t)ale_abs64(2 * b);
+    return (trace - (int64_t)ale_isqrt(difference * difference + twice_b * twice_b)) / 2;
 }
 
 /* Inlined together with the sums: they are the innermost step of every decision. */
@@ -115,8 +117,8 @@ static inline __attribute__((always_inline)) ale_run_fit_t fit_of(const ale_scan
     const ale_run_fit_t fit = {
         .n = (int32_t)n,
         .sse_q8 = (m->lambda << m->shift) / n,
-        .var_q8 = ale_max64((own >> 28) * noise->own_scale_q8 >> 8, VAR_FLOOR_Q8),
-        .shared_q8 = rho2 * shared_q36 >> 28,
+        .var_q8 = ale_max64(ale_round_shift((own >> 20) * noise->own_scale_q16, 24), VAR_FLOOR_Q8),
+        .shared_q8 = ale_round_shift(rho2 * shared_q36, 28),
     };
     return fit;
 }

@@ -13,32 +13,37 @@ enum {
     DIFFERENCE_STRIDE = 3,
     MIN_SAMPLES = 20, /* fewer second differences of one octave are not used */
     PERCENT = 75,     /* a quantile of the Gauss curve that is known better than the median */
-    QUARTILE_PER_MILLE = 2818
+    QUARTILE_PER_MILLE = 2818,
+    SIGMA_BITS = 4,
+    ROW_BITS = 20,   /* of the rows of the fit: variances of one scan differ a hundredfold */
+    NORMAL_BITS = 19 /* of its normal equations: their products fit int64 */
 };
 static const int64_t micro_q36 = 68719; /* 2^36 / 10^6 */
+static const int64_t nrad2_per_rad2 = 1000000000000000000;
 
 typedef struct {
     int32_t samples;
     int64_t range_um; /* sum, later mean */
-    int64_t sigma_um;
+    int64_t sigma_q4; /* um */
 } octave_t;
 
-/* Second difference of 1/r about point i, as a range, um: it times the squared range, in two steps of 22
- * bits. */
-static inline uint64_t second_difference_um(const ale_extractor_t *e, int32_t i, int64_t curvature_q30)
+/* Second difference of 1/r about point i, as a range, um Q4: it times the squared range, in two steps. What
+ * is 64 times the range or more is held at that. */
+static inline uint64_t second_difference_q4(const ale_extractor_t *e, int32_t i, int64_t curvature_q30)
 {
     const int64_t q = e->inverse_q44[i];
     const int64_t d =
         (int64_t)e->inverse_q44[i - 1] + e->inverse_q44[i + 1] - 2 * q + (q * curvature_q30 >> 30);
     const int64_t range_um = e->range_um[i];
-    return (uint64_t)(((ale_abs64(d) * range_um) >> 22) * range_um) >> 22;
+    const int64_t relative_q30 = ale_min64((ale_abs64(d) * range_um) >> 14, (int64_t)64 << 30);
+    return (uint64_t)((relative_q30 * range_um) >> (30 - SIGMA_BITS));
 }
 
 static inline void count_difference(ale_extractor_t *e, int32_t i, int64_t curvature_q30, octave_t *octave)
 {
     if (e->beam[i + 1] - e->beam[i - 1] == 2) {
         const uint32_t k = 31 - OCTAVE_BASE - (uint32_t)__builtin_clz((uint32_t)e->range_um[i]);
-        e->histogram[k][ale_histogram_bin(second_difference_um(e, i, curvature_q30))]++;
+        e->histogram[k][ale_histogram_bin(second_difference_q4(e, i, curvature_q30))]++;
         octave[k].samples++;
         octave[k].range_um += e->range_um[i];
     }
@@ -62,9 +67,10 @@ static int32_t collect(ale_extractor_t *e, int64_t curvature_q30, octave_t octav
     for (uint32_t k = 0; k < OCTAVES; k++) {
         if (octave[k].samples >= MIN_SAMPLES) {
             /* three quarters of |d| are below 1.1503 sqrt(6) sigma */
-            const int64_t quartile_um = ale_histogram_quantile(e->histogram[k], octave[k].samples, PERCENT);
-            octave[used].sigma_um = ale_clamp64(ale_round_div(quartile_um * 1000, QUARTILE_PER_MILLE),
-                                                ALE_SIGMA_FLOOR_UM, ALE_SIGMA_MOST_UM);
+            const int64_t quartile_q4 = ale_histogram_quantile(e->histogram[k], octave[k].samples, PERCENT);
+            octave[used].sigma_q4 =
+                ale_clamp64(ale_round_div(quartile_q4 * 1000, QUARTILE_PER_MILLE),
+                            ALE_SIGMA_FLOOR_UM << SIGMA_BITS, ALE_SIGMA_MOST_UM << SIGMA_BITS);
             octave[used].range_um = octave[k].range_um / octave[k].samples;
             octave[used].samples = octave[k].samples;
             used++;
@@ -79,7 +85,7 @@ static void fit_model(ale_extractor_t *e, const octave_t *octave, int32_t used)
     int64_t var_min = INT64_MAX;
     int64_t range_max = 1;
     for (int32_t k = 0; k < used; k++) {
-        var_min = ale_min64(var_min, octave[k].sigma_um * octave[k].sigma_um);
+        var_min = ale_min64(var_min, octave[k].sigma_q4 * octave[k].sigma_q4);
         range_max = ale_max64(range_max, octave[k].range_um);
     }
     int64_t pp = 0;
@@ -88,9 +94,9 @@ static void fit_model(ale_extractor_t *e, const octave_t *octave, int32_t used)
     int64_t p1 = 0;
     int64_t t1 = 0;
     for (int32_t k = 0; k < used; k++) {
-        const int64_t p = (var_min << 15) / (octave[k].sigma_um * octave[k].sigma_um);
-        const int64_t r = (octave[k].range_um << 15) / range_max;
-        const int64_t t = (p * ((r * r) >> 15)) >> 15;
+        const int64_t p = (var_min << ROW_BITS) / (octave[k].sigma_q4 * octave[k].sigma_q4);
+        const int64_t r = (octave[k].range_um << ROW_BITS) / range_max;
+        const int64_t t = (p * ((r * r) >> ROW_BITS)) >> ROW_BITS;
         const int64_t n = octave[k].samples;
         pp += n * p * p;
         pt += n * p * t;
@@ -98,11 +104,11 @@ static void fit_model(ale_extractor_t *e, const octave_t *octave, int32_t used)
         p1 += n * p;
         t1 += n * t;
     }
-    pp >>= 11;
-    pt >>= 11;
-    tt >>= 11;
-    p1 <<= 4;
-    t1 <<= 4;
+    pp >>= 2 * ROW_BITS - NORMAL_BITS;
+    pt >>= 2 * ROW_BITS - NORMAL_BITS;
+    tt >>= 2 * ROW_BITS - NORMAL_BITS;
+    p1 >>= ROW_BITS - NORMAL_BITS;
+    t1 >>= ROW_BITS - NORMAL_BITS;
     int64_t det = pp * tt - pt * pt;
     int64_t a_q15 = 0; /* in units of var_min */
     int64_t b_q15 = 0; /* in units of var_min / range_max^2 */
@@ -121,23 +127,23 @@ static void fit_model(ale_extractor_t *e, const octave_t *octave, int32_t used)
         a_q15 = 0;
         b_q15 = t1 * (1 << 15) / ale_max64(tt, 1);
     }
-    e->noise.own_mm2_q36 = ((a_q15 * var_min) >> 15) * micro_q36;
-    const int64_t range_mm = ale_max64(range_max / 1000, 1);
-    e->noise.own_relative_q36 = ((b_q15 * var_min) >> 15) * micro_q36 / (range_mm * range_mm);
+    e->noise.own_mm2_q36 = ((a_q15 * var_min) >> 15) * micro_q36 >> (2 * SIGMA_BITS);
+    e->noise.own_relative_q36 =
+        ale_mul_div((b_q15 * var_min) >> 15, (int64_t)1 << (36 - 2 * SIGMA_BITS), range_max * range_max);
 }
 
 void ale_scan_noise_measure(ale_extractor_t *e, const ale_scan_t *scan)
 {
     const ale_noise_t *prior = &e->config.noise;
-    const int64_t bearing_urad = prior->bearing_nrad / 1000;
     e->noise.own_mm2_q36 = (int64_t)prior->own_um * prior->own_um * micro_q36;
-    e->noise.own_scale_q8 = 256;
+    e->noise.own_scale_q16 = 1 << 16;
     e->noise.own_relative_q36 = (int64_t)prior->own_ppm * prior->own_ppm * micro_q36 / 1000000;
     e->noise.shared_mm2_q36 = (int64_t)prior->shared_um * prior->shared_um * micro_q36;
     e->noise.shared_relative_q36 = (int64_t)prior->shared_ppm * prior->shared_ppm * micro_q36 / 1000000;
     e->shared_prior_mm2_q36 = e->noise.shared_mm2_q36;
     e->shared_prior_relative_q36 = e->noise.shared_relative_q36;
-    e->noise.bearing_rad2_q36 = bearing_urad * bearing_urad * micro_q36 / 1000000;
+    e->noise.bearing_rad2_q36 =
+        ale_mul_div((int64_t)prior->bearing_nrad * prior->bearing_nrad, (int64_t)1 << 36, nrad2_per_rad2);
     octave_t octave[OCTAVES];
     const int64_t curvature_q30 = 2 * (((int64_t)1 << 30) - ale_cos_q30((uint32_t)scan->step_bam));
     const int32_t used = collect(e, curvature_q30, octave);
@@ -145,7 +151,7 @@ void ale_scan_noise_measure(ale_extractor_t *e, const ale_scan_t *scan)
         fit_model(e, octave, used);
     }
     e->noise.sigma_um = ((int64_t)ale_isqrt((uint64_t)e->noise.own_mm2_q36) * 1000) >> 18;
-    e->noise.sigma_per_range_q20 = (int64_t)ale_isqrt((uint64_t)e->noise.own_relative_q36) << 2;
+    e->noise.sigma_per_range_q20 = (int64_t)ale_isqrt((uint64_t)e->noise.own_relative_q36 << 24) >> 10;
 }
 
 /* Blocks of beams whose second difference shows what neighbours share, for an error that is correlated
@@ -162,7 +168,9 @@ enum {
     SHARED_LEAST_Q8 = 3 * 256, /* once there is a shared error it is at least so large, */
     SHARED_MOST_Q8 = 16 * 256, /* and at most */
     OWN_PRIOR_POINTS = 100,    /* weight of the second differences beside the residuals of the runs */
-    OWN_RUN_POINTS = 20
+    OWN_RUN_POINTS = 20,
+    LEAST_OWN_SCALE_Q16 = 180 << 8, /* the second differences are not so far off */
+    MOST_OWN_SCALE_Q16 = 360 << 8
 };
 
 /* Squared second difference of three blocks of points from start on, over what own noise would give; Q8. */
@@ -239,8 +247,8 @@ void ale_scan_noise_refine_own(ale_extractor_t *e)
             freedom += fit->n - 2;
         }
     }
-    e->noise.own_scale_q8 = ale_clamp64(chi_q8 / freedom, 180, 360);
+    e->noise.own_scale_q16 = ale_clamp64((chi_q8 << 8) / freedom, LEAST_OWN_SCALE_Q16, MOST_OWN_SCALE_Q16);
     for (int32_t k = 0; k < e->run_count; k++) {
-        e->run[k].fit.var_q8 = ale_max64((e->run[k].fit.var_q8 * e->noise.own_scale_q8) >> 8, 1);
+        e->run[k].fit.var_q8 = ale_max64((e->run[k].fit.var_q8 * e->noise.own_scale_q16) >> 16, 1);
     }
 }

@@ -62,7 +62,7 @@ typedef struct {
 typedef struct {
     int64_t own_mm2_q36;
     int64_t own_relative_q36;
-    int64_t own_scale_q8; /* correction of both, from residuals */
+    int64_t own_scale_q16; /* correction of both, from residuals */
     int64_t shared_mm2_q36;
     int64_t shared_relative_q36;
     int64_t bearing_rad2_q36;

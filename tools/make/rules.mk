@@ -81,6 +81,8 @@ $(OBJ)/tools/%.o: INCLUDES = $(TOOL_INCLUDES)
 $(OBJ)/tests/%.o: INCLUDES = $(TEST_INCLUDES)
 # It is the code under test that is optimised and sanitized; its tests are only built often.
 $(OBJ)/tests/%.o: override OPT = -O0
+# The twins of the core do the most work of all tests.
+$(OBJ)/tests/reference/%.o: override OPT = -O2
 $(OBJ)/tests/%.o: SANITIZER_FLAGS =
 
 # System headers are in no .d file: changed message types are a reason to compile again.

@@ -17,7 +17,9 @@ export ALE_BUILD = $(abspath $(BUILD))
 TOOL_PARTS = $(foreach t,$(TOOL_FOLDERS),$(filter-out %/main.c %/main.cpp,$(wildcard tools/$(t)/*.c tools/$(t)/*.cpp)))
 $(BUILD)/libale_tool_parts.a: $(call objects,$(TOOL_PARTS))
 	$(archive)
-$(BUILD)/libale_test_shared.a: $(call objects,$(TEST_SHARED_SOURCES))
+# Tests of the core use the benchmark's worlds and its simulated scanner.
+TEST_WORLD_SOURCES = tools/bench/world.cpp tools/bench/simulate.cpp
+$(BUILD)/libale_test_shared.a: $(call objects,$(TEST_SHARED_SOURCES) $(TEST_WORLD_SOURCES))
 	$(archive)
 
 include tests/rtai/rtai.mk

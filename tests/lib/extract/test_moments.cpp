@@ -30,7 +30,7 @@ void load(ale_extractor_t *e, const std::vector<Eigen::Vector2d> &points_mm)
     }
     e->noise = {};
     e->noise.own_mm2_q36 = int64_t{25} << 36; // 5 mm
-    e->noise.own_scale_q8 = 256;
+    e->noise.own_scale_q16 = 1 << 16;
     ale_moments_build(e);
 }
 

@@ -1,0 +1,183 @@
+// lib/extract/runs.c, breakpoint.c, merge.c and curve.c against their twins in double, each stage on equal
+// input.
+#include <functional>
+
+#include "lib/extract/agreement.h"
+#include "lib/extract/as_reference.h"
+#include "lib/extract/stages.h"
+#include "reference/curved_runs.h"
+#include "reference/joint_break.h"
+#include "reference/line_search.h"
+#include "reference/run_merge.h"
+
+namespace
+{
+
+using reference::Decisions;
+using Runs = std::vector<reference::Run>;
+
+constexpr unsigned scans = 240;
+
+// What a twin works on.
+struct Given {
+    reference::ScanPoints points;
+    reference::NoiseOfScan noise;
+    Runs segments;
+    Runs runs;
+};
+
+Given given(const ale_extractor_t *e)
+{
+    return {scene::points_of(*e), scene::noise_of(*e), scene::segments_of(*e), scene::runs_of(*e)};
+}
+
+using Stage = std::function<void(ale_extractor_t *)>;
+using Twin = std::function<Runs(const Given &, Decisions &)>;
+
+// Leads simulated scans to a stage and compares the runs that it leaves with those of the twin. Returns how
+// many scans the stage changed.
+int compare_runs(unsigned seed, double share, const Stage &before, const Stage &stage, const Twin &twin)
+{
+    scene::extractor extractor;
+    ale_extractor_t *e = extractor.get();
+    scene::agreement agreement;
+    int changed = 0;
+    for (unsigned k = 0; k < scans; k++) {
+        const auto scan = scene::simulated_scan(k, seed);
+        scene::search_runs(e, *scan);
+        before(e);
+        const Given input = given(e);
+        Decisions decisions;
+        const Runs expected = twin(input, decisions);
+        stage(e);
+        agreement.compare(scene::runs_of(*e) == expected, decisions, k);
+        changed += expected == input.runs ? 0 : 1;
+    }
+    agreement.expect_differences_below(share);
+    return changed;
+}
+
+TEST(Runs, TheSearchFindsThoseOfTheTwin)
+{
+    const auto nothing = [](ale_extractor_t *) {};
+    const auto twin = [](const Given &g, Decisions &decisions) {
+        Runs runs;
+        for (const reference::Run &segment : g.segments) {
+            const Runs found = reference::search_segment(g.points, g.noise, segment, decisions);
+            runs.insert(runs.end(), found.begin(), found.end());
+        }
+        return runs;
+    };
+    compare_runs(11, 0.02, nothing, ale_runs_search, twin);
+}
+
+TEST(Runs, BreaksArePlacedWhereTheTwinPlacesThem)
+{
+    const auto twin = [](const Given &g, Decisions &decisions) {
+        return reference::placed_runs(g.points, g.noise, g.segments, g.runs, reference::wide_step, decisions);
+    };
+    EXPECT_GT(compare_runs(12, 0.03, ale_merge_runs, scene::place_runs, twin), 100);
+}
+
+// A search that skips places may miss the best one; the twin here tries them all.
+TEST(Runs, NearlyAllBreaksAreTheBestOfAll)
+{
+    scene::extractor extractor;
+    ale_extractor_t *e = extractor.get();
+    int breaks = 0;
+    int best = 0;
+    for (unsigned k = 0; k < scans; k++) {
+        const auto scan = scene::simulated_scan(k, 13);
+        scene::search_runs(e, *scan);
+        ale_merge_runs(e);
+        const Given before = given(e);
+        scene::place_runs(e);
+        const Runs placed = scene::runs_of(*e);
+        for (size_t i = 0; i + 1 < placed.size(); i++) {
+            if (placed[i].last == before.runs[i].last && placed[i + 1].first == before.runs[i + 1].first) {
+                continue;
+            }
+            const reference::BreakRange range = reference::range_between(
+                before.points, before.runs[i], before.runs[i + 1], reference::wide_step);
+            breaks++;
+            best += placed[i].last == reference::best_break(before.points, before.noise, before.runs[i],
+                                                            before.runs[i + 1], range.lowest, range.highest)
+                        ? 1
+                        : 0;
+        }
+    }
+    EXPECT_GT(breaks, 200);
+    EXPECT_GE(best, 0.95 * breaks) << best << " of " << breaks;
+}
+
+TEST(Runs, BreaksThatTheSearchMissedAreFoundWhereTheTwinFindsThem)
+{
+    // every second run is joined to the next one, so that there is something to find
+    const auto join = [](ale_extractor_t *e) {
+        Runs joined;
+        const Runs runs = scene::runs_of(*e);
+        for (size_t k = 0; k < runs.size(); k += 2) {
+            const reference::Run &next = runs[std::min(k + 1, runs.size() - 1)];
+            joined.push_back({runs[k].first, next.last});
+        }
+        scene::set_runs(e, joined);
+    };
+    const auto twin = [](const Given &g, Decisions &decisions) {
+        return reference::split_runs(g.points, g.noise, g.segments, g.runs, decisions);
+    };
+    EXPECT_GT(compare_runs(14, 0.05, join, ale_runs_split, twin), 200);
+}
+
+TEST(Merge, RunsAreJoinedAsTheTwinJoinsThem)
+{
+    // every run is cut in two, so that there is something to join
+    const auto halve = [](ale_extractor_t *e) {
+        Runs halves;
+        for (const reference::Run &run : scene::runs_of(*e)) {
+            const int middle = (run.first + run.last) / 2;
+            halves.push_back({run.first, middle});
+            halves.push_back({middle + 1, run.last});
+        }
+        scene::set_runs(e, halves);
+    };
+    const auto twin = [](const Given &g, Decisions &decisions) {
+        return reference::merged_runs(g.points, g.noise, g.segments, g.runs, decisions);
+    };
+    EXPECT_GT(compare_runs(15, 0.02, halve, ale_merge_runs, twin), 200);
+}
+
+TEST(Curve, CurvesAreThoseOfTheTwin)
+{
+    const auto straight = [](ale_extractor_t *e) {
+        ale_merge_runs(e);
+        scene::place_runs(e);
+    };
+    const auto twin = [](const Given &g, Decisions &decisions) {
+        return reference::with_curves(g.points, g.noise, g.segments, g.runs, decisions);
+    };
+    EXPECT_GT(compare_runs(16, 0.02, straight, ale_curve_find, twin), 15);
+}
+
+// Edge cases: nothing, one point, the fewest points of a run, all ranges equal.
+TEST(Runs, OfVeryFewPointsAreThoseOfTheTwin)
+{
+    scene::extractor extractor;
+    ale_extractor_t *e = extractor.get();
+    for (const int points : {0, 1, 4, 5, 6, 9}) {
+        const auto scan = scene::empty_scan(20);
+        for (int k = 0; k < points; k++) {
+            ale_scan_set_range(scan.get(), static_cast<uint16_t>(k), 1000000);
+        }
+        scene::prepare_points(e, *scan);
+        ale_runs_search(e);
+        const Given g = given(e);
+        Decisions decisions;
+        Runs expected;
+        if (!g.points.empty()) {
+            expected = reference::search_segment(g.points, g.noise, g.segments[0], decisions);
+        }
+        EXPECT_EQ(scene::runs_of(*e), expected) << points;
+    }
+}
+
+} // namespace

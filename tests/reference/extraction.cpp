@@ -1,0 +1,177 @@
+#include "reference/extraction.h"
+
+#include <Eigen/Dense>
+
+#include "reference/corner_of_lines.h"
+#include "reference/curved_runs.h"
+#include "reference/joint_break.h"
+#include "reference/line_search.h"
+#include "reference/run_fit.h"
+#include "reference/run_merge.h"
+#include "reference/scan_noise.h"
+#include "reference/stray_points.h"
+#include "reference/surface_segments.h"
+
+namespace reference
+{
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double rough_own = 1.25;  // the measured noise errs too
+constexpr double rough_shared = 12; // shared variances that a long wall may be wavy by,
+constexpr double rough_reaches = 4; // and the reaches of the shared error from which on it is a long one
+constexpr double most_sigma_alpha = 7 * pi / 180;
+constexpr int corner_gap = 5;        // beams
+constexpr double corner_reach = 150; // mm
+const double corner_least_sine = std::sin(15 * pi / 180);
+
+struct Prepared {
+    ScanPoints points;
+    std::vector<Run> segments;
+    NoiseOfScan noise;
+    double frame = 0; // direction of the points' x axis in the sensor's frame
+};
+
+// Both chains decide on the same points: on the grid of 1/16 mm, in a frame midway between the outer beams.
+void lay_on_grid(Prepared &p, const ExtractionSettings &settings)
+{
+    if (p.points.empty()) {
+        return;
+    }
+    p.frame = settings.first_bearing + settings.step * (p.points.front().beam + p.points.back().beam) / 2;
+    for (ScanPoint &point : p.points) {
+        const double bearing = settings.first_bearing + settings.step * point.beam - p.frame;
+        point.x = std::round(point.range * std::cos(bearing) * 16) / 16;
+        point.y = std::round(point.range * std::sin(bearing) * 16) / 16;
+    }
+}
+
+Prepared prepare(const ScanPoints &valid, const ExtractionSettings &settings, Decisions &decisions)
+{
+    Prepared p;
+    p.noise = own_noise(valid, settings.prior, settings.step);
+    p.points = without_spikes(valid, p.noise, decisions);
+    p.segments = surface_segments(p.points, p.noise, settings.step, decisions);
+    p.points = without_strays(p.points, p.segments);
+    p.segments = surface_segments(p.points, p.noise, settings.step, decisions);
+    lay_on_grid(p, settings);
+    return p;
+}
+
+std::vector<Run> search(const Prepared &p, Decisions &decisions)
+{
+    std::vector<Run> runs;
+    for (const Run &segment : p.segments) {
+        const std::vector<Run> found = search_segment(p.points, p.noise, segment, decisions);
+        runs.insert(runs.end(), found.begin(), found.end());
+    }
+    return runs;
+}
+
+std::vector<Run> searched_runs(Prepared &p, const ExtractionSettings &settings, Decisions &decisions)
+{
+    const std::vector<Run> runs = search(p, decisions);
+    const double scale = shared_scale(p.points, p.noise, runs, settings.step, decisions);
+    p.noise.shared_constant *= scale;
+    p.noise.shared_relative *= scale;
+    if (scale > 1) {
+        return search(p, decisions);
+    }
+    p.noise.own_scale = own_scale(p.points, p.noise, runs, decisions);
+    return runs;
+}
+
+std::vector<Run> improved_runs(const Prepared &p, std::vector<Run> runs, Decisions &decisions)
+{
+    for (const bool split : {false, true}) {
+        if (split) {
+            runs = split_runs(p.points, p.noise, p.segments, runs, decisions);
+        }
+        runs = merged_runs(p.points, p.noise, p.segments, runs, decisions);
+        runs = placed_runs(p.points, p.noise, p.segments, runs, split ? fine_step : wide_step, decisions);
+        runs = with_curves(p.points, p.noise, p.segments, runs, decisions);
+    }
+    return runs;
+}
+
+// Where the beam of a point meets the line, or the point's foot where the two are almost parallel.
+Eigen::Vector2d end_on_line(const ScanPoint &point, const RunFit &fit)
+{
+    const Eigen::Vector2d p(point.x, point.y);
+    const Eigen::Vector2d normal(std::cos(fit.alpha), std::sin(fit.alpha));
+    const double off = fit.rho - normal.dot(p);
+    return std::fabs(off) * 8 < normal.dot(p) ? Eigen::Vector2d(p * fit.rho / normal.dot(p))
+                                              : Eigen::Vector2d(p + off * normal);
+}
+
+// Squared residuals that a line may have. What neighbours share bends a short line hardly at all.
+double rough_limit(const NoiseOfScan &noise, const RunFit &fit)
+{
+    const double n2 = static_cast<double>(fit.n) * fit.n;
+    const double bent = n2 / (n2 + std::pow(rough_reaches * noise.shared_beams, 2));
+    return rough_own * fit.var * chi_limit(fit.n, chi_high_z) + rough_shared * fit.shared * fit.n * bent;
+}
+
+bool is_line(const Prepared &p, const ExtractionSettings &settings, Run run, const RunFit &fit,
+             Decisions &decisions)
+{
+    const Eigen::Vector2d start = end_on_line(p.points[static_cast<size_t>(run.first)], fit);
+    const Eigen::Vector2d end = end_on_line(p.points[static_cast<size_t>(run.last)], fit);
+    const double var_alpha = (fit.var + fit.shared * points_together(p.noise, fit.n)) / fit.along2;
+    return fit.n >= settings.least_points && !decisions.below((end - start).norm(), settings.least_length) &&
+           decisions.below(std::sqrt(var_alpha), most_sigma_alpha) &&
+           decisions.below(fit.sse, rough_limit(p.noise, fit));
+}
+
+void find_corners(const Prepared &p, Extraction &out)
+{
+    for (size_t k = 0; k + 1 < out.lines.size(); k++) {
+        const ExtractedLine &a = out.lines[k];
+        const ExtractedLine &b = out.lines[k + 1];
+        if (b.first - a.last > corner_gap ||
+            out.decisions.below(std::fabs(std::sin(b.alpha - a.alpha)), corner_least_sine)) {
+            continue;
+        }
+        const Eigen::Vector2d corner = corner_of_lines({a.alpha, a.rho, Eigen::Matrix2d::Zero()},
+                                                       {b.alpha, b.rho, Eigen::Matrix2d::Zero()})
+                                           .p;
+        const Eigen::Vector2d end = end_on_line(p.points[static_cast<size_t>(a.run.last)],
+                                                fit_run(p.points, p.noise, a.run.first, a.run.last));
+        const Eigen::Vector2d start = end_on_line(p.points[static_cast<size_t>(b.run.first)],
+                                                  fit_run(p.points, p.noise, b.run.first, b.run.last));
+        if (out.decisions.below((corner - end).norm(), corner_reach) &&
+            out.decisions.below((corner - start).norm(), corner_reach)) {
+            out.corners.push_back(static_cast<int>(k));
+        }
+    }
+}
+
+} // namespace
+
+Extraction extract(const ScanPoints &valid, const ExtractionSettings &settings)
+{
+    Extraction out;
+    Prepared p = prepare(valid, settings, out.decisions);
+    const std::vector<Run> runs = improved_runs(p, searched_runs(p, settings, out.decisions), out.decisions);
+    for (const Run &run : runs) {
+        const Run beams = {p.points[static_cast<size_t>(run.first)].beam,
+                           p.points[static_cast<size_t>(run.last)].beam, run.curved};
+        if (run.curved) {
+            out.curves.push_back(beams);
+            continue;
+        }
+        const RunFit fit = fit_run(p.points, p.noise, run.first, run.last);
+        if (is_line(p, settings, run, fit, out.decisions)) {
+            out.lines.push_back({beams.first, beams.last, fit.alpha, fit.rho, run});
+        }
+    }
+    find_corners(p, out);
+    for (ExtractedLine &line : out.lines) {
+        line.alpha += p.frame;
+    }
+    out.noise = p.noise;
+    return out;
+}
+
+} // namespace reference

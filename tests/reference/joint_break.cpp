@@ -1,0 +1,163 @@
+#include "reference/joint_break.h"
+
+#include "reference/line_search.h"
+#include "reference/run_fit.h"
+#include "reference/run_merge.h"
+#include "reference/surface_segments.h"
+
+namespace reference
+{
+namespace
+{
+
+constexpr int widest_gap = 8; // points between runs that meet
+constexpr int grid = 12;
+constexpr int least_to_split = 16;
+constexpr double promising = 100.0 / 256;
+
+// Points that a run may give away at one end while the other end gives some too.
+int spare_points(Run run)
+{
+    return std::max(0, run.points() - least_run) / 2;
+}
+
+bool meet(const std::vector<Run> &segments, Run a, Run b)
+{
+    return b.first - a.last <= widest_gap && !a.curved && !b.curved &&
+           on_one_surface(segments, a.last, b.first);
+}
+
+} // namespace
+
+BreakRange range_between(const ScanPoints &points, Run a, Run b, int widest_step)
+{
+    const int direction = reading_direction(points, a.first, b.last);
+    return {a.last - spare_points(a), b.first - 1 + spare_points(b), direction > 0 ? a.last : b.first - 1,
+            direction, widest_step};
+}
+
+double joint_chi(const ScanPoints &points, Run both, int split, double var_a, double var_b)
+{
+    return sse_of_run(points, both.first, split) / var_a + sse_of_run(points, split + 1, both.last) / var_b;
+}
+
+int best_break(const ScanPoints &points, const NoiseOfScan &noise, Run a, Run b, int lowest, int highest)
+{
+    const double var_a = fit_run(points, noise, a.first, a.last).var;
+    const double var_b = fit_run(points, noise, b.first, b.last).var;
+    int best = lowest;
+    double least = HUGE_VAL;
+    for (int k = lowest; k <= highest; k++) {
+        const double chi = joint_chi(points, {a.first, b.last}, k, var_a, var_b);
+        if (chi < least) {
+            least = chi;
+            best = k;
+        }
+    }
+    return best;
+}
+
+int placed_break(const ScanPoints &points, const NoiseOfScan &noise, Run a, Run b, const BreakRange &range,
+                 Decisions &decisions)
+{
+    if (range.lowest > range.highest) {
+        return range.start;
+    }
+    const double var_a = fit_run(points, noise, a.first, a.last).var;
+    const double var_b = fit_run(points, noise, b.first, b.last).var;
+    const auto chi_at = [&](int k) { return joint_chi(points, {a.first, b.last}, k, var_a, var_b); };
+    int best = std::clamp(range.start, range.lowest, range.highest);
+    double least = chi_at(best);
+    for (int step = range.widest_step; step > 0; step /= 2) {
+        for (int tries = 0; tries < 4; tries++) {
+            const int centre = best;
+            for (const int k : {centre - range.direction * step, centre + range.direction * step}) {
+                if (k < range.lowest || k > range.highest) {
+                    continue;
+                }
+                const double chi = chi_at(k);
+                if (decisions.below(chi, least) && chi < least) {
+                    least = chi;
+                    best = k;
+                }
+            }
+            if (best == centre) {
+                break;
+            }
+        }
+    }
+    return best;
+}
+
+std::vector<Run> placed_runs(const ScanPoints &points, const NoiseOfScan &noise,
+                             const std::vector<Run> &segments, std::vector<Run> runs, int widest_step,
+                             Decisions &decisions)
+{
+    const std::vector<Run> before = runs;
+    for (size_t k = 0; k + 1 < runs.size(); k++) {
+        if (meet(segments, before[k], before[k + 1])) {
+            const BreakRange range = range_between(points, before[k], before[k + 1], widest_step);
+            const int split = placed_break(points, noise, before[k], before[k + 1], range, decisions);
+            runs[k].last = split;
+            runs[k + 1].first = split + 1;
+        }
+    }
+    return runs;
+}
+
+CoarseBreak coarse_break(const ScanPoints &points, Run run, int direction, Decisions &decisions)
+{
+    CoarseBreak best = {-1, HUGE_VAL};
+    const int n = run.points();
+    for (int j = 1; j < grid; j++) {
+        const int near_part = 2 * j <= grid ? n * j / grid : n - n * (grid - j) / grid;
+        const int split = direction > 0 ? run.first + near_part - 1 : run.last - near_part;
+        if (near_part < least_run || n - near_part < least_run) {
+            continue;
+        }
+        const double sse = sse_of_run(points, run.first, split) + sse_of_run(points, split + 1, run.last);
+        if (decisions.below(sse, best.sse) && sse < best.sse) {
+            best = {split, sse};
+        }
+    }
+    return best;
+}
+
+int found_break(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &segments, Run run,
+                Decisions &decisions)
+{
+    if (run.points() < least_to_split) {
+        return -1;
+    }
+    const int direction = reading_direction(points, run.first, run.last);
+    const auto ratio_at = [&](int split) {
+        return merge_ratio(points, noise, segments, {run.first, split}, {split + 1, run.last});
+    };
+    const CoarseBreak coarse = coarse_break(points, run, direction, decisions);
+    if (coarse.split < 0 || decisions.below(ratio_at(coarse.split), promising)) {
+        return -1;
+    }
+    const BreakRange range = {run.first + least_run - 1, run.last - least_run, coarse.split, direction,
+                              wide_step};
+    const int split = placed_break(points, noise, {run.first, coarse.split}, {coarse.split + 1, run.last},
+                                   range, decisions);
+    return decisions.below(ratio_at(split), 1) ? -1 : split;
+}
+
+std::vector<Run> split_runs(const ScanPoints &points, const NoiseOfScan &noise,
+                            const std::vector<Run> &segments, std::vector<Run> runs, Decisions &decisions)
+{
+    for (size_t k = 0; k < runs.size();) {
+        const int split = runs[k].curved ? -1 : found_break(points, noise, segments, runs[k], decisions);
+        if (split < 0) {
+            k++;
+            continue;
+        }
+        const Run rest = {split + 1, runs[k].last};
+        runs[k].last = split;
+        runs.insert(runs.begin() + static_cast<long>(k) + 1, rest);
+    }
+    return runs;
+}
+
+} // namespace reference

@@ -1,0 +1,60 @@
+// Twin of the placing and finding of breaks in lib/extract/breakpoint.c and runs.c.
+#ifndef ALE_TESTS_REFERENCE_JOINT_BREAK_H
+#define ALE_TESTS_REFERENCE_JOINT_BREAK_H
+
+#include "reference/decisions.h"
+#include "reference/scan_points.h"
+
+namespace reference
+{
+
+// First steps of the search for a break: where it is known from a search alone, and where it was placed
+// before.
+constexpr int wide_step = 8;
+constexpr int fine_step = 2;
+
+// Squared residuals of the lines through first..split and split+1..last, in units of two variances.
+double joint_chi(const ScanPoints &points, Run both, int split, double var_a, double var_b);
+
+struct BreakRange {
+    int lowest;
+    int highest;
+    int start;
+    int direction;   // in which the points are read
+    int widest_step; // first step of the search
+};
+
+// The break of least joint chi square by a pattern search from range.start: up to four steps of the widest
+// width to the better side, then of half of it, down to 1. Where no break is allowed: range.start.
+int placed_break(const ScanPoints &points, const NoiseOfScan &noise, Run a, Run b, const BreakRange &range,
+                 Decisions &decisions);
+
+// The break of least joint chi square of all from lowest to highest.
+int best_break(const ScanPoints &points, const NoiseOfScan &noise, Run a, Run b, int lowest, int highest);
+
+// Breaks where two runs may part: both keep enough points, whatever their other ends do.
+BreakRange range_between(const ScanPoints &points, Run a, Run b, int widest_step);
+
+// Places the breaks between runs that meet on one surface, all from the same state.
+std::vector<Run> placed_runs(const ScanPoints &points, const NoiseOfScan &noise,
+                             const std::vector<Run> &segments, std::vector<Run> runs, int widest_step,
+                             Decisions &decisions);
+
+// The best of the breaks at twelfths of a run, by the squared residuals of both lines.
+struct CoarseBreak {
+    int split; // -1: no room for two runs
+    double sse;
+};
+CoarseBreak coarse_break(const ScanPoints &points, Run run, int direction, Decisions &decisions);
+
+// The break that makes two lines of a run which explain it better by more than noise would, or -1.
+int found_break(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &segments, Run run,
+                Decisions &decisions);
+
+// Splits runs until none has such a break.
+std::vector<Run> split_runs(const ScanPoints &points, const NoiseOfScan &noise,
+                            const std::vector<Run> &segments, std::vector<Run> runs, Decisions &decisions);
+
+} // namespace reference
+
+#endif

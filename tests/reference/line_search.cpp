@@ -1,0 +1,100 @@
+#include "reference/line_search.h"
+
+#include "reference/run_fit.h"
+
+namespace reference
+{
+namespace
+{
+
+constexpr double shared_share = 2; // shared variances that a point adds in the mean,
+constexpr double shared_peak = 6;  // and those by which points that err together may be off besides
+constexpr double floating_factor = 1.5;
+
+// Squared residuals that n points of a true line may have.
+double allowed(const NoiseOfScan &noise, const RunFit &fit, int n, double chi)
+{
+    return fit.var * chi + fit.shared * (shared_share * n + shared_peak * points_together(noise, n));
+}
+
+// The bound floats: what the fit accepted last had, scaled to the longer run, but within the bounds that the
+// noise model sets.
+double floating_bound(const RunFit &accepted, int n)
+{
+    const double scaled =
+        floating_factor * accepted.chi() * chi_limit(n, chi_high_z) / chi_limit(accepted.n, chi_high_z);
+    return std::clamp(scaled, chi_limit(n, chi_low_z), chi_limit(n, chi_high_z));
+}
+
+// Value of the error, and its rate of increase: the error that the points added have brought.
+bool acceptable(const NoiseOfScan &noise, const RunFit &fit, const RunFit &accepted, Decisions &decisions)
+{
+    const int added = fit.n - accepted.n + 2;
+    return decisions.below(fit.sse, allowed(noise, fit, fit.n, floating_bound(accepted, fit.n))) &&
+           decisions.below(fit.sse - accepted.sse, allowed(noise, fit, added, chi_limit(added, chi_high_z)));
+}
+
+} // namespace
+
+int end_of_line(const ScanPoints &points, const NoiseOfScan &noise, int from, int to, Decisions &decisions)
+{
+    const int direction = to >= from ? 1 : -1;
+    const auto fit_to = [&](int count) {
+        const int end = from + direction * (count - 1);
+        return fit_run(points, noise, std::min(from, end), std::max(from, end));
+    };
+    int good = least_run;
+    int bad = std::abs(to - from) + 2;
+    if (good >= bad) {
+        return from;
+    }
+    RunFit accepted = fit_to(good);
+    if (!decisions.below(accepted.sse, allowed(noise, accepted, good, chi_limit(good, chi_high_z)))) {
+        return from;
+    }
+    while (bad - good > 1) {
+        const int count = (good + bad) / 2;
+        const RunFit fit = fit_to(count);
+        if (acceptable(noise, fit, accepted, decisions)) {
+            good = count;
+            accepted = fit;
+        } else {
+            bad = count;
+        }
+    }
+    return from + direction * (good - 1);
+}
+
+int reading_direction(const ScanPoints &points, int first, int last)
+{
+    while (first < last) {
+        const double here = points[static_cast<size_t>(first++)].range;
+        const double there = points[static_cast<size_t>(last--)].range;
+        if (here != there) {
+            return here < there ? 1 : -1;
+        }
+    }
+    return 1;
+}
+
+std::vector<Run> search_segment(const ScanPoints &points, const NoiseOfScan &noise, Run segment,
+                                Decisions &decisions)
+{
+    const int direction = reading_direction(points, segment.first, segment.last);
+    const int stop = direction > 0 ? segment.last : segment.first;
+    int from = direction > 0 ? segment.first : segment.last;
+    std::vector<Run> runs;
+    while (std::abs(stop - from) + 1 >= least_run && (stop - from) * direction >= 0) {
+        const int end = end_of_line(points, noise, from, stop, decisions);
+        if (end != from) {
+            runs.push_back({std::min(from, end), std::max(from, end)});
+        }
+        from = end + direction;
+    }
+    if (direction < 0) {
+        std::reverse(runs.begin(), runs.end());
+    }
+    return runs;
+}
+
+} // namespace reference

@@ -1,0 +1,26 @@
+// Twin of the search of lib/extract/breakpoint.c and runs.c: the paper's III.D, its listing corrected.
+#ifndef ALE_TESTS_REFERENCE_LINE_SEARCH_H
+#define ALE_TESTS_REFERENCE_LINE_SEARCH_H
+
+#include "reference/decisions.h"
+#include "reference/scan_points.h"
+
+namespace reference
+{
+
+constexpr int least_run = 5; // points
+
+// The last point of the line that begins at `from`, searched by bisection towards `to`, or `from` where there
+// is none.
+int end_of_line(const ScanPoints &points, const NoiseOfScan &noise, int from, int to, Decisions &decisions);
+
+// +1 or -1: a segment is read from the end that lies nearer.
+int reading_direction(const ScanPoints &points, int first, int last);
+
+// The runs of one segment, in the order of the points.
+std::vector<Run> search_segment(const ScanPoints &points, const NoiseOfScan &noise, Run segment,
+                                Decisions &decisions);
+
+} // namespace reference
+
+#endif

@@ -1,0 +1,187 @@
+#include "reference/scan_noise.h"
+
+#include <map>
+
+#include <Eigen/Dense>
+
+#include "reference/run_fit.h"
+
+namespace reference
+{
+namespace
+{
+
+constexpr size_t least_samples = 20;    // of an octave
+constexpr size_t difference_stride = 3; // neighbouring differences share two of three points
+constexpr double difference_share = 0.75;
+constexpr double counts_per_mm = 16000; // the bins count sixteenths of a micrometre
+constexpr double least_sigma = 0.4;     // mm
+constexpr double most_sigma = 100;
+const double quartile_of_difference = 1.1503 * std::sqrt(6); // of |d| for a deviation of 1
+constexpr double median_of_chi_square = 0.455;
+
+constexpr int block = 8; // beams
+constexpr int stride = 6;
+constexpr size_t least_blocks = 12;
+constexpr double shared_gain = 299.0 / 256; // of three block means, for an error correlated over 12 beams
+constexpr double plain_ratio = 2;           // own noise alone gives up to this
+constexpr double least_scale = 3;
+constexpr double most_scale = 16;
+
+double bin_edge(int bin)
+{
+    return (4 + bin % 4) * std::ldexp(1.0, bin / 4) - 4;
+}
+
+struct Octave {
+    std::vector<double> difference; // in units of the bins
+    double range = 0;               // mm, sum
+};
+
+// Every third point that has two neighbours, counted from both ends to the middle.
+std::vector<size_t> every_third(size_t points)
+{
+    std::vector<size_t> chosen;
+    for (size_t i = 1; 2 * i + 1 <= points; i += difference_stride) {
+        chosen.push_back(i);
+        if (points - 1 - i != i) {
+            chosen.push_back(points - 1 - i);
+        }
+    }
+    return chosen;
+}
+
+std::map<int, Octave> octaves_of(const ScanPoints &points, double step)
+{
+    std::map<int, Octave> octaves;
+    const double curvature = 2 * (1 - std::cos(step));
+    for (const size_t i : every_third(points.size())) {
+        if (points[i + 1].beam - points[i - 1].beam == 2) {
+            const double q = 1 / points[i].range;
+            const double d = 1 / points[i - 1].range + 1 / points[i + 1].range - 2 * q + q * curvature;
+            Octave &octave = octaves[std::ilogb(points[i].range * 1000)];
+            octave.difference.push_back(std::fabs(d) / q * points[i].range * counts_per_mm);
+            octave.range += points[i].range;
+        }
+    }
+    return octaves;
+}
+
+// Second difference of three neighbouring blocks of 1/range, squared, over what own noise makes of it.
+double block_ratio(const ScanPoints &points, const NoiseOfScan &noise, size_t start, double step)
+{
+    double sum[3] = {0, 0, 0};
+    for (size_t i = 0; i < 3 * block; i++) {
+        sum[i / block] += 1 / points[start + i].range;
+    }
+    const double d = sum[0] + sum[2] - 2 * sum[1] * std::cos(step * block);
+    const double range = points[start + 3 * block / 2].range;
+    const double difference = d / sum[1] * range;
+    return difference * difference / (noise.own(range) * 6 / block);
+}
+
+} // namespace
+
+double binned_quantile(const std::vector<double> &values, double share)
+{
+    std::map<int, int> bins;
+    for (const double v : values) {
+        int bin = 0;
+        while (bin_edge(bin + 1) <= v) {
+            bin++;
+        }
+        bins[bin]++;
+    }
+    const double wanted = share * static_cast<double>(values.size());
+    double below = 0;
+    for (const auto &[bin, count] : bins) {
+        if (below + count >= wanted) {
+            return bin_edge(bin) + (bin_edge(bin + 1) - bin_edge(bin)) * (wanted - below) / count;
+        }
+        below += count;
+    }
+    return 0;
+}
+
+// sigma^2 = a + b r^2 over the octaves, least squares of the relative misfit, weighted by their samples;
+// where one of the two would be negative, or the ranges do not tell them apart, the other alone.
+NoiseOfScan own_noise(const ScanPoints &points, const NoiseOfScan &prior, double step)
+{
+    NoiseOfScan noise = prior;
+    Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    double farthest = 0;
+    for (const auto &[number, octave] : octaves_of(points, step)) {
+        const auto n = static_cast<double>(octave.difference.size());
+        if (octave.difference.size() >= least_samples) {
+            const double quartile = binned_quantile(octave.difference, difference_share) / counts_per_mm;
+            const double sigma = std::clamp(quartile / quartile_of_difference, least_sigma, most_sigma);
+            const double range = octave.range / n;
+            const Eigen::Vector2d row = Eigen::Vector2d(1, range * range) / (sigma * sigma);
+            normal += n * row * row.transpose();
+            right += n * row;
+            farthest = std::max(farthest, range);
+        }
+    }
+    if (farthest == 0) {
+        return noise;
+    }
+    Eigen::Vector2d ab(right(0) / normal(0, 0), 0);
+    if (normal.determinant() > normal(0, 0) * normal(1, 1) / 64) {
+        const Eigen::Vector2d both = normal.inverse() * right;
+        ab = both(1) < 0 ? ab : both(0) < 0 ? Eigen::Vector2d(0, right(1) / normal(1, 1)) : both;
+    }
+    noise.own_constant = ab(0);
+    noise.own_relative = ab(1);
+    return noise;
+}
+
+double shared_scale(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &runs,
+                    double step, Decisions &decisions)
+{
+    std::vector<double> ratio;
+    double range = 0;
+    for (const Run &run : runs) {
+        const int windows = run.points() - 3 * block + 1;
+        for (int o = 0; 2 * o < windows; o += stride) {
+            std::vector<int> starts = {run.first + o};
+            if (2 * o + 1 < windows) {
+                starts.push_back(run.first + windows - 1 - o); // the same from the other end
+            }
+            for (const int start : starts) {
+                const auto from = static_cast<size_t>(start);
+                if (points[from + 3 * block - 1].beam - points[from].beam == 3 * block - 1) {
+                    ratio.push_back(256 * block_ratio(points, noise, from, step));
+                    range += points[from].range;
+                }
+            }
+        }
+    }
+    if (ratio.size() < least_blocks) {
+        return 1;
+    }
+    range /= static_cast<double>(ratio.size());
+    const double median = binned_quantile(ratio, 0.5) / 256 / median_of_chi_square;
+    if (decisions.below(median, plain_ratio)) {
+        return 1;
+    }
+    const double shared = (median - 1) * noise.own(range) * 6 / block / shared_gain;
+    return std::clamp(shared / noise.shared(range), least_scale, most_scale);
+}
+
+double own_scale(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &runs,
+                 Decisions &decisions)
+{
+    double chi = 100; // the second differences count like a hundred points
+    double freedom = 100;
+    for (const Run &run : runs) {
+        const RunFit fit = fit_run(points, noise, run.first, run.last);
+        if (fit.n >= 20 && decisions.below(fit.chi(), chi_limit(fit.n, chi_high_z))) {
+            chi += fit.chi();
+            freedom += fit.n - 2;
+        }
+    }
+    return std::clamp(chi / freedom, 180.0 / 256, 360.0 / 256);
+}
+
+} // namespace reference

@@ -1,0 +1,59 @@
+// What the twins of lib/extract work on: the valid beams of one scan in millimetres and radians, double.
+#ifndef ALE_TESTS_REFERENCE_SCAN_POINTS_H
+#define ALE_TESTS_REFERENCE_SCAN_POINTS_H
+
+#include <vector>
+
+namespace reference
+{
+
+struct ScanPoint {
+    int beam;
+    double range;
+    double x;
+    double y;
+};
+
+using ScanPoints = std::vector<ScanPoint>;
+
+// Points first..last, both included.
+struct Run {
+    int first;
+    int last;
+    bool curved = false;
+
+    int points() const
+    {
+        return last - first + 1;
+    }
+};
+
+inline bool operator==(const Run &a, const Run &b)
+{
+    return a.first == b.first && a.last == b.last && a.curved == b.curved;
+}
+
+// Variance of a range r: constant + relative * r^2; the part of each beam's own, and the part that neighbours
+// share over shared_beams.
+struct NoiseOfScan {
+    double own_constant = 0;
+    double own_relative = 0;
+    double own_scale = 1; // of both, from the residuals of the runs
+    double shared_constant = 0;
+    double shared_relative = 0;
+    double shared_beams = 12;
+    double bearing_variance = 0;
+
+    double own(double range) const
+    {
+        return own_constant + own_relative * range * range;
+    }
+    double shared(double range) const
+    {
+        return shared_constant + shared_relative * range * range;
+    }
+};
+
+} // namespace reference
+
+#endif

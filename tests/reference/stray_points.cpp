@@ -1,0 +1,56 @@
+#include "reference/stray_points.h"
+
+namespace reference
+{
+namespace
+{
+
+constexpr double deviations = 4;
+constexpr int widest = 7; // beams from the second neighbour on one side to that on the other
+constexpr int stray_points = 4;
+
+} // namespace
+
+// The line from the second neighbour to the second neighbour gives the slope; with it taken off, the point is
+// off both neighbours by more than the limit, to the same side, and by nearly the same amount.
+bool is_spike(const ScanPoints &points, const NoiseOfScan &noise, int i, Decisions &decisions)
+{
+    if (i < 2 || i + 2 >= static_cast<int>(points.size())) {
+        return false;
+    }
+    const ScanPoint *p = &points[static_cast<size_t>(i)];
+    const double limit =
+        deviations * (std::sqrt(noise.own_constant) + std::sqrt(noise.own_relative) * p->range);
+    const double slope = (p[2].range - p[-2].range) / 4;
+    const double left = p->range - (p[-1].range + slope);
+    const double right = p->range - (p[1].range - slope);
+    if (p[2].beam - p[-2].beam > widest || left * right <= 0) {
+        return false;
+    }
+    return !decisions.below(std::fabs(left), limit) && !decisions.below(std::fabs(right), limit) &&
+           decisions.below(std::fabs(left - right), limit);
+}
+
+ScanPoints without_spikes(const ScanPoints &points, const NoiseOfScan &noise, Decisions &decisions)
+{
+    ScanPoints kept;
+    for (int i = 0; i < static_cast<int>(points.size()); i++) {
+        if (!is_spike(points, noise, i, decisions)) {
+            kept.push_back(points[static_cast<size_t>(i)]);
+        }
+    }
+    return kept;
+}
+
+ScanPoints without_strays(const ScanPoints &points, const std::vector<Run> &segments)
+{
+    ScanPoints kept;
+    for (const Run &segment : segments) {
+        if (segment.points() > stray_points) {
+            kept.insert(kept.end(), points.begin() + segment.first, points.begin() + segment.last + 1);
+        }
+    }
+    return kept;
+}
+
+} // namespace reference

@@ -1,0 +1,21 @@
+// Twin of lib/extract/outlier.c: which points are no part of a surface.
+#ifndef ALE_TESTS_REFERENCE_STRAY_POINTS_H
+#define ALE_TESTS_REFERENCE_STRAY_POINTS_H
+
+#include "reference/decisions.h"
+#include "reference/scan_points.h"
+
+namespace reference
+{
+
+// Whether point i stands out from its two neighbours, which agree with each other.
+bool is_spike(const ScanPoints &points, const NoiseOfScan &noise, int i, Decisions &decisions);
+
+ScanPoints without_spikes(const ScanPoints &points, const NoiseOfScan &noise, Decisions &decisions);
+
+// Points of segments that have too few of them to be a surface are left out.
+ScanPoints without_strays(const ScanPoints &points, const std::vector<Run> &segments);
+
+} // namespace reference
+
+#endif
