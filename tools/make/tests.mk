@@ -135,4 +135,6 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	@echo "== the firmware as an RTAI program, on an emulated RTAI"
 	-@$(PYTHON) tools/make/run_tests.py command "make RT=rtai" $(SUB) $(RTAI_BUILD) -j2 programs
 	-@$(SUB) system-rtai
+	@echo "== the robot explores at a click in the browser"
+	-@ALE_LONG_TESTS=1 $(SUB) system T=console_explores
 	@$(PYTHON) tools/make/run_tests.py sum

@@ -51,6 +51,11 @@ export class Control {
     return this.status.takes_commands ? "" : "the robot takes no commands (ale-slamd --keys)";
   }
 
+  get exploring() {
+    const words = this.status?.exploration ?? "";
+    return words !== "" && !words.startsWith("finished");
+  }
+
   #command(...words) {
     this.link.send({ type: "command", words: words.map(String) });
   }
@@ -129,7 +134,7 @@ export class Control {
     const name = () => element("map-name").value.trim();
     const actions = {
       stop: () => this.#stop(),
-      explore: () => this.#command("explore", this.status?.exploration ? "off" : "on"),
+      explore: () => this.#command("explore", this.exploring ? "off" : "on"),
       reset: () => this.#whenSure("reset", () => this.#command("reset")),
       "save-map": () => this.#command("save_map", name()),
       "load-map": () => this.#whenSure("load-map", () => this.#command("load_map", name())),
@@ -182,7 +187,7 @@ export class Control {
     element("operator").textContent = this.operator ?? "nobody";
     element("who-drives").textContent = this.status?.who_drives || "nobody";
     element("exploration").textContent = this.status?.exploration || "off";
-    element("explore").setAttribute("aria-pressed", String(Boolean(this.status?.exploration)));
+    element("explore").setAttribute("aria-pressed", String(this.exploring));
     element("freeze").setAttribute("aria-pressed", String(Boolean(this.status?.map_frozen)));
   }
 }
