@@ -30,6 +30,7 @@ enum {
     REGISTER_URAD = 60000,
     REGISTER_MOST_UM = 1000000,
     REGISTER_MOST_URAD = 450000,
+    SLACK_UM = 60000,
     SLACK_MOST_UM = 200000, /* a way that may be off by more says nothing of what was seen where */
     SLACK_MOST_URAD = 100000,
     REJECT_PARTS = 10, /* less than this part of what is shown, found in the map, is found by chance */
@@ -281,7 +282,7 @@ static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_moti
 {
     const ale_seen_t now = seen(p, before);
     const ale_matrix_t *cov = &p->motion.cov;
-    const int64_t offset_um = 2 * ale_max64(sigma_of(cov, 0), sigma_of(cov, 1));
+    const int64_t offset_um = SLACK_UM + 2 * ale_max64(sigma_of(cov, 0), sigma_of(cov, 1));
     const ale_slack_t slack = {(int32_t)ale_min64(offset_um, SLACK_MOST_UM),
                                (int32_t)ale_min64(2 * sigma_of(cov, 2), SLACK_MOST_URAD)};
     const bool doubt = ale_tracker_is_strange(&p->tracker, &p->fit);

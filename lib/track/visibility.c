@@ -7,6 +7,8 @@ enum {
     TOLERANCE_UM = 120000, /* how far a point may lie before or behind its wall, and per mille of the range */
     TOLERANCE_PER_MILLE = 30,
     GRAZING_Q30 = 278000000, /* cosine of 75 degrees */
+    BEAMS_ASIDE_MOST = 16,
+    BAM_PER_RAD = 683565276,
     NOT_IN_VIEW = -1
 };
 
@@ -33,6 +35,26 @@ static int32_t beam_towards(const ale_scan_t *scan, const uint32_t *bearing_bam,
     return beam;
 }
 
+static ale_sight_t beam_sight(const ale_scan_t *scan, int32_t beam, int64_t range_um, int64_t tolerance_um)
+{
+    if (beam < 0 || beam >= scan->beams || scan->flag[beam] != ALE_BEAM_VALID) {
+        return ALE_SIGHT_NONE;
+    }
+    const int64_t beyond_um = scan->range_um[beam] - range_um;
+    if (beyond_um > tolerance_um) {
+        return ALE_SIGHT_THROUGH;
+    }
+    return beyond_um < -tolerance_um ? ALE_SIGHT_NONE : ALE_SIGHT_SUPPORTED;
+}
+
+/* Beams to either side of the middle one that may be meant, with the pose as uncertain as it is. */
+static int32_t beams_aside(const ale_scan_t *scan, int64_t range_um, int64_t slack_um)
+{
+    const int64_t spacing_um = ale_mul_div(range_um, ale_abs64(scan->step_bam), BAM_PER_RAD);
+    return (int32_t)ale_min64(slack_um / ale_max64(spacing_um, 1), BEAMS_ASIDE_MOST);
+}
+
+/* Supported by any beam that may be meant, seen through by all of them. */
 static ale_sight_t point_sight(const ale_wall_t *wall, ale_point_t p, const ale_scan_t *scan,
                                const uint32_t *bearing_bam, ale_pose_t sensor, ale_slack_t slack)
 {
@@ -44,17 +66,22 @@ static ale_sight_t point_sight(const ale_wall_t *wall, ale_point_t p, const ale_
         range_um > scan->range_max_um) {
         return ALE_SIGHT_NONE;
     }
-    const int32_t beam = beam_towards(scan, bearing_bam, ale_atan2_bam(-y, -x) - sensor.theta_bam);
-    if (beam == NOT_IN_VIEW || scan->flag[beam] != ALE_BEAM_VALID) {
+    const int32_t middle = beam_towards(scan, bearing_bam, ale_atan2_bam(-y, -x) - sensor.theta_bam);
+    if (middle == NOT_IN_VIEW) {
         return ALE_SIGHT_NONE;
     }
-    const int64_t tolerance_um = TOLERANCE_UM + range_um * TOLERANCE_PER_MILLE / 1000 + slack.offset_um +
-                                 ale_mul_div(range_um, slack.angle_urad, 1000000);
-    const int64_t beyond_um = scan->range_um[beam] - range_um;
-    if (beyond_um > tolerance_um) {
-        return ALE_SIGHT_THROUGH;
+    const int64_t slack_um = slack.offset_um + ale_mul_div(range_um, slack.angle_urad, 1000000);
+    const int64_t tolerance_um = TOLERANCE_UM + range_um * TOLERANCE_PER_MILLE / 1000 + slack_um;
+    const int32_t aside = beams_aside(scan, range_um, slack_um);
+    ale_sight_t sum = ALE_SIGHT_THROUGH;
+    for (int32_t beam = middle - aside; beam <= middle + aside; beam++) {
+        const ale_sight_t sight = beam_sight(scan, beam, range_um, tolerance_um);
+        if (sight == ALE_SIGHT_SUPPORTED) {
+            return sight;
+        }
+        sum = sight == ALE_SIGHT_NONE ? sight : sum;
     }
-    return beyond_um < -tolerance_um ? ALE_SIGHT_NONE : ALE_SIGHT_SUPPORTED;
+    return sum;
 }
 
 ale_points_sight_t ale_wall_points_sight(const ale_wall_t *wall, const ale_scan_t *scan,
