@@ -31,6 +31,7 @@ enum {
     REGISTER_MOST_UM = 1000000,
     REGISTER_MOST_URAD = 450000,
     SLACK_UM = 60000,
+    SLACK_URAD = 30000,
     SLACK_MOST_UM = 200000, /* a way that may be off by more says nothing of what was seen where */
     SLACK_MOST_URAD = 100000,
     REJECT_PARTS = 10, /* less than this part of what is shown, found in the map, is found by chance */
@@ -278,16 +279,16 @@ static ale_seen_t seen(const ale_pipeline_t *p, const ale_motion_t *before)
 
 /* Hears the last scan when the map knows little of this one; a scan that fits is the next to be heard, one
  * that does not leaves the prediction as it is. */
-static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted)
+static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted, bool counted)
 {
     const ale_seen_t now = seen(p, before);
     const ale_matrix_t *cov = &p->motion.cov;
     const int64_t offset_um = SLACK_UM + 2 * ale_max64(sigma_of(cov, 0), sigma_of(cov, 1));
-    const ale_slack_t slack = {(int32_t)ale_min64(offset_um, SLACK_MOST_UM),
-                               (int32_t)ale_min64(2 * sigma_of(cov, 2), SLACK_MOST_URAD)};
+    const ale_slack_t slack = {
+        (int32_t)ale_min64(offset_um, counted ? SLACK_MOST_UM : 2 * SLACK_UM),
+        (int32_t)ale_min64(2 * sigma_of(cov, 2), counted ? SLACK_MOST_URAD : SLACK_URAD)};
     const bool doubt = ale_tracker_is_strange(&p->tracker, &p->fit);
-    const ale_testimony_t heard =
-        doubt ? ale_witness_hear(&p->witness, &now, slack) : (ale_testimony_t){0, 0};
+    const ale_testimony_t heard = doubt ? ale_witness_hear(&p->witness, &now, slack) : (ale_testimony_t){0};
     ale_tracker_notice(&p->tracker, doubt ? &heard : NULL);
     if (p->tracker.jumped) {
         const ale_scene_t scene = {&p->map, p->view, p->view_count};
@@ -344,7 +345,7 @@ static void track(ale_pipeline_t *p, const ale_motion_t *before, const ale_motio
         match_again(p, before, predicted);
     }
     p->motion = p->fit.motion;
-    notice(p, before, predicted);
+    notice(p, before, predicted, wheels != NULL);
     p->drift = ale_drift_here(&p->map, p->view, p->view_count, &p->fit, p->drift);
     if (!p->tracker.jumped) {
         ale_liveliness_learn(&p->liveliness[wheels != NULL], predicted, &p->motion);

@@ -3,7 +3,11 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "base/fixed.h"
+#include "base/trig.h"
 #include "track/wall.h"
+
+enum { CLOSE_UM = 500000, CLOSE_BAM = 25 * ALE_BAM_PER_DEGREE };
 
 void ale_witness_clear(ale_witness_t *witness)
 {
@@ -36,9 +40,17 @@ static void ask(const ale_seen_t *of, const ale_seen_t *asked, ale_slack_t slack
         ale_wall_from_view(&surface, &moved);
         const ale_points_sight_t sight =
             ale_wall_points_sight(&surface, asked->scan, asked->bearing_bam, asked->sensor, slack);
+        sum->shown_um += length_um;
         sum->confirmed_um += length_um * sight.supported / ALE_SIGHT_POINTS;
         sum->denied_um += length_um * sight.through / ALE_SIGHT_POINTS;
     }
+}
+
+static bool are_close(ale_pose_t a, ale_pose_t b)
+{
+    const ale_pose_t way = ale_pose_between(a, b);
+    return ale_abs64(way.x_um) < CLOSE_UM && ale_abs64(way.y_um) < CLOSE_UM &&
+           ale_abs64((int32_t)way.theta_bam) < CLOSE_BAM;
 }
 
 ale_testimony_t ale_witness_hear(const ale_witness_t *witness, const ale_seen_t *seen, ale_slack_t slack)
@@ -46,8 +58,9 @@ ale_testimony_t ale_witness_hear(const ale_witness_t *witness, const ale_seen_t 
     const ale_seen_t before = {&witness->scan, witness->straightened ? witness->bearing_bam : NULL,
                                witness->robot, witness->sensor,
                                witness->view,  witness->view_count};
-    ale_testimony_t sum = {0, 0};
+    ale_testimony_t sum = {0, 0, 0, false};
     if (witness->view_count > 0) {
+        sum.close = are_close(witness->robot, seen->robot);
         ask(seen, &before, slack, &sum);
         ask(&before, seen, slack, &sum);
     }

@@ -37,10 +37,12 @@ typedef struct {
     bool straightened;
 } ale_witness_t;
 
-/* Length of the surfaces of both scans that the other one confirms, and that it saw through. */
+/* Length of the surfaces of both scans, and of those that the other one confirms, and that it saw through. */
 typedef struct {
+    int64_t shown_um;
     int64_t confirmed_um;
     int64_t denied_um;
+    bool close; /* taken so close to each other that each must confirm much of the other */
 } ale_testimony_t;
 
 void ale_witness_clear(ale_witness_t *witness);

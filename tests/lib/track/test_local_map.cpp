@@ -199,11 +199,11 @@ TEST(Tracker, APoseThatTheMapDoesNotHoldIsWhereTheMapGoesOnUnlessTheLastScanDeni
     fit.motion.cov.m[0][0] = int64_t{80000} * 80000;
     fit.shown_um = 5000000;
     EXPECT_TRUE(ale_tracker_doubts(&fit));
-    const ale_testimony_t agreed = {3000000, 800000};
+    const ale_testimony_t agreed = {8000000, 3000000, 800000, true};
     ale_tracker_notice(&t, &agreed);
     EXPECT_FALSE(ale_tracker_may_map(&t, &fit));
     EXPECT_TRUE(ale_tracker_may_anchor(&t, &fit));
-    const ale_testimony_t denied = {800000, 3000000};
+    const ale_testimony_t denied = {8000000, 800000, 3000000, true};
     ale_tracker_notice(&t, &denied);
     EXPECT_TRUE(t.jumped);
     EXPECT_FALSE(ale_tracker_may_anchor(&t, &fit));
