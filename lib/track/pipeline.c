@@ -289,7 +289,7 @@ static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_moti
         (int32_t)ale_min64(2 * sigma_of(cov, 2), counted ? SLACK_MOST_URAD : SLACK_URAD)};
     const bool doubt = ale_tracker_is_strange(&p->tracker, &p->fit);
     const ale_testimony_t heard = doubt ? ale_witness_hear(&p->witness, &now, slack) : (ale_testimony_t){0};
-    ale_tracker_notice(&p->tracker, doubt ? &heard : NULL);
+    ale_tracker_notice(&p->tracker, doubt ? &heard : NULL, counted);
     if (p->tracker.jumped) {
         const ale_scene_t scene = {&p->map, p->view, p->view_count};
         ale_refine_reject(predicted, &scene, &p->fit);

@@ -9,9 +9,9 @@ enum {
     DOUBT_PERCENT = 60,        /* of what is shown is found in the map: no question; */
     STRANGE_PERCENT = 35,      /* less than this is found: has the scene changed? */
     DENIED_LEAST_UM = 1000000, /* surfaces that must be gone before a change is called one, */
-    DENIED_PERCENT = 25,       /* and the part of all that both scans looked at */
+    DENIED_PERCENT = 20,       /* and the part of all that both scans looked at */
     CONFIRM_PERCENT = 20,      /* two scans confirm this much of each other at the least, */
-    CLOSE_PERCENT = 35,        /* this much when taken side by side, */
+    CLOSE_PERCENT = 45,        /* this much when taken side by side, */
     MISFIT_PERCENT = 10,       /* and this much more if there was doubt before */
     BELIEVE_SHOWN_UM = 2500000,
     BELIEVE_WALLS = 4,
@@ -69,12 +69,19 @@ static bool is_confirmed(const ale_tracker_t *tracker, const ale_testimony_t *he
     return heard->confirmed_um * 100 >= heard->shown_um * percent;
 }
 
-void ale_tracker_notice(ale_tracker_t *tracker, const ale_testimony_t *heard)
+/* Without wheels nobody knows where the robot went while a scan did not fit: only the map can tell. */
+static bool is_adrift(const ale_tracker_t *tracker, bool counted)
+{
+    return tracker->misfits > 0 && !counted;
+}
+
+void ale_tracker_notice(ale_tracker_t *tracker, const ale_testimony_t *heard, bool counted)
 {
     const int64_t told_um = heard ? heard->denied_um + heard->confirmed_um : 0;
     const bool denied =
         heard && heard->denied_um > DENIED_LEAST_UM && heard->denied_um * 100 > told_um * DENIED_PERCENT;
-    tracker->jumped = heard && heard->shown_um > DENIED_LEAST_UM && (denied || !is_confirmed(tracker, heard));
+    tracker->jumped = heard && heard->shown_um > DENIED_LEAST_UM &&
+                      (denied || !is_confirmed(tracker, heard) || is_adrift(tracker, counted));
 }
 
 ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit, const ale_sights_t *sights)

@@ -31,8 +31,8 @@ bool ale_tracker_doubts(const ale_fit_t *fit);
 bool ale_tracker_is_strange(const ale_tracker_t *tracker, const ale_fit_t *fit);
 
 /* Notices whether the scene has changed all at once; before the scan goes into the map. heard: what the last
- * scan says of this one, NULL when there was no doubt. */
-void ale_tracker_notice(ale_tracker_t *tracker, const ale_testimony_t *heard);
+ * scan says of this one, NULL when it was not strange. counted: wheels told the way between the two. */
+void ale_tracker_notice(ale_tracker_t *tracker, const ale_testimony_t *heard, bool counted);
 
 /* Judges a fitted scan and what it says of the walls that were not matched; returns the new state. */
 ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit, const ale_sights_t *sights);

@@ -90,7 +90,7 @@ ale_points_sight_t ale_wall_points_sight(const ale_wall_t *wall, const ale_scan_
     ale_points_sight_t sum = {0, 0};
     for (int32_t k = 1; k < 2 * ALE_SIGHT_POINTS; k += 2) {
         const int64_t length_um = (int64_t)wall->end_um - wall->start_um;
-        const int64_t t_um = wall->start_um + length_um * k / (2 * ALE_SIGHT_POINTS);
+        const int64_t t_um = wall->start_um + length_um * k / ((int64_t)2 * ALE_SIGHT_POINTS);
         const ale_sight_t sight =
             point_sight(wall, ale_wall_point(wall, t_um), scan, bearing_bam, sensor, slack);
         sum.supported = (uint8_t)(sum.supported + (sight == ALE_SIGHT_SUPPORTED));

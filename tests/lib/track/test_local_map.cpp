@@ -173,7 +173,7 @@ TEST(Tracker, GoesFromGoodToWeakToLostAndBackByWhatScansShow)
     fit.shown_um = 4000000;
     fit.matched_um = 3800000;
     EXPECT_FALSE(ale_tracker_doubts(&fit));
-    ale_tracker_notice(&t, nullptr);
+    ale_tracker_notice(&t, nullptr, true);
     EXPECT_EQ(ale_tracker_judge(&t, &fit, &fine), ALE_STATE_GOOD);
     EXPECT_TRUE(ale_tracker_may_map(&t, &fit));
     fit.information.matrix.m[0][0] = 0;
@@ -199,12 +199,12 @@ TEST(Tracker, APoseThatTheMapDoesNotHoldIsWhereTheMapGoesOnUnlessTheLastScanDeni
     fit.motion.cov.m[0][0] = int64_t{80000} * 80000;
     fit.shown_um = 5000000;
     EXPECT_TRUE(ale_tracker_doubts(&fit));
-    const ale_testimony_t agreed = {8000000, 3000000, 800000, true};
-    ale_tracker_notice(&t, &agreed);
+    const ale_testimony_t agreed = {8000000, 5000000, 800000, true};
+    ale_tracker_notice(&t, &agreed, true);
     EXPECT_FALSE(ale_tracker_may_map(&t, &fit));
     EXPECT_TRUE(ale_tracker_may_anchor(&t, &fit));
     const ale_testimony_t denied = {8000000, 800000, 3000000, true};
-    ale_tracker_notice(&t, &denied);
+    ale_tracker_notice(&t, &denied, true);
     EXPECT_TRUE(t.jumped);
     EXPECT_FALSE(ale_tracker_may_anchor(&t, &fit));
 }

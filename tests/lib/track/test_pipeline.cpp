@@ -262,6 +262,50 @@ TEST(Pipeline, CarriedAwayItSaysLostAndFindsItselfInTheMap)
     EXPECT_LT(longest, 0.6);
 }
 
+/* Carried to another place between two scans, whichever it is: it never says good while it is wrong. */
+TEST(Pipeline, CarriedAnywhereItIsNeverWrongWhileItSaysGood)
+{
+    std::mt19937 rng(7);
+    std::uniform_real_distribution<double> unit(0, 1);
+    int found = 0;
+    for (int trial = 0; trial < 12; trial++) {
+        ale_pipeline_config_t config = ale_pipeline_default_config();
+        config.use_odometry = trial % 2;
+        const room::Pipeline p = room::make(config);
+        room::Sensor sensor;
+        sensor.noise = 0.004;
+        const double carried = 19.05; /* between two sweeps */
+        const reference::Pose there =
+            reference::compose(room::path(1 + 17 * unit(rng)),
+                               {0.6 * unit(rng) - 0.3, 0.6 * unit(rng) - 0.3, 2 * reference::pi * unit(rng)});
+        const reference::Pose hands = room::since_start(room::path(carried), there);
+        if (hands.head<2>().norm() < 0.5) {
+            continue;
+        }
+        auto path = [&](double t) {
+            return t < carried ? room::path(t)
+                               : reference::compose(there, {0, 0, 0.3 * std::sin(t - carried)});
+        };
+        reference::Pose wheels(0, 0, 0);
+        ale_estimate_t e = {};
+        for (int k = 0; k < 260; k++) {
+            const double t = 1 + 0.1 * k;
+            const bool lifted = t - 0.1 < carried && t >= carried;
+            wheels = lifted ? wheels : reference::compose(wheels, room::since_start(path(t - 0.1), path(t)));
+            const ale_odometry_t sample = {std::llround(t * 1e6), convert::pose(wheels)};
+            ale_pipeline_odometry(p.get(), &sample);
+            const ale_scan_t scan = room::scan_at(room::l_shape(), sensor, path, t, rng);
+            ale_pipeline_scan(p.get(), &scan, &e);
+            const reference::Pose error =
+                room::since_start(convert::pose(e.map), room::since_start(path(1), path(t)));
+            const bool wrong = error.head<2>().norm() > 0.3 || std::abs(reference::wrap(error[2])) > 0.2;
+            ASSERT_FALSE(wrong && e.state == ALE_STATE_GOOD) << "trial " << trial << " scan " << k;
+        }
+        found += e.state == ALE_STATE_GOOD;
+    }
+    EXPECT_GE(found, 8);
+}
+
 TEST(Pipeline, StartsInALoadedMapWhereverItStands)
 {
     std::mt19937 rng(6);
