@@ -8,6 +8,7 @@
 #include "exchange.h"
 #include "explore_thread.h"
 #include "lcm/bus.h"
+#include "mapper_thread.h"
 #include "realtime/rt.h"
 #include "recorder.h"
 #include "store/map_file.h"
@@ -22,6 +23,7 @@ struct ale_daemon {
     ale_bus_t *bus;
     ale_estimator_t *estimator;
     ale_rt_task_t *estimate;
+    ale_mapper_thread_t *mapper;
     ale_acquire_t *acquire;
     ale_telemetry_t *telemetry;
     ale_drive_t *drive;
@@ -94,7 +96,8 @@ static int start_tasks(ale_daemon_t *daemon)
     const ale_config_t *config = &daemon->options->config;
     daemon->estimate = ale_rt_task_start(&(ale_rt_task_config_t){
         .name = "ale-estimate", .kind = ALE_RT_HARD, .body = ale_estimator_run, .user = daemon->estimator});
-    if (daemon->estimate) {
+    daemon->mapper = ale_mapper_thread_start(&daemon->exchange);
+    if (daemon->estimate && daemon->mapper) {
         daemon->acquire = ale_acquire_start(config, &daemon->exchange);
     }
     const bool drives = daemon->options->keys.count > 0;
@@ -153,6 +156,7 @@ void ale_daemon_stop(ale_daemon_t *daemon)
     ale_drive_stop(daemon->drive);
     ale_acquire_stop(daemon->acquire);
     stop_estimate(daemon);
+    ale_mapper_thread_stop(daemon->mapper);
     ale_telemetry_stop(daemon->telemetry);
     ale_explore_stop(daemon->exchange.explore);
     ale_recorder_stop(daemon->recorder);

@@ -15,6 +15,8 @@ struct ale_estimator {
     uint32_t late;
     uint32_t answered;
     uint32_t odometry_taken;
+    bool corrected; /* since the last answer, by: */
+    ale_pose_t correction;
     bool map_waits;     /* changed since it was last handed over */
     int64_t map_ns;     /* when it was handed over */
     int64_t arrival_ns; /* of the scan at hand, by the clock of ale_rt_now_ns */
@@ -98,6 +100,29 @@ static void take_odometry(ale_estimator_t *estimator)
     }
 }
 
+/* Corrections take effect at the scan they are due at, so that a recording replays to the same poses. */
+static void take_corrections(ale_estimator_t *estimator)
+{
+    ale_ring_t *corrections = estimator->exchange->corrections;
+    for (uint32_t ready = ale_ring_ready(corrections); ready > 0; ready--) {
+        const ale_correction_t *correction = ale_ring_at(corrections, 0);
+        if (!ale_pipeline_correct(estimator->pipeline, correction)) {
+            return;
+        }
+        estimator->correction = correction->shift[correction->count - 1].shift;
+        estimator->corrected = true;
+        ale_ring_release(corrections);
+    }
+}
+
+static void offer_keyframe(ale_estimator_t *estimator)
+{
+    ale_keyframe_t *slot = ale_ring_reserve(estimator->exchange->keyframes);
+    if (slot && ale_pipeline_keyframe(estimator->pipeline, slot)) {
+        ale_ring_commit(estimator->exchange->keyframes);
+    }
+}
+
 static void use_scan(ale_estimator_t *estimator, const ale_scan_record_t *record, ale_result_t *result)
 {
     const ale_scan_t *scan = &record->scan;
@@ -131,6 +156,9 @@ static void answer(ale_estimator_t *estimator, const ale_scan_record_t *record, 
     result->late = estimator->late;
     result->odometry_taken = estimator->odometry_taken;
     result->answered = estimator->answered++;
+    result->corrected = estimator->corrected;
+    result->correction = estimator->correction;
+    estimator->corrected = false;
 }
 
 static void answer_oldest(ale_estimator_t *estimator, uint32_t waiting)
@@ -145,6 +173,8 @@ static void answer_oldest(ale_estimator_t *estimator, uint32_t waiting)
         ale_ring_commit(exchange->results);
     }
     ale_ring_release(exchange->scans);
+    offer_keyframe(estimator);
+    take_corrections(estimator);
 }
 
 /* Hands the map over when it has changed, once a second at most: it is large. */
@@ -195,6 +225,7 @@ void ale_estimator_step(ale_estimator_t *estimator)
 {
     take_requests(estimator);
     take_odometry(estimator);
+    take_corrections(estimator);
     for (uint32_t waiting = ale_ring_ready(estimator->exchange->scans); waiting > 0; waiting--) {
         answer_oldest(estimator, waiting - 1);
     }

@@ -10,6 +10,7 @@
  *   estimate ◄──────────── telemetry ──────────────────────────► drive ◄── wish (newest) ── exploration
  *      ▲                      ▲ jobs  └──── scans with poses, on or off ───────────────────────►┘
  *      └── loaded map ── map keeper
+ *   estimate ── keyframes ──► mapper ── corrections ──► estimate
  *
  * Rings and snapshots have one writer and one reader each. Times are of the clock inside (clock.h). */
 #ifndef ALE_FIRMWARE_EXCHANGE_H
@@ -25,10 +26,15 @@
 #include "realtime/rt.h"
 #include "ring.h"
 #include "snapshot.h"
+#include "track/correction.h"
+#include "track/keyframe.h"
 #include "track/pipeline.h"
 
 /* Several seconds of scans at 10 Hz, and of odometry at 100 Hz; requests are those of people. */
 enum { ALE_SCAN_SLOTS = 64, ALE_RESULT_SLOTS = 64, ALE_ODOMETRY_SLOTS = 512, ALE_REQUEST_SLOTS = 16 };
+
+/* Keyframes of several metres, should the mapper be at work on a large map. */
+enum { ALE_KEYFRAME_SLOTS = 16, ALE_CORRECTION_SLOTS = 4 };
 
 typedef struct {
     bool lost;          /* the device sent it, it cannot be used: scan.stamp_us alone counts */
@@ -48,6 +54,8 @@ typedef struct {
     uint32_t late;           /* scans answered after their deadline, since the start */
     uint32_t answered;       /* scans answered before this one, since the start: its number in `scans` */
     uint32_t odometry_taken; /* samples of `odometry` known to this answer, since the start */
+    bool corrected;          /* the map was corrected before this answer: */
+    ale_pose_t correction;   /* how the robot moved with it */
     bool has_scan;           /* a scan stands behind it: features and scan are set */
     ale_features_t features;
     ale_scan_t scan; /* only when scans are published */
@@ -73,6 +81,8 @@ typedef struct {
     ale_ring_t *scans;             /* ale_scan_record_t: acquire to estimate */
     ale_ring_t *odometry;          /* ale_odometry_t: telemetry to estimate */
     ale_ring_t *results;           /* ale_result_t: estimate to telemetry */
+    ale_ring_t *keyframes;         /* ale_keyframe_t: estimate to mapper */
+    ale_ring_t *corrections;       /* ale_correction_t: mapper to estimate */
     ale_snapshot_t *map;           /* ale_map_t: estimate to telemetry */
     ale_snapshot_t *health;        /* ale_urg_health_t: acquire to telemetry */
     ale_ring_t *requests;          /* ale_request_t: telemetry to estimate */

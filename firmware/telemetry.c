@@ -118,6 +118,10 @@ static void send_result(ale_telemetry_t *telemetry, const ale_result_t *result)
 static void record_result(ale_telemetry_t *telemetry, const ale_result_t *result)
 {
     ale_recorder_t *recorder = telemetry->exchange->recorder;
+    if (result->corrected) {
+        ale_recorder_correction(recorder, result->estimate.stamp_us, result->estimate.scan,
+                                result->correction);
+    }
     ale_recorder_result(recorder, result);
     if (telemetry->statistics.poses > 0 && telemetry->statistics.state != ALE_STATE_LOST &&
         result->estimate.state == ALE_STATE_LOST) {

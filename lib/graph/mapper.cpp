@@ -113,6 +113,7 @@ bool ale_mapper_correction(ale_mapper_t *mapper, ale_correction_t *out)
     // more keyframes than shifts: every so many share one; the last keyframe always has its own
     const size_t every = (now.size() - 1) / ALE_CORRECTION_SHIFTS + 1;
     out->epoch = mapper->epoch;
+    out->due = mapper->closer.nodes().back().scan + ALE_CORRECTION_DELAY_SCANS;
     out->count = 0;
     for (size_t back = (now.size() - 1) % every; back < now.size(); back += every) {
         out->shift[out->count++] = {mapper->closer.nodes()[back].scan,

@@ -16,11 +16,8 @@
 #include "track/correction.h"
 #include "track/keyframe.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-/* In replay a correction that follows from the keyframe of scan k takes effect before scan k + this. */
+/* A correction that follows from the keyframe of scan k is due before scan k + this: half a second of the
+ * URG-04LX, many times what the mapper takes. */
 enum { ALE_CORRECTION_DELAY_SCANS = 5 };
 
 typedef struct ale_mapper ale_mapper_t;
@@ -59,9 +56,5 @@ ale_mapper_statistics_t ale_mapper_statistics(const ale_mapper_t *mapper);
 
 /* The keyframes of this epoch, in order: k < statistics.keyframes. */
 ale_mapper_pose_t ale_mapper_pose(const ale_mapper_t *mapper, uint32_t k);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -20,6 +20,7 @@ typedef struct {
 
 struct ale_correction {
     uint32_t epoch; /* of the map it was made for: see ale_keyframe_t */
+    uint32_t due;   /* the scan before which it takes effect; later when it comes too late */
     uint32_t count;
     ale_shift_t shift[ALE_CORRECTION_SHIFTS]; /* scans ascending */
 };

@@ -111,9 +111,10 @@ void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estima
  * sizeof(ale_keyframe_t). False: it is not, and *out is untouched. */
 bool ale_pipeline_keyframe(ale_pipeline_t *pipeline, ale_keyframe_t *out);
 
-/* From the mapper, between two scans: map and map pose move as loops have shown; the smooth pose does not. A
- * correction made for another map (epoch) is ignored. O(map * log count). */
-void ale_pipeline_correct(ale_pipeline_t *pipeline, const ale_correction_t *correction);
+/* From the mapper, between two scans: map and map pose move as loops have shown; the smooth pose does not.
+ * False: not due yet, offer it again before the next scan. One made for another map (epoch) is ignored. O(map
+ * * log count). */
+bool ale_pipeline_correct(ale_pipeline_t *pipeline, const ale_correction_t *correction);
 
 /* "You are here", within about 0.4 m and 0.2 rad: the map stays, the map pose is put there, state weak until
  * scans agree. */

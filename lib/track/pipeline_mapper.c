@@ -68,15 +68,17 @@ static void correct_robot(ale_pipeline_t *p, ale_pose_t shift)
     }
 }
 
-void ale_pipeline_correct(ale_pipeline_t *p, const ale_correction_t *correction)
+bool ale_pipeline_correct(ale_pipeline_t *p, const ale_correction_t *correction)
 {
-    if (correction->epoch != p->epoch || correction->count == 0 ||
-        correction->count > ALE_CORRECTION_SHIFTS) {
-        return;
+    const bool ours =
+        correction->epoch == p->epoch && correction->count > 0 && correction->count <= ALE_CORRECTION_SHIFTS;
+    if (!ours || correction->due > p->scans) {
+        return !ours;
     }
     ale_local_map_correct(&p->map, correction, &p->spare_marks);
     correct_robot(p, correction->shift[correction->count - 1].shift);
     p->corrections++;
+    return true;
 }
 
 void ale_pipeline_relocate(ale_pipeline_t *p, ale_pose_t pose)

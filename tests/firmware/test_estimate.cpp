@@ -116,6 +116,32 @@ TEST_F(Estimate, EveryScanIsAnsweredOnceInItsOrderWithFeaturesAndTimes)
     }
 }
 
+TEST_F(Estimate, ACorrectionTakesEffectAtTheScanItIsDueAtAndIsToldWithIt)
+{
+    auto result = std::make_unique<ale_result_t>();
+    push(kPeriod);
+    ale_estimator_step(estimator);
+    ASSERT_TRUE(pop(*result));
+    ASSERT_EQ(ale_ring_ready(exchange.keyframes), 1U) << "the first scan is a keyframe";
+    const auto *keyframe = static_cast<ale_keyframe_t *>(ale_ring_at(exchange.keyframes, 0));
+    auto *correction = static_cast<ale_correction_t *>(ale_ring_reserve(exchange.corrections));
+    correction->epoch = keyframe->epoch;
+    correction->due = 6;
+    correction->count = 1;
+    correction->shift[0] = {0, {300000, 0, 0}};
+    ale_ring_commit(exchange.corrections);
+    for (int k = 1; k < 9; k++) {
+        push(kPeriod * (k + 1));
+        ale_estimator_step(estimator);
+        ASSERT_TRUE(pop(*result));
+        EXPECT_NEAR(result->estimate.map.x_um, k < 6 ? 0 : 300000, 5000) << k;
+        EXPECT_NEAR(result->estimate.smooth.x_um, 0, 5000) << k;
+        EXPECT_EQ(result->corrected, k == 6);
+        EXPECT_EQ(ale_ring_ready(exchange.corrections), k < 5 ? 1U : 0U);
+    }
+    EXPECT_EQ(result->correction.x_um, 300000);
+}
+
 TEST_F(Estimate, ALostScanIsAnsweredByPrediction)
 {
     auto result = std::make_unique<ale_result_t>();

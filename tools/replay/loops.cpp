@@ -50,10 +50,9 @@ Loops::Loops() : mapper_(ale_mapper_create()), keyframe_(std::make_unique<ale_ke
     }
 }
 
-void Loops::before_scan(ale_pipeline_t *pipeline, uint32_t scan)
+void Loops::before_scan(ale_pipeline_t *pipeline)
 {
-    while (!due_.empty() && due_.front().scan <= scan) {
-        ale_pipeline_correct(pipeline, due_.front().correction.get());
+    while (!due_.empty() && ale_pipeline_correct(pipeline, due_.front().get())) {
         due_.pop_front();
     }
 }
@@ -69,14 +68,17 @@ void Loops::after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate)
     ale_mapper_add(mapper_.get(), keyframe_.get());
     auto correction = std::make_unique<ale_correction_t>();
     if (ale_mapper_correction(mapper_.get(), correction.get())) {
-        due_.push_back({estimate.scan + ALE_CORRECTION_DELAY_SCANS, std::move(correction)});
+        due_.push_back(std::move(correction));
     }
     longest_ns_ = std::max(longest_ns_, thread_time_ns() - start_ns);
 }
 
 void Loops::finish(ale_pipeline_t *pipeline)
 {
-    before_scan(pipeline, UINT32_MAX);
+    for (const auto &correction : due_) {
+        correction->due = 0;
+    }
+    before_scan(pipeline);
     const uint32_t count = statistics().keyframes;
     for (uint32_t k = 0; k < count; k++) {
         keyframes_.push_back(ale_mapper_pose(mapper_.get(), k));

@@ -9,9 +9,9 @@
 #include <vector>
 
 extern "C" {
+#include "graph/mapper.h"
 #include "track/pipeline.h"
 }
-#include "graph/mapper.h"
 
 namespace ale
 {
@@ -21,8 +21,8 @@ class Loops
   public:
     Loops();
 
-    /* Before scan `scan` is handed to the pipeline: corrections that are due take effect. */
-    void before_scan(ale_pipeline_t *pipeline, uint32_t scan);
+    /* Before a scan is handed to the pipeline: corrections that are due take effect. */
+    void before_scan(ale_pipeline_t *pipeline);
 
     /* After the pipeline has answered it. */
     void after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate);
@@ -48,10 +48,6 @@ class Loops
         ale_pose_t smooth;
         ale_pose_t map;
     };
-    struct Due {
-        uint32_t scan;
-        std::unique_ptr<ale_correction_t> correction;
-    };
     struct Destroy {
         void operator()(ale_mapper_t *mapper) const
         {
@@ -61,7 +57,7 @@ class Loops
 
     std::unique_ptr<ale_mapper_t, Destroy> mapper_;
     std::unique_ptr<ale_keyframe_t> keyframe_;
-    std::deque<Due> due_;
+    std::deque<std::unique_ptr<ale_correction_t>> due_;
     std::vector<Tracked> tracked_;             /* by scan */
     std::vector<ale_mapper_pose_t> keyframes_; /* after finish() */
     std::vector<bool> broken_;                 /* by keyframe: nothing ties it to the one before */

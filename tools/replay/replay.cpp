@@ -157,7 +157,7 @@ void Replay::extract(const ale_scan_t &scan)
 void Replay::track(const ale_scan_t &scan)
 {
     if (loops_) {
-        loops_->before_scan(pipeline_.get(), static_cast<uint32_t>(counts_.scans));
+        loops_->before_scan(pipeline_.get());
     }
     clock_.begin_scan();
     ale_pipeline_scan(pipeline_.get(), &scan, &estimate_);

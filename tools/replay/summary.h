@@ -5,8 +5,11 @@
 #include <chrono>
 #include <cstdint>
 
-#include "graph/mapper.h"
 #include "replay/log_reader.h"
+
+extern "C" {
+#include "graph/mapper.h"
+}
 
 namespace ale
 {

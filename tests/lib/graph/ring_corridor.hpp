@@ -88,29 +88,36 @@ inline ale::Node seen_from(const ale::Pose &pose, std::mt19937 *random)
     return node;
 }
 
-// Nodes whose live poses drift: a scale error, a bend, and noise.
-inline std::vector<ale::Node> drifting(const std::vector<ale::Pose> &poses, double bend_rad_m, unsigned seed)
+// Poses as a tracker would have them: a scale error, a bend, and noise.
+inline std::vector<ale::Pose> drifting_poses(const std::vector<ale::Pose> &truth, double bend_rad_m,
+                                             unsigned seed)
 {
     std::mt19937 random(seed);
     std::normal_distribution<double> noise(0, 1);
+    std::vector<ale::Pose> tracked = {truth[0]};
+    for (size_t k = 1; k < truth.size(); k++) {
+        ale::Pose motion = ale::between(truth[k - 1], truth[k]);
+        const double d = std::hypot(motion.x, motion.y);
+        motion.x *= 1.004;
+        motion.x += 0.002 * noise(random);
+        motion.y += 0.002 * noise(random);
+        motion.theta += bend_rad_m * d + 0.001 * noise(random);
+        tracked.push_back(ale::compose(tracked.back(), motion));
+    }
+    return tracked;
+}
+
+// Nodes with such poses.
+inline std::vector<ale::Node> drifting(const std::vector<ale::Pose> &truth, double bend_rad_m, unsigned seed)
+{
+    std::mt19937 random(seed + 1000);
+    const std::vector<ale::Pose> tracked = drifting_poses(truth, bend_rad_m, seed);
     std::vector<ale::Node> nodes;
-    ale::Pose live = poses[0];
-    double path_m = 0;
-    for (size_t k = 0; k < poses.size(); k++) {
-        if (k > 0) {
-            ale::Pose motion = ale::between(poses[k - 1], poses[k]);
-            const double d = std::hypot(motion.x, motion.y);
-            path_m += d;
-            motion.x *= 1.004;
-            motion.x += 0.002 * noise(random);
-            motion.y += 0.002 * noise(random);
-            motion.theta += bend_rad_m * d + 0.001 * noise(random);
-            live = ale::compose(live, motion);
-        }
-        ale::Node node = seen_from(poses[k], &random);
+    for (size_t k = 0; k < truth.size(); k++) {
+        ale::Node node = seen_from(truth[k], &random);
         node.scan = static_cast<uint32_t>(k);
-        node.smooth = live;
-        node.path_m = path_m;
+        node.smooth = tracked[k];
+        node.path_m = 0.5 * static_cast<double>(k);
         nodes.push_back(node);
     }
     return nodes;

@@ -1,0 +1,92 @@
+#include "mapper_thread.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "graph/mapper.h"
+
+#define LOOK_NS 20000000
+
+struct ale_mapper_thread {
+    ale_exchange_t *exchange;
+    ale_mapper_t *mapper;
+    ale_rt_release_t *wanted; /* posted to end the wait */
+    ale_rt_task_t *task;
+    uint32_t loops; /* told so far */
+};
+
+static void tell(ale_mapper_thread_t *thread, int64_t spent_ns)
+{
+    const ale_mapper_statistics_t statistics = ale_mapper_statistics(thread->mapper);
+    if (statistics.loops != thread->loops) {
+        fprintf(stderr, "ale-slamd: loop closed: %u so far, %u keyframes, %lld ms\n", statistics.loops,
+                statistics.keyframes, (long long)(spent_ns / 1000000));
+        thread->loops = statistics.loops;
+    }
+}
+
+/* Without room in the ring the correction is kept, and grows, until the next keyframe. */
+static void hand_out(ale_mapper_thread_t *thread)
+{
+    ale_ring_t *corrections = thread->exchange->corrections;
+    ale_correction_t *slot = ale_ring_reserve(corrections);
+    if (slot && ale_mapper_correction(thread->mapper, slot)) {
+        ale_ring_commit(corrections);
+    }
+}
+
+static void work_off(ale_mapper_thread_t *thread)
+{
+    ale_ring_t *keyframes = thread->exchange->keyframes;
+    for (uint32_t ready = ale_ring_ready(keyframes); ready > 0; ready--) {
+        const int64_t start_ns = ale_rt_now_ns();
+        ale_mapper_add(thread->mapper, ale_ring_at(keyframes, 0));
+        ale_ring_release(keyframes);
+        hand_out(thread);
+        tell(thread, ale_rt_now_ns() - start_ns);
+    }
+}
+
+static void run(ale_rt_task_t *self, void *user)
+{
+    ale_mapper_thread_t *thread = user;
+    while (!ale_rt_task_stopping(self)) {
+        work_off(thread);
+        ale_rt_release_wait(thread->wanted, ale_rt_now_ns() + LOOK_NS);
+    }
+}
+
+ale_mapper_thread_t *ale_mapper_thread_start(ale_exchange_t *exchange)
+{
+    ale_mapper_thread_t *thread = calloc(1, sizeof *thread);
+    if (!thread) {
+        return NULL;
+    }
+    thread->exchange = exchange;
+    thread->mapper = ale_mapper_create();
+    thread->wanted = ale_rt_release_create();
+    if (thread->mapper && thread->wanted) {
+        thread->task = ale_rt_task_start(&(ale_rt_task_config_t){
+            .name = "ale-mapper", .kind = ALE_RT_BACKGROUND, .body = run, .user = thread});
+    }
+    if (!thread->task) {
+        ale_mapper_thread_stop(thread);
+        return NULL;
+    }
+    return thread;
+}
+
+void ale_mapper_thread_stop(ale_mapper_thread_t *thread)
+{
+    if (!thread) {
+        return;
+    }
+    if (thread->task) {
+        ale_rt_task_stop(thread->task);
+        ale_rt_release_post(thread->wanted);
+        ale_rt_task_join(thread->task);
+    }
+    ale_rt_release_destroy(thread->wanted);
+    ale_mapper_destroy(thread->mapper);
+    free(thread);
+}

@@ -1,0 +1,83 @@
+// firmware/mapper_thread: keyframes in by one ring, corrections out by another, and a clean end.
+#include <chrono>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "lib/graph/drifting_keyframes.hpp"
+
+extern "C" {
+#include "mapper_thread.h"
+}
+
+namespace
+{
+
+constexpr auto patience = std::chrono::seconds(30);
+
+template <class Condition> bool comes_true(Condition condition)
+{
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (!condition() && std::chrono::steady_clock::now() < end) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return condition();
+}
+
+class MapperThread : public testing::Test
+{
+  protected:
+    void SetUp() override
+    {
+        const ale_rt_config_t realtime = {0, -1, false};
+        ale_rt_report_t report;
+        ASSERT_EQ(ale_rt_start(&realtime, &report), 0);
+        ASSERT_EQ(ale_exchange_open(&exchange, ale_clock_start(ALE_CLOCK_REAL)), 0);
+        thread = ale_mapper_thread_start(&exchange);
+        ASSERT_NE(thread, nullptr);
+    }
+    void TearDown() override
+    {
+        ale_mapper_thread_stop(thread);
+        ale_exchange_close(&exchange);
+        ale_rt_stop();
+    }
+
+    void hand_over(const ale_keyframe_t &keyframe)
+    {
+        void *slot = nullptr;
+        ASSERT_TRUE(comes_true([&] { return (slot = ale_ring_reserve(exchange.keyframes)) != nullptr; }));
+        *static_cast<ale_keyframe_t *>(slot) = keyframe;
+        ale_ring_commit(exchange.keyframes);
+    }
+
+    ale_exchange_t exchange{};
+    ale_mapper_thread_t *thread = nullptr;
+};
+
+TEST_F(MapperThread, ALoopComesBackAsACorrection)
+{
+    const auto keyframes = drifting_keyframes::walk(1.2, 0.0008, 1);
+    for (const auto &keyframe : keyframes) {
+        hand_over(*keyframe);
+    }
+    EXPECT_TRUE(comes_true([&] { return ale_ring_ready(exchange.keyframes) == 0; }));
+    ASSERT_TRUE(comes_true([&] { return ale_ring_ready(exchange.corrections) > 0; }));
+    const auto *correction = static_cast<ale_correction_t *>(ale_ring_at(exchange.corrections, 0));
+    EXPECT_EQ(correction->epoch, 1U);
+    EXPECT_GT(correction->count, 100U);
+    EXPECT_EQ(correction->shift[0].scan, 0U);
+}
+
+TEST_F(MapperThread, ItEndsWhileKeyframesAreWaiting)
+{
+    const auto keyframes = drifting_keyframes::walk(0.08, 0, 1);
+    for (const auto &keyframe : keyframes) {
+        hand_over(*keyframe);
+    }
+    ale_mapper_thread_stop(thread);
+    thread = nullptr;
+    SUCCEED();
+}
+
+} // namespace

@@ -1,0 +1,125 @@
+// lib/graph/mapper: what C sees of it.
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "drifting_keyframes.hpp"
+
+extern "C" {
+#include "graph/mapper.h"
+}
+
+namespace
+{
+
+struct DestroyMapper {
+    void operator()(ale_mapper_t *mapper) const
+    {
+        ale_mapper_destroy(mapper);
+    }
+};
+using Mapper = std::unique_ptr<ale_mapper_t, DestroyMapper>;
+using Correction = std::unique_ptr<ale_correction_t>;
+
+struct Heard {
+    std::vector<Correction> corrections;
+    uint32_t last_scan = 0;
+};
+
+// All keyframes, each as a tracker that takes every correction at once would place it.
+Heard follow(ale_mapper_t *mapper, const std::vector<drifting_keyframes::Keyframe> &keyframes)
+{
+    Heard heard;
+    ale_pose_t shift = {0, 0, 0};
+    for (const auto &original : keyframes) {
+        auto keyframe = std::make_unique<ale_keyframe_t>(*original);
+        keyframe->corrections = static_cast<uint32_t>(heard.corrections.size());
+        keyframe->map = ale_pose_compose(shift, original->map);
+        EXPECT_EQ(ale_mapper_add(mapper, keyframe.get()), 0);
+        auto correction = std::make_unique<ale_correction_t>();
+        if (ale_mapper_correction(mapper, correction.get())) {
+            shift = ale_pose_compose(correction->shift[correction->count - 1].shift, shift);
+            heard.corrections.push_back(std::move(correction));
+        }
+        heard.last_scan = original->scan;
+    }
+    return heard;
+}
+
+double error_m(const ale_pose_t &pose, const ale::Pose &truth)
+{
+    return std::hypot(pose.x_um * 1e-6 - truth.x, pose.y_um * 1e-6 - truth.y);
+}
+
+TEST(Mapper, CorrectionsTakeTheTrackerWhereTheGraphPutsIt)
+{
+    const auto keyframes = drifting_keyframes::walk(1.25, 0.0008, 2);
+    const std::vector<ale::Pose> truth = ring_corridor::truth(1.25);
+    const Mapper mapper(ale_mapper_create());
+    const Heard heard = follow(mapper.get(), keyframes);
+    ASSERT_GT(heard.corrections.size(), 0U);
+    const uint32_t count = ale_mapper_statistics(mapper.get()).keyframes;
+    ASSERT_EQ(count, keyframes.size());
+    double tracked = 0;
+    double corrected = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        // the way a wall goes that was born in this keyframe
+        ale_pose_t moved = keyframes[k]->map;
+        for (const Correction &correction : heard.corrections) {
+            moved = ale_pose_compose(ale_correction_at(correction.get(), 10 * k), moved);
+        }
+        const ale_mapper_pose_t placed = ale_mapper_pose(mapper.get(), k);
+        EXPECT_EQ(placed.scan, 10 * k);
+        EXPECT_NEAR(moved.x_um, placed.pose.x_um, 6000) << k;
+        EXPECT_NEAR(moved.y_um, placed.pose.y_um, 6000) << k;
+        tracked = std::max(tracked, error_m(keyframes[k]->map, truth[k]));
+        corrected = std::max(corrected, error_m(placed.pose, truth[k]));
+    }
+    EXPECT_GT(tracked, 0.5);
+    EXPECT_LT(corrected, 0.25);
+}
+
+TEST(Mapper, ACorrectionIsDueAFixedNumberOfScansAfterItsKeyframe)
+{
+    const auto keyframes = drifting_keyframes::walk(1.1, 0.0008, 1);
+    const Mapper mapper(ale_mapper_create());
+    for (const auto &keyframe : keyframes) {
+        ale_mapper_add(mapper.get(), keyframe.get());
+        auto correction = std::make_unique<ale_correction_t>();
+        if (ale_mapper_correction(mapper.get(), correction.get())) {
+            EXPECT_EQ(correction->due, keyframe->scan + ALE_CORRECTION_DELAY_SCANS);
+            EXPECT_EQ(correction->epoch, 1U);
+            EXPECT_FALSE(ale_mapper_correction(mapper.get(), correction.get())) << "handed out once";
+            return;
+        }
+    }
+    FAIL() << "no loop was closed";
+}
+
+TEST(Mapper, AMapBegunAnewBeginsTheGraphAnew)
+{
+    const auto keyframes = drifting_keyframes::walk(0.1, 0, 1);
+    const Mapper mapper(ale_mapper_create());
+    for (const auto &keyframe : keyframes) {
+        ale_mapper_add(mapper.get(), keyframe.get());
+    }
+    auto next = std::make_unique<ale_keyframe_t>(*keyframes.front());
+    next->epoch = 2;
+    ale_mapper_add(mapper.get(), next.get());
+    EXPECT_EQ(ale_mapper_statistics(mapper.get()).keyframes, 1U);
+}
+
+TEST(Mapper, TheSameKeyframesGiveTheSameBytes)
+{
+    const auto keyframes = drifting_keyframes::walk(1.1, 0.0008, 1);
+    const Mapper mappers[2] = {Mapper(ale_mapper_create()), Mapper(ale_mapper_create())};
+    const Heard heard[2] = {follow(mappers[0].get(), keyframes), follow(mappers[1].get(), keyframes)};
+    ASSERT_EQ(heard[0].corrections.size(), heard[1].corrections.size());
+    for (size_t k = 0; k < heard[0].corrections.size(); k++) {
+        EXPECT_EQ(std::memcmp(heard[0].corrections[k].get(), heard[1].corrections[k].get(),
+                              sizeof(ale_correction_t)),
+                  0);
+    }
+}
+
+} // namespace
