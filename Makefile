@@ -16,9 +16,10 @@ V ?= 0
 include tools/make/rules.mk
 include tools/make/tests.mk
 include tools/make/cross.mk
+include tools/make/deploy.mk
 -include $(filter-out tools/make/%,$(wildcard tools/*/*.mk))
 
-.PHONY: help deps deps-test all run explore install clean
+.PHONY: help deps deps-test all run explore clean
 help: ## list the targets
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | sort | expand -t 14
 
@@ -37,15 +38,6 @@ run: deps ## the whole chain: simulator, firmware, console; LOG=path plays a rec
 explore: deps ## the robot explores the arena by itself, console open; WORLD=path another world, SPEED=x faster
 	@$(MAKE) --no-print-directory -s -j$$(nproc) programs
 	@$(PYTHON) tools/make/explore.py --build $(BUILD) $(if $(WORLD),--world $(WORLD)) $(if $(SPEED),--speed $(SPEED))
-
-PREFIX ?= /usr/local
-install: all ## install programs, library, headers and types under $(DESTDIR)$(PREFIX)
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/ale-slam $(DESTDIR)$(PREFIX)/share/java
-	install -m 755 $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin
-	for h in lib/track/pipeline.h lib/track/odometry_sample.h; do \
-	    install -D -m 644 $$h $(DESTDIR)$(PREFIX)/include/ale/$${h#lib/} || exit 1; done
-	install -m 644 $(wildcard lib/messages/*.lcm) $(DESTDIR)$(PREFIX)/share/ale-slam
-	install -m 644 $(BUILD)/ale-lcmtypes.jar $(DESTDIR)$(PREFIX)/share/java
 
 clean: ## remove build/
 	rm -rf $(BUILD)

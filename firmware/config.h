@@ -41,10 +41,12 @@ typedef struct {
     bool lock_memory;
     char map[ALE_CONFIG_PATH]; /* loaded at start; empty: none */
     char map_folder[ALE_CONFIG_PATH];
-    char name[ALE_NAME_BYTES];             /* the robot's */
-    char keys[ALE_CONFIG_PATH];            /* of those who may command it; empty: nobody */
-    int32_t drive_um_s;                    /* most that an operator may drive, */
-    int32_t drive_urad_s;                  /* and turn */
+    char name[ALE_NAME_BYTES];  /* the robot's */
+    char keys[ALE_CONFIG_PATH]; /* of those who may command it; empty: nobody */
+    int32_t drive_um_s;         /* most that an operator may drive, */
+    int32_t drive_urad_s;       /* and turn */
+    char keep[ALE_CONFIG_PATH]; /* map and pose, kept while running, taken up at start; empty: not kept */
+    int32_t keep_seconds;
     char recorder_folder[ALE_CONFIG_PATH]; /* where flight recordings go; empty: nothing is recorded */
     int32_t recorder_megabytes;
 } ale_config_t;

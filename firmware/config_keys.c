@@ -104,6 +104,12 @@ const ale_config_key_t ale_config_keys[] = {
     {"commands", "drive_speed", NUMBER(drive_um_s, 6, 0, 20000000), "Most that an operator may drive, m/s,"},
     {"commands", "drive_turn", NUMBER(drive_urad_s, 6, 0, 20000000), "and turn, rad/s."},
 
+    {"map", "keep", TEXT(keep),
+     "Where map and pose are kept while running; the robot goes on from there at the next start, after a "
+     "power\n"
+     "cut too. Goes before file. Empty: not kept."},
+    {"map", "keep_seconds", NUMBER(keep_seconds, 0, 1, 3600), "How often, seconds."},
+
     {"recorder", "folder", TEXT(recorder_folder),
      "Where flight recordings are written: on a fault, a missed deadline or a command. Empty: none."},
     {"recorder", "megabytes", NUMBER(recorder_megabytes, 0, 1, 1024),

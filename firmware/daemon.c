@@ -7,11 +7,13 @@
 #include "estimate.h"
 #include "exchange.h"
 #include "explore_thread.h"
+#include "last_place.h"
 #include "lcm/bus.h"
 #include "mapper_thread.h"
 #include "realtime/rt.h"
 #include "recorder.h"
-#include "store/map_file.h"
+#include "service.h"
+#include "start_map.h"
 #include "telemetry.h"
 
 struct ale_daemon {
@@ -20,6 +22,8 @@ struct ale_daemon {
     bool exchange_open;
     ale_exchange_t exchange;
     ale_recorder_t *recorder;
+    ale_last_place_t *last_place;
+    ale_service_t service;
     ale_bus_t *bus;
     ale_estimator_t *estimator;
     ale_rt_task_t *estimate;
@@ -33,23 +37,6 @@ static int fail(int exit_code, const char *reason)
 {
     fprintf(stderr, "ale-slamd: %s\n", reason);
     return exit_code;
-}
-
-/* The map to start from, if one is configured. */
-static int load_map(ale_daemon_t *daemon)
-{
-    const char *path = daemon->options->config.map;
-    if (path[0] == '\0') {
-        return 0;
-    }
-    char error[ALE_MAP_FILE_ERROR] = "out of memory";
-    ale_map_t *map = malloc(sizeof *map);
-    const bool loaded = map && ale_map_file_load(path, map, error) == 0;
-    if (loaded) {
-        ale_estimator_load_map(daemon->estimator, map);
-    }
-    free(map);
-    return loaded ? 0 : fail(2, error);
 }
 
 static int prepare(ale_daemon_t *daemon)
@@ -75,19 +62,21 @@ static int prepare(ale_daemon_t *daemon)
     if (!daemon->estimator) {
         return fail(2, "the configuration of [extract], [noise] or [odometry] is refused by the core");
     }
-    return load_map(daemon);
+    return ale_start_map_load(config, daemon->estimator) < 0 ? 2 : 0;
 }
 
-/* Before those who tell it anything. */
-static int start_recorder(ale_daemon_t *daemon)
+/* What writes to disk, before those who tell it anything. */
+static int start_writers(ale_daemon_t *daemon)
 {
     const ale_config_t *config = &daemon->options->config;
-    if (config->recorder_folder[0] == '\0') {
-        return 0;
-    }
-    daemon->recorder = ale_recorder_start(config);
+    const bool record = config->recorder_folder[0] != '\0';
+    const bool keep = config->keep[0] != '\0';
+    daemon->recorder = record ? ale_recorder_start(config) : NULL;
+    daemon->last_place = keep ? ale_last_place_start(config->keep) : NULL;
     daemon->exchange.recorder = daemon->recorder;
-    return daemon->recorder ? 0 : fail(1, "no memory or no thread for the flight recorder");
+    daemon->exchange.last_place = daemon->last_place;
+    const bool started = (daemon->recorder || !record) && (daemon->last_place || !keep);
+    return started ? 0 : fail(1, "no memory or no thread for the flight recorder or for what is kept");
 }
 
 /* The readers first, so that nothing fills up; telemetry last, because it tells what was got. */
@@ -128,9 +117,10 @@ ale_daemon_t *ale_daemon_start(const ale_options_t *options, int *exit_code)
         return NULL;
     }
     daemon->options = options;
+    ale_service_open(&daemon->service);
     *exit_code = prepare(daemon);
     if (*exit_code == 0) {
-        *exit_code = start_recorder(daemon);
+        *exit_code = start_writers(daemon);
     }
     if (*exit_code == 0) {
         *exit_code = start_tasks(daemon);
@@ -139,6 +129,7 @@ ale_daemon_t *ale_daemon_start(const ale_options_t *options, int *exit_code)
         ale_daemon_stop(daemon);
         return NULL;
     }
+    ale_service_tell(&daemon->service, "READY=1");
     return daemon;
 }
 
@@ -154,12 +145,14 @@ static void stop_estimate(ale_daemon_t *daemon)
 void ale_daemon_stop(ale_daemon_t *daemon)
 {
     ale_drive_stop(daemon->drive);
+    ale_service_tell(&daemon->service, "STOPPING=1");
     ale_acquire_stop(daemon->acquire);
     stop_estimate(daemon);
     ale_mapper_thread_stop(daemon->mapper);
     ale_telemetry_stop(daemon->telemetry);
     ale_explore_stop(daemon->exchange.explore);
     ale_recorder_stop(daemon->recorder);
+    ale_last_place_stop(daemon->last_place);
     ale_estimator_destroy(daemon->estimator);
     if (daemon->exchange_open) {
         ale_exchange_close(&daemon->exchange);
@@ -168,6 +161,7 @@ void ale_daemon_stop(ale_daemon_t *daemon)
     if (daemon->realtime_started) {
         ale_rt_stop();
     }
+    ale_service_close(&daemon->service);
     free(daemon);
 }
 

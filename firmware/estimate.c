@@ -83,10 +83,10 @@ void ale_estimator_destroy(ale_estimator_t *estimator)
     }
 }
 
-void ale_estimator_load_map(ale_estimator_t *estimator, const ale_map_t *map)
+void ale_estimator_load_map(ale_estimator_t *estimator, const ale_map_t *map, const ale_pose_t *pose)
 {
     const ale_pose_t unknown = {0};
-    ale_pipeline_load_map(estimator->pipeline, map, unknown, false);
+    ale_pipeline_load_map(estimator->pipeline, map, pose ? *pose : unknown, pose != NULL);
     estimator->map_waits = true;
 }
 
@@ -238,6 +238,7 @@ void ale_estimator_run(ale_rt_task_t *self, void *user)
     while (!ale_rt_task_stopping(self)) {
         ale_rt_release_wait(estimator->exchange->arrived, ale_rt_now_ns() + IDLE_NS);
         ale_estimator_step(estimator);
+        ale_pulse_beat(estimator->exchange->pulse);
     }
     ale_estimator_step(estimator);
 }

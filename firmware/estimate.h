@@ -22,8 +22,9 @@ typedef struct ale_estimator ale_estimator_t;
 ale_estimator_t *ale_estimator_create(const ale_config_t *config, ale_exchange_t *exchange);
 void ale_estimator_destroy(ale_estimator_t *estimator);
 
-/* Before the task runs: a known map to start from; the pose in it is to be found. */
-void ale_estimator_load_map(ale_estimator_t *estimator, const ale_map_t *map);
+/* Before the task runs: a known map to start from. pose: where the robot is in it; NULL: that is to be found.
+ */
+void ale_estimator_load_map(ale_estimator_t *estimator, const ale_map_t *map, const ale_pose_t *pose);
 
 /* One release's work: all that lies in the rings now. Bounded by their capacities. */
 void ale_estimator_step(ale_estimator_t *estimator);

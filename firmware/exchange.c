@@ -27,13 +27,14 @@ int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock)
         .exploration = ale_snapshot_create(sizeof(ale_wish_t)),
         .drive_again = ale_wake_open(),
         .arrived = ale_rt_release_create(),
+        .pulse = ale_pulse_create(),
         .under_way = ale_wake_open(),
     };
     const bool complete = exchange->scans && exchange->odometry && exchange->results && exchange->keyframes &&
                           exchange->corrections && exchange->map && exchange->health && exchange->requests &&
                           exchange->loaded_map && exchange->drive_orders && exchange->drive_scan &&
                           exchange->exploration && exchange->drive_again >= 0 && exchange->arrived &&
-                          exchange->under_way >= 0;
+                          exchange->pulse && exchange->under_way >= 0;
     if (!complete) {
         ale_exchange_close(exchange);
     }
@@ -56,6 +57,7 @@ void ale_exchange_close(ale_exchange_t *exchange)
     ale_snapshot_destroy(exchange->exploration);
     ale_wake_close(exchange->drive_again);
     ale_rt_release_destroy(exchange->arrived);
+    ale_pulse_destroy(exchange->pulse);
     ale_wake_close(exchange->under_way);
     memset(exchange, 0, sizeof *exchange);
     exchange->drive_again = exchange->under_way = -1;

@@ -23,6 +23,7 @@
 #include "base/stage.h"
 #include "clock.h"
 #include "config.h"
+#include "pulse.h"
 #include "realtime/rt.h"
 #include "ring.h"
 #include "snapshot.h"
@@ -78,22 +79,24 @@ typedef struct {
 
 typedef struct {
     ale_clock_t clock;
-    ale_ring_t *scans;             /* ale_scan_record_t: acquire to estimate */
-    ale_ring_t *odometry;          /* ale_odometry_t: telemetry to estimate */
-    ale_ring_t *results;           /* ale_result_t: estimate to telemetry */
-    ale_ring_t *keyframes;         /* ale_keyframe_t: estimate to mapper */
-    ale_ring_t *corrections;       /* ale_correction_t: mapper to estimate */
-    ale_snapshot_t *map;           /* ale_map_t: estimate to telemetry */
-    ale_snapshot_t *health;        /* ale_urg_health_t: acquire to telemetry */
-    ale_ring_t *requests;          /* ale_request_t: telemetry to estimate */
-    ale_snapshot_t *loaded_map;    /* ale_map_t: map keeper to estimate */
-    ale_snapshot_t *drive_orders;  /* ale_drive_orders_t: telemetry to drive */
-    ale_snapshot_t *drive_scan;    /* ale_scan_t: telemetry to drive */
-    ale_snapshot_t *exploration;   /* ale_wish_t: exploration to drive */
-    ale_rt_release_t *arrived;     /* releases the estimate task */
-    struct ale_explore *explore;   /* is told by telemetry; NULL: nobody may ask for it */
-    struct ale_recorder *recorder; /* is told by acquire and telemetry; NULL: none is wanted */
-    int drive_again;               /* wakes the drive thread (wake.h): something has changed */
+    ale_ring_t *scans;                 /* ale_scan_record_t: acquire to estimate */
+    ale_ring_t *odometry;              /* ale_odometry_t: telemetry to estimate */
+    ale_ring_t *results;               /* ale_result_t: estimate to telemetry */
+    ale_ring_t *keyframes;             /* ale_keyframe_t: estimate to mapper */
+    ale_ring_t *corrections;           /* ale_correction_t: mapper to estimate */
+    ale_snapshot_t *map;               /* ale_map_t: estimate to telemetry */
+    ale_snapshot_t *health;            /* ale_urg_health_t: acquire to telemetry */
+    ale_ring_t *requests;              /* ale_request_t: telemetry to estimate */
+    ale_snapshot_t *loaded_map;        /* ale_map_t: map keeper to estimate */
+    ale_snapshot_t *drive_orders;      /* ale_drive_orders_t: telemetry to drive */
+    ale_snapshot_t *drive_scan;        /* ale_scan_t: telemetry to drive */
+    ale_snapshot_t *exploration;       /* ale_wish_t: exploration to drive */
+    ale_rt_release_t *arrived;         /* releases the estimate task */
+    struct ale_explore *explore;       /* is told by telemetry; NULL: nobody may ask for it */
+    struct ale_recorder *recorder;     /* is told by acquire and telemetry; NULL: none is wanted */
+    struct ale_last_place *last_place; /* is offered map and pose by telemetry; NULL: none is wanted */
+    ale_pulse_t *pulse;                /* of the estimate task: ten beats a second or more */
+    int drive_again;                   /* wakes the drive thread (wake.h): something has changed */
     int under_way; /* event descriptor: a scan has gone to the estimate task, or health has changed */
 } ale_exchange_t;
 

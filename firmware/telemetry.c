@@ -10,8 +10,10 @@
 #include "base/fixed.h"
 #include "commands.h"
 #include "explore_thread.h"
+#include "last_place.h"
 #include "map_keeper.h"
 #include "recorder.h"
+#include "service.h"
 #include "statistics.h"
 #include "supervisor.h"
 #include "wake.h"
@@ -42,6 +44,9 @@ struct ale_telemetry {
     int64_t next_status_ns;
     int64_t last_status_ns;
     bool news; /* of commands, not yet in a status */
+    int64_t next_keep_ns;
+    ale_pose_t pose; /* in the map, newest */
+    ale_service_t service;
     ale_status_report_t report;
 };
 
@@ -104,6 +109,7 @@ static void send_result(ale_telemetry_t *telemetry, const ale_result_t *result)
     memcpy(report.stage_start_ns, result->stage_start_ns, sizeof report.stage_start_ns);
     memcpy(report.stage_end_ns, result->stage_end_ns, sizeof report.stage_end_ns);
     ale_bus_send_pose(telemetry->bus, &report);
+    telemetry->pose = result->estimate.map;
     const int64_t latency_us = ale_clock_now_us(clock) - result->arrival_us;
     ale_statistics_add(&telemetry->statistics, result, ale_clock_real_ns(clock, latency_us));
     if (telemetry->config->publish_bot_core) {
@@ -149,7 +155,10 @@ static void watch_scanner(ale_telemetry_t *telemetry)
     char line[ALE_SUPERVISOR_LINE];
     const ale_link_t before = telemetry->supervisor.link;
     if (fresh && ale_supervisor_watch(&telemetry->supervisor, telemetry->health, line)) {
+        char words[sizeof line + 8];
         fprintf(stderr, "ale-slamd: %s\n", line);
+        snprintf(words, sizeof words, "STATUS=%s", line);
+        ale_service_tell(&telemetry->service, words);
         if (before == ALE_LINK_STREAMING) {
             ale_recorder_trigger(telemetry->exchange->recorder, ALE_RECORD_FAULT);
         }
@@ -184,6 +193,15 @@ static void take_command(void *user, const uint8_t *bytes, size_t count)
     }
     ale_commands_take(telemetry->commands, bytes, count, telemetry->map);
     telemetry->news = ale_commands_news(telemetry->commands);
+}
+
+/* The newest map with the newest pose in it; while lost, what was kept before stays. */
+static void keep_map(ale_telemetry_t *telemetry)
+{
+    ale_last_place_t *place = telemetry->exchange->last_place;
+    if (place && telemetry->map && telemetry->statistics.state != ALE_STATE_LOST) {
+        ale_last_place_offer(place, telemetry->map, &telemetry->pose);
+    }
 }
 
 static bool map_under_way(const ale_telemetry_t *telemetry)
@@ -249,6 +267,11 @@ static void work(ale_telemetry_t *telemetry)
         send_status(telemetry);
         telemetry->next_status_ns = ale_max64(telemetry->next_status_ns + STATUS_PERIOD_NS, now_ns);
     }
+    if (now_ns >= telemetry->next_keep_ns) {
+        keep_map(telemetry);
+        telemetry->next_keep_ns = now_ns + (int64_t)telemetry->config->keep_seconds * NS_PER_S;
+    }
+    ale_service_feed(&telemetry->service, ale_pulse_beats(telemetry->exchange->pulse), now_ns);
 }
 
 static void run(ale_rt_task_t *self, void *user)
@@ -265,6 +288,7 @@ static void run(ale_rt_task_t *self, void *user)
         work(telemetry);
     }
     work(telemetry);
+    keep_map(telemetry);
     send_status(telemetry);
 }
 
@@ -300,6 +324,7 @@ ale_telemetry_t *ale_telemetry_start(const ale_config_t *config, const ale_keys_
     telemetry->bus = bus;
     telemetry->realtime = *realtime;
     telemetry->boot = boot_nonce();
+    ale_service_open(&telemetry->service);
     telemetry->next_status_ns = ale_rt_now_ns() + STATUS_PERIOD_NS;
     if (start_commands(telemetry, keys) == 0) {
         telemetry->task = ale_rt_task_start(&(ale_rt_task_config_t){
@@ -324,5 +349,6 @@ void ale_telemetry_stop(ale_telemetry_t *telemetry)
     }
     ale_map_keeper_stop(telemetry->keeper);
     ale_commands_destroy(telemetry->commands);
+    ale_service_close(&telemetry->service);
     free(telemetry);
 }

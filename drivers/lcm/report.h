@@ -61,7 +61,7 @@ typedef struct {
     int64_t latency_worst_ns;
     uint32_t deadline_misses;
     bool realtime;
-    char realtime_detail[192];
+    char realtime_detail[440];
     char driver_state[192];
     char device[160];
     int32_t scan_period_us; /* 0: unknown */

@@ -16,7 +16,16 @@ static const char WALL_LEGEND[] =
     "# wall: id start_x start_y end_x end_y var_alpha_nrad2 cov_um_nrad var_rho_um2 seen\n";
 static const char CORNER_LEGEND[] = "# corner: x y var_xx var_xy var_yy angle_bam bisector_bam seen kind\n";
 
-enum { WALL_NUMBERS = 9, CORNER_NUMBERS = 9 };
+static const char POSE_LEGEND[] = "# pose: x y theta_bam\n";
+
+enum { WALL_NUMBERS = 9, CORNER_NUMBERS = 9, POSE_NUMBERS = 3 };
+
+/* What a file holds. */
+typedef struct {
+    ale_map_t map;
+    ale_pose_t pose;
+    bool pose_known;
+} content_t;
 
 static int fail(char error[ALE_MAP_FILE_ERROR], const char *path, const char *reason)
 {
@@ -41,7 +50,7 @@ static void print_corner(FILE *out, const ale_map_corner_t *corner)
 }
 
 /* The whole text in memory, the caller's to free; NULL when there is no memory. */
-static char *print_map(const ale_map_t *map, size_t *count)
+static char *print_map(const ale_map_t *map, const ale_pose_t *pose, size_t *count)
 {
     char *text = NULL;
     FILE *out = open_memstream(&text, count);
@@ -55,6 +64,10 @@ static char *print_map(const ale_map_t *map, size_t *count)
     for (uint32_t i = 0; i < map->corner_count; i++) {
         print_corner(out, &map->corner[i]);
     }
+    if (pose) {
+        fprintf(out, "%spose %" PRId32 " %" PRId32 " %" PRIu32 "\n", POSE_LEGEND, pose->x_um, pose->y_um,
+                pose->theta_bam);
+    }
     fflush(out);
     const uint32_t crc = (uint32_t)crc32(0, (const Bytef *)text, (uInt)*count);
     fprintf(out, "end %u %08" PRIx32 "\n", (unsigned)map->line_count + map->corner_count, crc);
@@ -67,8 +80,14 @@ static char *print_map(const ale_map_t *map, size_t *count)
 
 int ale_map_file_save(const char *path, const ale_map_t *map, char error[ALE_MAP_FILE_ERROR])
 {
+    return ale_map_file_save_with_pose(path, map, NULL, error);
+}
+
+int ale_map_file_save_with_pose(const char *path, const ale_map_t *map, const ale_pose_t *pose,
+                                char error[ALE_MAP_FILE_ERROR])
+{
     size_t count = 0;
-    char *text = print_map(map, &count);
+    char *text = print_map(map, pose, &count);
     if (!text) {
         return fail(error, path, "not enough memory");
     }
@@ -139,6 +158,18 @@ static bool take_corner(ale_span_t line, ale_map_t *map)
     return true;
 }
 
+static bool take_pose(ale_span_t line, content_t *content)
+{
+    int64_t n[POSE_NUMBERS];
+    if (content->pose_known || !take_numbers(line, n, POSE_NUMBERS) || !is_length(n[0]) || !is_length(n[1]) ||
+        !is_word32(n[2])) {
+        return false;
+    }
+    content->pose = (ale_pose_t){(int32_t)n[0], (int32_t)n[1], (uint32_t)n[2]};
+    content->pose_known = true;
+    return true;
+}
+
 static bool is_right_end(ale_span_t line, const ale_map_t *map, const ale_bytes_t *bytes,
                          const char *end_line)
 {
@@ -154,8 +185,9 @@ static bool is_right_end(ale_span_t line, const ale_map_t *map, const ale_bytes_
 
 typedef enum { LINE_TAKEN, LINE_WRONG, LINE_ENDS_MAP } line_outcome_t;
 
-static line_outcome_t take_line(ale_span_t line, const ale_bytes_t *bytes, ale_map_t *map)
+static line_outcome_t take_line(ale_span_t line, const ale_bytes_t *bytes, content_t *content)
 {
+    ale_map_t *map = &content->map;
     const char *begin = line.at;
     ale_span_t word;
     if (!ale_text_word(&line, &word) || *word.at == '#') {
@@ -167,11 +199,14 @@ static line_outcome_t take_line(ale_span_t line, const ale_bytes_t *bytes, ale_m
     if (ale_text_is(word, "corner")) {
         return take_corner(line, map) ? LINE_TAKEN : LINE_WRONG;
     }
+    if (ale_text_is(word, "pose")) {
+        return take_pose(line, content) ? LINE_TAKEN : LINE_WRONG;
+    }
     return ale_text_is(word, "end") && is_right_end(line, map, bytes, begin) ? LINE_ENDS_MAP : LINE_WRONG;
 }
 
 /* NULL, or what is wrong. */
-static const char *parse_map(const ale_bytes_t *bytes, ale_map_t *map, uint64_t *line_number)
+static const char *parse_map(const ale_bytes_t *bytes, content_t *content, uint64_t *line_number)
 {
     ale_text_t text = ale_text(bytes->at, bytes->count);
     ale_span_t line;
@@ -180,7 +215,7 @@ static const char *parse_map(const ale_bytes_t *bytes, ale_map_t *map, uint64_t 
     }
     while (ale_text_line(&text, &line)) {
         *line_number = text.line;
-        const line_outcome_t outcome = take_line(line, bytes, map);
+        const line_outcome_t outcome = take_line(line, bytes, content);
         if (outcome == LINE_ENDS_MAP) {
             return NULL;
         }
@@ -193,9 +228,17 @@ static const char *parse_map(const ale_bytes_t *bytes, ale_map_t *map, uint64_t 
 
 int ale_map_file_load(const char *path, ale_map_t *map, char error[ALE_MAP_FILE_ERROR])
 {
+    ale_pose_t pose;
+    bool known = false;
+    return ale_map_file_load_with_pose(path, map, &pose, &known, error);
+}
+
+int ale_map_file_load_with_pose(const char *path, ale_map_t *map, ale_pose_t *pose, bool *known,
+                                char error[ALE_MAP_FILE_ERROR])
+{
     ale_bytes_t bytes;
     const char *wrong = ale_bytes_read_file(&bytes, path);
-    ale_map_t *loaded = wrong ? NULL : calloc(1, sizeof *loaded);
+    content_t *loaded = wrong ? NULL : calloc(1, sizeof *loaded);
     uint64_t line_number = 1;
     if (loaded) {
         wrong = parse_map(&bytes, loaded, &line_number);
@@ -203,8 +246,12 @@ int ale_map_file_load(const char *path, ale_map_t *map, char error[ALE_MAP_FILE_
         wrong = "not enough memory";
     }
     if (loaded && !wrong) {
-        loaded->version = 1;
-        *map = *loaded;
+        loaded->map.version = 1;
+        *map = loaded->map;
+        *known = loaded->pose_known;
+        if (loaded->pose_known) {
+            *pose = loaded->pose;
+        }
     }
     free(loaded);
     ale_bytes_free(&bytes);

@@ -5,11 +5,14 @@
  *   wall 17 -1200345 800000 3400000 801200 1200 -35 410 96
  *   # corner: x y var_xx var_xy var_yy angle_bam bisector_bam seen kind
  *   corner 3400000 801200 8100 -20 7700 1073741824 2684354560 51 1
+ *   # pose: x y theta_bam
+ *   pose 1200345 800000 4294000000
  *   end 2 9f3c01aa
  *
  * Lengths in um, variances in um^2, angles of corners in BAM; integers, so that a map comes back as it was.
  * The last line counts walls and corners and holds the CRC-32 (zlib's) of all lines before it: a file that
- * was cut or damaged is refused whole. Lines with # are for people. */
+ * was cut or damaged is refused whole. The pose, where the robot was, may be missing. Lines with # are for
+ * people. */
 #ifndef ALE_STORE_MAP_FILE_H
 #define ALE_STORE_MAP_FILE_H
 
@@ -19,7 +22,13 @@ enum { ALE_MAP_FILE_ERROR = 320 };
 
 /* Writes beside the file, flushes to the disk and renames: whatever happens, the file is the old or the new
  * map. 0, or -1 with one line in *error. May block for as long as the disk takes; allocates. */
+int ale_map_file_save_with_pose(const char *path, const ale_map_t *map, const ale_pose_t *pose,
+                                char error[ALE_MAP_FILE_ERROR]);
 int ale_map_file_save(const char *path, const ale_map_t *map, char error[ALE_MAP_FILE_ERROR]);
+
+/* *known: the file says where the robot was; only then *pose is set. */
+int ale_map_file_load_with_pose(const char *path, ale_map_t *map, ale_pose_t *pose, bool *known,
+                                char error[ALE_MAP_FILE_ERROR]);
 
 /* 0 and *map filled (version 1), or -1 with one line in *error and *map untouched. */
 int ale_map_file_load(const char *path, ale_map_t *map, char error[ALE_MAP_FILE_ERROR]);

@@ -24,7 +24,7 @@ typedef struct {
 
 typedef struct {
     bool realtime; /* all that was asked for, on a kernel that keeps its promises */
-    char text[192];
+    char text[440];
 } ale_rt_report_t;
 
 /* Memory, limits and kernel. 0, or -1 when this back end cannot run on this kernel at all (report->text

@@ -7,7 +7,6 @@
 #include <sched.h>
 #include <signal.h>
 #include <stdatomic.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -16,6 +15,7 @@
 #include <unistd.h>
 
 #include "realtime/findings.h"
+#include "realtime/machine.h"
 #include "realtime/memory.h"
 
 #define NS_PER_S 1000000000
@@ -39,7 +39,6 @@ static struct {
     bool memory_locked;
     bool priority_refused;
     bool cpu_refused;
-    bool preempt_rt;
 } state;
 
 int64_t ale_rt_now_ns(void)
@@ -49,21 +48,10 @@ int64_t ale_rt_now_ns(void)
     return (int64_t)now.tv_sec * NS_PER_S + now.tv_nsec;
 }
 
-static bool kernel_is_preempt_rt(void)
-{
-    FILE *file = fopen("/sys/kernel/realtime", "r");
-    const int answer = file ? fgetc(file) : EOF;
-    if (file) {
-        fclose(file);
-    }
-    return answer == '1';
-}
-
 int ale_rt_start(const ale_rt_config_t *config, ale_rt_report_t *report)
 {
     memset(&state, 0, sizeof state);
     state.config = *config;
-    state.preempt_rt = kernel_is_preempt_rt();
     ale_rt_limit_default_stack();
     state.memory_locked = config->lock_memory && ale_rt_lock_memory();
     ale_rt_report(report);
@@ -79,16 +67,21 @@ void ale_rt_stop(void)
 
 void ale_rt_report(ale_rt_report_t *report)
 {
+    const ale_rt_config_t *config = &state.config;
     ale_rt_findings_t findings = {0};
-    ale_rt_found(&findings, state.config.priority > 0 && !state.priority_refused,
-                 state.config.priority ? "SCHED_FIFO %d" : "priority (none asked for)",
-                 state.config.priority);
-    ale_rt_found(&findings, state.memory_locked, "locked memory", 0);
-    if (state.config.cpu >= 0) {
-        ale_rt_found(&findings, !state.cpu_refused, "processor %d", state.config.cpu);
+    if (config->priority > 0) {
+        ale_rt_found(&findings, !state.priority_refused, "SCHED_FIFO %d", config->priority);
+    } else {
+        ale_rt_found(&findings, false, "priority (none asked for)");
     }
-    ale_rt_found(&findings, true, "touched stacks", 0);
-    ale_rt_found(&findings, state.preempt_rt, "PREEMPT_RT kernel", 0);
+    ale_rt_found(&findings, state.memory_locked, "locked memory");
+    if (config->cpu >= 0) {
+        ale_rt_found(&findings, !state.cpu_refused, "processor %d", config->cpu);
+    }
+    ale_rt_found(&findings, true, "touched stacks");
+    ale_rt_check_kernel(&findings, "");
+    ale_rt_check_timer(&findings);
+    ale_rt_check_governor(&findings, config->cpu, "");
     ale_rt_findings_report(&findings, report);
 }
 

@@ -26,6 +26,7 @@
 #include <unistd.h>
 
 #include "realtime/findings.h"
+#include "realtime/machine.h"
 #include "realtime/memory.h"
 #include "serial/port_backend.h"
 
@@ -264,12 +265,13 @@ void ale_rt_report(ale_rt_report_t *report)
 {
     const unsigned long forced = forced_transitions() - state.forced_before;
     ale_rt_findings_t findings = {0};
-    ale_rt_found(&findings, atomic_load(&state.hard), "RTAI hard task", 0);
-    ale_rt_found(&findings, state.memory_locked, "locked memory", 0);
+    ale_rt_found(&findings, atomic_load(&state.hard), "RTAI hard task");
+    ale_rt_found(&findings, state.memory_locked, "locked memory");
     if (state.config.cpu >= 0) {
         ale_rt_found(&findings, has_cpu_of_its_own(), "processor %d", state.config.cpu);
     }
-    ale_rt_found(&findings, true, "touched stacks", 0);
+    ale_rt_found(&findings, true, "touched stacks");
+    ale_rt_check_governor(&findings, state.config.cpu, "");
     if (forced > 0) {
         ale_rt_found(&findings, false, "hard tasks left to Linux %d times", (int)(forced & INT_MAX));
     }

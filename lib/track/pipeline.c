@@ -25,6 +25,7 @@ enum {
     ANCHOR_SIGMA_URAD = 500,
     SEARCH_SIGMA_UM = 100000,
     SEARCH_SIGMA_URAD = 50000,
+    CLAIM_SCANS = 30, /* that may still show that the robot is where it is said to be */
     SCAN_PERIOD_MAX_US = 2000000,
     REGISTER_UM = 100000, /* how far wheels may be off beyond what they promise */
     REGISTER_URAD = 60000,
@@ -114,6 +115,7 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
     pipeline->keyframes = 0;
     pipeline->broken = false;
     pipeline->moved = false;
+    pipeline->claims = 0;
     pipeline->view_count = 0;
     memset(&pipeline->features, 0, sizeof pipeline->features);
     memset(&pipeline->fit, 0, sizeof pipeline->fit);
@@ -360,21 +362,49 @@ static void track(ale_pipeline_t *p, const ale_motion_t *before, const ale_motio
     ale_tracker_judge(&p->tracker, &p->fit, &sights);
 }
 
+/* Fits the scan to the map at about this pose. */
+static void try_at(ale_pipeline_t *p, ale_pose_t pose)
+{
+    ale_motion_t there = p->motion;
+    there.pose = pose;
+    ale_motion_widen(&there, SEARCH_SIGMA_UM, SEARCH_SIGMA_URAD);
+    match(p, &there, WHOLE_MAP_UM);
+}
+
+static void settle(ale_pipeline_t *p)
+{
+    p->motion = p->fit.motion;
+    p->claims = 0;
+    ale_tracker_found(&p->tracker);
+}
+
+/* Where the robot is said to be is looked at first, for a few scans. */
+static bool is_where_claimed(ale_pipeline_t *p)
+{
+    if (p->claims == 0) {
+        return false;
+    }
+    p->claims--;
+    try_at(p, p->motion.pose);
+    return ale_tracker_expected(&p->fit);
+}
+
 /* Lost: looks for the place that fits, a bounded number of hypotheses a scan, and leaves the map alone. */
 static void search(ale_pipeline_t *p)
 {
     p->broken = true;
+    if (is_where_claimed(p)) {
+        settle(p);
+        ale_stage_end(&p->hook, ALE_STAGE_MATCH);
+        return;
+    }
     const ale_point_t anywhere = {0, 0};
     ale_local_map_approach(&p->map, anywhere, WHOLE_MAP_UM);
     const ale_hypothesis_t best = ale_search(&p->search, &p->map, p->view, p->view_count);
     if (best.score_um * 100 > best.shown_um * SEARCH_PERCENT && best.score_um > best.second_um) {
-        ale_motion_t there = p->motion;
-        there.pose = best.pose;
-        ale_motion_widen(&there, SEARCH_SIGMA_UM, SEARCH_SIGMA_URAD);
-        match(p, &there, WHOLE_MAP_UM);
+        try_at(p, best.pose);
         if (ale_tracker_believes(&p->fit)) {
-            p->motion = p->fit.motion;
-            ale_tracker_found(&p->tracker);
+            settle(p);
         }
     }
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);
@@ -498,6 +528,7 @@ void ale_pipeline_load_map(ale_pipeline_t *pipeline, const ale_map_t *map, ale_p
     ale_map_take_in(&pipeline->map, map);
     ale_motion_init(&pipeline->motion, 0, pose, START_SPEED_MM_S, START_TURN_MRAD_S);
     pipeline->smooth = pose;
-    pipeline->tracker.state = known ? ALE_STATE_WEAK : ALE_STATE_LOST;
+    pipeline->tracker.state = ALE_STATE_LOST;
+    pipeline->claims = known ? CLAIM_SCANS : 0;
     pipeline->started = pipeline->map.count > 0;
 }

@@ -129,7 +129,8 @@ const ale_features_t *ale_pipeline_features(const ale_pipeline_t *pipeline);
 /* The map as it stands: walls and corners worth showing. Copies at most sizeof(ale_map_t). */
 void ale_pipeline_copy_map(const ale_pipeline_t *pipeline, ale_map_t *out);
 
-/* Starts from a known map; the pose is where the robot is in it, known = false: lost until found. */
+/* Starts from a known map, lost until found; known: the robot is said to be at this pose, which is looked at
+ * first and believed once a scan fits the map there. */
 void ale_pipeline_load_map(ale_pipeline_t *pipeline, const ale_map_t *map, ale_pose_t pose, bool known);
 
 #endif

@@ -63,6 +63,7 @@ struct ale_pipeline {
     bool broken; /* since the last keyframe: see ale_keyframe_t */
     bool moved;  /* the map pose was put elsewhere: how it settles there is no way of the robot */
     ale_marks_t spare_marks;
+    uint16_t claims; /* scans that may still show that the robot is where it is said to be */
 };
 
 #endif

@@ -16,6 +16,7 @@ enum {
     BELIEVE_SHOWN_UM = 2500000,
     BELIEVE_WALLS = 4,
     BELIEVE_PERCENT = 70,
+    EXPECT_PERCENT = 80,   /* where the robot is said to be, whatever the number of walls */
     DETERMINED_UM = 30000, /* the scan alone knows each direction better than this */
     WEAK_SIGMA_UM = 60000, /* pose sigma above which it is weak whatever the scan shows */
     LOST_SIGMA_UM = 1000000,
@@ -106,6 +107,12 @@ bool ale_tracker_believes(const ale_fit_t *fit)
 {
     return fit->matched >= BELIEVE_WALLS && fit->shown_um >= BELIEVE_SHOWN_UM &&
            fit->matched_um * 100 >= fit->shown_um * BELIEVE_PERCENT;
+}
+
+bool ale_tracker_expected(const ale_fit_t *fit)
+{
+    return fit->shown_um >= BELIEVE_SHOWN_UM && fit->matched_um * 100 >= fit->shown_um * EXPECT_PERCENT &&
+           ale_information_determines(&fit->information, DETERMINED_UM);
 }
 
 void ale_tracker_found(ale_tracker_t *tracker)

@@ -41,6 +41,10 @@ ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit, cons
  */
 bool ale_tracker_believes(const ale_fit_t *fit);
 
+/* Whether a fit confirms that the robot is where it is said to be: nearly all that is shown lies on walls,
+ * which determine the pose. Fewer walls will do than where nobody has said anything. */
+bool ale_tracker_expected(const ale_fit_t *fit);
+
 /* The robot was found again, or put somewhere: weak until the next scans agree. */
 void ale_tracker_found(ale_tracker_t *tracker);
 

@@ -253,7 +253,7 @@ TEST_F(Estimate, ALoadedMapIsShownBeforeTheFirstScan)
     map->line[0].var_alpha_nrad2 = 1000000000;
     map->line[0].var_rho_um2 = 1000000;
     map->line[0].seen = 50;
-    ale_estimator_load_map(estimator, map.get());
+    ale_estimator_load_map(estimator, map.get(), nullptr);
     ale_estimator_step(estimator);
     bool fresh = false;
     EXPECT_EQ(static_cast<const ale_map_t *>(ale_snapshot_newest(exchange.map, &fresh))->line_count, 1);

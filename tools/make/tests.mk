@@ -130,6 +130,8 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	@echo "== lint"
 	-@$(SUB) lint
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, all" $(SUB) same-bytes SAME_BYTES_BUILDS="gcc:-O0 gcc:-O3 clang:-O0 clang:-O3"
+	@echo "== the Debian package"
+	-@$(PYTHON) tools/make/run_tests.py command "install, remove, purge" $(SUB) test-deb
 	@echo "== the same bytes on other machines, emulated"
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, aarch64 armhf s390x" $(SUB) cross
 	@echo "== the firmware as an RTAI program, on an emulated RTAI"

@@ -100,6 +100,26 @@ TEST_F(MapFile, AMapComesBackAsItWas)
     }
 }
 
+TEST_F(MapFile, AMapMaySayWhereTheRobotWas)
+{
+    const auto map = some_map(2, 1);
+    const ale_pose_t pose = {-1200345, INT32_MAX, 4294967295U};
+    ale_pose_t read = {1, 2, 3};
+    bool known = true;
+    saved(*map);
+    ASSERT_EQ(ale_map_file_load_with_pose(path_.c_str(), loaded_.get(), &read, &known, error_), 0);
+    EXPECT_FALSE(known);
+    EXPECT_EQ(read.x_um, 1);
+    ASSERT_EQ(ale_map_file_save_with_pose(path_.c_str(), map.get(), &pose, error_), 0);
+    ASSERT_EQ(ale_map_file_load_with_pose(path_.c_str(), loaded_.get(), &read, &known, error_), 0);
+    EXPECT_TRUE(known);
+    EXPECT_EQ(read.x_um, pose.x_um);
+    EXPECT_EQ(read.y_um, pose.y_um);
+    EXPECT_EQ(read.theta_bam, pose.theta_bam);
+    EXPECT_EQ(ale_map_file_load(path_.c_str(), loaded_.get(), error_), 0) << "for those who do not ask, too";
+    EXPECT_EQ(load_error("ALE-SLAM map 1\npose 1 2\n"), path_.string() + ": line 2: damaged or too large");
+}
+
 TEST_F(MapFile, AnEmptyMapIsAMap)
 {
     EXPECT_EQ(load_error(saved(*some_map(0, 0))), "");

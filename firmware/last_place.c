@@ -1,0 +1,105 @@
+#include "last_place.h"
+
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include "realtime/rt.h"
+#include "snapshot.h"
+#include "store/map_file.h"
+
+enum { LOOK_MS = 500 };
+
+typedef struct {
+    ale_map_t map;
+    ale_pose_t pose;
+} kept_t;
+
+struct ale_last_place {
+    const char *path;
+    ale_snapshot_t *offered; /* kept_t */
+    int wake;                /* event descriptor */
+    ale_rt_task_t *task;
+    bool failed; /* and said so */
+};
+
+static void save_newest(ale_last_place_t *place)
+{
+    bool fresh = false;
+    const kept_t *kept = ale_snapshot_newest(place->offered, &fresh);
+    if (!fresh) {
+        return;
+    }
+    char error[ALE_MAP_FILE_ERROR];
+    const bool failed = ale_map_file_save_with_pose(place->path, &kept->map, &kept->pose, error) < 0;
+    if (failed && !place->failed) {
+        fprintf(stderr, "ale-slamd: map and pose are not kept: %s\n", error);
+    }
+    place->failed = failed;
+}
+
+static void run(ale_rt_task_t *self, void *user)
+{
+    ale_last_place_t *place = user;
+    while (!ale_rt_task_stopping(self)) {
+        struct pollfd source = {.fd = place->wake, .events = POLLIN};
+        eventfd_t woken = 0;
+        poll(&source, 1, LOOK_MS);
+        eventfd_read(place->wake, &woken);
+        save_newest(place);
+    }
+    save_newest(place);
+}
+
+static void destroy(ale_last_place_t *place)
+{
+    if (place->offered) {
+        ale_snapshot_destroy(place->offered);
+    }
+    if (place->wake >= 0) {
+        close(place->wake);
+    }
+    free(place);
+}
+
+ale_last_place_t *ale_last_place_start(const char *path)
+{
+    ale_last_place_t *place = calloc(1, sizeof *place);
+    if (!place) {
+        return NULL;
+    }
+    place->path = path;
+    place->offered = ale_snapshot_create(sizeof(kept_t));
+    place->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    if (place->offered && place->wake >= 0) {
+        place->task = ale_rt_task_start(&(ale_rt_task_config_t){
+            .name = "ale-last-place", .kind = ALE_RT_BACKGROUND, .body = run, .user = place});
+    }
+    if (!place->task) {
+        destroy(place);
+        return NULL;
+    }
+    return place;
+}
+
+void ale_last_place_stop(ale_last_place_t *place)
+{
+    if (place) {
+        ale_rt_task_stop(place->task);
+        eventfd_write(place->wake, 1);
+        ale_rt_task_join(place->task);
+        destroy(place);
+    }
+}
+
+void ale_last_place_offer(ale_last_place_t *place, const ale_map_t *map, const ale_pose_t *pose)
+{
+    kept_t *kept = ale_snapshot_back(place->offered);
+    kept->map = *map;
+    kept->pose = *pose;
+    ale_snapshot_publish(place->offered);
+    eventfd_write(place->wake, 1);
+}

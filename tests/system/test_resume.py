@@ -1,0 +1,89 @@
+"""After a power cut: on from the last map and pose, or lost; never sure and wrong."""
+import math
+import signal
+
+import pytest
+
+from chain import WORLDS, wait_until, wrap
+
+SPEED = 10
+LOST, GOOD = 0, 2
+FIRST, LATER = (1.5, 1.5, 0.0), (6.75, 7.4, 3.0)  # in the living room; in the study, where nobody left it
+
+
+def world_from(folder, name, start, vias):
+    """The bundled world with another way through it."""
+    walls = [line for line in (WORLDS / "home.world").read_text(encoding="utf-8").splitlines()
+             if line.strip() and not line.startswith("#")]
+    way = [f"# start {start[0]} {start[1]} {start[2]}"] + [f"# via {x} {y}" for x, y in vias]
+    path = folder / name
+    path.write_text("\n".join(way + walls) + "\n", encoding="utf-8")
+    return path
+
+
+def config(folder):
+    return f"[map]\nkeep = {folder / 'kept.map'}\nkeep_seconds = 1\n[realtime]\npriority = 0\nlock_memory = no\n"
+
+
+def seen_from(origin, pose):
+    dx, dy = pose[0] - origin[0], pose[1] - origin[1]
+    c, s = math.cos(origin[2]), math.sin(origin[2])
+    return (c * dx + s * dy, c * dy - s * dx, wrap(pose[2] - origin[2]))
+
+
+@pytest.fixture
+def driven(chain):
+    """A robot that drove through two rooms and stands; its firmware running, its map kept."""
+    world = world_from(chain.folder, "first.world", FIRST, [(3.2, 1.95), (5.8, 2.0), (4.2, 2.0)])
+    chain.simulator("--world", world, speed=SPEED)
+    firmware = chain.firmware(config(chain.folder), speed=SPEED)
+    poses = chain.listener.poses
+    wait_until(lambda: len(poses) > 150 and all(abs(p.vx) < 0.01 and abs(p.omega) < 0.01 for p in poses[-20:]), 60,
+               "a robot that stands")
+    standing = len(poses)
+    # What was offered after it stood has been written: twice the period.
+    wait_until(lambda: len(poses) > standing + 2 * SPEED * 10, 30, "the map to be kept")
+    return chain, firmware
+
+
+def test_it_goes_on_from_the_last_map_and_pose(driven):
+    chain, firmware = driven
+    firmware.process.send_signal(signal.SIGKILL)
+    firmware.wait(10)
+    before = chain.listener.poses[-1]
+    count = len(chain.listener.poses)
+    again = chain.firmware(config(chain.folder), speed=SPEED)
+    wait_until(lambda: len(chain.listener.poses) >= count + 30, 20, "poses again")
+    assert again.end() == 0
+    assert "going on from" in again.err() and "last pose" in again.err()
+    after = chain.listener.poses[count:]
+    for pose in after:
+        assert pose.state != LOST or pose is after[0]
+        assert math.hypot(pose.map_x - before.map_x, pose.map_y - before.map_y) < 0.05
+        assert abs(wrap(pose.map_theta - before.map_theta)) < math.radians(2)
+    assert after[-1].state == GOOD
+
+
+def test_carried_away_meanwhile_it_is_lost_or_right(driven):
+    chain, firmware = driven
+    assert firmware.end() == 0
+    chain.programs[0].end()
+    count = len(chain.listener.poses)
+    chain.simulator("--world", world_from(chain.folder, "second.world", LATER, [(6.7, 7.45)]), speed=SPEED)
+    again = chain.firmware(config(chain.folder), speed=SPEED)
+    wait_until(lambda: len(chain.listener.poses) >= count + 150, 30, "poses again")
+    assert again.end() == 0
+    true = seen_from(FIRST, LATER)
+    after = chain.listener.poses[count:]
+    assert any(pose.state == LOST for pose in after)
+    sure = [pose for pose in after if pose.state == GOOD]
+    assert all(math.hypot(pose.map_x - true[0], pose.map_y - true[1]) < 0.3 for pose in sure)
+
+
+def test_what_cannot_be_read_is_told_and_the_robot_comes_up(chain):
+    (chain.folder / "kept.map").write_text("ALE-SLAM map 1\nwall 1 2\n", encoding="utf-8")
+    chain.simulator("--world", WORLDS / "home.world", speed=SPEED)
+    firmware = chain.firmware(config(chain.folder), speed=SPEED)
+    wait_until(lambda: len(chain.listener.poses) >= 20, 20, "poses")
+    assert firmware.end() == 0
+    assert "starting without what was kept" in firmware.err() and "line 2" in firmware.err()

@@ -1,0 +1,43 @@
+"""ale-slamd as a service of systemd's kind: says when it is ready, feeds the watchdog, says when it stops."""
+import os
+import socket
+
+from chain import wait_until
+
+
+class Manager:
+    """Listens where systemd would."""
+
+    def __init__(self):
+        self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+        self.name = f"\0ale-test-{os.getpid()}"
+        self.socket.bind(self.name)
+        self.socket.setblocking(False)
+        self.heard = []
+
+    def words(self):
+        while True:
+            try:
+                self.heard.append(self.socket.recv(1000).decode())
+            except BlockingIOError:
+                return self.heard
+
+
+def test_ready_fed_and_stopping_are_told(chain):
+    manager = Manager()
+    prefix = ["env", f"NOTIFY_SOCKET=@{manager.name[1:]}", "WATCHDOG_USEC=400000"]
+    chain.simulator("--world", "tools/worlds/home.world")
+    firmware = chain.firmware(prefix=prefix)
+    wait_until(lambda: manager.words().count("WATCHDOG=1") >= 5, 10, "the watchdog to be fed")
+    assert manager.heard[0] == "READY=1"
+    assert any(text.startswith("STATUS=") for text in manager.heard)
+    assert firmware.end() == 0
+    assert "STOPPING=1" in manager.words()
+
+
+def test_the_watchdog_is_fed_without_a_scanner_too(chain):
+    manager = Manager()
+    prefix = ["env", f"NOTIFY_SOCKET=@{manager.name[1:]}", "WATCHDOG_USEC=400000"]
+    firmware = chain.firmware(prefix=prefix)
+    wait_until(lambda: manager.words().count("WATCHDOG=1") >= 3, 10, "the watchdog to be fed")
+    assert firmware.end() == 0
