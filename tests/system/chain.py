@@ -67,12 +67,12 @@ class Program:
 
 
 class Listener:
-    """Keeps every message of the firmware, in a thread of its own."""
+    """Keeps every message of the firmware on the channels that are asked for, in a thread of its own."""
 
-    def __init__(self, url):
+    def __init__(self, url, channels):
         self.messages = {channel: [] for channel in TYPES}
         self.bus = lcm.LCM(url)
-        for channel in TYPES:
+        for channel in channels:
             self.bus.subscribe(channel, self._take).set_queue_capacity(0)
         self.stopping = threading.Event()
         self.thread = threading.Thread(target=self._listen)
@@ -113,13 +113,13 @@ class Listener:
 class Chain:
     """A folder, an LCM port, and the programs on them."""
 
-    def __init__(self, folder, url):
+    def __init__(self, folder, url, channels=tuple(TYPES)):
         self.folder = folder
         self.url = url
         self.port = folder / "urg"
         self.truth_path = folder / "truth.tum"
         self.programs = []
-        self.listener = Listener(url)
+        self.listener = Listener(url, channels)
 
     def start(self, name, *words, prefix=()):
         program = Program(self.folder, name, *words, prefix=prefix)

@@ -47,6 +47,10 @@ system: programs lcm-types venv ## tests of the real programs over pseudo termin
 system-rtai: programs lcm-types venv $(BUILD)/rtai/ale-slamd ## the system tests with the firmware on an emulated RTAI (T=file of tests/system)
 	@ALE_SLAMD=$(BUILD)/rtai/ale-slamd $(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(or $(T),tests/system)
 
+.PHONY: endurance
+endurance: programs lcm-types venv ## 20,000 scans at ten times the speed, and latency under load: minutes, on an idle machine
+	@PYTHONPATH=$(BUILD)/python PYTHONDONTWRITEBYTECODE=1 $(VENV)/bin/python -m pytest -q -rP -p no:cacheprovider tests/system/endurance.py
+
 .PHONY: proofs
 proofs: programs ## bounded by construction: symbols, call graph, soft-float build, system call filter (part of make test)
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m pytest -q -rP -p no:cacheprovider tests/proofs
