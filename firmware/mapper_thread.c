@@ -4,13 +4,14 @@
 #include <stdlib.h>
 
 #include "graph/mapper.h"
+#include "wake.h"
 
 #define LOOK_NS 20000000
 
 struct ale_mapper_thread {
     ale_exchange_t *exchange;
     ale_mapper_t *mapper;
-    ale_rt_release_t *wanted; /* posted to end the wait */
+    int wanted; /* posted to end the wait */
     ale_rt_task_t *task;
     uint32_t loops; /* told so far */
 };
@@ -52,7 +53,7 @@ static void run(ale_rt_task_t *self, void *user)
     ale_mapper_thread_t *thread = user;
     while (!ale_rt_task_stopping(self)) {
         work_off(thread);
-        ale_rt_release_wait(thread->wanted, ale_rt_now_ns() + LOOK_NS);
+        ale_wake_wait(thread->wanted, LOOK_NS);
     }
 }
 
@@ -64,8 +65,8 @@ ale_mapper_thread_t *ale_mapper_thread_start(ale_exchange_t *exchange)
     }
     thread->exchange = exchange;
     thread->mapper = ale_mapper_create();
-    thread->wanted = ale_rt_release_create();
-    if (thread->mapper && thread->wanted) {
+    thread->wanted = ale_wake_open();
+    if (thread->mapper && thread->wanted >= 0) {
         thread->task = ale_rt_task_start(&(ale_rt_task_config_t){
             .name = "ale-mapper", .kind = ALE_RT_BACKGROUND, .body = run, .user = thread});
     }
@@ -83,10 +84,10 @@ void ale_mapper_thread_stop(ale_mapper_thread_t *thread)
     }
     if (thread->task) {
         ale_rt_task_stop(thread->task);
-        ale_rt_release_post(thread->wanted);
+        ale_wake_post(thread->wanted);
         ale_rt_task_join(thread->task);
     }
-    ale_rt_release_destroy(thread->wanted);
+    ale_wake_close(thread->wanted);
     ale_mapper_destroy(thread->mapper);
     free(thread);
 }

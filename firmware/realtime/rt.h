@@ -62,7 +62,8 @@ void ale_rt_task_stop(ale_rt_task_t *task); /* asks; any thread */
 bool ale_rt_task_stopping(const ale_rt_task_t *self);
 void ale_rt_task_join(ale_rt_task_t *task); /* waits for its end and frees it; NULL: nothing */
 
-/* What a task waits on. Posts before a wait count as one. */
+/* What a hard or soft task waits on; other threads have wake.h. Any thread may post. Posts before a wait
+ * count as one. */
 typedef struct ale_rt_release ale_rt_release_t;
 ale_rt_release_t *ale_rt_release_create(void);
 void ale_rt_release_destroy(ale_rt_release_t *release);
