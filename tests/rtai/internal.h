@@ -21,6 +21,9 @@ void rtai_leave(void);
 bool rtai_register(unsigned long name, void *handle);
 void rtai_unregister(void *handle);
 
+/* One that nobody has had. Under the lock. */
+unsigned long rtai_next_name(void);
+
 /* An address in a kernel that stands for slot number k of a kind. */
 void *rtai_handle(unsigned kind, int slot);
 /* The slot of a handle; the process ends when it is none of that kind. */
@@ -29,6 +32,8 @@ int rtai_slot(unsigned kind, const void *handle);
 /* A moment of RTAI's clock as one of CLOCK_MONOTONIC. Ends the process when RTAI's timer does not run: nobody
  * would ever come back from such a wait. */
 struct timespec rtai_wake_time(RTIME counts);
+
+void rtai_sleep_until(RTIME counts);
 
 /* Ends the process with one line. */
 _Noreturn void rtai_misuse(const char *what);

@@ -1,12 +1,7 @@
-/* Tasks, modes, timer and time of LXRT over POSIX threads.
- *
- * Counts run 2.4 times as fast as nanoseconds and RTAI's clock is 1000 s ahead of CLOCK_MONOTONIC: what mixes
- * them up fails. */
+/* Tasks of LXRT, their modes and periods, over POSIX threads. */
 #include "include/rtai_lxrt.h"
 
-#include <ctype.h>
 #include <errno.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -14,9 +9,6 @@
 #include "emulation.h"
 #include "guard.h"
 #include "internal.h"
-
-#define NS_PER_S 1000000000LL
-#define AHEAD_NS (1000 * NS_PER_S)
 
 enum { KIND_TASK = 1 };
 
@@ -31,15 +23,9 @@ pthread_mutex_t rtai_lock = PTHREAD_MUTEX_INITIALIZER;
 
 static struct {
     bool absent;
-    bool timer;
     bool signal;
     bool refuse;
-    unsigned long last_name;
     task_t tasks[OBJECTS];
-    struct {
-        unsigned long name;
-        void *handle;
-    } names[4 * OBJECTS];
     int scheduler; /* descriptor of the file, 0: none yet */
 } rtai;
 
@@ -65,106 +51,6 @@ void rtai_leave(void)
     guard_return();
 }
 
-/* ---- names and handles ---- */
-
-void *rtai_handle(unsigned kind, int slot)
-{
-    return (void *)(0xffff888000000000U + ((uintptr_t)kind << 16) + (uintptr_t)slot * 64);
-}
-
-int rtai_slot(unsigned kind, const void *handle)
-{
-    const uintptr_t offset = (uintptr_t)handle - (uintptr_t)rtai_handle(kind, 0);
-    if (offset >= (uintptr_t)OBJECTS * 64 || offset % 64 != 0) {
-        rtai_misuse("a handle that is none of its kind");
-    }
-    return (int)(offset / 64);
-}
-
-bool rtai_register(unsigned long name, void *handle)
-{
-    int free_place = -1;
-    for (int k = 4 * OBJECTS - 1; k >= 0; k--) {
-        if (name != 0 && rtai.names[k].name == name) {
-            return false;
-        }
-        free_place = rtai.names[k].name == 0 ? k : free_place;
-    }
-    if (name == 0 || free_place < 0) {
-        return false;
-    }
-    rtai.names[free_place].name = name;
-    rtai.names[free_place].handle = handle;
-    return true;
-}
-
-void rtai_unregister(void *handle)
-{
-    for (int k = 0; k < 4 * OBJECTS; k++) {
-        if (rtai.names[k].handle == handle) {
-            rtai.names[k].name = 0;
-            rtai.names[k].handle = NULL;
-        }
-    }
-}
-
-void *rt_get_adr(unsigned long name)
-{
-    void *found = NULL;
-    rtai_enter();
-    pthread_mutex_lock(&rtai_lock);
-    for (int k = 0; k < 4 * OBJECTS; k++) {
-        found = name != 0 && rtai.names[k].name == name ? rtai.names[k].handle : found;
-    }
-    pthread_mutex_unlock(&rtai_lock);
-    rtai_leave();
-    return found;
-}
-
-static unsigned long next_name(void)
-{
-    return 0xF0000000UL + ++rtai.last_name;
-}
-
-/* For no object: a name that nobody has. */
-unsigned long rt_get_name(void *object)
-{
-    unsigned long name = 0;
-    rtai_enter();
-    pthread_mutex_lock(&rtai_lock);
-    for (int k = 0; k < 4 * OBJECTS; k++) {
-        name = object && rtai.names[k].handle == object ? rtai.names[k].name : name;
-    }
-    name = object ? name : next_name();
-    pthread_mutex_unlock(&rtai_lock);
-    rtai_leave();
-    return name;
-}
-
-static unsigned long digit_of(char c)
-{
-    const char *others = "_@.";
-    if (isalpha((unsigned char)c)) {
-        return (unsigned long)(toupper((unsigned char)c) - 'A') + 1;
-    }
-    if (isdigit((unsigned char)c)) {
-        return (unsigned long)(c - '0') + 27;
-    }
-    const char *found = strchr(others, c);
-    return found ? 37 + (unsigned long)(found - others) : 0;
-}
-
-unsigned long nam2num(const char *name)
-{
-    unsigned long number = 0;
-    for (int k = 0; k < 6 && name[k]; k++) {
-        number = number * 40 + digit_of(name[k]);
-    }
-    return number + 2;
-}
-
-/* ---- tasks ---- */
-
 void rt_allow_nonroot_hrt(void)
 {
 }
@@ -176,7 +62,7 @@ static RT_TASK *register_task(unsigned long name)
     for (int k = 0; k < OBJECTS && !handle && !rtai.refuse; k++) {
         if (!rtai.tasks[k].used) {
             handle = rtai_handle(KIND_TASK, k);
-            handle = rtai_register(name ? name : next_name(), handle) ? handle : NULL;
+            handle = rtai_register(name ? name : rtai_next_name(), handle) ? handle : NULL;
             if (!handle) {
                 break;
             }
@@ -309,89 +195,6 @@ int rt_thread_join(long thread)
     return pthread_join((pthread_t)thread, NULL);
 }
 
-/* ---- timer and time ---- */
-
-void rt_set_oneshot_mode(void)
-{
-    rtai.timer = false;
-}
-
-void rt_set_periodic_mode(void)
-{
-    rtai.timer = false;
-}
-
-RTIME start_rt_timer(int period)
-{
-    rtai.timer = true;
-    return period;
-}
-
-void stop_rt_timer(void)
-{
-    rtai.timer = false;
-}
-
-int rt_is_hard_timer_running(void)
-{
-    return rtai.timer;
-}
-
-RTIME nano2count(RTIME nanoseconds)
-{
-    return nanoseconds * 12 / 5;
-}
-
-RTIME count2nano(RTIME counts)
-{
-    return counts * 5 / 12;
-}
-
-RTIME rt_get_time_ns(void)
-{
-    struct timespec now;
-    rtai_enter();
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    rtai_leave();
-    return now.tv_sec * NS_PER_S + now.tv_nsec + AHEAD_NS;
-}
-
-RTIME rt_get_time(void)
-{
-    return nano2count(rt_get_time_ns());
-}
-
-struct timespec rtai_wake_time(RTIME counts)
-{
-    if (!rtai.timer) {
-        rtai_misuse("a wait for a moment while RTAI's timer does not run");
-    }
-    const RTIME ns = count2nano(counts) - AHEAD_NS;
-    return (struct timespec){.tv_sec = ns > 0 ? ns / NS_PER_S : 0, .tv_nsec = ns > 0 ? ns % NS_PER_S : 0};
-}
-
-static void sleep_until(RTIME counts)
-{
-    const struct timespec until = rtai_wake_time(counts);
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, NULL) == EINTR) {
-    }
-}
-
-int rt_sleep(RTIME delay)
-{
-    if (!self) {
-        rtai_misuse("a thread that is no task wants to sleep");
-    }
-    if (delay <= 0) {
-        return RTE_TMROVRN;
-    }
-    const RTIME until = rt_get_time() + delay;
-    rtai_enter();
-    sleep_until(until);
-    rtai_leave();
-    return 0;
-}
-
 /* For the calling task: comes back at the first release. */
 int rt_task_make_periodic(RT_TASK *task, RTIME start_time, RTIME period)
 {
@@ -402,7 +205,7 @@ int rt_task_make_periodic(RT_TASK *task, RTIME start_time, RTIME period)
     rtai_enter();
     self->release = start_time;
     self->period = period;
-    sleep_until(start_time);
+    rtai_sleep_until(start_time);
     rtai_leave();
     return 0;
 }
@@ -418,12 +221,10 @@ int rt_task_wait_period(void)
         return RTE_TMROVRN;
     }
     rtai_enter();
-    sleep_until(self->release);
+    rtai_sleep_until(self->release);
     rtai_leave();
     return 0;
 }
-
-/* ---- what tests do to it ---- */
 
 void rtai_emulated_absent(bool absent)
 {
@@ -441,11 +242,6 @@ void rtai_emulated_forced(int traps, int calls)
     if (ftruncate(rtai.scheduler, 0) < 0 || pwrite(rtai.scheduler, text, (size_t)length, 0) != length) {
         rtai_misuse("the scheduler's file cannot be written");
     }
-}
-
-void rtai_emulated_timer(bool running)
-{
-    rtai.timer = running;
 }
 
 void rtai_emulated_signal(void)

@@ -17,7 +17,8 @@ COMMON_FLAGS = -g $(OPT) $(WARNINGS) $(SANITIZER_FLAGS) -MMD -MP
 C_FLAGS = -std=c11 -D_GNU_SOURCE $(COMMON_FLAGS) $(CFLAGS)
 # Generated LCM types read floats through pointers to integers.
 CXX_FLAGS = -std=c++17 -fno-strict-aliasing $(COMMON_FLAGS) $(CXXFLAGS)
-LINK_FLAGS = $(SANITIZER_FLAGS) -pthread -Wl,--as-needed $(LDFLAGS)
+# Symbols are bound at start (-z now): the first call of a function would otherwise do it in the hard task.
+LINK_FLAGS = $(SANITIZER_FLAGS) -pthread -Wl,--as-needed,-z,now $(LDFLAGS)
 LIBRARIES = -llcm -lserialport -linih -lsodium -lwebsockets -lpng -lz -lm
 SYSTEM_INCLUDES = -isystem $(BUILD)/lcmtypes -isystem /usr/include/eigen3
 
