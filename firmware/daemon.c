@@ -19,6 +19,7 @@
 struct ale_daemon {
     const ale_options_t *options;
     bool realtime_started;
+    bool realtime; /* as reported at start */
     bool exchange_open;
     ale_exchange_t exchange;
     ale_recorder_t *recorder;
@@ -95,6 +96,7 @@ static int start_tasks(ale_daemon_t *daemon)
     }
     ale_rt_report_t report;
     ale_rt_report(&report);
+    daemon->realtime = report.realtime;
     fprintf(stderr, "ale-slamd: %s: %s\n", report.realtime ? "real time" : "real time degraded", report.text);
     if (daemon->acquire) {
         daemon->telemetry =
@@ -142,6 +144,16 @@ static void stop_estimate(ale_daemon_t *daemon)
     }
 }
 
+/* What only shows in the end: a hard task that had to be left to Linux. */
+static void tell_lost_realtime(const ale_daemon_t *daemon)
+{
+    ale_rt_report_t report;
+    ale_rt_report(&report);
+    if (daemon->realtime && !report.realtime) {
+        fprintf(stderr, "ale-slamd: real time was not kept: %s\n", report.text);
+    }
+}
+
 void ale_daemon_stop(ale_daemon_t *daemon)
 {
     ale_drive_stop(daemon->drive);
@@ -159,6 +171,7 @@ void ale_daemon_stop(ale_daemon_t *daemon)
     }
     ale_bus_close(daemon->bus);
     if (daemon->realtime_started) {
+        tell_lost_realtime(daemon);
         ale_rt_stop();
     }
     ale_service_close(&daemon->service);
