@@ -9,6 +9,7 @@
 #include "track/map_exchange.h"
 #include "track/map_update.h"
 #include "track/pipeline_state.h"
+#include "track/uncertainty.h"
 
 enum {
     ACQUIRE_OFFSET_UM = 600000, /* how far a wall may lie from where the prediction puts it */
@@ -432,37 +433,6 @@ static int32_t per_second(int32_t per_tick)
     return (int32_t)ale_round_shift((int64_t)per_tick * 1000000, ALE_TICK_BITS);
 }
 
-/* Covariance of the pose, with the map's own drift, turned from the robot's frame into the map's: um^2, um
- * nrad, nrad^2. */
-static void map_covariance(const ale_motion_t *m, ale_drift_t drift, int64_t out[9])
-{
-    const int64_t c = ale_round_shift(ale_cos_q30(m->pose.theta_bam), 10);
-    const int64_t s = ale_round_shift(ale_sin_q30(m->pose.theta_bam), 10);
-    const int64_t one = (int64_t)1 << 20;
-    const int64_t f_q20[ALE_STATES][ALE_STATES] = {{c, -s, 0}, {s, c, 0}, {0, 0, one}};
-    ale_matrix_t turned;
-    ale_matrix_congruence(f_q20, &m->cov, &turned);
-    turned.m[0][0] += drift.var_um2;
-    turned.m[1][1] += drift.var_um2;
-    turned.m[2][2] += drift.var_urad2;
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
-            const int64_t to_nrad = (i == 2 ? 1000LL : 1LL) * (j == 2 ? 1000 : 1);
-            out[3 * i + j] = turned.m[i][j] * to_nrad;
-        }
-    }
-}
-
-/* Information of the scan: 1/um^2 in Q54 becomes 1/mm^2 in Q20, microradians at a metre milliradians. */
-static void scan_information(const ale_information_t *sum, int64_t out[6])
-{
-    const int64_t(*m)[ALE_STATES] = sum->matrix.m;
-    const int64_t in[6] = {m[0][0], m[1][0], m[2][0], m[1][1], m[2][1], m[2][2]};
-    for (int i = 0; i < 6; i++) {
-        out[i] = ale_mul_shift(in[i], 1000000, ALE_MATRIX_BITS - 20);
-    }
-}
-
 static void answer(ale_pipeline_t *p, int64_t stamp_us, bool predicted, uint32_t version, ale_estimate_t *out)
 {
     memset(out, 0, sizeof *out);
@@ -470,9 +440,9 @@ static void answer(ale_pipeline_t *p, int64_t stamp_us, bool predicted, uint32_t
     out->scan = p->scans++;
     out->smooth = p->smooth;
     out->map = p->motion.pose;
-    map_covariance(&p->motion, p->drift, out->cov);
+    ale_map_covariance(&p->motion, p->drift, out->cov);
     if (!predicted) {
-        scan_information(&p->fit.information, out->information);
+        ale_scan_information(&p->fit.information, out->information);
         out->matched_lines = p->fit.matched;
         out->matched_corners = p->matched_corners;
     }
