@@ -132,8 +132,10 @@ ale_hypothesis_t ale_search(ale_search_t *search, const ale_local_map_t *map, co
     const int32_t angle_bam = enclosed(a->normal_bam, b->normal_bam);
     search->first = search->first < map->count ? search->first : 0;
     search->second = search->second < map->count ? search->second : 0;
+    const uint32_t affordable = 1 + ALE_SEARCH_MATCHES / (count * map->count);
+    const uint32_t most = affordable < ALE_MAX_HYPOTHESES ? affordable : ALE_MAX_HYPOTHESES;
     uint32_t scored = 0;
-    for (uint32_t n = 0; n < ALE_HYPOTHESIS_PAIRS && scored < ALE_MAX_HYPOTHESES; n++) {
+    for (uint32_t n = 0; n < ALE_HYPOTHESIS_PAIRS && scored < most; n++) {
         const ale_wall_t *wall_a = &map->wall[search->first];
         const ale_wall_t *wall_b = &map->wall[search->second];
         const int32_t in_map_bam = enclosed(wall_a->normal_bam, wall_b->normal_bam);

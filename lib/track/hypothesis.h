@@ -14,7 +14,8 @@
 #include "track/view.h"
 
 enum {
-    ALE_MAX_HYPOTHESES = 24,    /* scored in one scan */
+    ALE_MAX_HYPOTHESES = 24,    /* scored in one scan, */
+    ALE_SEARCH_MATCHES = 32768, /* or fewer: views times walls that scoring may look at, the last one whole */
     ALE_HYPOTHESIS_PAIRS = 4096 /* pairs of walls looked at in one scan */
 };
 

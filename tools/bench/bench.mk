@@ -1,5 +1,5 @@
 # Benchmarks. Everything in tools/bench but the mains is one set of objects, linked to each program and test.
-BENCH_MAINS = tools/bench/lines.cpp
+BENCH_MAINS = tools/bench/lines.cpp tools/bench/wcet.cpp
 BENCH_PARTS = $(filter-out $(BENCH_MAINS),$(wildcard tools/bench/*.cpp tools/bench/textbook/*.cpp))
 BENCH_SCANS ?= 20
 BENCH_COUNTED_SCANS ?= 1
@@ -17,3 +17,13 @@ bench: bench-lines ## the benchmarks as tables
 bench-lines: deps-test
 	@$(MAKE) --no-print-directory -s $(BUILD)/bench/lines
 	@$(PYTHON) tools/bench/lines_table.py --program $(BUILD)/bench/lines --scans $(BENCH_SCANS) --counted $(BENCH_COUNTED_SCANS)
+
+# Instructions of one scan's way through the estimate task: recorded ones, and the most expensive that a search finds.
+WCET_TRIES ?= 100
+WCET_LOGS = tests/digest/apartment.log.gz $(if $(ALE_SHARED),$(wildcard $(ALE_SHARED)/data/urg04lx/exp1.dat))
+WCET_OUT = $(BUILD)/bench/wcet.counts
+.PHONY: wcet
+wcet: deps-test ## instructions of a scan by callgrind: recorded, and the worst that a search finds (WCET_TRIES=100)
+	@$(MAKE) --no-print-directory -s $(BUILD)/bench/wcet
+	@valgrind -q --tool=callgrind --collect-atstart=no --callgrind-out-file=$(WCET_OUT) \
+	    $(BUILD)/bench/wcet $(WCET_OUT) $(WCET_TRIES) $(WCET_LOGS)

@@ -1,0 +1,293 @@
+/* Instructions of the estimate task's work on one scan, counted by callgrind: over recorded scans, and over
+ * scans that a search makes as expensive as it can. Run by `make wcet`. */
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <memory>
+#include <new>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include <valgrind/callgrind.h>
+
+#include "bench/wcet_scans.hpp"
+
+extern "C" {
+#include "log/log.h"
+}
+
+namespace
+{
+
+using bench::Costly;
+using Counts = std::array<uint64_t, ALE_STAGES>;
+
+constexpr std::array<const char *, ALE_STAGES> stage_names = {"deskew", "smooth", "extract", "match", "map"};
+constexpr int scans_of_a_candidate = 16;
+
+uint64_t sum(const Counts &counts)
+{
+    return std::accumulate(counts.begin(), counts.end(), uint64_t{0});
+}
+
+/* Callgrind's own count, read from what it writes when asked. */
+class Counter
+{
+  public:
+    explicit Counter(std::string base) : base_(std::move(base))
+    {
+    }
+
+    /* Instructions since the last call; counting stops meanwhile. */
+    uint64_t take()
+    {
+        CALLGRIND_DUMP_STATS;
+        const std::string path = base_ + "." + std::to_string(++dumps_);
+        std::ifstream file(path);
+        uint64_t count = 0;
+        bool found = false;
+        for (std::string line; std::getline(file, line);) {
+            if (line.rfind("totals: ", 0) == 0) {
+                count = std::stoull(line.substr(8));
+                found = true;
+            }
+        }
+        unlink(path.c_str());
+        if (!found) {
+            throw std::runtime_error(path + ": no count (run this under callgrind: make wcet)");
+        }
+        return count;
+    }
+
+  private:
+    std::string base_;
+    int dumps_ = 0;
+};
+
+/* The estimate task's work, counted stage by stage. */
+class Counted
+{
+  public:
+    Counted(Counter &counter, const ale_pipeline_config_t &config)
+        : counter_(counter),
+          pipeline_(static_cast<ale_pipeline_t *>(operator new(ale_pipeline_size(), alignment)))
+    {
+        if (ale_pipeline_init(pipeline_.get(), &config) < 0) {
+            throw std::runtime_error("the pipeline refuses its configuration");
+        }
+        const ale_stage_hook_t hook = {end_of_stage, this};
+        ale_pipeline_set_hook(pipeline_.get(), &hook);
+    }
+
+    ale_pipeline_t *operator*() const
+    {
+        return pipeline_.get();
+    }
+
+    Counts scan(const ale_scan_t &scan)
+    {
+        ale_estimate_t estimate;
+        counts_ = {};
+        CALLGRIND_TOGGLE_COLLECT;
+        ale_pipeline_scan(pipeline_.get(), &scan, &estimate);
+        CALLGRIND_TOGGLE_COLLECT;
+        counts_[ALE_STAGE_MAP] += counter_.take(); /* the answer itself */
+        return counts_;
+    }
+
+  private:
+    static constexpr std::align_val_t alignment{alignof(std::max_align_t)};
+    struct Free {
+        void operator()(ale_pipeline_t *pipeline) const
+        {
+            operator delete(pipeline, alignment);
+        }
+    };
+
+    static void end_of_stage(void *user, ale_stage_t stage)
+    {
+        CALLGRIND_TOGGLE_COLLECT;
+        auto *self = static_cast<Counted *>(user);
+        self->counts_[stage] += self->counter_.take();
+        CALLGRIND_TOGGLE_COLLECT;
+    }
+
+    Counter &counter_;
+    std::unique_ptr<ale_pipeline_t, Free> pipeline_;
+    Counts counts_{};
+};
+
+struct Tally {
+    std::vector<uint64_t> totals;
+    Counts worst_stage{};
+    Counts worst{}; /* the stages of the most expensive scan */
+
+    void add(const Counts &counts)
+    {
+        totals.push_back(sum(counts));
+        for (size_t k = 0; k < counts.size(); k++) {
+            worst_stage[k] = std::max(worst_stage[k], counts[k]);
+        }
+        worst = sum(counts) > sum(worst) ? counts : worst;
+    }
+    uint64_t median()
+    {
+        std::nth_element(totals.begin(), totals.begin() + static_cast<ptrdiff_t>(totals.size() / 2),
+                         totals.end());
+        return totals[totals.size() / 2];
+    }
+};
+
+void print_row(const char *name, const Counts &counts)
+{
+    std::printf("%-34s", name);
+    for (const uint64_t count : counts) {
+        std::printf(" %9llu", static_cast<unsigned long long>(count));
+    }
+    std::printf(" %10llu\n", static_cast<unsigned long long>(sum(counts)));
+    std::fflush(stdout);
+}
+
+void count_log(Counter &counter, const std::string &path, Tally &all)
+{
+    ale_log_t *log = nullptr;
+    ale_log_error_t error;
+    if (ale_log_open(&log, path.c_str(), &error) < 0) {
+        throw std::runtime_error(error.message);
+    }
+    Counted counted(counter, ale_pipeline_default_config());
+    auto event = std::make_unique<ale_log_event_t>();
+    Tally tally;
+    while (ale_log_next(log, event.get()) > 0) {
+        if (event->kind == ALE_LOG_ODOMETRY) {
+            ale_pipeline_odometry(*counted, &event->odometry);
+        } else if (event->kind == ALE_LOG_SCAN) {
+            const Counts counts = counted.scan(event->scan);
+            tally.add(counts);
+            all.add(counts);
+        }
+    }
+    ale_log_close(log);
+    const std::string name = path.substr(path.rfind('/') + 1);
+    std::printf("%-34s %zu scans, median %llu\n", name.c_str(), tally.totals.size(),
+                static_cast<unsigned long long>(tally.median()));
+    print_row("  its most expensive scan", tally.worst);
+}
+
+/* The most expensive of a candidate's scans. */
+Counts cost(Counter &counter, const Costly &costly, Tally &stages)
+{
+    std::mt19937 random(7);
+    Counted counted(counter, ale_pipeline_default_config());
+    const auto map = bench::map_of(costly, random);
+    if (map->line_count > 0) {
+        ale_pipeline_load_map(*counted, map.get(), ale_pose_t{}, true);
+    }
+    Tally tally;
+    for (int k = 0; k < scans_of_a_candidate; k++) {
+        const ale_scan_t scan = bench::scan_of(costly, k, random);
+        const Counts counts = counted.scan(scan);
+        tally.add(counts);
+        stages.add(counts);
+    }
+    return tally.worst;
+}
+
+std::vector<std::pair<std::string, Costly>> beginnings()
+{
+    Costly zigzag;
+    Costly corners;
+    corners.square = 1;
+    corners.tooth_beams = 16;
+    Costly dropouts;
+    dropouts.dropped = 0.5;
+    Costly turning = zigzag;
+    turning.turn_rad_s = 1;
+    Costly full_map = turning;
+    full_map.map_walls = ALE_MAP_MAX_LINES;
+    Costly lost = full_map;
+    lost.jump_rad = 2;
+    return {{"zigzag", zigzag},   {"all corners", corners}, {"every other beam dropped", dropouts},
+            {"turning", turning}, {"full map", full_map},   {"full map, lost", lost}};
+}
+
+/* Hill climbing from the most expensive beginning. */
+Costly search(Counter &counter, int tries, Tally &stages)
+{
+    Costly best;
+    Counts best_cost{};
+    for (const auto &[name, costly] : beginnings()) {
+        const Counts counts = cost(counter, costly, stages);
+        print_row(name.c_str(), counts);
+        if (sum(counts) > sum(best_cost)) {
+            best = costly;
+            best_cost = counts;
+        }
+    }
+    std::mt19937 random(11);
+    for (int k = 0; k < tries; k++) {
+        const Costly candidate = bench::changed(best, random);
+        const Counts counts = cost(counter, candidate, stages);
+        if (sum(counts) > sum(best_cost)) {
+            best = candidate;
+            best_cost = counts;
+        }
+    }
+    print_row("most expensive scan found", best_cost);
+    std::printf("  it is: %s\n", best.words().c_str());
+    return best;
+}
+
+void run(const std::string &base, int tries, const std::vector<std::string> &logs)
+{
+    Counter counter(base);
+    Tally recorded;
+    Tally made;
+    std::printf("%-34s", "instructions of a scan");
+    for (const char *name : stage_names) {
+        std::printf(" %9s", name);
+    }
+    std::printf(" %10s\n", "in all");
+    for (const std::string &log : logs) {
+        count_log(counter, log, recorded);
+    }
+    search(counter, tries, made);
+    const uint64_t worst = sum(made.worst);
+    const uint64_t median = recorded.median();
+    print_row("every stage at its worst, together", made.worst_stage);
+    std::printf("\nmedian recorded scan          %llu\n"
+                "most expensive scan found     %llu, %.2f times the median\n"
+                "bound: all stages at worst    %llu, of which the scan found is %.0f %%\n",
+                static_cast<unsigned long long>(median), static_cast<unsigned long long>(worst),
+                static_cast<double>(worst) / static_cast<double>(median),
+                static_cast<unsigned long long>(sum(made.worst_stage)),
+                100.0 * static_cast<double>(worst) / static_cast<double>(sum(made.worst_stage)));
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+    if (argc < 4 || RUNNING_ON_VALGRIND == 0) {
+        std::fputs("usage: valgrind --tool=callgrind --collect-atstart=no --callgrind-out-file=BASE wcet "
+                   "BASE TRIES LOG...\n",
+                   stderr);
+        return 2;
+    }
+    try {
+        run(argv[1], std::atoi(argv[2]), {argv + 3, argv + argc});
+        return 0;
+    } catch (const std::exception &error) {
+        std::fprintf(stderr, "wcet: %s\n", error.what());
+        return 1;
+    }
+}
