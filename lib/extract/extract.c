@@ -23,7 +23,7 @@ enum {
     ROUGH_SHARED = 12, /* shared variances that a long wall may be wavy by, */
     ROUGH_REACHES = 4  /* and the reaches of the shared error from which on it is a long one */
 };
-static const int64_t MAX_SIGMA_ALPHA_NRAD = 122173048; /* 7 degrees: a line of no known direction is none */
+static const int64_t MAX_SIGMA_ALPHA_NRAD = 104719755; /* 6 degrees: a line of no known direction is none */
 
 ale_extract_config_t ale_extract_default_config(void)
 {

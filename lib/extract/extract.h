@@ -38,7 +38,7 @@ typedef struct {
     int64_t var_alpha_nrad2; /* covariance of (alpha, rho), own noise and shared error together */
     int64_t cov_alpha_rho;   /* um * nrad */
     int64_t var_rho_um2;
-    int64_t var_start_um2; /* variance of the ends along the line */
+    int64_t var_start_um2; /* variance of the ends along the line: where between two beams, and which */
     int64_t var_end_um2;
     int32_t rmse_um; /* of the raw points along the normal, n - 2 degrees of freedom */
 } ale_line_t;

@@ -32,16 +32,47 @@ static ale_point_t end_on_line(const ale_extractor_t *e, int32_t i, const ale_li
     return foot;
 }
 
+/* How many of n points err together in their mean, and in their slope, when the correlation of their errors
+ * falls to 1/e over so many beams: the sums of the correlations over all pairs of points, within 6 %; Q8. */
+static int64_t together_in_mean_q8(int64_t n, int64_t beams)
+{
+    const int64_t reach = n + beams;
+    return 512 * beams * n * reach / (reach * reach + beams * beams);
+}
+
+static int64_t together_in_slope_q8(int64_t n, int64_t beams)
+{
+    return 512 * beams * n * n / (n * n + 3 * beams * n + 11 * beams * beams);
+}
+
+/* The shared error counts as far as the scan shows it, or as configured where the scan is too small to tell.
+ */
 static void set_covariance(const ale_extractor_t *e, const ale_spread_t *m, ale_line_t *line,
                            int64_t mean_along_um)
 {
-    const int64_t repeats = ale_min64(line->points, (int64_t)2 * e->config.noise.shared_beams);
-    const int64_t var_q8 = m->fit.var_q8 + m->fit.shared_q8 * repeats;
-    const int64_t var_um2 = um2_of_q8(var_q8);
+    const int64_t n = line->points;
+    const int64_t beams = e->config.noise.shared_beams;
+    const int64_t shared_q8 = e->shared_absent ? 0 : m->fit.shared_q8;
+    const int64_t mean_q8 = m->fit.var_q8 + ((shared_q8 * together_in_mean_q8(n, beams)) >> 8);
+    const int64_t slope_q8 = m->fit.var_q8 + ((shared_q8 * together_in_slope_q8(n, beams)) >> 8);
     const int64_t along2_q8 = ale_max64(m->along2_q8, 1);
-    line->var_alpha_nrad2 = ale_mul_div(var_q8, 1000000000000000000, along2_q8);
+    line->var_alpha_nrad2 = ale_mul_div(slope_q8, 1000000000000000000, along2_q8);
     line->cov_alpha_rho = ale_mul_nano(line->var_alpha_nrad2, mean_along_um);
-    line->var_rho_um2 = var_um2 / line->points + ale_mul_nano(line->cov_alpha_rho, mean_along_um);
+    line->var_rho_um2 = um2_of_q8(mean_q8) / n + ale_mul_nano(line->cov_alpha_rho, mean_along_um);
+}
+
+/* Variance of an end along the line. The wall ends anywhere between its last beam and the next one, which
+ * would meet it range^2 step / rho farther: a third of that squared. Where the surface goes on, the break may
+ * be a beam off, and the noise along the normal moves it. */
+static int64_t end_var_um2(const ale_extractor_t *e, int32_t i, bool at_break, int64_t var_um2,
+                           int32_t rho_um)
+{
+    const int64_t range_um = e->range_um[i];
+    const int64_t across_um = ale_mul_nano(range_um, e->step_nrad);
+    const int64_t along_um = ale_mul_div(across_um, range_um, ale_max64(rho_um, 1));
+    const int64_t spacing_um = ale_min64(along_um, range_um);
+    const int64_t spacing2_um2 = spacing_um * spacing_um;
+    return at_break ? spacing2_um2 / 2 + var_um2 : spacing2_um2 / 3;
 }
 
 ale_run_fit_t ale_line_fit(const ale_extractor_t *e, ale_segment_t run, ale_line_t *line)
@@ -69,7 +100,10 @@ ale_run_fit_t ale_line_fit(const ale_extractor_t *e, ale_segment_t run, ale_line
     const int64_t mse_q8 = m.fit.sse_q8 / ale_max64(m.fit.n - 2, 1);
     line->rmse_um = (int32_t)ale_isqrt((uint64_t)um2_of_q8(mse_q8));
     set_covariance(e, &m, line, dot_q30(m.mean_x_um, m.mean_y_um, -s, c));
-    line->var_start_um2 = um2_of_q8(m.fit.var_q8);
-    line->var_end_um2 = line->var_start_um2;
+    const int64_t var_um2 = um2_of_q8(m.fit.var_q8);
+    const bool from_break = run.first > 0 && !e->jump_after[run.first - 1];
+    const bool to_break = run.last + 1 < e->count && !e->jump_after[run.last];
+    line->var_start_um2 = end_var_um2(e, run.first, from_break, var_um2, line->rho_um);
+    line->var_end_um2 = end_var_um2(e, run.last, to_break, var_um2, line->rho_um);
     return m.fit;
 }

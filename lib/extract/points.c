@@ -44,6 +44,7 @@ void ale_points_list(ale_extractor_t *e, const ale_scan_t *scan)
     }
     e->count = (uint16_t)n;
     e->outliers = 0;
+    e->step_nrad = ale_bam_to_nrad((int32_t)ale_abs64(scan->step_bam));
 }
 
 static inline int32_t coordinate_q4(int64_t range_um, int64_t per_um)

@@ -230,6 +230,7 @@ bool ale_scan_noise_measure_shared(ale_extractor_t *e, const ale_scan_t *scan)
         }
     }
     e->shared_scale_q8 = samples < MIN_BLOCKS ? 256 : shared_scale_q8(e, bins, samples, range_mm / samples);
+    e->shared_absent = samples >= MIN_BLOCKS && e->shared_scale_q8 == 256;
     e->noise.shared_mm2_q36 = (e->shared_prior_mm2_q36 * e->shared_scale_q8) >> 8;
     e->noise.shared_relative_q36 = (e->shared_prior_relative_q36 * e->shared_scale_q8) >> 8;
     return e->shared_scale_q8 > 256;

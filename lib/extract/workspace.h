@@ -81,6 +81,7 @@ struct ale_extractor {
     int32_t sin_q36[2 * ALE_MAX_BEAMS + 1];
 
     /* The points. */
+    int64_t step_nrad; /* from beam to beam, without sign */
     uint16_t count;
     uint16_t outliers;
     uint16_t beam[ALE_MAX_BEAMS];
@@ -103,6 +104,7 @@ struct ale_extractor {
 
     ale_scan_noise_t noise;
     int64_t shared_scale_q8;
+    bool shared_absent; /* measured, and there is none */
     int64_t inverse_sum[ALE_MAX_BEAMS + 1];
     int64_t shared_prior_mm2_q36;
     int64_t shared_prior_relative_q36;

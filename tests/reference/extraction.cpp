@@ -21,7 +21,7 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double rough_own = 1.25;  // the measured noise errs too
 constexpr double rough_shared = 12; // shared variances that a long wall may be wavy by,
 constexpr double rough_reaches = 4; // and the reaches of the shared error from which on it is a long one
-constexpr double most_sigma_alpha = 7 * pi / 180;
+constexpr double most_sigma_alpha = 6 * pi / 180;
 constexpr int corner_gap = 5;        // beams
 constexpr double corner_reach = 150; // mm
 const double corner_least_sine = std::sin(15 * pi / 180);
@@ -72,10 +72,11 @@ std::vector<Run> search(const Prepared &p, Decisions &decisions)
 std::vector<Run> searched_runs(Prepared &p, const ExtractionSettings &settings, Decisions &decisions)
 {
     const std::vector<Run> runs = search(p, decisions);
-    const double scale = shared_scale(p.points, p.noise, runs, settings.step, decisions);
-    p.noise.shared_constant *= scale;
-    p.noise.shared_relative *= scale;
-    if (scale > 1) {
+    const SharedNoise shared = shared_noise(p.points, p.noise, runs, settings.step, decisions);
+    p.noise.shared_constant *= shared.scale;
+    p.noise.shared_relative *= shared.scale;
+    p.noise.shared_absent = shared.absent;
+    if (shared.scale > 1) {
         return search(p, decisions);
     }
     p.noise.own_scale = own_scale(p.points, p.noise, runs, decisions);
@@ -93,6 +94,22 @@ std::vector<Run> improved_runs(const Prepared &p, std::vector<Run> runs, Decisio
         runs = with_curves(p.points, p.noise, p.segments, runs, decisions);
     }
     return runs;
+}
+
+// How many of n points err together in the slope of their line: the quadratic form of the correlations
+// exp(-|i - j| / shared_beams) with their places along the line.
+double together_in_slope(const NoiseOfScan &noise, int n)
+{
+    double form = 0;
+    double squares = 0;
+    for (int i = 0; i < n; i++) {
+        const double u = i - (n - 1) / 2.0;
+        squares += u * u;
+        for (int j = 0; j < n; j++) {
+            form += u * (j - (n - 1) / 2.0) * std::exp(-std::abs(i - j) / noise.shared_beams);
+        }
+    }
+    return form / squares;
 }
 
 // Where the beam of a point meets the line, or the point's foot where the two are almost parallel.
@@ -118,7 +135,8 @@ bool is_line(const Prepared &p, const ExtractionSettings &settings, Run run, con
 {
     const Eigen::Vector2d start = end_on_line(p.points[static_cast<size_t>(run.first)], fit);
     const Eigen::Vector2d end = end_on_line(p.points[static_cast<size_t>(run.last)], fit);
-    const double var_alpha = (fit.var + fit.shared * points_together(p.noise, fit.n)) / fit.along2;
+    const double shared = p.noise.shared_absent ? 0 : fit.shared * together_in_slope(p.noise, fit.n);
+    const double var_alpha = (fit.var + shared) / fit.along2;
     return fit.n >= settings.least_points && !decisions.below((end - start).norm(), settings.least_length) &&
            decisions.below(std::sqrt(var_alpha), most_sigma_alpha) &&
            decisions.below(fit.sse, rough_limit(p.noise, fit));

@@ -136,8 +136,8 @@ NoiseOfScan own_noise(const ScanPoints &points, const NoiseOfScan &prior, double
     return noise;
 }
 
-double shared_scale(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &runs,
-                    double step, Decisions &decisions)
+SharedNoise shared_noise(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &runs,
+                         double step, Decisions &decisions)
 {
     std::vector<double> ratio;
     double range = 0;
@@ -158,15 +158,15 @@ double shared_scale(const ScanPoints &points, const NoiseOfScan &noise, const st
         }
     }
     if (ratio.size() < least_blocks) {
-        return 1;
+        return {1, false};
     }
     range /= static_cast<double>(ratio.size());
     const double median = binned_quantile(ratio, 0.5) / 256 / median_of_chi_square;
     if (decisions.below(median, plain_ratio)) {
-        return 1;
+        return {1, true};
     }
     const double shared = (median - 1) * noise.own(range) * 6 / block / shared_gain;
-    return std::clamp(shared / noise.shared(range), least_scale, most_scale);
+    return {std::clamp(shared / noise.shared(range), least_scale, most_scale), false};
 }
 
 double own_scale(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &runs,

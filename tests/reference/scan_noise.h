@@ -17,9 +17,13 @@ double binned_quantile(const std::vector<double> &values, double share);
 NoiseOfScan own_noise(const ScanPoints &points, const NoiseOfScan &prior, double step);
 
 // The shared part in units of the prior's, from second differences of blocks of eight beams: 1 where there
-// is no more than that.
-double shared_scale(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &runs,
-                    double step, Decisions &decisions);
+// is no more than that, or too little to tell.
+struct SharedNoise {
+    double scale;
+    bool absent; // measured, and there is none
+};
+SharedNoise shared_noise(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &runs,
+                         double step, Decisions &decisions);
 
 // Correction of the own variance by the residuals of the runs.
 double own_scale(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &runs,

@@ -43,6 +43,7 @@ struct NoiseOfScan {
     double shared_relative = 0;
     double shared_beams = 12;
     double bearing_variance = 0;
+    bool shared_absent = false; // measured, and there is none
 
     double own(double range) const
     {

@@ -18,7 +18,7 @@ TOOL_PARTS = $(foreach t,$(TOOL_FOLDERS),$(filter-out %/main.c %/main.cpp,$(wild
 $(BUILD)/libale_tool_parts.a: $(call objects,$(TOOL_PARTS))
 	$(archive)
 # Tests of the core use the benchmark's worlds and its simulated scanner.
-TEST_WORLD_SOURCES = tools/bench/world.cpp tools/bench/simulate.cpp
+TEST_WORLD_SOURCES = tools/bench/world.cpp tools/bench/simulate.cpp tools/bench/truth.cpp
 $(BUILD)/libale_test_shared.a: $(call objects,$(TEST_SHARED_SOURCES) $(TEST_WORLD_SOURCES))
 	$(archive)
 

@@ -49,11 +49,14 @@ TEST(ScanNoise, SharedNoiseAndTheCorrectionByResidualsAreThoseOfTheTwin)
         const reference::NoiseOfScan before = scene::noise_of(*e);
         const auto runs = scene::runs_of(*e);
         reference::Decisions decisions;
-        const double twin = reference::shared_scale(points, before, runs, scene::step_of(*scan), decisions);
+        const reference::SharedNoise twin =
+            reference::shared_noise(points, before, runs, scene::step_of(*scan), decisions);
         ale_scan_noise_measure_shared(e, scan.get());
         const double scale = static_cast<double>(e->shared_scale_q8) / 256;
-        agreement.compare(std::fabs(scale - twin) < 0.01 * twin, decisions, k);
-        shared += twin > 1 ? 1 : 0;
+        agreement.compare(std::fabs(scale - twin.scale) < 0.01 * twin.scale &&
+                              e->shared_absent == twin.absent,
+                          decisions, k);
+        shared += twin.scale > 1 ? 1 : 0;
         reference::Decisions accepted;
         const double own = reference::own_scale(points, scene::noise_of(*e), runs, accepted);
         ale_scan_noise_refine_own(e);
