@@ -47,6 +47,11 @@ system: programs lcm-types venv ## tests of the real programs over pseudo termin
 system-rtai: programs lcm-types venv $(BUILD)/rtai/ale-slamd ## the system tests with the firmware on an emulated RTAI (T=file of tests/system)
 	@ALE_SLAMD=$(BUILD)/rtai/ale-slamd $(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(or $(T),tests/system)
 
+.PHONY: hil-vm
+hil-vm: programs lcm-types venv ## the firmware on a virtual robot PC: PREEMPT_RT kernel in qemu, UART to ale-sim, LCM read outside
+	@tools/make/deps.sh tools/make/packages-vm.txt
+	@$(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python -rP tests/system/hil_vm.py
+
 .PHONY: endurance
 endurance: programs lcm-types venv ## 20,000 scans at ten times the speed, and latency under load: minutes, on an idle machine
 	@PYTHONPATH=$(BUILD)/python PYTHONDONTWRITEBYTECODE=1 $(VENV)/bin/python -m pytest -q -rP -p no:cacheprovider tests/system/endurance.py
@@ -138,6 +143,8 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	-@$(PYTHON) tools/make/run_tests.py command "install, remove, purge" $(SUB) test-deb
 	@echo "== the same bytes on other machines, emulated"
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, aarch64 armhf s390x" $(SUB) cross
+	@echo "== the firmware on a virtual robot PC"
+	-@$(SUB) hil-vm
 	@echo "== the firmware as an RTAI program, on an emulated RTAI"
 	-@$(PYTHON) tools/make/run_tests.py command "make RT=rtai" $(SUB) $(RTAI_BUILD) -j2 programs
 	-@$(SUB) system-rtai

@@ -1,0 +1,149 @@
+"""Hardware in the loop without hardware: the firmware on a virtual robot PC under a PREEMPT_RT kernel, against the simulated scanner outside.
+
+`make hil-vm`. One drive through the bundled home; on the way the serial line is pulled, at its end the firmware is killed. Pose and
+features are read off the machine's network and held against the simulated truth.
+"""
+import math
+import shutil
+import statistics
+
+import pytest
+
+from chain import WORLDS, Truth, distance_to_wall, wait_until, walls_of, wrap
+from virtual_robot import Lan, Line, Machine, NoMachine, fetch_kernel, pause, set_clock
+
+BOOT_S = 120
+FIRST_POSES_S = 60
+DRIVE_S = 90
+STANDING_SCANS = 30
+PULLED_S = 2
+RECOVERY_S = 20
+ATE_M = 0.060  # blind for two seconds at full speed
+ON_A_WALL_M = 0.060
+GOOD = 2
+
+
+def good_poses(lan, count):
+    """Whether the last poses are all good."""
+    return len(lan.messages["ALE_POSE"]) >= count and all(pose.state == GOOD for pose in lan.messages["ALE_POSE"][-count:])
+
+
+def stands(poses):
+    """Whether the robot has come to rest, for as long as the firmware needs to keep map and pose."""
+    last = poses[-STANDING_SCANS:]
+    moved = max(math.hypot(pose.map_x - last[-1].map_x, pose.map_y - last[-1].map_y) for pose in last)
+    return len(poses) > 10 * STANDING_SCANS and moved < 0.03 and all(pose.state == GOOD for pose in last)
+
+
+@pytest.fixture(scope="module")
+def drive(long_chain, request):
+    """The whole drive. What happened is told by its marks: how many poses there were when."""
+    if not shutil.which("qemu-system-x86_64"):
+        pytest.skip("no qemu-system-x86_64 here")
+    try:
+        kernel, module = fetch_kernel()
+    except NoMachine as error:
+        pytest.skip(str(error))
+    lan = Lan(long_chain.url)
+    request.addfinalizer(lan.stop)
+    sim = long_chain.simulator("--world", WORLDS / "home.world", "--truth", long_chain.truth_path)
+    machine = Machine(long_chain.folder, kernel, module, lan)
+    request.addfinalizer(machine.stop)
+    line = Line(long_chain.port, machine.uart)
+    request.addfinalizer(line.stop)
+    wait_until(lambda: "ready" in machine.said() or not machine.running(), BOOT_S, "the end of the machine's start")
+    set_clock(machine)
+    machine.order("start")
+    drive_through_faults(lan, line, machine)
+    assert sim.end() == 0, sim.err()
+    lan.machine = machine
+    lan.truth = Truth(long_chain.truth_path)
+    return lan
+
+
+def drive_through_faults(lan, line, machine):
+    poses, statuses = lan.messages["ALE_POSE"], lan.messages["ALE_STATUS"]
+    wait_until(lambda: len(poses) >= 150 or not machine.running(), FIRST_POSES_S, "150 poses out of the machine")
+    assert machine.running(), machine.said()
+    lan.pulled = len(poses)
+    line.pulled = True
+    pause(PULLED_S)
+    line.pulled = False
+    wait_until(lambda: len(poses) > lan.pulled and good_poses(lan, 20), RECOVERY_S, "good poses after the line was pulled")
+    wait_until(lambda: stands(poses), DRIVE_S, "the end of the way")
+    lan.killed = len(poses)
+    boot = statuses[-1].boot
+    machine.order("kill")
+    wait_until(lambda: statuses[-1].boot != boot, RECOVERY_S, "the firmware's new start")
+    wait_until(lambda: poses[-1].scan < poses[lan.killed - 1].scan and good_poses(lan, 20), RECOVERY_S, "good poses after the kill")
+    lan.restarted = next(k for k in range(lan.killed - 1, len(poses)) if poses[k].scan < poses[k - 1].scan)
+
+
+def offset_us(drive):
+    """From the machine's clock to the simulator's: until the line is pulled, the pose of scan k belongs to the k-th scan sent."""
+    first = drive.messages["ALE_POSE"][:drive.pulled]
+    return statistics.median(1e6 * drive.truth.times[pose.scan] - pose.utime for pose in first)
+
+
+def errors_m(drive, first, last):
+    offset = offset_us(drive)
+    seconds = lambda pose: (pose.utime + offset) * 1e-6  # noqa: E731
+    poses = drive.messages["ALE_POSE"]
+    origin = drive.truth.world[0]  # the first scan's: the firmware's frame
+    pairs = [(pose, drive.truth.at(seconds(pose), origin)) for pose in poses[first:last]]
+    return [math.hypot(pose.map_x - true[0], pose.map_y - true[1]) for pose, true in pairs if true and pose.state == GOOD]
+
+
+def root_mean_square(values):
+    return math.sqrt(sum(value * value for value in values) / len(values))
+
+
+def test_the_kernel_is_a_real_time_one_and_the_firmware_says_so(drive):
+    status = drive.messages["ALE_STATUS"][0]
+    print(status.realtime_detail)
+    assert "PREEMPT_RT" in status.realtime_detail.split("missing")[0]
+    assert "SCHED_FIFO 80" in status.realtime_detail and "locked memory" in status.realtime_detail.split("missing")[0]
+
+
+def test_the_pose_follows_the_truth_until_the_kill(drive):
+    error = root_mean_square(errors_m(drive, 0, drive.killed))
+    print(f"{1000 * error:.1f} mm over {drive.killed} scans, the line pulled for {PULLED_S} s after {drive.pulled}")
+    assert error <= ATE_M
+
+
+def test_scan_by_scan_a_pose_comes_out_until_the_line_is_pulled(drive):
+    scans = [pose.scan for pose in drive.messages["ALE_POSE"][:drive.pulled]]
+    assert scans == list(range(len(scans)))
+
+
+def test_a_pulled_line_is_noticed_and_taken_up_again(drive):
+    counters = next(dict(zip(status.counter_name, status.counter_value))
+                    for status in reversed(drive.messages["ALE_STATUS"]) if status.boot == drive.messages["ALE_STATUS"][0].boot)
+    assert counters["stream_restarts"] + counters["reopens"] > 0
+
+
+def test_killed_it_starts_again_and_goes_on_in_the_map_it_kept(drive):
+    errors = errors_m(drive, drive.restarted, None)
+    print(f"{1000 * root_mean_square(errors):.1f} mm over {len(errors)} scans after the kill")
+    assert "ale-slamd ended with 137" in drive.machine.said()
+    assert len(errors) >= 20
+    assert root_mean_square(errors) <= ATE_M
+
+
+def test_features_lie_on_true_walls(drive):
+    walls = walls_of("home")
+    distances = []
+    offset = offset_us(drive)
+    for message in drive.messages["ALE_FEATURES"][::5]:
+        pose = drive.truth.world_at((message.utime + offset) * 1e-6)
+        if pose is None:
+            continue
+        c, s = math.cos(wrap(pose[2])), math.sin(wrap(pose[2]))
+        for line in message.lines:
+            for x, y in ((line.x1, line.y1), (line.x2, line.y2)):
+                at = (pose[0] + c * x - s * y, pose[1] + s * x + c * y)
+                distances.append(min(distance_to_wall(wall, *at) for wall in walls))
+    on_walls = sum(distance < ON_A_WALL_M for distance in distances) / len(distances)
+    print(f"{len(distances)} line ends, {100 * on_walls:.1f} % on walls")
+    assert len(distances) > 300
+    assert on_walls > 0.97
