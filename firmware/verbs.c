@@ -7,6 +7,7 @@
 #include "decimal.h"
 #include "explore_thread.h"
 #include "log/text.h"
+#include "recorder.h"
 #include "wake.h"
 
 enum { MICRO = 6 };
@@ -216,6 +217,16 @@ static bool set_freeze_map(ale_commands_t *commands, const ale_command_t *comman
     return true;
 }
 
+static bool record(ale_commands_t *commands, const ale_command_t *command)
+{
+    (void)command;
+    if (!commands->exchange->recorder) {
+        return ANSWER(commands, false, "this robot records no flights");
+    }
+    ale_recorder_trigger(commands->exchange->recorder, ALE_RECORD_COMMAND);
+    return ANSWER(commands, true, "a flight recording is being written");
+}
+
 typedef bool (*handler_t)(ale_commands_t *commands, const ale_command_t *command);
 
 typedef struct {
@@ -253,7 +264,7 @@ static bool set(ale_commands_t *commands, const ale_command_t *command)
 static const verb_t verbs[] = {
     {"drive", 2, 2, drive},       {"stop", 0, 0, stop},         {"reset", 0, 0, reset},
     {"save_map", 1, 1, save_map}, {"load_map", 1, 4, load_map}, {"relocate", 3, 3, relocate},
-    {"explore", 1, 1, explore},   {"set", 2, 2, set},
+    {"explore", 1, 1, explore},   {"set", 2, 2, set},           {"record", 0, 0, record},
 };
 
 bool ale_verbs_obey(ale_commands_t *commands, const ale_command_t *command)

@@ -20,6 +20,7 @@ extern "C" {
 #include "commands.h"
 #include "drive.h"
 #include "explore_thread.h"
+#include "recorder.h"
 }
 
 using signed_command::boot;
@@ -296,6 +297,21 @@ TEST_F(Commands, ExplorationIsSwitchedOnAndOffAndEndedByAStop)
     EXPECT_FALSE(ale_explore_is_on(exchange.explore));
     EXPECT_FALSE(orders().exploring);
     ale_explore_stop(exchange.explore);
+}
+
+TEST_F(Commands, AFlightRecordingIsWrittenWhereThereIsARecorder)
+{
+    EXPECT_EQ(ask(alice, {"record"}), "-this robot records no flights");
+    std::snprintf(config.recorder_folder, sizeof config.recorder_folder, "%s", folder.c_str());
+    exchange.recorder = ale_recorder_start(&config);
+    ASSERT_NE(exchange.recorder, nullptr);
+    EXPECT_EQ(ask(alice, {"record"}), "+a flight recording is being written");
+    ale_recorder_stop(exchange.recorder); /* writes what was asked for */
+    int recordings = 0;
+    for (const auto &entry : std::filesystem::directory_iterator(folder)) {
+        recordings += entry.path().extension() == ".scip";
+    }
+    EXPECT_EQ(recordings, 1);
 }
 
 TEST_F(Commands, NonsenseIsAnsweredInWords)

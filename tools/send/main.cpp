@@ -27,6 +27,7 @@ constexpr char usage[] =
     "  stop                    stands still at once; exploration ends\n"
     "  explore on|off\n"
     "  reset                   forgets map and pose\n"
+    "  record                  writes a flight recording\n"
     "  relocate X Y THETA      the robot is there, in metres and radians of the map\n"
     "  save_map NAME, load_map NAME [X Y THETA]\n"
     "  set drive_speed V, set drive_turn W, set publish_scan yes|no, set freeze_map yes|no\n"
