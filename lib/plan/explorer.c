@@ -7,8 +7,9 @@
 
 /* Counted in scans, ten a second. */
 enum { PLAN_EVERY = 5, STALL_STEPS = 80, STUCK_STEPS = 10, BACKING_STEPS = 15 };
-enum { COMFORT_CM = 15, UM_PER_CM = 10000 };
+enum { SURE_PLANS = 4, COMFORT_CM = 15, UM_PER_CM = 10000 };
 #define CARROT_UM 700000
+#define TIGHT_AHEAD_UM 400000
 #define GOT_ON_UM 100000
 #define HOME_UM 20000
 #define HOME_NEAR_UM 400000
@@ -63,6 +64,7 @@ static void begin(ale_explorer_t *explorer, ale_pose_t pose)
     const int32_t body_cm =
         centimetres((int64_t)radius_um + shape->margin_um + explorer->config.clearance_um);
     const ale_planner_config_t planner = {.body_cm = body_cm,
+                                          .tight_cm = centimetres((int64_t)radius_um + shape->margin_um),
                                           .squeeze_cm = centimetres(radius_um),
                                           .comfort_cm = body_cm + COMFORT_CM,
                                           .see_cm = centimetres(radius_um)};
@@ -73,6 +75,7 @@ static void begin(ale_explorer_t *explorer, ale_pose_t pose)
     explorer->route.count = 0;
     explorer->goal = ALE_GRID_NONE;
     explorer->steps_since_plan = PLAN_EVERY;
+    explorer->plans_without_goal = 0;
     explorer->steps_stuck = 0;
     explorer->steps_back = 0;
     explorer->begun = true;
@@ -139,12 +142,17 @@ static int64_t distance_um(ale_point_t a, ale_point_t b)
     return ale_isqrt((uint64_t)(dx * dx + dy * dy));
 }
 
+/* A moment's noise may close a way: that nothing is left must be seen several times. */
 static void plan_exploring(ale_explorer_t *explorer, ale_point_t robot)
 {
     if (ale_planner_explore(&explorer->planner, &explorer->grid, robot, explorer->goal, &explorer->route)) {
         explorer->goal = explorer->route.goal;
-    } else {
-        explorer->goal = ALE_GRID_NONE;
+        explorer->plans_without_goal = 0;
+        return;
+    }
+    explorer->goal = ALE_GRID_NONE;
+    explorer->plans_without_goal++;
+    if (explorer->plans_without_goal >= SURE_PLANS) {
         explorer->state = ALE_EXPLORER_RETURNING;
         got_on(explorer);
     }
@@ -186,7 +194,6 @@ static void watch_progress(ale_explorer_t *explorer)
 
 static ale_velocity_t drive_route(ale_explorer_t *explorer, const ale_scan_t *scan)
 {
-    const ale_follower_t *follower = &explorer->config.follower;
     const ale_point_t robot = {explorer->pose.x_um, explorer->pose.y_um};
     if (explorer->route.count == 0) {
         return standing;
@@ -194,7 +201,11 @@ static ale_velocity_t drive_route(ale_explorer_t *explorer, const ale_scan_t *sc
     const ale_point_t carrot =
         ale_planner_carrot(&explorer->planner, &explorer->grid, &explorer->route, robot, CARROT_UM);
     const int64_t way_um = ale_max64((int64_t)explorer->route.cost * UM_PER_CM, ALE_GRID_CELL_UM);
-    return back_off(explorer, ale_follow(follower, explorer->pose, carrot, way_um, scan), scan);
+    ale_follower_t follower = explorer->config.follower;
+    if (ale_planner_is_tight(&explorer->planner, &explorer->route, TIGHT_AHEAD_UM)) {
+        follower.speed_um_s = (int32_t)ale_min64(follower.speed_um_s, follower.shape.blind_um_s);
+    }
+    return back_off(explorer, ale_follow(&follower, explorer->pose, carrot, way_um, scan), scan);
 }
 
 static ale_velocity_t drive_home(ale_explorer_t *explorer, const ale_scan_t *scan)

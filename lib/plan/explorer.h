@@ -42,6 +42,7 @@ typedef struct {
     ale_pose_t home; /* where it was switched on, map frame */
     ale_pose_t pose; /* where the robot is now */
     uint32_t steps_since_plan;
+    uint32_t plans_without_goal;
     ale_route_t route;
     ale_cell_t goal;    /* of the way before, ALE_GRID_NONE: none */
     ale_point_t anchor; /* where the robot was when it last got on */

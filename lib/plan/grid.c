@@ -4,8 +4,7 @@
 
 #include "base/fixed.h"
 
-/* A hit outweighs two passes: beams that graze a wall run through its cells. */
-enum { HIT = 5, PASS = -2, MOST_OCCUPIED = 30, MOST_FREE = -20 };
+enum { MOST_OCCUPIED = 30, MOST_FREE = -20 };
 enum { AGREEING_BEAMS = 5 };
 #define UNCLEARED_UM 75000 /* before a hit: the wall's own cell and what noise makes of it */
 
@@ -65,6 +64,12 @@ ale_grid_part_t ale_grid_take_changed(ale_grid_t *grid)
     return changed;
 }
 
+/* Free, unseen, perhaps occupied, occupied. */
+static int32_t kind_of(int8_t evidence)
+{
+    return evidence < 0 ? -1 : (evidence > 0) + (evidence > ALE_GRID_HIT);
+}
+
 /* Once a scan. 0 means never seen: evidence that cancels out leans to what was said last. */
 static void change(ale_grid_t *grid, ale_cell_t cell, int32_t by)
 {
@@ -80,7 +85,7 @@ static void change(ale_grid_t *grid, ale_cell_t cell, int32_t by)
         grid->seen++;
         include(&grid->extent, cell);
     }
-    if (before == 0 || (before < 0) != (after < 0)) {
+    if (kind_of(before) != kind_of(after)) {
         include(&grid->changed, cell);
     }
 }
@@ -93,7 +98,7 @@ static ale_point_t end_of_beam(ale_pose_t sensor, uint32_t bearing_bam, int32_t 
 
 /* Cell by cell along the longer axis, from the sensor on. */
 static void clear_ray(ale_grid_t *grid, ale_pose_t sensor, uint32_t bearing_bam, int32_t range_um,
-                      bool stops_at_occupied)
+                      bool stops_at_hits)
 {
     const ale_point_t end = end_of_beam(sensor, bearing_bam, range_um);
     const int64_t dx_um = (int64_t)end.x_um - sensor.x_um;
@@ -104,10 +109,10 @@ static void clear_ray(ale_grid_t *grid, ale_pose_t sensor, uint32_t bearing_bam,
     for (int64_t k = 0; k <= steps; k++) {
         const int64_t of = steps > 0 ? steps : 1;
         const ale_cell_t cell = cell_at(line_of(x_um + dx_um * k / of), line_of(y_um + dy_um * k / of));
-        if (cell == ALE_GRID_NONE || (stops_at_occupied && ale_grid_is_occupied(grid, cell))) {
+        if (cell == ALE_GRID_NONE || (stops_at_hits && grid->evidence[cell] > 0)) {
             return;
         }
-        change(grid, cell, PASS);
+        change(grid, cell, ALE_GRID_PASS);
     }
 }
 
@@ -119,7 +124,7 @@ static void add_hits(ale_grid_t *grid, const ale_scan_t *scan, const uint32_t be
             const ale_point_t hit = end_of_beam(sensor, bearing_bam[k], scan->range_um[k]);
             const ale_cell_t cell = ale_grid_cell(grid, hit);
             if (cell != ALE_GRID_NONE) {
-                change(grid, cell, HIT);
+                change(grid, cell, ALE_GRID_HIT);
             }
         }
     }
@@ -142,8 +147,21 @@ void ale_grid_add_scan(ale_grid_t *grid, const ale_scan_t *scan, const uint32_t 
     }
 }
 
+static void note_place(ale_grid_t *grid, ale_point_t p)
+{
+    for (int32_t k = 0; k < 9; k++) {
+        const ale_point_t q = {p.x_um + (k % 3 - 1) * ALE_GRID_CELL_UM,
+                               p.y_um + (k / 3 - 1) * ALE_GRID_CELL_UM};
+        const ale_cell_t cell = ale_grid_cell(grid, q);
+        if (cell != ALE_GRID_NONE) {
+            grid->stood_in[cell / 32] |= UINT32_C(1) << (cell % 32);
+        }
+    }
+}
+
 void ale_grid_add_disc(ale_grid_t *grid, ale_point_t p, int32_t radius_um)
 {
+    note_place(grid, p);
     const int32_t reach = radius_um / ALE_GRID_CELL_UM + 1;
     const int64_t radius2 = (int64_t)radius_um * radius_um;
     for (int32_t dy = -reach; dy <= reach; dy++) {
@@ -152,7 +170,7 @@ void ale_grid_add_disc(ale_grid_t *grid, ale_point_t p, int32_t radius_um)
             const ale_cell_t cell = ale_grid_cell(grid, q);
             const int64_t d2 = (int64_t)dx * dx + (int64_t)dy * dy;
             if (cell != ALE_GRID_NONE && d2 * ALE_GRID_CELL_UM * ALE_GRID_CELL_UM <= radius2) {
-                change(grid, cell, PASS);
+                change(grid, cell, ALE_GRID_PASS);
             }
         }
     }

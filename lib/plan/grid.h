@@ -5,9 +5,10 @@
  *   ale_grid_add_disc(grid, robot, radius_um);                     where the robot stands nothing else does
  *   if (ale_grid_is_free(grid, ale_grid_cell(grid, p))) ...
  *
- * A cell holds evidence, one signed byte: below 0 free, above 0 occupied, 0 never seen. A beam that ends in a
- * cell counts more than one that passes and comes before it, evidence is bounded, and a cell changes once a
- * scan: what moves away is forgotten after 1.5 s of looking at it. What lies beyond the square is never seen.
+ * A cell holds evidence, one signed byte: below 0 free, 0 never seen, above 0 perhaps occupied, from the
+ * second hit on occupied (one alone may be a mixed pixel). A beam that ends in a cell counts more than one
+ * that passes and comes before it, evidence is bounded, and a cell changes once a scan: what moves away is
+ * forgotten after 1.5 s of looking at it. What lies beyond the square is never seen.
  * One owner thread; no allocation, every loop bounded. */
 #ifndef ALE_PLAN_GRID_H
 #define ALE_PLAN_GRID_H
@@ -22,6 +23,9 @@
  * neighbours. */
 enum { ALE_GRID_SIDE = 1024, ALE_GRID_CELLS = ALE_GRID_SIDE * ALE_GRID_SIDE, ALE_GRID_RIM = 3 };
 #define ALE_GRID_CELL_UM 50000
+
+/* A hit outweighs two passes: beams that graze a wall run through its cells. */
+enum { ALE_GRID_HIT = 5, ALE_GRID_PASS = -2 };
 
 /* Index of a cell, row by row; ALE_GRID_NONE: outside. */
 typedef uint32_t ale_cell_t;
@@ -42,6 +46,8 @@ typedef struct {
     uint32_t seen;           /* cells seen */
     uint8_t scan;            /* number of the scan being added, 1..255 */
     int8_t evidence[ALE_GRID_CELLS];
+    uint32_t
+        stood_in[ALE_GRID_CELLS / 32];  /* a bit a cell: the robot's centre has been there, or beside it */
     uint8_t changed_in[ALE_GRID_CELLS]; /* the scan that changed it last */
 } ale_grid_t;
 
@@ -50,7 +56,7 @@ void ale_grid_init(ale_grid_t *grid, ale_point_t centre);
 
 /* Adds a scan seen from `sensor` (map frame). bearing_bam[k]: bearing of beam k in the sensor's frame,
  * straightened with its range. Beams without return clear three quarters of the reach, up to the first cell
- * known as occupied, where at least five neighbours agree. O(beams * reach / cell). */
+ * that was hit, where at least five neighbours agree. O(beams * reach / cell). */
 void ale_grid_add_scan(ale_grid_t *grid, const ale_scan_t *scan, const uint32_t bearing_bam[],
                        ale_pose_t sensor);
 
@@ -72,7 +78,13 @@ static inline bool ale_grid_is_free(const ale_grid_t *grid, ale_cell_t cell)
 
 static inline bool ale_grid_is_occupied(const ale_grid_t *grid, ale_cell_t cell)
 {
-    return grid->evidence[cell] > 0;
+    return grid->evidence[cell] > ALE_GRID_HIT;
+}
+
+/* Where it was it may go again. */
+static inline bool ale_grid_was_stood_in(const ale_grid_t *grid, ale_cell_t cell)
+{
+    return ((grid->stood_in[cell / 32] >> (cell % 32)) & 1U) != 0;
 }
 
 static inline bool ale_grid_is_unseen(const ale_grid_t *grid, ale_cell_t cell)

@@ -2,10 +2,10 @@
 
 #include "base/fixed.h"
 
-enum { STRAIGHT_CM = 5, DIAGONAL_CM = 7, FULL_PENALTY = 3, SQUEEZED_FACTOR = 8 };
+enum { STRAIGHT_CM = 5, DIAGONAL_CM = 7, FULL_PENALTY = 3 };
+enum { TIGHT_FACTOR = 5, MOST_FACTOR = 9, STOOD_SLACK_CM = 5 };
 enum { END_CELLS = 10, REFUSED_CELLS = 6, SAME_GOAL_CELLS = 8, KEEP_COST = 150 };
-_Static_assert(DIAGONAL_CM *SQUEEZED_FACTOR <= ALE_WAVEFRONT_MAX_STEP,
-               "steps must fit the wavefront's buckets");
+_Static_assert(DIAGONAL_CM *MOST_FACTOR <= ALE_WAVEFRONT_MAX_STEP, "steps must fit the wavefront's buckets");
 _Static_assert(END_CELLS > 0 && STRAIGHT_CM * 10000 == ALE_GRID_CELL_UM, "clearance counts in centimetres");
 
 typedef struct {
@@ -40,6 +40,18 @@ static bool near_an_end(const search_t *search, ale_cell_t cell)
            (search->end != ALE_GRID_NONE && within(cell, search->end, END_CELLS));
 }
 
+/* Less than the body wants: enough in a passage, near an end of the way, or where the robot has been before.
+ */
+static bool is_enough(const search_t *search, ale_cell_t cell, int32_t room_cm)
+{
+    const ale_planner_config_t *config = &search->planner->config;
+    if (room_cm >= config->tight_cm) {
+        return true;
+    }
+    return (room_cm >= config->squeeze_cm && near_an_end(search, cell)) ||
+           (room_cm >= config->squeeze_cm - STOOD_SLACK_CM && ale_grid_was_stood_in(search->grid, cell));
+}
+
 /* What a step into the cell costs, as a factor on its length; 0: no room. */
 static uint32_t factor_of(const search_t *search, ale_cell_t cell)
 {
@@ -55,7 +67,10 @@ static uint32_t factor_of(const search_t *search, ale_cell_t cell)
         const int32_t band_cm = config->comfort_cm - config->body_cm;
         return 1 + (uint32_t)((FULL_PENALTY * (config->comfort_cm - room_cm) + band_cm / 2) / band_cm);
     }
-    return room_cm >= config->squeeze_cm && near_an_end(search, cell) ? SQUEEZED_FACTOR : 0;
+    if (!is_enough(search, cell, room_cm)) {
+        return 0;
+    }
+    return (uint32_t)ale_min64(TIGHT_FACTOR + (config->body_cm - room_cm) / 2, MOST_FACTOR);
 }
 
 static void enter_neighbours(const search_t *search, ale_wavefront_t *front, ale_cell_t cell)
@@ -82,10 +97,16 @@ static bool is_refused(const ale_planner_t *planner, ale_cell_t cell)
     return false;
 }
 
+/* In a tight place only what lies right ahead counts: it may lead on. Beside it there are but corners. */
 static bool is_worth_seeing(const ale_planner_t *planner, ale_cell_t cell)
 {
-    return planner->clearance.to_unseen_cm[cell] <= planner->config.see_cm &&
-           planner->clearance.to_occupied_cm[cell] >= planner->config.body_cm && !is_refused(planner, cell);
+    const int32_t room_cm = planner->clearance.to_occupied_cm[cell];
+    const int32_t unseen_cm = planner->clearance.to_unseen_cm[cell];
+    const int32_t see_cm = planner->config.see_cm;
+    const bool worth = room_cm >= planner->config.body_cm
+                           ? unseen_cm <= see_cm
+                           : room_cm >= planner->config.tight_cm && unseen_cm <= see_cm / 2;
+    return worth && !is_refused(planner, cell);
 }
 
 /* The way's cells beyond the route's room are left out: they are counted first, from the goal back. */
@@ -174,16 +195,10 @@ bool ale_planner_refuse(ale_planner_t *planner, ale_cell_t goal)
     return true;
 }
 
-/* Half a cell at a time; where the robot stands too near already, it must not come nearer. */
+/* Half a cell at a time. */
 static bool is_clear_line(const ale_planner_t *planner, const ale_grid_t *grid, ale_point_t from,
-                          ale_point_t to)
+                          ale_point_t to, int32_t needed_cm)
 {
-    const ale_cell_t start = ale_grid_cell(grid, from);
-    if (start == ALE_GRID_NONE) {
-        return false;
-    }
-    const uint8_t *room_cm = planner->clearance.to_occupied_cm;
-    const int64_t needed_cm = ale_min64(planner->config.body_cm, room_cm[start]);
     const int64_t dx_um = (int64_t)to.x_um - from.x_um;
     const int64_t dy_um = (int64_t)to.y_um - from.y_um;
     const int64_t steps = 1 + ale_max64(ale_abs64(dx_um), ale_abs64(dy_um)) / (ALE_GRID_CELL_UM / 2);
@@ -191,23 +206,44 @@ static bool is_clear_line(const ale_planner_t *planner, const ale_grid_t *grid, 
         const ale_point_t p = {from.x_um + (int32_t)(dx_um * k / steps),
                                from.y_um + (int32_t)(dy_um * k / steps)};
         const ale_cell_t cell = ale_grid_cell(grid, p);
-        if (cell == ALE_GRID_NONE || !ale_grid_is_free(grid, cell) || room_cm[cell] < needed_cm) {
+        if (cell == ALE_GRID_NONE || !ale_grid_is_free(grid, cell) ||
+            planner->clearance.to_occupied_cm[cell] < needed_cm) {
             return false;
         }
     }
     return true;
 }
 
+static uint32_t cells_within(const ale_route_t *route, int32_t reach_um)
+{
+    const uint32_t reach = (uint32_t)(reach_um / ALE_GRID_CELL_UM);
+    return reach < route->count - 1 ? reach : route->count - 1;
+}
+
+/* The least room of the way's cells up to the last one, and no more than body_cm. */
+static int32_t room_up_to(const ale_planner_t *planner, const ale_route_t *route, uint32_t last)
+{
+    int32_t room_cm = planner->config.body_cm;
+    for (uint32_t k = 0; k <= last; k++) {
+        const int32_t here_cm = planner->clearance.to_occupied_cm[route->cell[k]];
+        room_cm = here_cm < room_cm ? here_cm : room_cm;
+    }
+    return room_cm;
+}
+
+bool ale_planner_is_tight(const ale_planner_t *planner, const ale_route_t *route, int32_t reach_um)
+{
+    return room_up_to(planner, route, cells_within(route, reach_um)) < planner->config.body_cm;
+}
+
 ale_point_t ale_planner_carrot(const ale_planner_t *planner, const ale_grid_t *grid, const ale_route_t *route,
                                ale_point_t robot, int32_t reach_um)
 {
-    const uint32_t last = route->count - 1;
-    const uint32_t reach = (uint32_t)(reach_um / ALE_GRID_CELL_UM);
-    for (uint32_t k = reach < last ? reach : last; k > 1; k--) {
+    for (uint32_t k = cells_within(route, reach_um); k > 1; k--) {
         const ale_point_t p = ale_grid_middle(grid, route->cell[k]);
-        if (is_clear_line(planner, grid, robot, p)) {
+        if (is_clear_line(planner, grid, robot, p, room_up_to(planner, route, k))) {
             return p;
         }
     }
-    return ale_grid_middle(grid, route->cell[last > 0 ? 1 : 0]);
+    return ale_grid_middle(grid, route->cell[route->count > 1 ? 1 : 0]);
 }

@@ -5,9 +5,10 @@
  * seen
  *
  * The robot's centre may go where cells are free and the nearest occupied one is `body_cm` away; ways that
- * keep `comfort_cm` are cheaper. Worth seeing is every unseen patch within `see_cm` of where the centre may
- * go: when there is none left, all that the disc could sweep is known. The nearest goal by the cost of its
- * way is taken, and kept until another is clearly nearer. Frontiers: Yamauchi, CIRA 1997. One owner thread.
+ * keep `comfort_cm` are cheaper, and where there is none `tight_cm` will do, at a price. Worth seeing is
+ * every unseen patch within `see_cm` of where the centre may go: when there is none left, all that the disc
+ * could sweep is known. The nearest goal by the cost of its way is taken, and kept until another is clearly
+ * nearer. Frontiers: Yamauchi, CIRA 1997. One owner thread.
  */
 #ifndef ALE_PLAN_PLANNER_H
 #define ALE_PLAN_PLANNER_H
@@ -20,7 +21,8 @@ enum { ALE_ROUTE_CELLS = 64, ALE_MAX_REFUSED = 64 };
 
 typedef struct {
     int32_t body_cm;    /* below ALE_CLEARANCE_FAR_CM, as all of these */
-    int32_t squeeze_cm; /* at least this, within half a metre of both ends of a way */
+    int32_t tight_cm;   /* at most body_cm */
+    int32_t squeeze_cm; /* at most tight_cm: enough within half a metre of both ends of a way */
     int32_t comfort_cm; /* above body_cm */
     int32_t see_cm;
 } ale_planner_config_t;
@@ -58,8 +60,11 @@ bool ale_planner_go(ale_planner_t *planner, const ale_grid_t *grid, ale_point_t 
 /* Goals within 30 cm of this one are not taken any more. False: no room, already ALE_MAX_REFUSED. */
 bool ale_planner_refuse(ale_planner_t *planner, ale_cell_t goal);
 
+/* Whether the way leads through less room than body_cm within its first reach_um. route->count > 0. */
+bool ale_planner_is_tight(const ale_planner_t *planner, const ale_route_t *route, int32_t reach_um);
+
 /* The farthest cell of the way, at most so many straight cells along it as fit reach_um, that the robot may
- * head for in a straight line; the next one when there is none. route->count > 0. */
+ * head for in a straight line with the room that the way has; the next one when there is none. count > 0. */
 ale_point_t ale_planner_carrot(const ale_planner_t *planner, const ale_grid_t *grid, const ale_route_t *route,
                                ale_point_t robot, int32_t reach_um);
 

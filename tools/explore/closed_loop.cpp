@@ -91,7 +91,9 @@ void ClosedLoop::take_turn(const sim::Turn &turn, const Watcher &each_scan)
 {
     const ale_scan_t scan = scan_of(turn, source_.scanner());
     ale_estimate_t estimate;
+    loops_.before_scan(pipeline_.get());
     ale_pipeline_scan(pipeline_.get(), &scan, &estimate);
+    loops_.after_scan(pipeline_.get(), estimate);
     const int64_t effect_us = now_us_ + latency_us;
     const ale_velocity_t velocity = ale_explorer_step(explorer_.get(), &scan, &estimate, effect_us);
     commands_.push_back({effect_us, {velocity.speed_um_s * 1e-6, velocity.turn_urad_s * 1e-6}});

@@ -1,5 +1,5 @@
 /* Exploration in a closed loop, without lines, threads and clocks: world, robot and scanner of the simulator,
- * the pipeline and the explorer of the robot, in lock step, so that minutes pass in seconds and a seed
+ * the pipeline, mapper and explorer of the robot, in lock step, so that minutes pass in seconds and a seed
  * decides all. */
 #ifndef ALE_EXPLORE_CLOSED_LOOP_H
 #define ALE_EXPLORE_CLOSED_LOOP_H
@@ -11,6 +11,7 @@
 
 #include "explore/score.h"
 #include "export/trajectory.h"
+#include "replay/loops.h"
 #include "sim/world_source.h"
 
 extern "C" {
@@ -58,6 +59,11 @@ class ClosedLoop
         return truth_;
     }
     std::unique_ptr<ale_map_t> map() const;
+    /* The mapper's: how many loops it believed, and so on. */
+    ale_mapper_statistics_t mapper() const
+    {
+        return loops_.statistics();
+    }
     double seconds() const
     {
         return static_cast<double>(now_us_) * 1e-6;
@@ -87,6 +93,7 @@ class ClosedLoop
     std::vector<Command> commands_;
     sim::WorldSource source_;
     std::unique_ptr<ale_pipeline_t, FreePipeline> pipeline_;
+    ale::Loops loops_;
     std::unique_ptr<ale_explorer_t> explorer_;
     ale::Trajectory trajectory_;
     std::vector<sim::Pose> truth_;

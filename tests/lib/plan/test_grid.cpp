@@ -114,6 +114,7 @@ TEST(Grid, ABeamClearsItsWayAndNothingElse)
     ale_scan_set_range(&scan, 0, 2000000);
     const double heading = 0.4;
     add(*grid, scan, {0.012, 0.034, heading});
+    add(*grid, scan, {0.012, 0.034, heading});
     int free_cells = 0;
     for (ale_cell_t cell = 0; cell < ALE_GRID_CELLS; cell++) {
         if (grid->evidence[cell] == 0) {
@@ -136,6 +137,20 @@ TEST(Grid, ABeamClearsItsWayAndNothingElse)
     }
     EXPECT_GE(free_cells, 35);
     EXPECT_EQ(grid->seen, static_cast<uint32_t>(free_cells) + 1);
+}
+
+TEST(Grid, OneHitMayBeAMixedPixelTwoAreAWall)
+{
+    const auto grid = empty_grid();
+    ale_scan_t scan = beams_of_nothing(1);
+    ale_scan_set_range(&scan, 0, 1010000);
+    const ale_cell_t cell = ale_grid_cell(grid.get(), {1010000, 0});
+    add(*grid, scan, {0, 0, 0});
+    EXPECT_FALSE(ale_grid_is_occupied(grid.get(), cell));
+    EXPECT_FALSE(ale_grid_is_free(grid.get(), cell));
+    EXPECT_FALSE(ale_grid_is_unseen(grid.get(), cell));
+    add(*grid, scan, {0, 0, 0});
+    EXPECT_TRUE(ale_grid_is_occupied(grid.get(), cell));
 }
 
 TEST(Grid, BeamsWithoutReturnClearOnlyWhereSeveralAgreeAndNeverAWall)
@@ -198,6 +213,7 @@ TEST(Grid, TellsWhatHasChanged)
     EXPECT_GT(grid->changed.first_x, grid->changed.last_x);
     ale_scan_t scan = beams_of_nothing(1);
     ale_scan_set_range(&scan, 0, 1000000);
+    add(*grid, scan, {0, 0, 0});
     add(*grid, scan, {0, 0, 0});
     const ale_grid_part_t part = ale_grid_take_changed(grid.get());
     EXPECT_EQ(part.first_x, 512);

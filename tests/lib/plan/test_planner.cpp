@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr int scale = 6; // a character is 30 cm
-const ale_planner_config_t small_robot = {28, 20, 43, 20};
+const ale_planner_config_t small_robot = {28, 23, 20, 43, 20};
 
 struct Floor {
     explicit Floor(const std::vector<std::string> &drawing, const ale_planner_config_t &config = small_robot)
@@ -83,9 +83,45 @@ TEST(Planner, ADoorNarrowerThanTheRobotIsNoWay)
     Floor floor(narrow_door); // 30 cm
     EXPECT_FALSE(floor.go('A', 'B'));
     EXPECT_EQ(floor.route.count, 0u);
-    const ale_planner_config_t thin = {12, 10, 20, 10};
+    const ale_planner_config_t thin = {12, 11, 10, 20, 10};
     Floor passable(narrow_door, thin);
     EXPECT_TRUE(passable.go('A', 'B'));
+}
+
+TEST(Planner, ATightPassageIsTakenOnlyWhereThereIsNoOther)
+{
+    const ale_planner_config_t wide = {28, 12, 10, 43, 20}; // the door has 15 cm on either side
+    Floor tight(narrow_door, wide);
+    ASSERT_TRUE(tight.go('A', 'B'));
+    std::vector<std::string> with_another = narrow_door;
+    with_another[4][9] = '.';
+    with_another[5][9] = '.';
+    Floor both(with_another, wide);
+    ASSERT_TRUE(both.go('A', 'B'));
+    for (uint32_t k = 0; k < both.route.count; k++) {
+        EXPECT_GE(both.planner->clearance.to_occupied_cm[both.route.cell[k]], 28);
+    }
+    EXPECT_TRUE(ale_planner_is_tight(tight.planner.get(), &tight.route, 3000000));
+    EXPECT_FALSE(ale_planner_is_tight(both.planner.get(), &both.route, 3000000));
+}
+
+TEST(Planner, WhereTheRobotHasBeenItMayGoAgain)
+{
+    const ale_planner_config_t wide = {28, 23, 22, 43, 20};
+    Floor floor(narrow_door, wide);
+    ASSERT_FALSE(floor.go('A', 'B'));
+    const ale_point_t a = floor.at('A');
+    for (int32_t x_um = a.x_um; x_um <= floor.at('B').x_um; x_um += 40000) {
+        ale_grid_add_disc(floor.grid.get(), {x_um, a.y_um}, 50000);
+    }
+    EXPECT_FALSE(floor.go('A', 'B')) << "15 cm are too few even so";
+    const ale_planner_config_t squeezes = {28, 23, 18, 43, 20};
+    Floor again(narrow_door, squeezes);
+    EXPECT_FALSE(again.go('A', 'B'));
+    for (int32_t x_um = a.x_um; x_um <= floor.at('B').x_um; x_um += 40000) {
+        ale_grid_add_disc(again.grid.get(), {x_um, a.y_um}, 50000);
+    }
+    EXPECT_TRUE(again.go('A', 'B'));
 }
 
 TEST(Planner, PrefersTheWideWayToTheNarrowOne)
@@ -149,7 +185,7 @@ TEST(Planner, FindsItsWayOutOfATightPlace)
     const std::vector<std::string> tight = {
         "####################", "#..................#", "#..................#", "#..............B...#",
         "#..................#", "#A.................#", "####################"};
-    const ale_planner_config_t wide = {40, 10, 55, 35};
+    const ale_planner_config_t wide = {40, 35, 10, 55, 35};
     Floor floor(tight, wide);
     EXPECT_LT(floor.planner->clearance.to_occupied_cm[ale_grid_cell(floor.grid.get(), floor.at('A'))], 40);
     EXPECT_TRUE(floor.go('A', 'B'));
