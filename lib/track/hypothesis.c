@@ -12,7 +12,7 @@ enum {
     SCORE_OFFSET_UM = 120000,
     SCORE_ANGLE_URAD = 120000,
     SCORE_SIGMAS = 1000,
-    SAME_PLACE_UM = 500000 /* two hypotheses nearer than this are one answer */
+    SHARED_PERCENT = 70 /* of either view of the pair must lie on its wall */
 };
 
 static int32_t enclosed(uint32_t a_bam, uint32_t b_bam)
@@ -73,16 +73,15 @@ bool ale_pose_of_pair(const ale_view_t *a, const ale_view_t *b, const ale_wall_t
     return ale_abs64(x) < INT32_MAX && ale_abs64(y) < INT32_MAX;
 }
 
-static ale_hypothesis_t score(const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
-                              ale_pose_t pose)
+ale_hypothesis_t ale_hypothesis_at(const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
+                                   ale_pose_t pose, const ale_gate_t *gate)
 {
-    const ale_gate_t gate = {SCORE_OFFSET_UM, SCORE_ANGLE_URAD, SCORE_SIGMAS, 0};
     ale_hypothesis_t h = {.pose = pose};
     for (uint32_t i = 0; i < count; i++) {
         if (view[i].kind != ALE_VIEW_WALL) {
             continue;
         }
-        const ale_match_t match = ale_match_view(map, &view[i], pose, NULL, &gate);
+        const ale_match_t match = ale_match_view(map, &view[i], pose, NULL, gate);
         h.shown_um += length_of(&view[i]);
         if (match.wall != ALE_NO_WALL) {
             h.score_um += ale_min64(match.error.overlap_um, length_of(&view[i]));
@@ -92,22 +91,11 @@ static ale_hypothesis_t score(const ale_local_map_t *map, const ale_view_t view[
     return h;
 }
 
-static bool same_place(ale_pose_t a, ale_pose_t b)
+/* Whether the view, seen from the pose, covers a part of the wall that is worth the name. */
+static bool lies_on(const ale_wall_t *wall, const ale_view_t *view, ale_pose_t pose)
 {
-    return ale_abs64((int64_t)a.x_um - b.x_um) < SAME_PLACE_UM &&
-           ale_abs64((int64_t)a.y_um - b.y_um) < SAME_PLACE_UM;
-}
-
-static void keep_better(ale_hypothesis_t *best, const ale_hypothesis_t *h)
-{
-    const bool same = same_place(best->pose, h->pose);
-    if (h->score_um > best->score_um) {
-        const int64_t second_um = same ? best->second_um : best->score_um;
-        *best = *h;
-        best->second_um = second_um;
-    } else if (!same) {
-        best->second_um = ale_max64(best->second_um, h->score_um);
-    }
+    const ale_view_t placed = ale_view_from(view, pose);
+    return ale_wall_error(wall, &placed).overlap_um * 100 >= length_of(view) * SHARED_PERCENT;
 }
 
 static void next_pair(ale_search_t *s, uint16_t count)
@@ -116,16 +104,17 @@ static void next_pair(ale_search_t *s, uint16_t count)
     if (s->second >= count) {
         s->second = 0;
         s->first = (uint16_t)(s->first + 1 < count ? s->first + 1 : 0);
+        s->rounds += s->first == 0;
     }
 }
 
-ale_hypothesis_t ale_search(ale_search_t *search, const ale_local_map_t *map, const ale_view_t view[],
-                            uint32_t count)
+uint32_t ale_search(ale_search_t *search, const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
+                    ale_hypothesis_t out[ALE_MAX_HYPOTHESES])
 {
-    ale_hypothesis_t best = {.score_um = 0};
+    const ale_gate_t gate = {SCORE_OFFSET_UM, SCORE_ANGLE_URAD, SCORE_SIGMAS, 0};
     uint32_t pair[2] = {0, 0};
     if (map->count < 2 || !choose_pair(view, count, pair)) {
-        return best;
+        return 0;
     }
     const ale_view_t *a = &view[pair[0]];
     const ale_view_t *b = &view[pair[1]];
@@ -135,21 +124,21 @@ ale_hypothesis_t ale_search(ale_search_t *search, const ale_local_map_t *map, co
     const uint32_t affordable = 1 + ALE_SEARCH_MATCHES / (count * map->count);
     const uint32_t most = affordable < ALE_MAX_HYPOTHESES ? affordable : ALE_MAX_HYPOTHESES;
     uint32_t scored = 0;
-    for (uint32_t n = 0; n < ALE_HYPOTHESIS_PAIRS && scored < most; n++) {
+    uint32_t placed = 0;
+    for (uint32_t n = 0; n < ALE_HYPOTHESIS_PAIRS && placed < ALE_HYPOTHESIS_POSES && scored < most; n++) {
         const ale_wall_t *wall_a = &map->wall[search->first];
         const ale_wall_t *wall_b = &map->wall[search->second];
         const int32_t in_map_bam = enclosed(wall_a->normal_bam, wall_b->normal_bam);
-        const bool long_enough = 2 * ((int64_t)wall_a->end_um - wall_a->start_um) > length_of(a) &&
-                                 2 * ((int64_t)wall_b->end_um - wall_b->start_um) > length_of(b);
         ale_pose_t pose;
         next_pair(search, map->count);
-        if (long_enough &&
-            ale_abs64(ale_bam_diff((uint32_t)in_map_bam, (uint32_t)angle_bam)) < PAIR_ANGLE_BAM &&
-            ale_pose_of_pair(a, b, wall_a, wall_b, &pose)) {
-            const ale_hypothesis_t h = score(map, view, count, pose);
-            keep_better(&best, &h);
-            scored++;
+        if (ale_abs64(ale_bam_diff((uint32_t)in_map_bam, (uint32_t)angle_bam)) >= PAIR_ANGLE_BAM) {
+            continue;
+        }
+        placed++;
+        if (ale_pose_of_pair(a, b, wall_a, wall_b, &pose) && lies_on(wall_a, a, pose) &&
+            lies_on(wall_b, b, pose)) {
+            out[scored++] = ale_hypothesis_at(map, view, count, pose, &gate);
         }
     }
-    return best;
+    return scored;
 }

@@ -11,25 +11,27 @@
 #include <stdint.h>
 
 #include "track/local_map.h"
+#include "track/match.h"
 #include "track/view.h"
 
 enum {
     ALE_MAX_HYPOTHESES = 24,    /* scored in one scan, */
     ALE_SEARCH_MATCHES = 32768, /* or fewer: views times walls that scoring may look at, the last one whole */
+    ALE_HYPOTHESIS_POSES = 512, /* computed in one scan */
     ALE_HYPOTHESIS_PAIRS = 4096 /* pairs of walls looked at in one scan */
 };
 
 typedef struct {
     uint16_t first; /* pair of walls to go on at */
     uint16_t second;
+    uint32_t rounds; /* times all pairs were gone through */
 } ale_search_t;
 
 typedef struct {
     ale_pose_t pose;
-    int64_t score_um;  /* length of the scan's lines that lie on walls */
-    int64_t second_um; /* the same for the best pose elsewhere: how unique the answer is */
-    int64_t shown_um;  /* length of all lines */
-    uint16_t views;    /* lines that lie on walls */
+    int64_t score_um; /* length of the scan's lines that lie on walls */
+    int64_t shown_um; /* length of all lines */
+    uint16_t views;   /* lines that lie on walls */
 } ale_hypothesis_t;
 
 /* The pose that puts two views on two walls, least squares in the angle. False when the walls enclose too
@@ -37,8 +39,13 @@ typedef struct {
 bool ale_pose_of_pair(const ale_view_t *a, const ale_view_t *b, const ale_wall_t *wall_a,
                       const ale_wall_t *wall_b, ale_pose_t *out);
 
-/* Goes on with the search for the views of this scan. The near list of the map must hold all walls. */
-ale_hypothesis_t ale_search(ale_search_t *search, const ale_local_map_t *map, const ale_view_t view[],
-                            uint32_t count);
+/* How well a pose explains the lines of a scan. */
+ale_hypothesis_t ale_hypothesis_at(const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
+                                   ale_pose_t pose, const ale_gate_t *gate);
+
+/* Goes on with the search for the views of this scan; returns how many hypotheses it made. The near list of
+ * the map must hold all walls. */
+uint32_t ale_search(ale_search_t *search, const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
+                    ale_hypothesis_t out[ALE_MAX_HYPOTHESES]);
 
 #endif

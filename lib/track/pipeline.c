@@ -21,7 +21,6 @@ enum {
     LEARN_DETERMINED_UM = 10000, /* scans that know the way well enough to teach the wheels */
     LEARN_LAG_VAR_UM2 = 4000000, /* and a lag that could not have made (2 mm)^2 of it */
     WHOLE_MAP_UM = 2000000000,   /* a reach beyond any map */
-    SEARCH_PERCENT = 60,         /* of what is shown must lie on walls before a place is looked at closer */
     ANCHOR_SIGMA_UM = 1000,      /* of the pose to the walls that are born from it */
     ANCHOR_SIGMA_URAD = 500,
     SEARCH_SIGMA_UM = 100000,
@@ -107,7 +106,7 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
     pipeline->scans = 0;
     pipeline->drift = (ale_drift_t){0, 0};
     pipeline->fade.next = 0;
-    pipeline->search = (ale_search_t){0, 0};
+    ale_relocation_clear(&pipeline->relocation);
     ale_witness_clear(&pipeline->witness);
     pipeline->started = false;
     pipeline->looked = false;
@@ -376,6 +375,7 @@ static void settle(ale_pipeline_t *p)
 {
     p->motion = p->fit.motion;
     p->claims = 0;
+    ale_relocation_clear(&p->relocation);
     ale_tracker_found(&p->tracker);
 }
 
@@ -390,8 +390,8 @@ static bool is_where_claimed(ale_pipeline_t *p)
     return ale_tracker_expected(&p->fit);
 }
 
-/* Lost: looks for the place that fits, a bounded number of hypotheses a scan, and leaves the map alone. */
-static void search(ale_pipeline_t *p)
+/* Lost: looks for the place that fits, with bounded work a scan, and leaves the map alone. */
+static void search(ale_pipeline_t *p, ale_pose_t way)
 {
     p->broken = true;
     if (is_where_claimed(p)) {
@@ -401,12 +401,9 @@ static void search(ale_pipeline_t *p)
     }
     const ale_point_t anywhere = {0, 0};
     ale_local_map_approach(&p->map, anywhere, WHOLE_MAP_UM);
-    const ale_hypothesis_t best = ale_search(&p->search, &p->map, p->view, p->view_count);
-    if (best.score_um * 100 > best.shown_um * SEARCH_PERCENT && best.score_um > best.second_um) {
-        try_at(p, best.pose);
-        if (ale_tracker_believes(&p->fit)) {
-            settle(p);
-        }
+    const ale_scene_t scene = {&p->map, p->view, p->view_count};
+    if (ale_relocate(&p->relocation, &scene, &p->motion, way, &p->fit) && ale_tracker_believes(&p->fit)) {
+        settle(p);
     }
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);
 }
@@ -420,7 +417,7 @@ static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
     const ale_motion_t predicted = p->motion;
     look(p, scan, predicted.velocity);
     if (p->tracker.state == ALE_STATE_LOST) {
-        search(p);
+        search(p, ale_pose_between(before.pose, predicted.pose));
     } else {
         track(p, &before, &predicted, counted ? &wheels : NULL);
     }

@@ -5,7 +5,6 @@
 #include "extract/workspace.h"
 #include "track/drift.h"
 #include "track/fade.h"
-#include "track/hypothesis.h"
 #include "track/lag.h"
 #include "track/local_map.h"
 #include "track/motion.h"
@@ -14,6 +13,7 @@
 #include "track/pipeline.h"
 #include "track/refine.h"
 #include "track/registration.h"
+#include "track/relocation.h"
 #include "track/tracker.h"
 #include "track/view.h"
 #include "track/wheels.h"
@@ -37,7 +37,7 @@ struct ale_pipeline {
     ale_local_map_t map;
     ale_drift_t drift; /* of the map around the robot */
     ale_fade_t fade;
-    ale_search_t search;
+    ale_relocation_t relocation;
     ale_witness_t witness;
     ale_registration_t registration;
 

@@ -1,0 +1,155 @@
+#include "track/relocation.h"
+
+#include <stddef.h>
+
+#include "base/fixed.h"
+#include "base/trig.h"
+
+enum {
+    MEMORY = 8,          /* scans that the running mean remembers */
+    PROBATION = 4,       /* fits before a place may be dropped */
+    HELD_LEAST_Q8 = 140, /* places that explain less are dropped */
+    ANSWER_SCANS = 8,    /* fits of the answer */
+    ANSWER_Q8 = 205,     /* it explains 80 % */
+    MARGIN_Q8 = 36,      /* and 14 % more than any other place */
+    ANSWER_ROUNDS = 1,   /* times all pairs of walls were tried */
+    SAME_UM = 250000,    /* places nearer than this are one */
+    SAME_BAM = 150 * ALE_BAM_PER_MRAD,
+    FIT_OFFSET_UM = 400000, /* how far a place may be off when it is fitted */
+    FIT_ANGLE_URAD = 200000,
+    FIT_SIGMAS = 4,
+    FIT_SIGMA_UM = 100000,
+    FIT_SIGMA_URAD = 50000,
+    HOLD_OFFSET_UM = 60000, /* a line lies on a wall when it is no farther from it */
+    HOLD_ANGLE_URAD = 90000
+};
+
+void ale_relocation_clear(ale_relocation_t *relocation)
+{
+    *relocation = (ale_relocation_t){.count = 0};
+}
+
+static bool is_same(ale_pose_t a, ale_pose_t b)
+{
+    return ale_abs64((int64_t)a.x_um - b.x_um) < SAME_UM && ale_abs64((int64_t)a.y_um - b.y_um) < SAME_UM &&
+           ale_abs64(ale_bam_diff(a.theta_bam, b.theta_bam)) < SAME_BAM;
+}
+
+static void drop(ale_relocation_t *r, uint32_t index)
+{
+    r->count--;
+    r->place[index] = r->place[r->count];
+}
+
+/* A new place takes the room of the one that explains least, if it explains more. */
+static void enter(ale_relocation_t *r, const ale_hypothesis_t *h)
+{
+    uint32_t worst = 0;
+    for (uint32_t i = 0; i < r->count; i++) {
+        if (is_same(r->place[i].pose, h->pose)) {
+            return;
+        }
+        worst = r->place[i].held_q8 < r->place[worst].held_q8 ? i : worst;
+    }
+    const int32_t held_q8 = (int32_t)(h->score_um * 256 / h->shown_um);
+    if (r->count < ALE_PLACES) {
+        worst = r->count++;
+    } else if (r->place[worst].held_q8 >= held_q8) {
+        return;
+    }
+    r->place[worst] = (ale_place_t){.pose = h->pose, .held_q8 = held_q8};
+}
+
+static void propose(ale_relocation_t *r, const ale_scene_t *scene)
+{
+    ale_hypothesis_t found[ALE_MAX_HYPOTHESES];
+    const uint32_t count = ale_search(&r->search, scene->map, scene->view, scene->view_count, found);
+    for (uint32_t i = 0; i < count; i++) {
+        if (found[i].score_um * 256 >= found[i].shown_um * HELD_LEAST_Q8) {
+            enter(r, &found[i]);
+        }
+    }
+}
+
+/* Fits the place to the scan and notes how much of the scan it explains. */
+static void fit_place(ale_place_t *place, const ale_scene_t *scene, const ale_motion_t *predicted,
+                      ale_fit_t *fit)
+{
+    const ale_gate_t gate = {FIT_OFFSET_UM, FIT_ANGLE_URAD, FIT_SIGMAS, 0};
+    const ale_gate_t hold = {HOLD_OFFSET_UM, HOLD_ANGLE_URAD, FIT_SIGMAS, 0};
+    ale_motion_t there = *predicted;
+    there.pose = place->pose;
+    ale_motion_widen(&there, FIT_SIGMA_UM, FIT_SIGMA_URAD);
+    ale_refine(&there, scene, &gate, fit);
+    place->pose = fit->motion.pose;
+    const ale_hypothesis_t h =
+        ale_hypothesis_at(scene->map, scene->view, scene->view_count, place->pose, &hold);
+    if (h.shown_um > 0) {
+        const int32_t held_q8 = (int32_t)(h.score_um * 256 / h.shown_um);
+        const int32_t n = (int32_t)ale_min64(place->scans + 1, MEMORY);
+        place->held_q8 += (int32_t)ale_round_div(held_q8 - place->held_q8, n);
+        place->scans = (uint16_t)ale_min64(place->scans + 1, UINT16_MAX);
+    }
+}
+
+static bool is_double(const ale_relocation_t *r, uint32_t index)
+{
+    for (uint32_t i = 0; i < r->count; i++) {
+        if (i != index && r->place[i].scans >= r->place[index].scans &&
+            is_same(r->place[i].pose, r->place[index].pose)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void fit_some(ale_relocation_t *r, const ale_scene_t *scene, const ale_motion_t *predicted,
+                     ale_fit_t *fit)
+{
+    for (uint32_t n = 0; n < ALE_PLACES_FITTED && n < r->count; n++) {
+        r->next = r->next < r->count ? r->next : 0;
+        ale_place_t *place = &r->place[r->next];
+        fit_place(place, scene, predicted, fit);
+        const bool worthless = place->scans >= PROBATION && place->held_q8 < HELD_LEAST_Q8;
+        if (worthless || is_double(r, r->next)) {
+            drop(r, r->next);
+        } else {
+            r->next++;
+        }
+    }
+}
+
+/* The place that alone explains what was seen, or NULL. */
+static ale_place_t *answer(ale_relocation_t *r)
+{
+    ale_place_t *best = NULL;
+    for (uint32_t i = 0; i < r->count; i++) {
+        if (r->place[i].scans >= ANSWER_SCANS && (!best || r->place[i].held_q8 > best->held_q8)) {
+            best = &r->place[i];
+        }
+    }
+    if (!best || best->held_q8 < ANSWER_Q8 || r->search.rounds < ANSWER_ROUNDS) {
+        return NULL;
+    }
+    for (uint32_t i = 0; i < r->count; i++) {
+        if (&r->place[i] != best && r->place[i].held_q8 > best->held_q8 - MARGIN_Q8) {
+            return NULL;
+        }
+    }
+    return best;
+}
+
+bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const ale_motion_t *predicted,
+                  ale_pose_t way, ale_fit_t *fit)
+{
+    for (uint32_t i = 0; i < relocation->count; i++) {
+        relocation->place[i].pose = ale_pose_compose(relocation->place[i].pose, way);
+    }
+    propose(relocation, scene);
+    fit_some(relocation, scene, predicted, fit);
+    ale_place_t *place = answer(relocation);
+    if (place) {
+        fit_place(place, scene, predicted, fit);
+    }
+    return place && place->held_q8 >= ANSWER_Q8;
+}

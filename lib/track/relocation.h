@@ -1,0 +1,42 @@
+/* Lost: places where the robot could be are kept, followed and compared until only one is left.
+ *
+ * Every scan some hypotheses (hypothesis.h) join the places that are kept. All of them move as the robot
+ * does; a few are fitted to the scan in turn, and each remembers how much of what scans showed lay on walls
+ * there. A place is the answer when it has held for a while, explains nearly all, all pairs of walls have
+ * been tried, and no other place explains nearly as much: in a building of equal rooms that takes a drive
+ * into the next one. Work a scan is bounded by ALE_PLACES_FITTED fits and one turn of the search. One owner.
+ */
+#ifndef ALE_TRACK_RELOCATION_H
+#define ALE_TRACK_RELOCATION_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "track/hypothesis.h"
+#include "track/refine.h"
+
+enum { ALE_PLACES = 32, ALE_PLACES_FITTED = 4 };
+
+typedef struct {
+    ale_pose_t pose;
+    int32_t held_q8; /* part of what scans showed that lay on walls: running mean */
+    uint16_t scans;  /* fitted to so many */
+} ale_place_t;
+
+typedef struct {
+    ale_search_t search;
+    ale_place_t place[ALE_PLACES];
+    uint16_t count;
+    uint16_t next; /* to be fitted */
+} ale_relocation_t;
+
+/* Lost anew. */
+void ale_relocation_clear(ale_relocation_t *relocation);
+
+/* One scan more. `predicted`: the motion, of which only the velocity is believed; `way`: how the robot went
+ * since the scan before, in its own frame; `fit`: working memory. The near list of the map must hold all
+ * walls. True: fit->motion is where the robot is. */
+bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const ale_motion_t *predicted,
+                  ale_pose_t way, ale_fit_t *fit);
+
+#endif
