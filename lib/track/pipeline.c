@@ -402,7 +402,9 @@ static void search(ale_pipeline_t *p, ale_pose_t way)
     const ale_point_t anywhere = {0, 0};
     ale_local_map_approach(&p->map, anywhere, WHOLE_MAP_UM);
     const ale_scene_t scene = {&p->map, p->view, p->view_count};
-    if (ale_relocate(&p->relocation, &scene, &p->motion, way, &p->fit) && ale_tracker_believes(&p->fit)) {
+    const ale_eye_t eye = {&p->scan, bearings(p), p->config.sensor};
+    if (ale_relocate(&p->relocation, &scene, &eye, &p->motion, way, &p->fit) &&
+        ale_tracker_believes(&p->fit)) {
         settle(p);
     }
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);

@@ -6,18 +6,24 @@
 #include "base/trig.h"
 
 enum {
-    MEMORY = 8,          /* scans that the running mean remembers */
-    PROBATION = 4,       /* fits before a place may be dropped */
-    HELD_LEAST_Q8 = 140, /* places that explain less are dropped */
-    ANSWER_SCANS = 8,    /* fits of the answer */
-    ANSWER_Q8 = 205,     /* it explains 80 % */
-    MARGIN_Q8 = 36,      /* and 14 % more than any other place */
-    ANSWER_ROUNDS = 1,   /* times all pairs of walls were tried */
-    SAME_UM = 250000,    /* places nearer than this are one */
+    BLAME_MEMORY = 8,   /* fits that the mean remembers where a place explains less than before, */
+    PRAISE_MEMORY = 40, /* and where it explains more: a wrong place must not recover in the next cell */
+    THROUGH_MOST_UM = 1000000, /* of a wall that is seen through */
+    PROBATION = 4,             /* fits before a place may be dropped */
+    HELD_LEAST_Q8 = 140,       /* places that explain less are dropped */
+    ANSWER_SCANS = 8,          /* fits of the answer */
+    ANSWER_Q8 = 205,           /* it explains 80 % */
+    MARGIN_Q8 = 36,            /* and 14 % more than any other place */
+    PEER_PART = 2,     /* that has stood the test for half as long: who comes later was not found before */
+    ANSWER_ROUNDS = 1, /* times all pairs of walls were tried */
+    SAME_UM = 250000,  /* places nearer than this are one */
     SAME_BAM = 150 * ALE_BAM_PER_MRAD,
     FIT_OFFSET_UM = 400000, /* how far a place may be off when it is fitted */
     FIT_ANGLE_URAD = 200000,
     FIT_SIGMAS = 4,
+    FIT_PASSES = ALE_REFINE_ITERATIONS + 1,
+    FIT_LOOKS =
+        131072, /* views times walls times passes that fits may look at in a scan, the last one whole */
     FIT_SIGMA_UM = 100000,
     FIT_SIGMA_URAD = 50000,
     HOLD_OFFSET_UM = 60000, /* a line lies on a wall when it is no farther from it */
@@ -71,9 +77,31 @@ static void propose(ale_relocation_t *r, const ale_scene_t *scene)
     }
 }
 
-/* Fits the place to the scan and notes how much of the scan it explains. */
-static void fit_place(ale_place_t *place, const ale_scene_t *scene, const ale_motion_t *predicted,
-                      ale_fit_t *fit)
+/* Length of the walls that should be seen from the place and are seen through. */
+static int64_t seen_through(const ale_local_map_t *map, const ale_eye_t *eye, ale_pose_t place)
+{
+    const ale_pose_t sensor = ale_pose_compose(place, eye->sensor);
+    int64_t through_um = 0;
+    for (uint32_t i = 0; i < map->count; i++) {
+        const ale_wall_t *wall = &map->wall[i];
+        if (ale_wall_sight(wall, eye->scan, eye->bearing_bam, sensor) == ALE_SIGHT_THROUGH) {
+            through_um += ale_min64((int64_t)wall->end_um - wall->start_um, THROUGH_MOST_UM);
+        }
+    }
+    return through_um;
+}
+
+static void learn(ale_place_t *place, int32_t held_q8)
+{
+    const int32_t memory = held_q8 < place->held_q8 ? BLAME_MEMORY : PRAISE_MEMORY;
+    const int32_t n = (int32_t)ale_min64(place->scans + 1, memory);
+    place->held_q8 += (int32_t)ale_round_div(held_q8 - place->held_q8, n);
+    place->scans = (uint16_t)ale_min64(place->scans + 1, UINT16_MAX);
+}
+
+/* Fits the place to the scan and notes how much of the scan, and of the walls in view, it explains. */
+static void fit_place(ale_place_t *place, const ale_scene_t *scene, const ale_eye_t *eye,
+                      const ale_motion_t *predicted, ale_fit_t *fit)
 {
     const ale_gate_t gate = {FIT_OFFSET_UM, FIT_ANGLE_URAD, FIT_SIGMAS, 0};
     const ale_gate_t hold = {HOLD_OFFSET_UM, HOLD_ANGLE_URAD, FIT_SIGMAS, 0};
@@ -85,10 +113,8 @@ static void fit_place(ale_place_t *place, const ale_scene_t *scene, const ale_mo
     const ale_hypothesis_t h =
         ale_hypothesis_at(scene->map, scene->view, scene->view_count, place->pose, &hold);
     if (h.shown_um > 0) {
-        const int32_t held_q8 = (int32_t)(h.score_um * 256 / h.shown_um);
-        const int32_t n = (int32_t)ale_min64(place->scans + 1, MEMORY);
-        place->held_q8 += (int32_t)ale_round_div(held_q8 - place->held_q8, n);
-        place->scans = (uint16_t)ale_min64(place->scans + 1, UINT16_MAX);
+        const int64_t all_um = h.shown_um + seen_through(scene->map, eye, place->pose);
+        learn(place, (int32_t)(h.score_um * 256 / all_um));
     }
 }
 
@@ -103,13 +129,16 @@ static bool is_double(const ale_relocation_t *r, uint32_t index)
     return false;
 }
 
-static void fit_some(ale_relocation_t *r, const ale_scene_t *scene, const ale_motion_t *predicted,
-                     ale_fit_t *fit)
+static void fit_some(ale_relocation_t *r, const ale_scene_t *scene, const ale_eye_t *eye,
+                     const ale_motion_t *predicted, ale_fit_t *fit)
 {
-    for (uint32_t n = 0; n < ALE_PLACES_FITTED && n < r->count; n++) {
+    /* a fit looks at all walls that face as a view does, six times at most */
+    const uint32_t looks = 1 + FIT_PASSES * scene->view_count * scene->map->count;
+    const int64_t fits = ale_min64(1 + FIT_LOOKS / looks, ALE_PLACES_FITTED);
+    for (uint32_t n = 0; n < fits && n < r->count; n++) {
         r->next = r->next < r->count ? r->next : 0;
         ale_place_t *place = &r->place[r->next];
-        fit_place(place, scene, predicted, fit);
+        fit_place(place, scene, eye, predicted, fit);
         const bool worthless = place->scans >= PROBATION && place->held_q8 < HELD_LEAST_Q8;
         if (worthless || is_double(r, r->next)) {
             drop(r, r->next);
@@ -132,24 +161,26 @@ static ale_place_t *answer(ale_relocation_t *r)
         return NULL;
     }
     for (uint32_t i = 0; i < r->count; i++) {
-        if (&r->place[i] != best && r->place[i].held_q8 > best->held_q8 - MARGIN_Q8) {
+        const ale_place_t *other = &r->place[i];
+        const bool peer = other->scans * PEER_PART >= best->scans || other->held_q8 >= best->held_q8;
+        if (other != best && peer && other->held_q8 > best->held_q8 - MARGIN_Q8) {
             return NULL;
         }
     }
     return best;
 }
 
-bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const ale_motion_t *predicted,
-                  ale_pose_t way, ale_fit_t *fit)
+bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const ale_eye_t *eye,
+                  const ale_motion_t *predicted, ale_pose_t way, ale_fit_t *fit)
 {
     for (uint32_t i = 0; i < relocation->count; i++) {
         relocation->place[i].pose = ale_pose_compose(relocation->place[i].pose, way);
     }
     propose(relocation, scene);
-    fit_some(relocation, scene, predicted, fit);
+    fit_some(relocation, scene, eye, predicted, fit);
     ale_place_t *place = answer(relocation);
     if (place) {
-        fit_place(place, scene, predicted, fit);
+        fit_place(place, scene, eye, predicted, fit);
     }
     return place && place->held_q8 >= ANSWER_Q8;
 }

@@ -14,12 +14,13 @@
 
 #include "track/hypothesis.h"
 #include "track/refine.h"
+#include "track/visibility.h"
 
 enum { ALE_PLACES = 32, ALE_PLACES_FITTED = 4 };
 
 typedef struct {
     ale_pose_t pose;
-    int32_t held_q8; /* part of what scans showed that lay on walls: running mean */
+    int32_t held_q8; /* part explained of what scans showed and of the walls in view: mean */
     uint16_t scans;  /* fitted to so many */
 } ale_place_t;
 
@@ -30,13 +31,20 @@ typedef struct {
     uint16_t next; /* to be fitted */
 } ale_relocation_t;
 
+/* A straightened scan, and the mounting of what took it. bearing_bam as for ale_extract_scan. */
+typedef struct {
+    const ale_scan_t *scan;
+    const uint32_t *bearing_bam;
+    ale_pose_t sensor;
+} ale_eye_t;
+
 /* Lost anew. */
 void ale_relocation_clear(ale_relocation_t *relocation);
 
 /* One scan more. `predicted`: the motion, of which only the velocity is believed; `way`: how the robot went
  * since the scan before, in its own frame; `fit`: working memory. The near list of the map must hold all
  * walls. True: fit->motion is where the robot is. */
-bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const ale_motion_t *predicted,
-                  ale_pose_t way, ale_fit_t *fit);
+bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const ale_eye_t *eye,
+                  const ale_motion_t *predicted, ale_pose_t way, ale_fit_t *fit);
 
 #endif

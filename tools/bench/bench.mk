@@ -27,3 +27,8 @@ wcet: deps-test ## instructions of a scan by callgrind: recorded, and the worst 
 	@$(MAKE) --no-print-directory -s $(BUILD)/bench/wcet
 	@valgrind -q --tool=callgrind --collect-atstart=no --callgrind-out-file=$(WCET_OUT) \
 	    $(BUILD)/bench/wcet $(WCET_OUT) $(WCET_TRIES) $(WCET_LOGS)
+
+POSES ?= 100
+.PHONY: relocalise
+relocalise: programs ## lost at random places of every bundled world, with a saved map (POSES=100)
+	@$(PYTHON) tools/bench/relocalise.py --build $(BUILD) --poses $(POSES)

@@ -1,0 +1,85 @@
+// lib/track/relocation: lost in a known map.
+#include <gtest/gtest.h>
+
+#include "room.h"
+
+namespace
+{
+
+// A rectangle looks the same after half a turn.
+std::vector<room::Wall> rectangle()
+{
+    return {{-1.5, -2, 4.5, -2}, {4.5, -2, 4.5, 2.4}, {4.5, 2.4, -1.5, 2.4}, {-1.5, 2.4, -1.5, -2}};
+}
+
+struct Robot {
+    room::Pipeline pipeline = room::make(ale_pipeline_default_config());
+    ale_estimate_t last = {};
+    std::mt19937 rng{17};
+
+    void see(const std::vector<room::Wall> &walls, double t)
+    {
+        room::Sensor sensor;
+        sensor.noise = 0.003;
+        const ale_scan_t scan = room::scan_at(walls, sensor, room::path, t, rng);
+        ale_pipeline_scan(pipeline.get(), &scan, &last);
+    }
+};
+
+std::unique_ptr<ale_map_t> map_of(const std::vector<room::Wall> &walls)
+{
+    Robot robot;
+    for (int k = 0; k < 150; k++) {
+        robot.see(walls, 1 + 0.1 * k);
+    }
+    auto map = std::make_unique<ale_map_t>();
+    ale_pipeline_copy_map(robot.pipeline.get(), map.get());
+    return map;
+}
+
+TEST(Relocation, TheRobotFindsItselfWhereOnlyOnePlaceFits)
+{
+    const auto map = map_of(room::l_shape());
+    for (const double start : {3.0, 7.0, 12.0}) {
+        Robot robot;
+        ale_pipeline_load_map(robot.pipeline.get(), map.get(), {0, 0, 0}, false);
+        int found_at = -1;
+        for (int k = 0; k < 60; k++) {
+            const double t = start + 0.1 * k;
+            robot.see(room::l_shape(), t);
+            const reference::Pose truth = room::since_start(room::path(1), room::path(t));
+            const double off_m = (convert::pose(robot.last.map) - truth).head<2>().norm();
+            if (robot.last.state != ALE_STATE_LOST) {
+                EXPECT_LT(off_m, 0.03) << start << " " << k;
+                found_at = found_at < 0 ? k : found_at;
+            }
+        }
+        EXPECT_GT(found_at, 0) << "not before the places have been compared";
+        EXPECT_LT(found_at, 40);
+        EXPECT_EQ(robot.last.state, ALE_STATE_GOOD);
+    }
+}
+
+TEST(Relocation, WhereTwoPlacesFitItSaysLostForAsLongAsThatLasts)
+{
+    const auto map = map_of(rectangle());
+    Robot robot;
+    ale_pipeline_load_map(robot.pipeline.get(), map.get(), {0, 0, 0}, false);
+    for (int k = 0; k < 150; k++) {
+        robot.see(rectangle(), 5 + 0.1 * k);
+        EXPECT_EQ(robot.last.state, ALE_STATE_LOST) << k;
+    }
+}
+
+TEST(Relocation, AnotherBuildingIsNotTaken)
+{
+    const auto map = map_of(room::l_shape());
+    Robot robot;
+    ale_pipeline_load_map(robot.pipeline.get(), map.get(), {0, 0, 0}, false);
+    for (int k = 0; k < 100; k++) {
+        robot.see(rectangle(), 5 + 0.1 * k);
+        EXPECT_EQ(robot.last.state, ALE_STATE_LOST) << k;
+    }
+}
+
+} // namespace
