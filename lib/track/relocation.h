@@ -4,7 +4,8 @@
  * does; a few are fitted to the scan in turn, and each remembers how much of what scans showed lay on walls
  * there. A place is the answer when it has held for a while, explains nearly all, all pairs of walls have
  * been tried, and no other place explains nearly as much: in a building of equal rooms that takes a drive
- * into the next one. Work a scan is bounded by ALE_PLACES_FITTED fits and one turn of the search. One owner.
+ * into the next one. Work a scan is bounded by ALE_PLACES_FITTED fits, fewer on a large map, and one turn of
+ * the search. One owner.
  */
 #ifndef ALE_TRACK_RELOCATION_H
 #define ALE_TRACK_RELOCATION_H
