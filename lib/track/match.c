@@ -10,7 +10,7 @@ int64_t ale_view_offset_var(const ale_view_t *view, const ale_matrix_t *cov)
     const int64_t n[3] = {
         ale_round_shift(ale_cos_q30(view->normal_bam), 10),
         ale_round_shift(ale_sin_q30(view->normal_bam), 10),
-        -ale_round_div(ale_along(view->centre, ale_tangent_bam(view->normal_bam)) * (1 << 20), 1000000)};
+        ale_round_div(ale_along(view->centre, ale_tangent_bam(view->normal_bam)) * (1 << 20), 1000000)};
     int64_t var = 0;
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
