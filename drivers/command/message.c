@@ -124,7 +124,8 @@ size_t ale_command_encode(const ale_command_t *command, const uint8_t signature[
         .num_args = (int32_t)command->args,
         .args = args,
         .num_signature = signature ? ALE_SIGNATURE_BYTES : 0,
-        .signature = (uint8_t *)signature,
+        .signature =
+            (uint8_t *)(signature ? signature : bytes), /* of no bytes, but never NULL: LCM copies it */
     };
     const int length = lcmtypes_ale_command_t_encode(bytes, 0, ALE_COMMAND_BYTES, &message);
     return length > 0 ? (size_t)length : 0;
