@@ -10,6 +10,7 @@
 #include <assert.h>
 #include <stdint.h>
 
+/* cppcheck-suppress shiftNegativeLHS; it is what is asked here */
 static_assert((-3 >> 1) == -2, "ale_round_shift stands on the arithmetic shift of gcc and clang");
 
 /* v / 2^shift, rounded half away from zero. shift 0..62; |v| + 2^(shift-1) must fit int64. No branch: it is
