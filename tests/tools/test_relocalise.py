@@ -15,7 +15,7 @@ BUILD = pathlib.Path(os.environ.get("ALE_BUILD", "build")).resolve()
 
 @pytest.mark.parametrize("world", ["home", "arena"])
 def test_finds_itself_from_random_places_and_is_never_wrong_while_good(world):
-    times, right, wrong = relocalise.try_world(BUILD, ROOT / "tools" / "worlds" / f"{world}.world", 2, 40, 11)
+    times, right, wrong = relocalise.try_world(BUILD, ROOT / "tools" / "worlds" / f"{world}.world", 2, 60, 11)
     assert wrong == 0
     assert right == 2
     assert len(times) == 2

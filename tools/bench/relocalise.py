@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Lost in a saved map: a robot is put at random places of a world and drives on from there. Does it find itself?
 
-    relocalise.py [--build build] [--poses 100] [--seconds 40] [--seed 7] [WORLD]...
+    relocalise.py [--build build] [--poses 100] [--seconds 60] [--seed 7] [WORLD]...
 
 For each world: a drive through it is mapped and the map saved; then every place (near the world's way, any heading)
 is the start of a drive along the next points of the way, which ale-replay sees from a loaded map and an unknown
@@ -19,6 +19,7 @@ import tempfile
 
 GOOD = 2
 NEAR_M, NEAR_RAD = 0.10, 0.10
+POINTS = 12  # of the way that are driven to
 ROBOT_M = 0.25  # room that a place leaves around the robot
 
 
@@ -59,7 +60,11 @@ class World:
             on = (a[0] + (b[0] - a[0]) * u, a[1] + (b[1] - a[1]) * u)
             p = (on[0] + chance.uniform(-1, 1), on[1] + chance.uniform(-1, 1))
             if self.room(*p) > ROBOT_M and self.is_clear(p, on, ROBOT_M - 0.05):
-                return (*p, chance.uniform(-math.pi, math.pi)), [on, *self.via[k:k + 6]]
+                return (*p, chance.uniform(-math.pi, math.pi)), [on, *self.onward(k)]
+
+    def onward(self, k):
+        """The next points of the way from its k-th piece; at its end it is driven back."""
+        return (self.via + self.via[-2::-1])[k:k + POINTS]
 
     def write(self, path, start, via):
         lines = [f"# start {start[0]:.3f} {start[1]:.3f} {start[2]:.4f}"]
@@ -132,7 +137,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build"))
     parser.add_argument("--poses", type=int, default=100)
-    parser.add_argument("--seconds", type=float, default=40)
+    parser.add_argument("--seconds", type=float, default=60)
     parser.add_argument("--seed", type=int, default=7)
     parser.add_argument("worlds", nargs="*", default=sorted(map(str, pathlib.Path("tools/worlds").glob("*.world"))))
     options = parser.parse_args()
