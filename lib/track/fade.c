@@ -6,12 +6,32 @@
 enum {
     MISSES = 4,        /* scans that must look through a wall that was hardly ever seen */
     SEEN_PER_MISS = 4, /* and one more for so many scans that saw it */
-    MISSES_MOST = 60
+    MISSES_MOST = 60,
+    TRIM_UM = 10000,
+    TRIM_INSIDE_UM = 30000,
+    TRIM_LENGTH_UM = 300000 /* shorter walls fade as a whole */
 };
 
 static bool has_faded(const ale_wall_t *wall)
 {
     return wall->missed > ale_min64(MISSES + wall->seen / SEEN_PER_MISS, MISSES_MOST);
+}
+
+/* An end that is seen through was never there: noise and things beside a wall lengthen it, this shortens it.
+ */
+static void trim(ale_wall_t *wall, const ale_scan_t *taken, const uint32_t *bearing_bam, ale_pose_t sensor)
+{
+    if (wall->end_um - wall->start_um < TRIM_LENGTH_UM) {
+        return;
+    }
+    const int64_t start_um = wall->start_um + TRIM_INSIDE_UM;
+    const int64_t end_um = wall->end_um - TRIM_INSIDE_UM;
+    if (ale_wall_point_sight(wall, start_um, taken, bearing_bam, sensor) == ALE_SIGHT_THROUGH) {
+        wall->start_um += TRIM_UM;
+    }
+    if (ale_wall_point_sight(wall, end_um, taken, bearing_bam, sensor) == ALE_SIGHT_THROUGH) {
+        wall->end_um -= TRIM_UM;
+    }
 }
 
 ale_sights_t ale_fade(ale_fade_t *fade, ale_local_map_t *map, const ale_scan_t *taken,
@@ -24,6 +44,9 @@ ale_sights_t ale_fade(ale_fade_t *fade, ale_local_map_t *map, const ale_scan_t *
         fade->next = fade->next + 1 < count ? fade->next + 1 : 0;
         const uint16_t index = map->near[fade->next];
         ale_wall_t *wall = &map->wall[index];
+        if (forget) {
+            trim(wall, taken, bearing_bam, sensor);
+        }
         if (wall->last_scan == scan) {
             continue;
         }

@@ -21,7 +21,8 @@ typedef struct {
     uint16_t through;
 } ale_sights_t;
 
-/* Asks the next near walls whose last_scan is not `scan`. forget: count misses and remove what has faded. */
+/* Asks the next near walls whose last_scan is not `scan`. forget: count misses, remove what has faded, and
+ * shorten walls whose ends are seen through. */
 ale_sights_t ale_fade(ale_fade_t *fade, ale_local_map_t *map, const ale_scan_t *taken,
                       const uint32_t *bearing_bam, ale_pose_t sensor, uint32_t scan, bool forget);
 

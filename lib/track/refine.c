@@ -14,8 +14,9 @@ enum {
     LATER_OFFSET_UM = 60000,
     LATER_ANGLE_URAD = 200000,
     LATER_PIECE_UM = 50000,
-    PIECE_ANGLE_URAD = 600000, /* a piece hardly has a direction */
-    REJECT_PARTS = 10 /* less than this part of what is shown, found in the map, is found by chance */
+    MARK_CONFIRMED = 3, /* until it was seen so often a mark may be of someone who walks: (20 mm)^2 more */
+    MARK_PASSING_UM2 = 400000000,
+    PIECE_ANGLE_URAD = 600000 /* a piece hardly has a direction */
 };
 
 static const ale_gate_t later = {LATER_OFFSET_UM, LATER_ANGLE_URAD, LATER_SIGMAS, LATER_PIECE_UM};
@@ -96,7 +97,8 @@ static void add_mark_rows(const ale_view_t *view, const ale_mark_t *mark, uint32
                           const int64_t change[3], ale_match_t *match, ale_information_t *sum)
 {
     ale_view_rows_t rows;
-    const int64_t var = view->var_offset_um2 + mark->var_um2;
+    const int64_t passing = mark->seen < MARK_CONFIRMED ? MARK_PASSING_UM2 : 0;
+    const int64_t var = view->var_offset_um2 + mark->var_um2 + passing;
     ale_view_rows(view, theta_bam, mark->normal_bam, &rows);
     correct_for_velocity(&rows, change, &match->error);
     ale_information_add(sum, rows.offset_row_q14, match->error.offset_um,

@@ -109,3 +109,9 @@ ale_sight_t ale_wall_sight(const ale_wall_t *wall, const ale_scan_t *scan, const
     }
     return sum.through >= 2 ? ALE_SIGHT_THROUGH : ALE_SIGHT_NONE;
 }
+
+ale_sight_t ale_wall_point_sight(const ale_wall_t *wall, int64_t t_um, const ale_scan_t *scan,
+                                 const uint32_t *bearing_bam, ale_pose_t sensor)
+{
+    return point_sight(wall, ale_wall_point(wall, t_um), scan, bearing_bam, sensor, (ale_slack_t){0, 0});
+}

@@ -13,11 +13,11 @@ TEST(Uncertainty, AHeadingThatDriftsOnTheWayMovesThePlaceAsManyRandomWalksDo)
 {
     const Eigen::Vector2d place(6, 8);
     const double sigma = 0.02;
-    const int steps = 200;
+    const int steps = 100;
     std::mt19937 rng(4);
     std::normal_distribution<double> normal(0, sigma / std::sqrt(steps));
     Eigen::Matrix3d expected = Eigen::Matrix3d::Zero();
-    const int walks = 20000;
+    const int walks = 6000;
     for (int k = 0; k < walks; k++) {
         Eigen::Vector3d error(0, 0, 0);
         for (int i = 0; i < steps; i++) {
@@ -34,7 +34,7 @@ TEST(Uncertainty, AHeadingThatDriftsOnTheWayMovesThePlaceAsManyRandomWalksDo)
     for (int i = 0; i < 9; i++) {
         const double unit = (i / 3 == 2 ? 1e-9 : 1e-6) * (i % 3 == 2 ? 1e-9 : 1e-6);
         const double scale = std::sqrt(expected(i / 3, i / 3) * expected(i % 3, i % 3));
-        EXPECT_NEAR(static_cast<double>(cov[i]) * unit, expected(i / 3, i % 3), 0.04 * scale) << i;
+        EXPECT_NEAR(static_cast<double>(cov[i]) * unit, expected(i / 3, i % 3), 0.06 * scale) << i;
     }
 }
 
