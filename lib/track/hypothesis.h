@@ -28,10 +28,10 @@ typedef struct {
 } ale_search_t;
 
 typedef struct {
-    ale_pose_t pose;
     int64_t score_um; /* length of the scan's lines that lie on walls */
     int64_t shown_um; /* length of all lines */
-    uint16_t views;   /* lines that lie on walls */
+    ale_pose_t pose;
+    uint16_t views; /* lines that lie on walls */
 } ale_hypothesis_t;
 
 /* The pose that puts two views on two walls, least squares in the angle. False when the walls enclose too
