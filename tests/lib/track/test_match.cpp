@@ -185,7 +185,7 @@ TEST(Hypothesis, TheSearchFindsThePlaceAndTheScoresOfTheTwin)
         const Pose truth(scene.uniform(-2, 2), scene.uniform(-2, 2), scene.uniform(-3, 3));
         std::vector<ale_view_t> views;
         std::vector<WallPiece> lines;
-        for (const size_t k : {0, 3, 6, 9, 12, 15, 18, 21}) {
+        for (const size_t k : {0U, 3U, 6U, 9U, 12U, 15U, 18U, 21U}) {
             views.push_back(scene.seen(k, truth, 0.003, 0.002));
             lines.push_back(Scene::in_double(views.back()));
         }
