@@ -8,6 +8,8 @@
 
 #include <stdint.h>
 
+#include "base/trig.h"
+
 typedef struct {
     int32_t x_um;
     int32_t y_um;
@@ -20,6 +22,9 @@ typedef struct {
 } ale_pose_t;
 
 ale_point_t ale_rotate(ale_point_t p, uint32_t angle_bam);
+
+/* The same for many points: by the angle whose cosine and sine are given. */
+ale_point_t ale_turn(ale_point_t p, ale_direction_t direction);
 
 /* The point p of the pose's frame, in the frame the pose is given in. */
 ale_point_t ale_pose_apply(ale_pose_t pose, ale_point_t p);

@@ -117,12 +117,21 @@ ale_direction_t ale_direction(uint32_t angle_bam)
     return d;
 }
 
+/* num / den for |num| < den < 2^43: two digits of 20 bits. */
+static int64_t ratio_q40(int64_t num, int64_t den)
+{
+    const int64_t scaled = ale_abs64(num) << 20;
+    const int64_t high = scaled / den;
+    const int64_t ratio = (high << 20) + ((scaled - high * den) << 20) / den;
+    return num < 0 ? -ratio : ratio;
+}
+
 /* atan(num / den) for 0 <= num <= den, den > 0, both below 2^33: the nearest table entry k/256 and
  * atan(z) - atan(z0) = atan((z - z0) / (1 + z z0)) = atan((256 num - k den) / (256 den + k num)). */
 static uint32_t octant_arctan(int64_t num, int64_t den)
 {
     const int64_t k = ale_round_div(num * 256, den);
-    const int64_t u_q40 = ale_mul_div(num * 256 - k * den, (int64_t)1 << 40, den * 256 + k * num);
+    const int64_t u_q40 = ratio_q40(num * 256 - k * den, den * 256 + k * num);
     const int64_t cube_q40 = ale_round_shift(ale_round_shift(u_q40 * u_q40, 40) * u_q40, 40);
     const int64_t angle_q40 = u_q40 - ale_round_div(cube_q40, 3);
     return (uint32_t)(arctan_bam[k] + ale_round_shift(angle_q40 * bam_per_rad, 40));

@@ -5,25 +5,29 @@
 #include "extract/moments.h"
 
 enum {
+    UNRULY_REACH =
+        2, /* times the points accepted that an unruly scan is tried for before the first refusal */
     SHARED_SHARE = 2, /* shared variances that a point may add in the mean, */
     SHARED_PEAK = 6,  /* and those that are in error together on top of it */
     GRID = 12,        /* places at which a run is tried for a break */
     MIN_SPLIT_POINTS = 16,
-    PROMISING_Q8 = 100 /* part of the gain wanted that a place of the grid must show */
+    SUSPICIOUS_Q8 = 236, /* a run that has no more than its noise is not tried */
+    PROMISING_Q8 = 100   /* part of the gain wanted that a place of the grid must show */
 };
 
-static ale_run_fit_t fit_between(const ale_extractor_t *e, int32_t a, int32_t b)
-{
-    return a <= b ? ale_moments_fit(e, a, b) : ale_moments_fit(e, b, a);
-}
-
-/* Squared residuals that n points of a true line may have: chi square of the own noise, and the shared
- * error, of which n points have only one draw for every 2 * shared_beams of them. */
-static int64_t allowed_q8(const ale_extractor_t *e, const ale_run_fit_t *fit, int32_t n, int64_t chi_q8)
+/* Shared variances that n points of a true line may have, of which they have only one draw for every
+ * 2 * shared_beams of them. */
+static int64_t shared_times(const ale_extractor_t *e, int32_t n)
 {
     const int64_t together = ale_min64(n, (int64_t)2 * e->config.noise.shared_beams);
-    const int64_t shared = fit->shared_q8 * ((int64_t)SHARED_SHARE * n + SHARED_PEAK * together);
-    return ((fit->var_q8 * chi_q8) >> 8) + shared;
+    return (int64_t)SHARED_SHARE * n + SHARED_PEAK * together;
+}
+
+/* Squared residuals that n points of a true line may have: chi square of the own noise and the shared error.
+ */
+static int64_t allowed_q8(const ale_extractor_t *e, const ale_run_fit_t *fit, int32_t n, int64_t chi_q8)
+{
+    return ((fit->var_q8 * chi_q8) >> 8) + fit->shared_q8 * shared_times(e, n);
 }
 
 /* Threshold of the search, as chi square of n points: it floats with the fit accepted last, between the
@@ -44,6 +48,19 @@ static bool acceptable(const ale_extractor_t *e, const ale_run_fit_t *fit, const
            fit->sse_q8 - accepted->sse_q8 <= allowed_q8(e, fit, added, e->chi_high_q8[added]);
 }
 
+/* The fit, unless its residuals are beyond every bound: most refusals in an unruly scan need no more. */
+static bool fit_unless_gross(const ale_extractor_t *e, int32_t a, int32_t b, ale_run_fit_t *fit)
+{
+    const int32_t first = a <= b ? a : b;
+    const int32_t last = a <= b ? b : a;
+    const int32_t n = last + 1 - first;
+    if (e->unruly) {
+        return ale_moments_fit_unless_gross(e, first, last, e->chi_high_q8[n], shared_times(e, n), fit);
+    }
+    *fit = ale_moments_fit(e, first, last);
+    return true;
+}
+
 int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to, ale_run_fit_t *accepted)
 {
     const int32_t direction = to >= from ? 1 : -1;
@@ -52,17 +69,20 @@ int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to, ale
     if (low >= high) {
         return from;
     }
-    *accepted = fit_between(e, from, from + direction * low);
-    if (accepted->sse_q8 > allowed_q8(e, accepted, accepted->n, e->chi_high_q8[accepted->n])) {
+    if (!fit_unless_gross(e, from, from + direction * low, accepted) ||
+        accepted->sse_q8 > allowed_q8(e, accepted, accepted->n, e->chi_high_q8[accepted->n])) {
         return from;
     }
+    bool bracketed = !e->unruly;
     while (high - low > 1) {
-        const int32_t p = (low + high) / 2;
-        const ale_run_fit_t fit = fit_between(e, from, from + direction * p);
-        if (acceptable(e, &fit, accepted)) {
+        const int32_t half = (low + high) / 2;
+        const int32_t p = bracketed ? half : (int32_t)ale_min64(half, UNRULY_REACH * low);
+        ale_run_fit_t fit;
+        if (fit_unless_gross(e, from, from + direction * p, &fit) && acceptable(e, &fit, accepted)) {
             low = p;
             *accepted = fit;
         } else {
+            bracketed = true;
             high = p;
         }
     }
@@ -159,7 +179,8 @@ static parting_t part_at(const ale_extractor_t *e, const ale_run_t *run, int32_t
 
 int32_t ale_break_find(const ale_extractor_t *e, ale_run_t *run, int32_t direction)
 {
-    if (run->last - run->first + 1 < MIN_SPLIT_POINTS) {
+    const ale_run_fit_t *one = ale_fit_of_run(e, run);
+    if (one->n < MIN_SPLIT_POINTS || ale_fit_chi_q8(one) < (one->n - 2) * SUSPICIOUS_Q8) {
         return -1;
     }
     const ale_segment_t both = {run->first, run->last};
@@ -168,7 +189,6 @@ int32_t ale_break_find(const ale_extractor_t *e, ale_run_t *run, int32_t directi
     if (coarse < 0) {
         return -1;
     }
-    ale_fit_of_run(e, run);
     const parting_t p = part_at(e, run, coarse);
     if (p.ratio_q8 < PROMISING_Q8) {
         return -1;

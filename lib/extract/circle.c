@@ -41,6 +41,18 @@ static unsigned excess_bits(int64_t v)
     return bits > SUM_BITS ? bits - SUM_BITS : 0;
 }
 
+/* num * 2^scale / den, den > 0: the shift is taken from the denominator where the numerator has no room. */
+static int64_t scaled_ratio(int64_t num, int64_t den, int32_t scale)
+{
+    if (scale < 0) {
+        return ale_round_shift(ale_round_div(num, den), (unsigned)-scale);
+    }
+    const int32_t room = 62 - (int32_t)ale_bit_length((uint64_t)ale_abs64(num));
+    const int32_t up = scale < room ? scale : room;
+    return ale_round_div(num * ((int64_t)1 << up),
+                         ale_max64(ale_round_shift(den, (unsigned)(scale - up)), 1));
+}
+
 ale_circle_t ale_circle_fit(const ale_extractor_t *e, int32_t first, int32_t last)
 {
     const ale_circle_t none = {0, 0, 0};
@@ -61,10 +73,8 @@ ale_circle_t ale_circle_fit(const ale_extractor_t *e, int32_t first, int32_t las
     if (det <= 0) {
         return none;
     }
-    const int64_t a = ale_mul_div(uz * vv - vz * uv, (int64_t)1 << (scale > 0 ? scale : 0), det) >>
-                      (scale < 0 ? -scale : 0);
-    const int64_t b = ale_mul_div(vz * uu - uz * uv, (int64_t)1 << (scale > 0 ? scale : 0), det) >>
-                      (scale < 0 ? -scale : 0);
+    const int64_t a = scaled_ratio(uz * vv - vz * uv, det, scale);
+    const int64_t b = scaled_ratio(vz * uu - uz * uv, det, scale);
     if (ale_abs64(a) > MAX_RADIUS_Q4 || ale_abs64(b) > MAX_RADIUS_Q4) {
         return none;
     }

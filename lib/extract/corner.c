@@ -67,10 +67,9 @@ static void set_covariance(ale_corner_t *corner, const ale_line_t *a, const ale_
     corner->cov_um2[2] = ale_round_div(yy, det2_q20);
 }
 
-static bool corner_of(const ale_line_t *a, const ale_line_t *b, ale_corner_t *corner)
+static bool corner_of(const ale_line_t *a, const ale_line_t *b, direction_t na, direction_t nb,
+                      ale_corner_t *corner)
 {
-    const direction_t na = normal_of(a);
-    const direction_t nb = normal_of(b);
     const int64_t det = ale_round_shift(na.c * nb.s - na.s * nb.c, 30);
     if (ale_abs64(det) < min_sine_q30) {
         return false;
@@ -92,11 +91,17 @@ static bool corner_of(const ale_line_t *a, const ale_line_t *b, ale_corner_t *co
 void ale_corner_find(ale_features_t *out)
 {
     out->corner_count = 0;
+    if (out->line_count == 0) {
+        return;
+    }
+    direction_t next = normal_of(&out->line[0]);
     for (uint16_t k = 0; k + 1 < out->line_count; k++) {
         ale_line_t *a = &out->line[k];
         ale_line_t *b = &out->line[k + 1];
         ale_corner_t *corner = &out->corner[out->corner_count];
-        if (b->first - a->last > MAX_GAP_BEAMS || !corner_of(a, b, corner)) {
+        const direction_t here = next;
+        next = normal_of(b);
+        if (b->first - a->last > MAX_GAP_BEAMS || !corner_of(a, b, here, next, corner)) {
             continue;
         }
         corner->first_line = k;

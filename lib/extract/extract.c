@@ -19,9 +19,11 @@
 enum {
     HIGH_Z = 4,
     LOW_Z = 3,
-    ROUGH_OWN_Q2 = 5,  /* own variances that a line may have beyond its bound: the measured noise errs too */
-    ROUGH_SHARED = 12, /* shared variances that a long wall may be wavy by, */
-    ROUGH_REACHES = 4  /* and the reaches of the shared error from which on it is a long one */
+    CLUTTER_LONGER = 4, /* thirds of the fewest points of a line, where there is clutter */
+    MANY_RUNS = 24,     /* rooms have up to 22: more is clutter */
+    ROUGH_OWN_Q2 = 5,   /* own variances that a line may have beyond its bound: the measured noise errs too */
+    ROUGH_SHARED = 12,  /* shared variances that a long wall may be wavy by, */
+    ROUGH_REACHES = 4   /* and the reaches of the shared error from which on it is a long one */
 };
 static const int64_t MAX_SIGMA_ALPHA_NRAD = 104719755; /* 6 degrees: a line of no known direction is none */
 
@@ -93,10 +95,6 @@ static int64_t rough_q8(const ale_extractor_t *e, const ale_run_fit_t *fit)
 
 static bool is_line(ale_extractor_t *e, const ale_run_fit_t *fit, const ale_line_t *line)
 {
-    if (fit->n < e->config.min_points) {
-        e->refused[ALE_REFUSED_FEW_POINTS]++;
-        return false;
-    }
     const int64_t dx = (int64_t)line->start.x_um - line->end.x_um;
     const int64_t dy = (int64_t)line->start.y_um - line->end.y_um;
     if (dx * dx + dy * dy < (int64_t)e->config.min_length_um * e->config.min_length_um) {
@@ -123,14 +121,20 @@ static uint8_t end_kind(const ale_extractor_t *e, int32_t end, int32_t beyond)
     return jump && e->range_um[beyond] < e->range_um[end] ? ALE_END_OCCLUDED : ALE_END_EDGE;
 }
 
-static void turn_line(ale_line_t *line, uint32_t frame_bam)
+/* Direction of the points' x axis in the sensor's frame. */
+typedef struct {
+    uint32_t angle_bam;
+    ale_direction_t direction;
+} frame_t;
+
+static void turn_line(ale_line_t *line, const frame_t *frame)
 {
-    line->alpha_bam += frame_bam;
-    line->start = ale_rotate(line->start, frame_bam);
-    line->end = ale_rotate(line->end, frame_bam);
+    line->alpha_bam += frame->angle_bam;
+    line->start = ale_turn(line->start, frame->direction);
+    line->end = ale_turn(line->end, frame->direction);
 }
 
-static void write_curve(ale_extractor_t *e, ale_segment_t run, uint32_t frame_bam, ale_features_t *out)
+static void write_curve(ale_extractor_t *e, ale_segment_t run, const frame_t *frame, ale_features_t *out)
 {
     e->refused[ALE_REFUSED_CURVED]++;
     if (out->curve_count == ALE_MAX_CURVES) {
@@ -139,19 +143,23 @@ static void write_curve(ale_extractor_t *e, ale_segment_t run, uint32_t frame_ba
     }
     ale_curve_t *curve = &out->curve[out->curve_count++];
     ale_curve_fit(e, run, curve);
-    curve->centre = ale_rotate(curve->centre, frame_bam);
+    curve->centre = ale_turn(curve->centre, frame->direction);
 }
 
-/* Fits the runs and gives them out in the sensor's frame; frame_bam: direction of the points' x axis in it.
- */
+/* Fits the runs and gives them out in the sensor's frame. */
 static void write_features(ale_extractor_t *e, uint32_t frame_bam, ale_features_t *out)
 {
+    const frame_t frame = {frame_bam, ale_direction(frame_bam)};
     out->line_count = 0;
     out->curve_count = 0;
     for (int32_t k = 0; k < e->run_count; k++) {
         const ale_segment_t run = {e->run[k].first, e->run[k].last};
         if (e->run[k].curved) {
-            write_curve(e, run, frame_bam, out);
+            write_curve(e, run, &frame, out);
+            continue;
+        }
+        if (run.last + 1 - run.first < e->config.min_points) {
+            e->refused[ALE_REFUSED_FEW_POINTS]++;
             continue;
         }
         ale_line_t line;
@@ -165,7 +173,7 @@ static void write_features(ale_extractor_t *e, uint32_t frame_bam, ale_features_
         }
         line.first_end = end_kind(e, run.first, run.first - 1);
         line.last_end = end_kind(e, run.last, run.last + 1);
-        turn_line(&line, frame_bam);
+        turn_line(&line, &frame);
         out->line[out->line_count++] = line;
     }
     ale_corner_find(out);
@@ -202,15 +210,25 @@ static void search_runs(ale_extractor_t *e, const ale_scan_t *scan)
 {
     ale_runs_search(e);
     if (ale_scan_noise_measure_shared(e, scan)) {
-        ale_runs_search(e);
+        if (e->run_count > MANY_RUNS) {
+            ale_runs_forget_fits(e);
+        } else {
+            ale_runs_search(e);
+        }
     } else if (e->config.smooth_span == 1) {
         ale_scan_noise_refine_own(e); /* smoothed residuals would tell of no noise */
     }
 }
 
-/* What the search found, made good on the raw points. */
+/* What the search found, made good on the raw points. Of clutter only the most needed, for the time is
+ * bounded. */
 static void improve_runs(ale_extractor_t *e)
 {
+    if (e->run_count > MANY_RUNS) {
+        ale_runs_drop_short(e, e->config.min_points * CLUTTER_LONGER / 3);
+        ale_merge_runs(e);
+        return;
+    }
     ale_merge_runs(e);
     ale_runs_place(e, ALE_BREAK_WIDE_STEP);
     ale_curve_find(e);

@@ -32,6 +32,13 @@ static ale_point_t end_on_line(const ale_extractor_t *e, int32_t i, const ale_li
     return foot;
 }
 
+/* 10^18 a / b for a > 0 and 0 < b < 2^48: to 14 bits and better. */
+static int64_t nano_nano(int64_t a, int64_t b)
+{
+    const unsigned shift = 63 - ale_bit_length((uint64_t)a);
+    return ale_mul_shift((a << shift) / b, 1000000000000000000, shift);
+}
+
 /* How many of n points err together in their mean, and in their slope, when the correlation of their errors
  * falls to 1/e over so many beams: the sums of the correlations over all pairs of points, within 6 %; Q8. */
 static int64_t together_in_mean_q8(int64_t n, int64_t beams)
@@ -56,7 +63,7 @@ static void set_covariance(const ale_extractor_t *e, const ale_spread_t *m, ale_
     const int64_t mean_q8 = m->fit.var_q8 + ((shared_q8 * together_in_mean_q8(n, beams)) >> 8);
     const int64_t slope_q8 = m->fit.var_q8 + ((shared_q8 * together_in_slope_q8(n, beams)) >> 8);
     const int64_t along2_q8 = ale_max64(m->along2_q8, 1);
-    line->var_alpha_nrad2 = ale_mul_div(slope_q8, 1000000000000000000, along2_q8);
+    line->var_alpha_nrad2 = nano_nano(slope_q8, along2_q8);
     line->cov_alpha_rho = ale_mul_nano(line->var_alpha_nrad2, mean_along_um);
     line->var_rho_um2 = um2_of_q8(mean_q8) / n + ale_mul_nano(line->cov_alpha_rho, mean_along_um);
 }

@@ -104,23 +104,58 @@ static inline int64_t squared_rho_mm2(const scatter_t *m, int64_t x_q2, int64_t 
     return (ale_max64(sum, 0) / spread) >> (2 * MEAN_SHIFT);
 }
 
-static inline __attribute__((always_inline)) ale_run_fit_t fit_of(const ale_scan_noise_t *noise, int64_t n,
-                                                                  ale_moments_t s, const scatter_t *m)
+/* What the noise makes of points at a mean squared range: own variance over the square of the range, and that
+ * square, mm^2. */
+typedef struct {
+    int64_t own_q36;
+    int64_t range2;
+} noise_at_t;
+
+static inline noise_at_t noise_of(int64_t n, const ale_moments_t *s)
+{
+    const noise_at_t at = {ale_min64(s->noise_q36 / n, MOST_RELATIVE_Q36),
+                           (s->xx + s->yy) / (n << (2 * ALE_POINT_SHIFT))};
+    return at;
+}
+
+static inline int64_t scaled_var_q8(const ale_scan_noise_t *noise, int64_t own_mm2_q36)
+{
+    return ale_max64(ale_round_shift((own_mm2_q36 >> 20) * noise->own_scale_q16, 24), VAR_FLOOR_Q8);
+}
+
+static inline __attribute__((always_inline)) ale_run_fit_t
+fit_of(const ale_scan_noise_t *noise, int64_t n, ale_moments_t s, const scatter_t *m, noise_at_t at)
 {
     const int64_t q2_points = n << (ALE_POINT_SHIFT - MEAN_SHIFT);
     const int64_t rho2 = squared_rho_mm2(m, s.x / q2_points, s.y / q2_points);
-    const int64_t range2 = (s.xx + s.yy) / (n << (2 * ALE_POINT_SHIFT));
-    const int64_t own_q36 = ale_min64(s.noise_q36 / n, MOST_RELATIVE_Q36);
-    const int64_t own = rho2 * own_q36 + ale_max64(range2 - rho2, 0) * noise->bearing_rad2_q36;
+    const int64_t own = rho2 * at.own_q36 + ale_max64(at.range2 - rho2, 0) * noise->bearing_rad2_q36;
     const int64_t shared_q36 = ale_min64(
-        noise->shared_mm2_q36 / ale_max64(range2, 1) + noise->shared_relative_q36, MOST_RELATIVE_Q36);
+        noise->shared_mm2_q36 / ale_max64(at.range2, 1) + noise->shared_relative_q36, MOST_RELATIVE_Q36);
     const ale_run_fit_t fit = {
         .n = (int32_t)n,
         .sse_q8 = (m->lambda << m->shift) / n,
-        .var_q8 = ale_max64(ale_round_shift((own >> 20) * noise->own_scale_q16, 24), VAR_FLOOR_Q8),
+        .var_q8 = scaled_var_q8(noise, own),
         .shared_q8 = ale_round_shift(rho2 * shared_q36, 28),
     };
     return fit;
+}
+
+bool ale_moments_fit_unless_gross(const ale_extractor_t *e, int32_t first, int32_t last, int64_t own_q8,
+                                  int64_t shared_times, ale_run_fit_t *fit)
+{
+    const ale_scan_noise_t *noise = &e->noise;
+    const int64_t n = last + 1 - first;
+    const ale_moments_t s = sums_of(e, first, last);
+    const scatter_t m = scatter_of(n, s);
+    const noise_at_t at = noise_of(n, &s);
+    const int64_t var_q8 = scaled_var_q8(noise, (at.range2 + 1) * (at.own_q36 + noise->bearing_rad2_q36));
+    const int64_t shared_q8 =
+        (noise->shared_mm2_q36 >> 28) + ((at.range2 + 1) * noise->shared_relative_q36 >> 28) + 1;
+    if ((m.lambda << m.shift) / n > ((var_q8 * own_q8) >> 8) + shared_q8 * shared_times) {
+        return false;
+    }
+    *fit = fit_of(noise, n, s, &m, at);
+    return true;
 }
 
 int64_t ale_moments_sse_q8(const ale_extractor_t *e, int32_t first, int32_t last)
@@ -135,7 +170,7 @@ ale_run_fit_t ale_moments_fit(const ale_extractor_t *e, int32_t first, int32_t l
     const int64_t n = last + 1 - first;
     const ale_moments_t s = sums_of(e, first, last);
     const scatter_t m = scatter_of(n, s);
-    return fit_of(&e->noise, n, s, &m);
+    return fit_of(&e->noise, n, s, &m, noise_of(n, &s));
 }
 
 ale_spread_t ale_moments_spread(const ale_extractor_t *e, int32_t first, int32_t last)
@@ -144,7 +179,7 @@ ale_spread_t ale_moments_spread(const ale_extractor_t *e, int32_t first, int32_t
     const ale_moments_t s = sums_of(e, first, last);
     const scatter_t m = scatter_of(n, s);
     const ale_spread_t spread = {
-        .fit = fit_of(&e->noise, n, s, &m),
+        .fit = fit_of(&e->noise, n, s, &m, noise_of(n, &s)),
         .a = m.a,
         .b = m.b,
         .c = m.c,

@@ -12,6 +12,11 @@ void ale_moments_build(ale_extractor_t *e);
  * 2^-28 of the squares along the line and to their own share of those, squared. */
 ale_run_fit_t ale_moments_fit(const ale_extractor_t *e, int32_t first, int32_t last);
 
+/* The same, unless the squared residuals exceed own_q8 / 256 own variances and shared_times shared ones even
+ * of a wall that faces the sensor: then false, at half the cost, and *fit is not set. */
+bool ale_moments_fit_unless_gross(const ale_extractor_t *e, int32_t first, int32_t last, int64_t own_q8,
+                                  int64_t shared_times, ale_run_fit_t *fit);
+
 /* The fit of a run, computed when it is asked for the first time: who moves an end of the run or changes the
  * noise sets fit.n to 0. */
 static inline const ale_run_fit_t *ale_fit_of_run(const ale_extractor_t *e, ale_run_t *run)

@@ -7,7 +7,8 @@
 enum {
     STRAY_POINTS = 4, /* pieces of so few points are no surface */
     SPIKE_FACTOR = 4, /* deviations by which a spike stands out from both neighbours */
-    SPIKE_REACH = 7   /* beams that a spike and two neighbours on each side may take */
+    SHORT_STRETCH = 8,
+    SPIKE_REACH = 7 /* beams that a spike and two neighbours on each side may take */
 };
 
 /* Points to be removed, ascending. */
@@ -16,12 +17,21 @@ typedef struct {
     int32_t count;
 } removal_t;
 
+/* A short stretch is not worth three calls. */
 static void move_points(ale_extractor_t *e, int32_t to, int32_t from, int32_t end)
 {
     const size_t points = (size_t)(end - from);
-    memmove(&e->beam[to], &e->beam[from], points * sizeof *e->beam);
-    memmove(&e->range_um[to], &e->range_um[from], points * sizeof *e->range_um);
-    memmove(&e->inverse_q44[to], &e->inverse_q44[from], points * sizeof *e->inverse_q44);
+    if (points > SHORT_STRETCH) {
+        memmove(&e->beam[to], &e->beam[from], points * sizeof *e->beam);
+        memmove(&e->range_um[to], &e->range_um[from], points * sizeof *e->range_um);
+        memmove(&e->inverse_q44[to], &e->inverse_q44[from], points * sizeof *e->inverse_q44);
+        return;
+    }
+    for (; from < end; from++, to++) {
+        e->beam[to] = e->beam[from];
+        e->range_um[to] = e->range_um[from];
+        e->inverse_q44[to] = e->inverse_q44[from];
+    }
 }
 
 /* The suspects keep their places among the points that stay; those at a removed point become the place where
@@ -31,12 +41,18 @@ static void renumber_suspects(ale_extractor_t *e, const removal_t *r)
     int32_t kept = 0;
     int32_t before = -1;
     for (int32_t k = 0, gone = 0; k < e->suspect_count; k++) {
-        while (gone < r->count && r->point[gone] <= e->suspect[k]) {
+        const ale_suspect_t suspect = e->suspect[k];
+        const int32_t gone_before = gone;
+        while (gone < r->count && r->point[gone] <= suspect.point) {
             gone++;
         }
-        const int32_t i = e->suspect[k] - gone;
+        const bool here_gone = gone > gone_before && r->point[gone - 1] == suspect.point;
+        const bool next_gone = gone < r->count && r->point[gone] == suspect.point + 1;
+        const int32_t i = suspect.point - gone;
         if (i > before && i + 1 < e->count) {
-            e->suspect[kept++] = (uint16_t)i;
+            const bool at_end = i == 0 || i + 2 == e->count;
+            const uint16_t state = here_gone || next_gone || at_end ? ALE_SUSPECT_NEW : suspect.state;
+            e->suspect[kept++] = (ale_suspect_t){(uint16_t)i, state};
             before = i;
         }
     }
@@ -74,34 +90,41 @@ bool ale_outlier_remove_strays(ale_extractor_t *e)
 }
 
 /* A point stands out when both neighbours agree with each other and it lies off both on the same side,
- * the local slope taken off. */
-static bool is_spike(const ale_extractor_t *e, int32_t i)
+ * the local slope taken off. 2 <= i < count - 2. */
+static inline bool is_spike(const ale_extractor_t *e, int32_t i)
 {
-    if (i < 2 || i + 2 >= e->count || e->beam[i + 2] - e->beam[i - 2] > SPIKE_REACH) {
+    const int32_t *range_um = &e->range_um[i];
+    const int32_t slope_um = (range_um[2] - range_um[-2]) / 4;
+    const int32_t left_um = range_um[0] - range_um[-1] - slope_um;
+    const int32_t right_um = range_um[0] - range_um[1] + slope_um;
+    if ((left_um < 0) != (right_um < 0)) {
         return false;
     }
-    const int64_t here = e->range_um[i];
-    const int64_t limit_um = SPIKE_FACTOR * (e->noise.sigma_um + (here * e->noise.sigma_per_range_q20 >> 20));
-    const int64_t slope = ((int64_t)e->range_um[i + 2] - e->range_um[i - 2]) / 4;
-    const int64_t left = here - e->range_um[i - 1] - slope;
-    const int64_t right = here - e->range_um[i + 1] + slope;
-    return ((left > limit_um && right > limit_um) || (left < -limit_um && right < -limit_um)) &&
-           ale_abs64(left - right) <= limit_um;
+    const int64_t limit_um =
+        SPIKE_FACTOR * (e->noise.sigma_um + (range_um[0] * e->noise.sigma_per_range_q20 >> 20));
+    const int64_t left = ale_abs64(left_um);
+    const int64_t right = ale_abs64(right_um);
+    return left > limit_um && right > limit_um && ale_abs64(left - right) <= limit_um &&
+           e->beam[i + 2] - e->beam[i - 2] <= SPIKE_REACH;
 }
 
 void ale_outlier_remove_spikes(ale_extractor_t *e)
 {
     removal_t removal;
     removal.count = 0;
-    int32_t next = 0;
+    if (e->unruly) {
+        return; /* where changes stand out everywhere no point does */
+    }
+    int32_t next = 2;
     for (int32_t k = 0; k < e->suspect_count; k++) {
-        const int32_t i = e->suspect[k];
-        for (int32_t point = i < next ? next : i; point <= i + 1; point++) {
-            if (is_spike(e, point)) {
-                removal.point[removal.count++] = (uint16_t)point;
+        const int32_t suspect = e->suspect[k].point;
+        const int32_t last = suspect + 3 < e->count ? suspect + 1 : e->count - 3;
+        for (int32_t i = suspect < next ? next : suspect; i <= last; i++) {
+            if (is_spike(e, i)) {
+                removal.point[removal.count++] = (uint16_t)i;
             }
         }
-        next = i + 2;
+        next = suspect + 2 > next ? suspect + 2 : next;
     }
     if (removal.count > 0) {
         remove_points(e, &removal);

@@ -48,6 +48,7 @@ static void search_segment(ale_extractor_t *e, int32_t first, int32_t last)
     const int32_t direction = reading_direction(e, first, last);
     const int32_t stop = direction > 0 ? last : first;
     const int32_t first_run = e->run_count;
+    const int32_t beyond_no_line = e->unruly ? 2 : 1;
     int32_t from = direction > 0 ? first : last;
     while ((stop - from) * direction + 1 >= ALE_MIN_RUN) {
         ale_run_fit_t fit;
@@ -55,7 +56,7 @@ static void search_segment(ale_extractor_t *e, int32_t first, int32_t last)
         if (to != from) {
             add_run(e, from, to, &fit);
         }
-        from = to + direction;
+        from = to != from ? to + direction : from + direction * beyond_no_line;
     }
     if (direction < 0) {
         reverse_runs(e, first_run);
@@ -130,9 +131,9 @@ void ale_runs_split(ale_extractor_t *e)
             run->curved ? -1 : ale_break_find(e, run, reading_direction(e, run->first, run->last));
         if (split >= 0) {
             insert_run(e, k, split);
-        } else {
             k++;
         }
+        k++;
     }
 }
 
@@ -149,4 +150,17 @@ void ale_runs_forget_fits(ale_extractor_t *e)
     for (int32_t k = 0; k < e->run_count; k++) {
         e->run[k].fit.n = 0;
     }
+}
+
+void ale_runs_drop_short(ale_extractor_t *e, int32_t fewest)
+{
+    int32_t kept = 0;
+    for (int32_t k = 0; k < e->run_count; k++) {
+        if (e->run[k].last + 1 - e->run[k].first >= fewest) {
+            e->run[kept++] = e->run[k];
+        } else {
+            e->refused[ALE_REFUSED_FEW_POINTS]++;
+        }
+    }
+    e->run_count = (uint16_t)kept;
 }

@@ -5,7 +5,8 @@
 #include "extract/workspace.h"
 
 /* Lists the suspects: points i whose range differs from the next one's by more than noise, or that are
- * followed by many beams without a value. Only there can a jump or a stray point be. O(points). */
+ * followed by many beams without a value. Only there can a jump or a stray point be. Sets e->unruly.
+ * O(points). */
 void ale_segment_suspect(ale_extractor_t *e);
 
 /* Sets e->segment, and e->jump_after for every point: the last point of a segment has it. A jump is a change

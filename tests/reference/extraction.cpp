@@ -21,6 +21,7 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double rough_own = 1.25;  // the measured noise errs too
 constexpr double rough_shared = 12; // shared variances that a long wall may be wavy by,
 constexpr double rough_reaches = 4; // and the reaches of the shared error from which on it is a long one
+constexpr size_t many_runs = 24;    // rooms have fewer
 constexpr double most_sigma_alpha = 6 * pi / 180;
 constexpr int corner_gap = 5;        // beams
 constexpr double corner_reach = 150; // mm
@@ -51,6 +52,7 @@ Prepared prepare(const ScanPoints &valid, const ExtractionSettings &settings, De
 {
     Prepared p;
     p.noise = own_noise(valid, settings.prior, settings.step);
+    p.noise.unruly = is_unruly(valid, p.noise);
     p.points = without_spikes(valid, p.noise, decisions);
     p.segments = surface_segments(p.points, p.noise, settings.step, decisions);
     p.points = without_strays(p.points, p.segments);
@@ -77,14 +79,31 @@ std::vector<Run> searched_runs(Prepared &p, const ExtractionSettings &settings, 
     p.noise.shared_relative *= shared.scale;
     p.noise.shared_absent = shared.absent;
     if (shared.scale > 1) {
-        return search(p, decisions);
+        return runs.size() > many_runs ? runs : search(p, decisions);
     }
     p.noise.own_scale = own_scale(p.points, p.noise, runs, decisions);
     return runs;
 }
 
-std::vector<Run> improved_runs(const Prepared &p, std::vector<Run> runs, Decisions &decisions)
+// Of clutter, to bound the work: its longer runs, joined where they are one line.
+std::vector<Run> improved_clutter(const Prepared &p, const std::vector<Run> &runs, int least,
+                                  Decisions &decisions)
 {
+    std::vector<Run> longer;
+    for (const Run &run : runs) {
+        if (run.points() >= least) {
+            longer.push_back(run);
+        }
+    }
+    return merged_runs(p.points, p.noise, p.segments, longer, decisions);
+}
+
+std::vector<Run> improved_runs(const Prepared &p, const ExtractionSettings &settings, std::vector<Run> runs,
+                               Decisions &decisions)
+{
+    if (runs.size() > many_runs) {
+        return improved_clutter(p, runs, settings.least_points * 4 / 3, decisions);
+    }
     for (const bool split : {false, true}) {
         if (split) {
             runs = split_runs(p.points, p.noise, p.segments, runs, decisions);
@@ -171,7 +190,8 @@ Extraction extract(const ScanPoints &valid, const ExtractionSettings &settings)
 {
     Extraction out;
     Prepared p = prepare(valid, settings, out.decisions);
-    const std::vector<Run> runs = improved_runs(p, searched_runs(p, settings, out.decisions), out.decisions);
+    const std::vector<Run> runs =
+        improved_runs(p, settings, searched_runs(p, settings, out.decisions), out.decisions);
     for (const Run &run : runs) {
         const Run beams = {p.points[static_cast<size_t>(run.first)].beam,
                            p.points[static_cast<size_t>(run.last)].beam, run.curved};

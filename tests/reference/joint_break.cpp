@@ -13,6 +13,7 @@ namespace
 constexpr int widest_gap = 8; // points between runs that meet
 constexpr int grid = 12;
 constexpr int least_to_split = 16;
+constexpr double suspicious = 236.0 / 256; // of the chi square that noise alone makes
 constexpr double promising = 100.0 / 256;
 
 // Points that a run may give away at one end while the other end gives some too.
@@ -126,7 +127,8 @@ CoarseBreak coarse_break(const ScanPoints &points, Run run, int direction, Decis
 int found_break(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &segments, Run run,
                 Decisions &decisions)
 {
-    if (run.points() < least_to_split) {
+    const RunFit one = fit_run(points, noise, run.first, run.last);
+    if (run.points() < least_to_split || decisions.below(one.chi(), suspicious * (run.points() - 2))) {
         return -1;
     }
     const int direction = reading_direction(points, run.first, run.last);
@@ -145,19 +147,20 @@ int found_break(const ScanPoints &points, const NoiseOfScan &noise, const std::v
 }
 
 std::vector<Run> split_runs(const ScanPoints &points, const NoiseOfScan &noise,
-                            const std::vector<Run> &segments, std::vector<Run> runs, Decisions &decisions)
+                            const std::vector<Run> &segments, const std::vector<Run> &runs,
+                            Decisions &decisions)
 {
-    for (size_t k = 0; k < runs.size();) {
-        const int split = runs[k].curved ? -1 : found_break(points, noise, segments, runs[k], decisions);
+    std::vector<Run> split_runs;
+    for (const Run &run : runs) {
+        const int split = run.curved ? -1 : found_break(points, noise, segments, run, decisions);
         if (split < 0) {
-            k++;
-            continue;
+            split_runs.push_back(run);
+        } else {
+            split_runs.push_back({run.first, split});
+            split_runs.push_back({split + 1, run.last});
         }
-        const Run rest = {split + 1, runs[k].last};
-        runs[k].last = split;
-        runs.insert(runs.begin() + static_cast<long>(k) + 1, rest);
     }
-    return runs;
+    return split_runs;
 }
 
 } // namespace reference

@@ -53,7 +53,8 @@ int found_break(const ScanPoints &points, const NoiseOfScan &noise, const std::v
 
 // Splits runs until none has such a break.
 std::vector<Run> split_runs(const ScanPoints &points, const NoiseOfScan &noise,
-                            const std::vector<Run> &segments, std::vector<Run> runs, Decisions &decisions);
+                            const std::vector<Run> &segments, const std::vector<Run> &runs,
+                            Decisions &decisions);
 
 } // namespace reference
 

@@ -10,6 +10,7 @@ namespace
 constexpr double shared_share = 2; // shared variances that a point adds in the mean,
 constexpr double shared_peak = 6;  // and those by which points that err together may be off besides
 constexpr double floating_factor = 1.5;
+constexpr int unruly_reach = 2; // times the points accepted that an unruly scan is tried for before a refusal
 
 // Squared residuals that n points of a true line may have.
 double allowed(const NoiseOfScan &noise, const RunFit &fit, int n, double chi)
@@ -52,13 +53,16 @@ int end_of_line(const ScanPoints &points, const NoiseOfScan &noise, int from, in
     if (!decisions.below(accepted.sse, allowed(noise, accepted, good, chi_limit(good, chi_high_z)))) {
         return from;
     }
+    bool bracketed = !noise.unruly;
     while (bad - good > 1) {
-        const int count = (good + bad) / 2;
+        const int half = (good - 1 + bad - 1) / 2; // beyond the first point
+        const int count = (bracketed ? half : std::min(half, unruly_reach * (good - 1))) + 1;
         const RunFit fit = fit_to(count);
         if (acceptable(noise, fit, accepted, decisions)) {
             good = count;
             accepted = fit;
         } else {
+            bracketed = true;
             bad = count;
         }
     }
@@ -89,7 +93,7 @@ std::vector<Run> search_segment(const ScanPoints &points, const NoiseOfScan &noi
         if (end != from) {
             runs.push_back({std::min(from, end), std::max(from, end)});
         }
-        from = end + direction;
+        from = end != from ? end + direction : from + direction * (noise.unruly ? 2 : 1);
     }
     if (direction < 0) {
         std::reverse(runs.begin(), runs.end());

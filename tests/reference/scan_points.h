@@ -44,6 +44,7 @@ struct NoiseOfScan {
     double shared_beams = 12;
     double bearing_variance = 0;
     bool shared_absent = false; // measured, and there is none
+    bool unruly = false;        // more changes of the range are suspicious than surfaces make
 
     double own(double range) const
     {

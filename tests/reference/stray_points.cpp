@@ -8,8 +8,26 @@ namespace
 constexpr double deviations = 4;
 constexpr int widest = 7; // beams from the second neighbour on one side to that on the other
 constexpr int stray_points = 4;
+constexpr double suspect_deviations = 3.5;
+constexpr int widest_gap = 8; // beams
+constexpr double unruly_share = 0.4;
 
 } // namespace
+
+bool is_unruly(const ScanPoints &points, const NoiseOfScan &noise)
+{
+    int suspects = 0;
+    for (size_t i = 0; i + 1 < points.size(); i++) {
+        const double range = (points[i].range + points[i + 1].range) / 2;
+        const double limit =
+            suspect_deviations * (std::sqrt(noise.own_constant) + std::sqrt(noise.own_relative) * range);
+        suspects += std::fabs(points[i + 1].range - points[i].range) > limit ||
+                            points[i + 1].beam - points[i].beam > widest_gap
+                        ? 1
+                        : 0;
+    }
+    return suspects > unruly_share * static_cast<double>(points.size());
+}
 
 // The line from the second neighbour to the second neighbour gives the slope; with it taken off, the point is
 // off both neighbours by more than the limit, to the same side, and by nearly the same amount.
@@ -33,6 +51,9 @@ bool is_spike(const ScanPoints &points, const NoiseOfScan &noise, int i, Decisio
 
 ScanPoints without_spikes(const ScanPoints &points, const NoiseOfScan &noise, Decisions &decisions)
 {
+    if (noise.unruly) {
+        return points; // where changes stand out everywhere no point does
+    }
     ScanPoints kept;
     for (int i = 0; i < static_cast<int>(points.size()); i++) {
         if (!is_spike(points, noise, i, decisions)) {

@@ -8,6 +8,9 @@
 namespace reference
 {
 
+// Whether more changes of the range exceed the noise than surfaces make: then no point stands out.
+bool is_unruly(const ScanPoints &points, const NoiseOfScan &noise);
+
 // Whether point i stands out from its two neighbours, which agree with each other.
 bool is_spike(const ScanPoints &points, const NoiseOfScan &noise, int i, Decisions &decisions);
 

@@ -1,10 +1,10 @@
 # Benchmarks. Everything in tools/bench but the mains is one set of objects, linked to each program and test.
-BENCH_MAINS = tools/bench/lines.cpp tools/bench/wcet.cpp
+BENCH_MAINS = tools/bench/lines.cpp tools/bench/wcet.cpp tools/bench/hardest.cpp
 BENCH_PARTS = $(filter-out $(BENCH_MAINS),$(wildcard tools/bench/*.cpp tools/bench/textbook/*.cpp))
 BENCH_SCANS ?= 20
 BENCH_COUNTED_SCANS ?= 1
 
-BENCH_PROGRAMS = $(patsubst tools/bench/%.cpp,$(BUILD)/bench/%,$(BENCH_MAINS))
+BENCH_PROGRAMS = $(patsubst tools/bench/%.cpp,$(BUILD)/bench/%,$(filter-out %/hardest.cpp,$(BENCH_MAINS)))
 $(BENCH_PROGRAMS): $(BUILD)/bench/%: $(OBJ)/tools/bench/%.cpp.o $(call objects,$(BENCH_PARTS)) $(BUILD)/libale_drivers.a $(BUILD)/libale.a
 	$(call link)
 
@@ -32,3 +32,18 @@ POSES ?= 100
 .PHONY: relocalise
 relocalise: programs ## lost at random places of every bundled world, with a saved map (POSES=100)
 	@$(PYTHON) tools/bench/relocalise.py --build $(BUILD) --poses $(POSES)
+
+# The costliest scan: the extractor compiled with a call at every basic block, which are counted.
+COUNTED_OBJECTS = $(patsubst %.c,$(OBJ)/counted/%.o,$(wildcard lib/base/*.c lib/extract/*.c))
+$(COUNTED_OBJECTS): $(OBJ)/counted/%.o: %.c
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(C_FLAGS) -fsanitize-coverage=trace-pc $(LIB_INCLUDES) -c $< -o $@
+
+$(BUILD)/bench/hardest: $(call objects,$(patsubst %,tools/bench/%.cpp,hardest suite world simulate truth)) $(COUNTED_OBJECTS)
+	$(call link)
+
+BENCH_STEPS ?= 40000
+.PHONY: bench-hardest
+bench-hardest: deps-test ## the scan that costs the extractor most, in instructions
+	@$(MAKE) --no-print-directory -s $(BUILD)/bench/lines $(BUILD)/bench/hardest $(BUILD)/bin/ale-replay
+	@$(PYTHON) tools/bench/hardest_table.py --build $(BUILD) --steps $(BENCH_STEPS)
