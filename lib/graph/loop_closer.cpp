@@ -5,6 +5,8 @@
 
 #include <Eigen/LU>
 
+#include "graph/building_axes.h"
+
 namespace ale
 {
 
@@ -26,12 +28,14 @@ constexpr double most_ambiguity = 0.85;
 constexpr size_t partners_when_clear = 1;
 constexpr size_t partners_when_sparse = 3;
 // Nearer than this the tracker has recognised the place itself, better than a loop edge would tie it.
-constexpr double known_m = 0.10;
-constexpr double known_rad = 0.02;
+constexpr double known_m = 0.05;
+constexpr double known_rad = 0.015;
 constexpr size_t pending_loops = 12;
 constexpr double agreement_m = 0.15;
 constexpr double agreement_rad = 0.035;
 constexpr int optimise_iterations = 10;
+constexpr int straighten_rounds = 3;
+constexpr size_t straighten_every = 8; // keyframes
 constexpr double believable_chi2 = 30; // of a loop edge after optimisation
 constexpr double weak_doubt = 3;       // how much worse a motion is known that wheels had to tell
 constexpr double broken_doubt = 50;    // or nobody
@@ -106,7 +110,28 @@ bool LoopCloser::add(Node node, const Pose &motion)
             statistics_.unconfirmed++;
         }
     }
-    return moved;
+    return straighten() || moved;
+}
+
+// Turns what has drifted back to the directions of the walls. The building's own directions follow from the
+// poses, so both are settled in turns.
+bool LoopCloser::straighten()
+{
+    if (nodes_.size() < straightened_at_ + straighten_every ||
+        !have_drifted(headings_by_walls(nodes_, graph_.poses()), graph_.poses())) {
+        return false;
+    }
+    straightened_at_ = nodes_.size();
+    const PoseGraph before = graph_;
+    for (int round = 0; round < straighten_rounds; round++) {
+        graph_.set_headings(headings_by_walls(nodes_, graph_.poses()));
+        if (!graph_.optimise(optimise_iterations).solved) {
+            graph_ = before;
+            return false;
+        }
+    }
+    statistics_.straightened++;
+    return true;
 }
 
 void LoopCloser::link_to_previous(const Pose &motion)

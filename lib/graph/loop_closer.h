@@ -28,6 +28,7 @@ struct LoopStatistics {
     uint32_t unconfirmed;  // too few other nodes agreed
     uint32_t contradicted; // taken back after optimisation
     uint32_t loops;        // believed
+    uint32_t straightened; // headings had drifted from the directions of the walls
 };
 
 class LoopCloser
@@ -65,6 +66,7 @@ class LoopCloser
     Sight look_for_loop(int there, Loop *loop) const;
     std::vector<Loop> partners_of(const Loop &loop) const;
     bool close(const Loop &loop, const std::vector<Loop> &partners);
+    bool straighten();
     bool is_tied(const Loop &loop) const;
     std::vector<SurfacePoint> patch_around(int k, int before, int after) const;
     std::vector<CornerMark> corners_around(int k, int before, int after) const;
@@ -72,6 +74,7 @@ class LoopCloser
     std::vector<Node> nodes_;
     PoseGraph graph_;
     std::deque<Loop> pending_;
+    size_t straightened_at_ = 0; // keyframes there were then
     LoopStatistics statistics_{};
 };
 

@@ -71,6 +71,13 @@ class Assembler
         b_.segment<3>(Eigen::Index{3} * edge.to) += j.to.transpose() * omega * e;
     }
 
+    void add(const HeadingPrior &prior, double e, double weight)
+    {
+        const Eigen::Index theta = Eigen::Index{3} * prior.pose + 2;
+        triplets_.emplace_back(theta, theta, weight * prior.information);
+        b_(theta) += weight * prior.information * e;
+    }
+
     const Eigen::VectorXd &gradient() const
     {
         return b_;
@@ -137,6 +144,12 @@ GraphReport PoseGraph::optimise(int max_iterations)
             const double chi2 = e.dot(edge.information * e);
             assembler.add(edge, jacobians(edge, poses_), e, edge.robust ? kernel_weight(chi2) : 1);
             report.chi2 += edge.robust ? robust_cost(chi2) : chi2;
+        }
+        for (const HeadingPrior &prior : priors_) {
+            const double e = wrapped(poses_[static_cast<size_t>(prior.pose)].theta - prior.theta);
+            const double chi2 = e * e * prior.information;
+            assembler.add(prior, e, kernel_weight(chi2));
+            report.chi2 += robust_cost(chi2);
         }
         assembler.write(1e-9, &h);
         if (report.iterations == 0) {

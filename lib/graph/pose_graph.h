@@ -11,6 +11,7 @@
 #ifndef ALE_GRAPH_POSE_GRAPH_H
 #define ALE_GRAPH_POSE_GRAPH_H
 
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -28,6 +29,13 @@ struct GraphEdge {
     bool robust;
 };
 
+// A heading that something else than a neighbour tells, always under the robust kernel.
+struct HeadingPrior {
+    int pose;
+    double theta;
+    double information; // 1/rad^2
+};
+
 struct GraphReport {
     int iterations;
     double chi2; // weighted, robust edges scaled
@@ -39,6 +47,11 @@ class PoseGraph
   public:
     int add_pose(const Pose &pose);
     void add_edge(const GraphEdge &edge);
+    // In place of those before.
+    void set_headings(std::vector<HeadingPrior> priors)
+    {
+        priors_ = std::move(priors);
+    }
     GraphReport optimise(int max_iterations);
 
     const std::vector<Pose> &poses() const
@@ -56,6 +69,7 @@ class PoseGraph
   private:
     std::vector<Pose> poses_;
     std::vector<GraphEdge> edges_;
+    std::vector<HeadingPrior> priors_;
 };
 
 } // namespace ale

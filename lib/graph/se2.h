@@ -48,6 +48,13 @@ inline double length(double x, double y)
     return std::sqrt(x * x + y * y);
 }
 
+// Direction of a vector of at most some 10^9 units.
+inline double angle_of(const Eigen::Vector2d &v)
+{
+    const auto fixed = [](double value) { return static_cast<int64_t>(std::nearbyint(value * 1e9)); };
+    return static_cast<int32_t>(ale_atan2_bam(fixed(v.y()), fixed(v.x()))) / bam_per_radian;
+}
+
 // A pose maps points of its own frame to the frame it is given in.
 struct Pose {
     double x = 0;

@@ -1,0 +1,26 @@
+// The directions in which a building's walls run. Most buildings are right-angled, and then every keyframe
+// that sees walls tells its own heading, but for quarter turns: a compass against slow drift.
+//
+// Only for a building that is one (most of what was seen agrees), and only where headings have drifted by
+// more than walls stray from the right angle: where the tracker is right nothing moves.
+#ifndef ALE_GRAPH_BUILDING_AXES_H
+#define ALE_GRAPH_BUILDING_AXES_H
+
+#include <vector>
+
+#include "graph/node.h"
+#include "graph/pose_graph.h"
+
+namespace ale
+{
+
+// Headings that the walls suggest, for every node that sees enough of them, and nothing when the building is
+// not right-angled. Poses and nodes correspond. O(n).
+std::vector<HeadingPrior> headings_by_walls(const std::vector<Node> &nodes, const std::vector<Pose> &poses);
+
+// Whether several suggestions in a row lie to the same side, farther than walls stray. O(n).
+bool have_drifted(const std::vector<HeadingPrior> &priors, const std::vector<Pose> &poses);
+
+} // namespace ale
+
+#endif
