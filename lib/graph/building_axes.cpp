@@ -23,47 +23,53 @@ double modulo_quarter(double angle)
     return angle - quarter * std::nearbyint(angle / quarter);
 }
 
+Eigen::Vector2d axes_of(const Node &node)
+{
+    return {node.axes_cos_m, node.axes_sin_m};
+}
+
 bool says_something(const Node &node)
 {
-    return node.straight_m >= least_straight_m && node.axes.norm() >= least_agreement * node.straight_m;
+    return node.straight_m >= least_straight_m && axes_of(node).norm() >= least_agreement * node.straight_m;
 }
 
 } // namespace
 
-std::vector<HeadingPrior> headings_by_walls(const std::vector<Node> &nodes, const std::vector<Pose> &poses)
+BuildingHeadings headings_by_walls(const std::vector<Node> &nodes, const std::vector<Pose> &poses)
 {
     Eigen::Vector2d axes(0, 0);
     double straight_m = 0;
     size_t speaking = 0;
     for (size_t k = 0; k < nodes.size(); k++) {
         const Eigen::Matrix2d turn = rotation(4 * poses[k].theta);
-        axes += turn * nodes[k].axes;
+        axes += turn * axes_of(nodes[k]);
         straight_m += nodes[k].straight_m;
         speaking += says_something(nodes[k]);
     }
     if (speaking < least_nodes || axes.norm() < right_angled * straight_m) {
         return {};
     }
-    const double building = angle_of(axes) / 4;
-    std::vector<HeadingPrior> priors;
+    BuildingHeadings headings{angle_of(axes) / 4, {}};
     for (size_t k = 0; k < nodes.size(); k++) {
         if (says_something(nodes[k])) {
-            const double seen = angle_of(nodes[k].axes) / 4;
-            const double off = modulo_quarter(building - seen - poses[k].theta);
+            const double seen = angle_of(axes_of(nodes[k])) / 4;
+            const double off = modulo_quarter(headings.building - seen - poses[k].theta);
             const double measured = line_stray_rad_m / nodes[k].straight_m;
-            priors.push_back({static_cast<int>(k), wrapped(poses[k].theta + off),
-                              1 / (stray_rad * stray_rad + measured * measured)});
+            headings.priors.push_back({static_cast<int>(k), wrapped(poses[k].theta + off - headings.building),
+                                       1 / (stray_rad * stray_rad + measured * measured)});
         }
     }
-    return priors;
+    return headings;
 }
 
-bool have_drifted(const std::vector<HeadingPrior> &priors, const std::vector<Pose> &poses)
+bool have_drifted(const BuildingHeadings &headings, const std::vector<Pose> &poses)
 {
+    const std::vector<HeadingPrior> &priors = headings.priors;
     double sum = 0;
     for (size_t k = 0; k < priors.size(); k++) {
         const auto off = [&](size_t i) {
-            return wrapped(priors[i].theta - poses[static_cast<size_t>(priors[i].pose)].theta);
+            return wrapped(headings.building + priors[i].theta -
+                           poses[static_cast<size_t>(priors[i].pose)].theta);
         };
         sum += off(k);
         if (k >= run_nodes) {

@@ -14,12 +14,12 @@
 namespace ale
 {
 
-// Headings that the walls suggest, for every node that sees enough of them, and nothing when the building is
+// Headings that the walls suggest, for every node that sees enough of them; none when the building is
 // not right-angled. Poses and nodes correspond. O(n).
-std::vector<HeadingPrior> headings_by_walls(const std::vector<Node> &nodes, const std::vector<Pose> &poses);
+BuildingHeadings headings_by_walls(const std::vector<Node> &nodes, const std::vector<Pose> &poses);
 
 // Whether several suggestions in a row lie to the same side, farther than walls stray. O(n).
-bool have_drifted(const std::vector<HeadingPrior> &priors, const std::vector<Pose> &poses);
+bool have_drifted(const BuildingHeadings &headings, const std::vector<Pose> &poses);
 
 } // namespace ale
 

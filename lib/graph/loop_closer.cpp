@@ -34,7 +34,7 @@ constexpr size_t pending_loops = 12;
 constexpr double agreement_m = 0.15;
 constexpr double agreement_rad = 0.035;
 constexpr int optimise_iterations = 10;
-constexpr int straighten_rounds = 3;
+constexpr int straighten_rounds = 2;
 constexpr size_t straighten_every = 8; // keyframes
 constexpr double believable_chi2 = 30; // of a loop edge after optimisation
 constexpr double weak_doubt = 3;       // how much worse a motion is known that wheels had to tell
@@ -113,8 +113,7 @@ bool LoopCloser::add(Node node, const Pose &motion)
     return straighten() || moved;
 }
 
-// Turns what has drifted back to the directions of the walls. The building's own directions follow from the
-// poses, so both are settled in turns.
+// Turns what has drifted back to the directions of the walls. Twice: large drift hides which wall is which.
 bool LoopCloser::straighten()
 {
     if (nodes_.size() < straightened_at_ + straighten_every ||

@@ -27,12 +27,14 @@ struct CornerMark {
 
 struct Node {
     uint32_t scan;
-    Pose smooth;          // as it was handed in
-    double path_m;        // driven since the start
-    bool broken;          // smooth does not tie it to the node before
-    bool weak;            // part of its pose was guessed from wheels or velocity
-    Eigen::Vector2d axes; // of its lines: unit vectors of four times their direction, by length; metres
-    double straight_m;    // length of its lines
+    Pose smooth;   // as it was handed in
+    double path_m; // driven since the start
+    bool broken;   // smooth does not tie it to the node before
+    bool weak;     // part of its pose was guessed from wheels or velocity
+    double axes_cos_m =
+        0; // of its lines: unit vectors of four times their direction, weighted by length, added up
+    double axes_sin_m = 0;
+    double straight_m = 0; // length of its lines
     std::vector<SurfacePoint> points;
     std::vector<CornerMark> corners;
 };

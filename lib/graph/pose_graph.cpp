@@ -52,11 +52,12 @@ Linearised jacobians(const GraphEdge &edge, const std::vector<Pose> &poses)
     return j;
 }
 
-// The normal equations h step = -gradient, edge by edge.
+// The normal equations h step = -gradient, edge by edge: three unknowns a pose, and last the building's
+// direction.
 class Assembler
 {
   public:
-    explicit Assembler(size_t poses) : b_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * poses)))
+    explicit Assembler(size_t poses) : b_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * poses + 1)))
     {
     }
 
@@ -74,8 +75,14 @@ class Assembler
     void add(const HeadingPrior &prior, double e, double weight)
     {
         const Eigen::Index theta = Eigen::Index{3} * prior.pose + 2;
-        triplets_.emplace_back(theta, theta, weight * prior.information);
-        b_(theta) += weight * prior.information * e;
+        const Eigen::Index building = b_.size() - 1;
+        const double omega = weight * prior.information;
+        triplets_.emplace_back(theta, theta, omega);
+        triplets_.emplace_back(theta, building, -omega);
+        triplets_.emplace_back(building, theta, -omega);
+        triplets_.emplace_back(building, building, omega);
+        b_(theta) += omega * e;
+        b_(building) -= omega * e;
     }
 
     const Eigen::VectorXd &gradient() const
@@ -145,8 +152,9 @@ GraphReport PoseGraph::optimise(int max_iterations)
             assembler.add(edge, jacobians(edge, poses_), e, edge.robust ? kernel_weight(chi2) : 1);
             report.chi2 += edge.robust ? robust_cost(chi2) : chi2;
         }
-        for (const HeadingPrior &prior : priors_) {
-            const double e = wrapped(poses_[static_cast<size_t>(prior.pose)].theta - prior.theta);
+        for (const HeadingPrior &prior : headings_.priors) {
+            const double e =
+                wrapped(poses_[static_cast<size_t>(prior.pose)].theta - headings_.building - prior.theta);
             const double chi2 = e * e * prior.information;
             assembler.add(prior, e, kernel_weight(chi2));
             report.chi2 += robust_cost(chi2);
@@ -166,6 +174,7 @@ GraphReport PoseGraph::optimise(int max_iterations)
             poses_[k] = {poses_[k].x + step(i), poses_[k].y + step(i + 1),
                          wrapped(poses_[k].theta + step(i + 2))};
         }
+        headings_.building += step(step.size() - 1);
         if (step.lpNorm<Eigen::Infinity>() < converged_step) {
             break;
         }

@@ -29,11 +29,16 @@ struct GraphEdge {
     bool robust;
 };
 
-// A heading that something else than a neighbour tells, always under the robust kernel.
+// A heading against one direction that all of them share and that is an unknown too: the building's. Always
+// under the robust kernel.
 struct HeadingPrior {
     int pose;
-    double theta;
+    double theta;       // as seen from the building's direction
     double information; // 1/rad^2
+};
+struct BuildingHeadings {
+    double building = 0; // its direction in the map
+    std::vector<HeadingPrior> priors;
 };
 
 struct GraphReport {
@@ -48,9 +53,9 @@ class PoseGraph
     int add_pose(const Pose &pose);
     void add_edge(const GraphEdge &edge);
     // In place of those before.
-    void set_headings(std::vector<HeadingPrior> priors)
+    void set_headings(BuildingHeadings headings)
     {
-        priors_ = std::move(priors);
+        headings_ = std::move(headings);
     }
     GraphReport optimise(int max_iterations);
 
@@ -69,7 +74,7 @@ class PoseGraph
   private:
     std::vector<Pose> poses_;
     std::vector<GraphEdge> edges_;
-    std::vector<HeadingPrior> priors_;
+    BuildingHeadings headings_;
 };
 
 } // namespace ale

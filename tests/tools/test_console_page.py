@@ -190,6 +190,7 @@ def cockpit(chromium, alice, pulse):
     """The page of a console that may command a robot."""
     chromium.open(alice.url)
     chromium.wait_for("document.body.dataset.control === 'yes'")
+    chromium.errors()  # of the page before, whose console has ended
     yield chromium
     assert chromium.errors() == []
 

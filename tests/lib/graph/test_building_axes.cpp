@@ -1,0 +1,113 @@
+// lib/graph/building_axes: drives through rooms whose walls are given, with headings that drift.
+#include "graph/building_axes.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+constexpr double degree = ale::pi / 180;
+
+// A node that sees walls of one metre each in these directions of the world.
+ale::Node seeing(double heading, const std::vector<double> &walls)
+{
+    ale::Node node{};
+    for (const double wall : walls) {
+        node.axes_cos_m += std::cos(4 * (wall - heading));
+        node.axes_sin_m += std::sin(4 * (wall - heading));
+        node.straight_m += 1;
+    }
+    return node;
+}
+
+struct Drive {
+    std::vector<ale::Node> nodes;
+    std::vector<ale::Pose> truth;
+    std::vector<ale::Pose> drifted;
+};
+
+// Straight on, half a metre a node, turning now and then; the heading drifts by so much a node.
+Drive drive(size_t count, double drift, const std::vector<double> &walls, double stray, unsigned seed)
+{
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal(0, stray);
+    Drive made;
+    for (size_t k = 0; k < count; k++) {
+        const double heading = ale::wrapped(0.3 * static_cast<double>(k / 10));
+        std::vector<double> seen;
+        for (const double wall : walls) {
+            seen.push_back(wall + normal(random));
+        }
+        made.nodes.push_back(seeing(heading, seen));
+        made.truth.push_back({0.5 * static_cast<double>(k), 0, heading});
+        made.drifted.push_back(
+            {0.5 * static_cast<double>(k), 0, ale::wrapped(heading + drift * static_cast<double>(k))});
+    }
+    return made;
+}
+
+TEST(BuildingAxes, TrueHeadingsInARightAngledBuildingAreLeftAlone)
+{
+    const Drive made = drive(60, 0, {0.2, 0.2 + ale::pi / 2, 0.2}, 0.5 * degree, 1);
+    const auto headings = ale::headings_by_walls(made.nodes, made.truth);
+    EXPECT_EQ(headings.priors.size(), made.nodes.size());
+    EXPECT_FALSE(ale::have_drifted(headings, made.truth));
+}
+
+TEST(BuildingAxes, DriftIsSeenAndTheSuggestionsAreTheTrueHeadings)
+{
+    const Drive made = drive(60, 0.1 * degree, {0.2, 0.2 + ale::pi / 2, 0.2}, 0, 2);
+    const auto headings = ale::headings_by_walls(made.nodes, made.drifted);
+    EXPECT_TRUE(ale::have_drifted(headings, made.drifted));
+    const double common =
+        ale::wrapped(headings.priors[0].theta - made.truth[0].theta); // the building's own direction is free
+    for (const ale::HeadingPrior &prior : headings.priors) {
+        const double off = prior.theta - made.truth[static_cast<size_t>(prior.pose)].theta;
+        EXPECT_NEAR(ale::wrapped(off - common), 0, 0.01 * degree);
+    }
+}
+
+TEST(BuildingAxes, BuildingWithoutRightAnglesSaysNothing)
+{
+    const Drive made = drive(60, 0.1 * degree, {0.2, 0.2 + ale::pi / 4, 0.2 + ale::pi / 6, 1.2}, 0, 3);
+    EXPECT_TRUE(ale::headings_by_walls(made.nodes, made.drifted).priors.empty());
+}
+
+TEST(BuildingAxes, TooFewNodesOrTooLittleWallSayNothing)
+{
+    const Drive few = drive(5, degree, {0, 0, 0}, 0, 4);
+    EXPECT_TRUE(ale::headings_by_walls(few.nodes, few.drifted).priors.empty());
+    Drive blind = drive(60, degree, {}, 0, 5);
+    EXPECT_TRUE(ale::headings_by_walls(blind.nodes, blind.drifted).priors.empty());
+    EXPECT_TRUE(ale::headings_by_walls({}, {}).priors.empty());
+}
+
+TEST(BuildingAxes, GraphTurnsDriftedHeadingsBackButForTheFirstPoseThatIsHeld)
+{
+    const Drive made = drive(100, 0.05 * degree, {0, ale::pi / 2, 0}, 0.3 * degree, 6);
+    ale::PoseGraph graph;
+    graph.add_pose(made.drifted[0]);
+    const double sigma_m = 0.01;
+    const double sigma_rad = 0.003;
+    const Eigen::Matrix3d information =
+        Eigen::Vector3d(1 / (sigma_m * sigma_m), 1 / (sigma_m * sigma_m), 1 / (sigma_rad * sigma_rad))
+            .asDiagonal();
+    for (size_t k = 1; k < made.nodes.size(); k++) {
+        const ale::Pose motion = ale::between(made.drifted[k - 1], made.drifted[k]);
+        graph.add_pose(made.drifted[k]);
+        graph.add_edge({static_cast<int>(k) - 1, static_cast<int>(k), motion, information, false});
+    }
+    for (int round = 0; round < 2; round++) {
+        graph.set_headings(ale::headings_by_walls(made.nodes, graph.poses()));
+        ASSERT_TRUE(graph.optimise(10).solved);
+    }
+    for (size_t k = 0; k < made.nodes.size(); k++) {
+        EXPECT_NEAR(ale::wrapped(graph.poses()[k].theta - made.truth[k].theta), 0, 1.2 * degree) << k;
+    }
+    EXPECT_FALSE(ale::have_drifted(ale::headings_by_walls(made.nodes, graph.poses()), graph.poses()));
+}
+
+} // namespace
