@@ -27,6 +27,7 @@ constexpr double least_overlap = 0.30; // much is out of sight: more nodes must 
 constexpr double most_ambiguity = 0.85;
 constexpr size_t partners_when_clear = 1;
 constexpr size_t partners_when_sparse = 3;
+constexpr size_t partners_when_near = 2;
 // Nearer than this the tracker has recognised the place itself, better than a loop edge would tie it.
 constexpr double known_m = 0.05;
 constexpr double known_rad = 0.015;
@@ -101,7 +102,7 @@ bool LoopCloser::add(Node node, const Pose &motion)
             break;
         }
         const std::vector<Loop> partners = partners_of(loop);
-        if (partners.size() >= (loop.overlap >= clear_overlap ? partners_when_clear : partners_when_sparse)) {
+        if (partners.size() >= partners_wanted(loop)) {
             moved = close(loop, partners) || moved;
         }
         pending_.push_back(loop);
@@ -239,6 +240,21 @@ LoopCloser::Sight LoopCloser::look_for_loop(int there, Loop *loop) const
     }
     *loop = {there, here, match.pose, tempered(match.information), match.overlap};
     return Sight::displaced;
+}
+
+// How many others must say the same. A place that lies where drift would have left it is likelier than one
+// that does not.
+size_t LoopCloser::partners_wanted(const Loop &loop) const
+{
+    const Pose guess =
+        between(graph_.poses()[static_cast<size_t>(loop.from)], graph_.poses()[static_cast<size_t>(loop.to)]);
+    const Pose off = between(guess, loop.measured);
+    const double driven_m =
+        nodes_[static_cast<size_t>(loop.to)].path_m - nodes_[static_cast<size_t>(loop.from)].path_m;
+    if (loop.overlap >= clear_overlap) {
+        return partners_when_clear;
+    }
+    return length(off.x, off.y) < drift_per_metre * driven_m ? partners_when_near : partners_when_sparse;
 }
 
 // Other loops, found from other nodes, that say the same: going round by both gives no displacement.

@@ -65,6 +65,7 @@ class LoopCloser
     std::vector<int> candidates() const;
     Sight look_for_loop(int there, Loop *loop) const;
     std::vector<Loop> partners_of(const Loop &loop) const;
+    size_t partners_wanted(const Loop &loop) const;
     bool close(const Loop &loop, const std::vector<Loop> &partners);
     bool straighten();
     bool is_tied(const Loop &loop) const;
