@@ -9,13 +9,15 @@ namespace
 {
 
 constexpr double quarter = pi / 2;
-constexpr double least_straight_m = 1.0;  // of walls that a node must see to say something
-constexpr double least_agreement = 0.75;  // of them, in one direction or across it
+constexpr double least_straight_m = 1.0;  // of walls along the building that a node must see to say something
+constexpr double least_agreement = 0.75;  // of all that it sees
+constexpr double along_rad = 0.14;        // so near to the building's directions: it, not a chair
 constexpr double right_angled = 0.7;      // the same of all that was seen
 constexpr size_t least_nodes = 10;        // before anything is concluded
 constexpr double stray_rad = 0.0175;      // of walls and furniture from the right angle, one sigma
 constexpr double line_stray_rad_m = 0.01; // and of what a metre of them measures
-constexpr size_t run_nodes = 8;           // whose mean is looked at for drift
+constexpr int refine_rounds = 3;
+constexpr size_t run_nodes = 8; // whose mean is looked at for drift
 
 // An angle but for quarter turns, -pi/4 .. pi/4.
 double modulo_quarter(double angle)
@@ -23,39 +25,82 @@ double modulo_quarter(double angle)
     return angle - quarter * std::nearbyint(angle / quarter);
 }
 
-Eigen::Vector2d axes_of(const Node &node)
+// Unit vectors of four times the direction, by length: directions that are quarter turns apart fall together.
+struct Axes {
+    Eigen::Vector2d sum{0, 0};
+    double straight_m = 0;
+};
+
+Axes axes_of(const std::vector<Node> &nodes, const std::vector<Pose> &poses)
 {
-    return {node.axes_cos_m, node.axes_sin_m};
+    Axes axes;
+    for (size_t k = 0; k < nodes.size(); k++) {
+        for (const WallSight &wall : nodes[k].walls) {
+            const double fourfold = 4 * (wall.direction + poses[k].theta);
+            axes.sum += wall.length_m * Eigen::Vector2d(cosine(fourfold), sine(fourfold));
+            axes.straight_m += wall.length_m;
+        }
+    }
+    return axes;
 }
 
-bool says_something(const Node &node)
+// How far a node's heading is off, by the walls along the building's directions that it sees; and how much of
+// them.
+struct Opinion {
+    double off;
+    double along_m;
+    bool counts;
+};
+
+Opinion opinion_of(const Node &node, double heading, double building)
 {
-    return node.straight_m >= least_straight_m && axes_of(node).norm() >= least_agreement * node.straight_m;
+    double sum = 0;
+    double along_m = 0;
+    double all_m = 0;
+    for (const WallSight &wall : node.walls) {
+        const double off = modulo_quarter(building - wall.direction - heading);
+        all_m += wall.length_m;
+        if (std::abs(off) < along_rad) {
+            sum += wall.length_m * off;
+            along_m += wall.length_m;
+        }
+    }
+    const bool counts = along_m >= least_straight_m && along_m >= least_agreement * all_m;
+    return {counts ? sum / along_m : 0, along_m, counts};
+}
+
+// The direction that most walls share: furniture at an angle pulls the mean of all, but not that of those
+// near it.
+double refined(double building, const std::vector<Node> &nodes, const std::vector<Pose> &poses)
+{
+    for (int round = 0; round < refine_rounds; round++) {
+        double sum = 0;
+        double along_m = 0;
+        for (size_t k = 0; k < nodes.size(); k++) {
+            const Opinion opinion = opinion_of(nodes[k], poses[k].theta, building);
+            sum += opinion.along_m * opinion.off;
+            along_m += opinion.counts ? opinion.along_m : 0;
+        }
+        building -= along_m > 0 ? sum / along_m : 0;
+    }
+    return building;
 }
 
 } // namespace
 
 BuildingHeadings headings_by_walls(const std::vector<Node> &nodes, const std::vector<Pose> &poses)
 {
-    Eigen::Vector2d axes(0, 0);
-    double straight_m = 0;
-    size_t speaking = 0;
-    for (size_t k = 0; k < nodes.size(); k++) {
-        const Eigen::Matrix2d turn = rotation(4 * poses[k].theta);
-        axes += turn * axes_of(nodes[k]);
-        straight_m += nodes[k].straight_m;
-        speaking += says_something(nodes[k]);
-    }
-    if (speaking < least_nodes || axes.norm() < right_angled * straight_m) {
+    const Axes axes = axes_of(nodes, poses);
+    if (nodes.size() < least_nodes || axes.sum.norm() < right_angled * axes.straight_m) {
         return {};
     }
-    BuildingHeadings headings{angle_of(axes) / 4, {}};
+    BuildingHeadings headings{refined(angle_of(axes.sum) / 4, nodes, poses), {}};
     for (size_t k = 0; k < nodes.size(); k++) {
-        if (says_something(nodes[k])) {
-            const double seen = angle_of(axes_of(nodes[k])) / 4;
-            const double off = modulo_quarter(headings.building - seen - poses[k].theta);
-            const double measured = line_stray_rad_m / nodes[k].straight_m;
-            headings.priors.push_back({static_cast<int>(k), wrapped(poses[k].theta + off - headings.building),
+        const Opinion opinion = opinion_of(nodes[k], poses[k].theta, headings.building);
+        if (opinion.counts) {
+            const double measured = line_stray_rad_m / opinion.along_m;
+            headings.priors.push_back({static_cast<int>(k),
+                                       wrapped(poses[k].theta + opinion.off - headings.building),
                                        1 / (stray_rad * stray_rad + measured * measured)});
         }
     }

@@ -25,16 +25,19 @@ struct CornerMark {
     bool convex;
 };
 
+// A line as the robot sees it; the direction but for half turns.
+struct WallSight {
+    double direction;
+    double length_m;
+};
+
 struct Node {
     uint32_t scan;
     Pose smooth;   // as it was handed in
     double path_m; // driven since the start
     bool broken;   // smooth does not tie it to the node before
     bool weak;     // part of its pose was guessed from wheels or velocity
-    double axes_cos_m =
-        0; // of its lines: unit vectors of four times their direction, weighted by length, added up
-    double axes_sin_m = 0;
-    double straight_m = 0; // length of its lines
+    std::vector<WallSight> walls;
     std::vector<SurfacePoint> points;
     std::vector<CornerMark> corners;
 };

@@ -82,17 +82,14 @@ CornerMark corner_of(const ale_corner_t &corner, const Pose &sensor)
             corner.angle_bam / bam_per_radian, corner.kind == ALE_CORNER_CONVEX};
 }
 
-// Directions of the lines, quarter turns apart taken for one.
-void add_axes(const ale_features_t &features, const Pose &sensor, Node *node)
+void add_walls(const ale_features_t &features, const Pose &sensor, Node *node)
 {
     for (int k = 0; k < features.line_count; k++) {
         const ale_line_t &line = features.line[k];
-        const double length_m =
-            length((line.end.x_um - line.start.x_um) * 1e-6, (line.end.y_um - line.start.y_um) * 1e-6);
-        const double fourfold = 4 * (static_cast<int32_t>(line.alpha_bam) / bam_per_radian + sensor.theta);
-        node->axes_cos_m += length_m * cosine(fourfold);
-        node->axes_sin_m += length_m * sine(fourfold);
-        node->straight_m += length_m;
+        const double alpha = static_cast<int32_t>(line.alpha_bam) / bam_per_radian;
+        node->walls.push_back(
+            {wrapped(alpha + sensor.theta),
+             length((line.end.x_um - line.start.x_um) * 1e-6, (line.end.y_um - line.start.y_um) * 1e-6)});
     }
 }
 
@@ -104,8 +101,8 @@ Node node_of(const ale_keyframe_t &keyframe)
     const Eigen::Matrix2d turn = rotation(sensor.theta);
     const Beams beams = beams_of(keyframe.taken, keyframe.straightened ? keyframe.bearing_bam : nullptr);
     const std::vector<int> line = lines_of(keyframe.features, beams.p.size());
-    Node node{keyframe.scan, from_core(keyframe.smooth), 0, keyframe.broken, keyframe.weak, 0, 0, 0, {}, {}};
-    add_axes(keyframe.features, sensor, &node);
+    Node node{keyframe.scan, from_core(keyframe.smooth), 0, keyframe.broken, keyframe.weak, {}, {}, {}};
+    add_walls(keyframe.features, sensor, &node);
     Eigen::Vector2d last(1e9, 1e9);
     for (size_t k = 0; k < beams.p.size(); k++) {
         if (!beams.valid[k] || (beams.p[k] - last).norm() < node_point_spacing_m) {

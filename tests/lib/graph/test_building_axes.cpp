@@ -1,6 +1,7 @@
 // lib/graph/building_axes: drives through rooms whose walls are given, with headings that drift.
 #include "graph/building_axes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -16,9 +17,7 @@ ale::Node seeing(double heading, const std::vector<double> &walls)
 {
     ale::Node node{};
     for (const double wall : walls) {
-        node.axes_cos_m += std::cos(4 * (wall - heading));
-        node.axes_sin_m += std::sin(4 * (wall - heading));
-        node.straight_m += 1;
+        node.walls.push_back({ale::wrapped(wall - heading), 1});
     }
     return node;
 }
@@ -68,6 +67,17 @@ TEST(BuildingAxes, DriftIsSeenAndTheSuggestionsAreTheTrueHeadings)
         const double off = prior.theta - made.truth[static_cast<size_t>(prior.pose)].theta;
         EXPECT_NEAR(ale::wrapped(off - common), 0, 0.01 * degree);
     }
+}
+
+TEST(BuildingAxes, FurnitureAtAnAngleDoesNotTurnTheBuilding)
+{
+    // A chest at 25 degrees in every fifth wall's place, and in the middle of the drive nothing but chests.
+    Drive made = drive(60, 0, {0, ale::pi / 2, 0, ale::pi / 2, 0.44}, 0.3 * degree, 7);
+    const Drive chests = drive(60, 0, {0.44, 0.44 + ale::pi / 2}, 0.3 * degree, 8);
+    std::copy(chests.nodes.begin() + 25, chests.nodes.begin() + 40, made.nodes.begin() + 25);
+    const auto headings = ale::headings_by_walls(made.nodes, made.truth);
+    EXPECT_EQ(headings.priors.size(), made.nodes.size() - 15);
+    EXPECT_FALSE(ale::have_drifted(headings, made.truth));
 }
 
 TEST(BuildingAxes, BuildingWithoutRightAnglesSaysNothing)
