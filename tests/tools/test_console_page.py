@@ -260,6 +260,8 @@ def test_measuring_tells_the_distance_between_two_points(page, pulse):
     where = page.run("return document.getElementById('map').dataset.measured")
     assert number(where) == pytest.approx(1, abs=0.02)
     page.click("measure")
+    page.wait_for("document.getElementById('hint').hidden")
+    page.run("return new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)))")
     assert pixels(page, "pointed")["count"] == before
 
 
