@@ -89,7 +89,7 @@ fuzz: deps-test ## long run of the fuzzers (FUZZ_SECONDS=600 each)
 .PHONY: same-bytes digest lint lint-tidy
 SAME_BYTES_BUILDS ?= gcc:-O0 clang:-O3
 same-bytes: programs
-	@$(PYTHON) tools/make/digest.py --build $(BUILD) check $(SAME_BYTES_BUILDS)
+	@$(PYTHON) tools/make/digest.py --build $(BUILD) check $(SAME_BYTES_HOW) $(SAME_BYTES_BUILDS)
 digest: programs ## after a wanted change of features or trajectories: their new digests into tests/digest
 	@$(PYTHON) tools/make/digest.py --build $(BUILD) update
 
@@ -130,7 +130,7 @@ test: deps-test ## all tests on this machine; the last line counts them
 	@$(SUB) -j2 fuzz-programs
 	-@$(PYTHON) tools/make/run_tests.py fuzz --seconds $(SHORT_FUZZ_SECONDS) $(FUZZ_PROGRAMS)
 	@echo "== the same bytes from another compiler and level"
-	-@$(PYTHON) tools/make/run_tests.py command "same bytes" $(SUB) same-bytes
+	-@$(PYTHON) tools/make/run_tests.py command "same bytes" $(SUB) same-bytes SAME_BYTES_HOW=--quick
 	@$(PYTHON) tools/make/run_tests.py sum
 
 # After `make test` in the same build folder (AFTER_TEST=1) only the rest runs, and the sum is of both.
@@ -138,7 +138,8 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	$(if $(AFTER_TEST),,@$(SUB) test)
 	@echo "== lint"
 	-@$(SUB) lint
-	-@$(PYTHON) tools/make/run_tests.py command "same bytes, all" $(SUB) same-bytes SAME_BYTES_BUILDS="gcc:-O0 gcc:-O3 clang:-O0 clang:-O3"
+	-@$(PYTHON) tools/make/run_tests.py command "same bytes, -O0" $(SUB) same-bytes SAME_BYTES_HOW=--quick SAME_BYTES_BUILDS="gcc:-O0 clang:-O0"
+	-@$(PYTHON) tools/make/run_tests.py command "same bytes, every recording" $(SUB) same-bytes SAME_BYTES_BUILDS="gcc:-O3 clang:-O3"
 	@echo "== the Debian package"
 	-@$(PYTHON) tools/make/run_tests.py command "install, remove, purge" $(SUB) test-deb
 	@echo "== the same bytes on other machines, emulated"
