@@ -6,8 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Largest log, unpacked: above, the file is refused (a damaged or hostile gzip file can claim anything). A machine
- * of 32 bits has no room for more than a quarter of what it can address. */
+/* Largest log, unpacked: above, the file is refused (a damaged or hostile gzip file can claim anything). A
+ * machine of 32 bits has no room for more than a quarter of what it can address. */
 #define ALE_LOG_MOST_BYTES (SIZE_MAX > UINT32_MAX ? (size_t)((uint64_t)4 << 30) : (size_t)1 << 30)
 
 typedef struct {
