@@ -11,7 +11,7 @@
 
 #include "track/pipeline.h"
 
-enum { ALE_TIDY_OFFSET_UM = 120000, ALE_TIDY_ANGLE_MRAD = 200 };
+enum { ALE_TIDY_OFFSET_UM = 120000, ALE_TIDY_ANGLE_MRAD = 350 };
 
 /* Joins the lines of *map that show the same wall; the rest stays as it is, in its order. A joined line has
  * the id and the covariance of the one with more evidence (scans times length), the mean direction and place
