@@ -81,7 +81,8 @@ static inline __attribute__((always_inline)) scatter_t scatter_of(int64_t n, ale
     const int64_t b = n * s.xy - s.x * s.y;
     const int64_t c = n * s.yy - s.y * s.y;
     const unsigned bits = ale_bit_length((uint64_t)(a + c) | ((uint64_t)1 << (SCATTER_BITS - 1)));
-    const unsigned shift = bits - SCATTER_BITS;
+    const unsigned shift =
+        (bits - SCATTER_BITS) & 63u; /* at least SCATTER_BITS: for those who cannot see it */
     const int64_t toward_zero = b < 0 ? ((int64_t)1 << shift) - 1 : 0;
     scatter_t m = {a >> shift, (b + toward_zero) >> shift, c >> shift, 0, shift};
     m.lambda = small_eigenvalue(m.a, m.b, m.c);
