@@ -65,8 +65,8 @@ typedef struct {
     uint32_t stamp_ms;     /* 24 bits */
     const int32_t *values; /* millimetres or error codes */
     uint32_t value_count;
-    const char *text; /* LINE_READ: the line without ";" and sum, NUL-terminated */
-    uint32_t text_count;
+    const char *text;    /* LINE_READ: the line without ";" and sum, NUL-terminated */
+    uint32_t text_count; /* at most ALE_SCIP_LINE: a wrong sum without ";" is not told from the text */
     bool sum_right;
     ale_scip_loss_t loss;
     int64_t first_us; /* arrival of the reply's first byte, as given; late rather than early in doubt */

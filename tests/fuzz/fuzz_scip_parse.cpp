@@ -93,7 +93,7 @@ class Reader
         }
         events_ = events_ * 31 + event.kind;
         if (event.kind == ALE_SCIP_LINE_READ) {
-            require(event.text[event.text_count] == '\0' && event.text_count < ALE_SCIP_LINE);
+            require(event.text[event.text_count] == '\0' && event.text_count <= ALE_SCIP_LINE);
             ale_urg_identity_line(&identity_, event.text, event.sum_right);
         } else if (event.kind == ALE_SCIP_SCAN) {
             require(event.value_count == ale_scip_request_values(&event.request));

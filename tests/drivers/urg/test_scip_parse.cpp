@@ -267,6 +267,23 @@ TEST_F(ScipParse, garbage_without_end_is_dropped_and_counted_and_the_echo_behind
     }
 }
 
+TEST_F(ScipParse, an_information_line_is_read_up_to_the_longest_line_and_dropped_beyond)
+{
+    for (const size_t count : {159U, 160U, 161U}) {
+        ale_scip_parser_init(&parser);
+        const std::string line(count, 'x');
+        const std::vector<Parsed> events = parse_into(parser, "VV\n00P\n" + line + "\n\n");
+        const bool fits = count <= ALE_SCIP_LINE;
+        ASSERT_EQ(events.size(), fits ? 2U : 1U) << count;
+        EXPECT_EQ(events.back().event.kind, ALE_SCIP_REPLY);
+        EXPECT_EQ(counters().wrong_info_sums, 1U);
+        if (fits) {
+            EXPECT_EQ(events[0].text, line);
+            EXPECT_FALSE(events[0].event.sum_right);
+        }
+    }
+}
+
 TEST_F(ScipParse, random_bytes_never_make_a_scan_and_never_grow)
 {
     std::mt19937 random(17);
@@ -276,7 +293,7 @@ TEST_F(ScipParse, random_bytes_never_make_a_scan_and_never_grow)
     }
     for (const Parsed &p : parse_into(parser, noise)) {
         EXPECT_NE(p.event.kind, ALE_SCIP_SCAN);
-        EXPECT_LT(p.text.size(), static_cast<size_t>(ALE_SCIP_LINE));
+        EXPECT_LE(p.text.size(), static_cast<size_t>(ALE_SCIP_LINE));
     }
     const std::string good = frame("MD0044072501000", "99", 77, ramp(682, 20), 3);
     const std::vector<Parsed> events = parse_into(parser, "\n\n" + good);
