@@ -5,12 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/version.h"
 #include "clock.h"
 #include "decimal.h"
-
-#ifndef ALE_VERSION
-#define ALE_VERSION "0.1"
-#endif
 
 static const char help[] =
     "usage: ale-slamd [--config FILE] [--port DEV] [--lcm-url URL] [--map FILE] [--keys FILE]\n"

@@ -5,7 +5,7 @@ BENCH_SCANS ?= 20
 BENCH_COUNTED_SCANS ?= 1
 
 BENCH_PROGRAMS = $(patsubst tools/bench/%.cpp,$(BUILD)/bench/%,$(filter-out %/hardest.cpp,$(BENCH_MAINS)))
-$(BENCH_PROGRAMS): $(BUILD)/bench/%: $(OBJ)/tools/bench/%.cpp.o $(call objects,$(BENCH_PARTS)) $(BUILD)/libale_drivers.a $(BUILD)/libale.a
+$(BENCH_PROGRAMS): $(BUILD)/bench/%: $(OBJ)/tools/bench/%.cpp.o $(call objects,$(BENCH_PARTS)) $(addprefix $(BUILD)/,libale_tools.a libale_drivers.a libale.a)
 	$(call link)
 
 # Tests of the benchmark, and of the calibration, which use its worlds.
@@ -26,7 +26,7 @@ WCET_OUT = $(BUILD)/bench/wcet.counts
 wcet: deps-test ## instructions of a scan by callgrind: recorded, and the worst that a search finds (WCET_TRIES=100)
 	@$(MAKE) --no-print-directory -s $(BUILD)/bench/wcet
 	@valgrind -q --tool=callgrind --collect-atstart=no --callgrind-out-file=$(WCET_OUT) \
-	    $(BUILD)/bench/wcet $(WCET_OUT) $(WCET_TRIES) $(WCET_LOGS)
+	    $(BUILD)/bench/wcet --counts $(WCET_OUT) --tries $(WCET_TRIES) $(WCET_LOGS)
 
 POSES ?= 100
 .PHONY: relocalise
@@ -39,7 +39,7 @@ $(COUNTED_OBJECTS): $(OBJ)/counted/%.o: %.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(C_FLAGS) -fsanitize-coverage=trace-pc $(LIB_INCLUDES) -c $< -o $@
 
-$(BUILD)/bench/hardest: $(call objects,$(patsubst %,tools/bench/%.cpp,hardest suite world simulate truth)) $(COUNTED_OBJECTS)
+$(BUILD)/bench/hardest: $(call objects,$(patsubst %,tools/bench/%.cpp,hardest suite world simulate truth)) $(BUILD)/libale_tools.a $(COUNTED_OBJECTS)
 	$(call link)
 
 BENCH_STEPS ?= 40000

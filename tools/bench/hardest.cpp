@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "bench/suite.hpp"
+#include "cli/command_line.h"
 
 extern "C" {
 #include "extract/extract.h"
@@ -31,6 +32,10 @@ void __sanitizer_cov_trace_pc(void)
 namespace
 {
 
+constexpr char usage[] =
+    "usage: hardest STEPS SEED LOG\n"
+    "Looks for the scan that costs the extractor most and writes the costliest as a log; JSON on stdout.\n"
+    "  --help, --version\n";
 constexpr int beams = 682;
 constexpr int first_step = -340;
 constexpr int nearest_mm = 22;
@@ -228,25 +233,27 @@ void write_log(const std::string &path, const std::vector<Candidate> &pool)
 
 int main(int argc, char **argv)
 {
-    if (argc != 4) {
-        std::cerr << "usage: hardest STEPS SEED LOG\n";
-        return 2;
-    }
-    try {
-        Search search(static_cast<unsigned>(std::stoul(argv[2])));
+    int steps = 0;
+    unsigned seed = 0;
+    std::string log;
+    cli::CommandLine line("hardest", usage);
+    line.argument("STEPS",
+                  [&](const std::string &word) { steps = cli::number_of("STEPS", word, 0, 100000000); });
+    line.argument("SEED",
+                  [&](const std::string &word) { seed = cli::number_of("SEED", word, 0U, UINT32_MAX); });
+    line.argument("LOG", log);
+    return line.run(argc, argv, [&] {
+        Search search(seed);
         const double mean = search.start();
-        for (int k = std::stoi(argv[1]); k > 0; k--) {
+        for (int k = 0; k < steps; k++) {
             search.step();
         }
-        write_log(argv[3], search.pool());
+        write_log(log, search.pool());
         std::cout << nlohmann::json{{"scans", search.pool().size()},
                                     {"times_the_mean",
                                      static_cast<double>(search.pool().front().cost) / mean}}
                          .dump()
                   << std::endl;
-    } catch (const std::exception &problem) {
-        std::cerr << "hardest: " << problem.what() << '\n';
-        return 1;
-    }
-    return 0;
+        return 0;
+    });
 }

@@ -1,9 +1,4 @@
 // bench-lines: the extractors over simulated suites and recordings of a resting scanner; JSON on stdout.
-//
-//   lines accuracy [--scans N] [--seed S] [--threshold MM PERCENT] [--noise NAME] [--extractor NAME]
-//   lines run --extractor NAME [--scans N]     only extracts, over the urg suite: for profilers
-//   lines rest LOG                             repeatability on a recording
-//   lines write DIR [--scans N] [--noise NAME] scans.log and truth.jsonl
 #include <cstdio>
 #include <ctime>
 #include <fstream>
@@ -16,10 +11,8 @@
 #include "bench/repeatability.hpp"
 #include "bench/score.hpp"
 #include "bench/suite.hpp"
-
-extern "C" {
-#include "log/log.h"
-}
+#include "cli/command_line.h"
+#include "replay/log_reader.h"
 
 namespace
 {
@@ -27,8 +20,16 @@ namespace
 using nlohmann::json;
 using namespace bench;
 
+constexpr char usage[] =
+    "usage: lines accuracy [--scans N] [--seed S] [--threshold MM,PERCENT] [--noise NAME] [--extractor "
+    "NAME]\n"
+    "       lines run --extractor NAME [--scans N]     only extracts, over the urg suite: for profilers\n"
+    "       lines rest LOG                             repeatability on a recording\n"
+    "       lines write DIR [--scans N] [--noise NAME] scans.log and truth.jsonl\n"
+    "The extractors over simulated suites and recordings of a resting scanner; JSON on stdout.\n"
+    "  --help, --version\n";
+
 struct Options {
-    std::string command;
     std::string path;
     std::string noise;     // empty: all
     std::string extractor; // empty: all
@@ -36,41 +37,6 @@ struct Options {
     std::uint64_t seed = 1;
     std::optional<Threshold> threshold;
 };
-
-struct UsageError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
-Options parse(int argc, char **argv)
-{
-    Options options;
-    for (int k = 1; k < argc; k++) {
-        const std::string word = argv[k];
-        const auto value = [&] {
-            if (++k >= argc) {
-                throw UsageError(word + " needs a value");
-            }
-            return std::string(argv[k]);
-        };
-        if (word == "--noise") {
-            options.noise = value();
-        } else if (word == "--extractor") {
-            options.extractor = value();
-        } else if (word == "--scans") {
-            options.scans = std::stoi(value());
-        } else if (word == "--seed") {
-            options.seed = std::stoull(value());
-        } else if (word == "--threshold") {
-            const double floor = std::stod(value());
-            options.threshold = Threshold{floor * 1e-3, std::stod(value()) * 1e-2};
-        } else if (word.rfind("--", 0) == 0) {
-            throw UsageError("unknown option " + word);
-        } else {
-            (options.command.empty() ? options.command : options.path) = word;
-        }
-    }
-    return options;
-}
 
 std::vector<Extractor> chosen_extractors(const Options &options)
 {
@@ -81,7 +47,7 @@ std::vector<Extractor> chosen_extractors(const Options &options)
         }
     }
     if (chosen.empty()) {
-        throw UsageError("no extractor is called " + options.extractor);
+        throw cli::WrongUse("no extractor is called " + options.extractor);
     }
     return chosen;
 }
@@ -159,24 +125,12 @@ void run(const Options &options)
     std::cout << json{{"extractor", extractor.name}, {"scans", scans}, {"lines", lines}}.dump() << std::endl;
 }
 
-struct CloseLog {
-    void operator()(ale_log_t *log) const
-    {
-        ale_log_close(log);
-    }
-};
-
 // Every scan of a log, one after the other.
 void for_each_scan(const std::string &path, const std::function<void(const ale_scan_t &)> &visit)
 {
-    ale_log_t *opened = nullptr;
-    ale_log_error_t error;
-    if (ale_log_open(&opened, path.c_str(), &error) < 0) {
-        throw std::runtime_error(error.message);
-    }
-    const std::unique_ptr<ale_log_t, CloseLog> log(opened);
+    ale::LogReader log(path);
     const auto event = std::make_unique<ale_log_event_t>();
-    while (ale_log_next(log.get(), event.get()) > 0) {
+    while (log.next(*event)) {
         if (event->kind == ALE_LOG_SCAN) {
             visit(event->scan);
         }
@@ -265,30 +219,40 @@ void write(const Options &options)
     }
 }
 
-int dispatch(const Options &options)
+Threshold threshold_of(const std::string &word)
 {
-    static const std::map<std::string, void (*)(const Options &)> commands{
-        {"accuracy", accuracy}, {"run", run}, {"rest", rest}, {"write", write}};
-    const auto command = commands.find(options.command);
-    if (command == commands.end()) {
-        throw UsageError("usage: lines accuracy|run|rest LOG|write DIR [--scans N] [--seed S] [--noise NAME] "
-                         "[--extractor NAME] [--threshold MM PERCENT]");
+    const std::size_t comma = word.find(',');
+    if (comma == std::string::npos) {
+        throw cli::WrongUse("--threshold " + word + ": expected MM,PERCENT");
     }
-    command->second(options);
-    return 0;
+    const std::string where = "--threshold " + word + ":";
+    return {cli::number_of(where, word.substr(0, comma), 0.0, 1000.0) * 1e-3,
+            cli::number_of(where, word.substr(comma + 1), 0.0, 100.0) * 1e-2};
 }
 
 } // namespace
 
 int main(int argc, char **argv)
 {
-    try {
-        return dispatch(parse(argc, argv));
-    } catch (const UsageError &e) {
-        std::cerr << e.what() << "\n";
-        return 2;
-    } catch (const std::exception &e) {
-        std::cerr << e.what() << "\n";
-        return 1;
-    }
+    using Command = void (*)(const Options &);
+    const cli::Choices<Command> commands = {
+        {"accuracy", accuracy}, {"run", run}, {"rest", rest}, {"write", write}};
+    Options options;
+    Command command = nullptr;
+    cli::CommandLine line("lines", usage);
+    line.argument("COMMAND",
+                  [&](const std::string &word) { command = cli::choice_of("COMMAND", word, commands); });
+    line.possible_argument("PATH", options.path);
+    line.text("noise", options.noise);
+    line.text("extractor", options.extractor);
+    line.number("scans", options.scans, 1, 1000000);
+    line.number("seed", options.seed, std::uint64_t{0}, UINT64_MAX);
+    line.option("threshold", [&](const std::string &word) { options.threshold = threshold_of(word); });
+    return line.run(argc, argv, [&] {
+        if (options.path.empty() == (command == rest || command == write)) {
+            throw cli::WrongUse("rest wants a LOG, write a folder, the others neither");
+        }
+        command(options);
+        return 0;
+    });
 }

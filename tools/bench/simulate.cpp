@@ -1,7 +1,8 @@
 #include "bench/simulate.hpp"
 
 #include <limits>
-#include <stdexcept>
+
+#include "cli/wrong_use.h"
 
 namespace bench
 {
@@ -132,7 +133,7 @@ const Noise &noise_kind(const std::string &name)
             return noise;
         }
     }
-    throw std::invalid_argument("no kind of noise is called " + name);
+    throw cli::WrongUse("no kind of noise is called " + name);
 }
 
 double urg_bearing(int beam)

@@ -20,10 +20,8 @@
 #include <valgrind/callgrind.h>
 
 #include "bench/wcet_scans.hpp"
-
-extern "C" {
-#include "log/log.h"
-}
+#include "cli/command_line.h"
+#include "replay/log_reader.h"
 
 namespace
 {
@@ -31,6 +29,12 @@ namespace
 using bench::Costly;
 using Counts = std::array<uint64_t, ALE_STAGES>;
 
+constexpr char usage[] =
+    "usage: valgrind --tool=callgrind --collect-atstart=no --callgrind-out-file=BASE wcet --counts BASE\n"
+    "                [--tries N] LOG...\n"
+    "Instructions of the estimate task's work on one scan: the scans of the logs, and the most expensive\n"
+    "scan that a search of N steps (default 0) finds. `make wcet` runs it.\n"
+    "  --help, --version\n";
 constexpr std::array<const char *, ALE_STAGES> stage_names = {"deskew", "smooth", "extract", "match", "map"};
 constexpr int scans_of_a_candidate = 16;
 
@@ -159,15 +163,11 @@ void print_row(const char *name, const Counts &counts)
 
 void count_log(Counter &counter, const std::string &path, Tally &all)
 {
-    ale_log_t *log = nullptr;
-    ale_log_error_t error;
-    if (ale_log_open(&log, path.c_str(), &error) < 0) {
-        throw std::runtime_error(error.message);
-    }
+    ale::LogReader log(path);
     Counted counted(counter, ale_pipeline_default_config());
     auto event = std::make_unique<ale_log_event_t>();
     Tally tally;
-    while (ale_log_next(log, event.get()) > 0) {
+    while (log.next(*event)) {
         if (event->kind == ALE_LOG_ODOMETRY) {
             ale_pipeline_odometry(*counted, &event->odometry);
         } else if (event->kind == ALE_LOG_SCAN) {
@@ -176,7 +176,6 @@ void count_log(Counter &counter, const std::string &path, Tally &all)
             all.add(counts);
         }
     }
-    ale_log_close(log);
     const std::string name = path.substr(path.rfind('/') + 1);
     std::printf("%-34s %zu scans, median %llu\n", name.c_str(), tally.totals.size(),
                 static_cast<unsigned long long>(tally.median()));
@@ -277,17 +276,18 @@ void run(const std::string &base, int tries, const std::vector<std::string> &log
 
 int main(int argc, char **argv)
 {
-    if (argc < 4 || RUNNING_ON_VALGRIND == 0) {
-        std::fputs("usage: valgrind --tool=callgrind --collect-atstart=no --callgrind-out-file=BASE wcet "
-                   "BASE TRIES LOG...\n",
-                   stderr);
-        return 2;
-    }
-    try {
-        run(argv[1], std::atoi(argv[2]), {argv + 3, argv + argc});
+    std::string counts;
+    int tries = 0;
+    std::vector<std::string> logs;
+    cli::CommandLine line("wcet", usage);
+    line.text("counts", counts);
+    line.number("tries", tries, 0, 1000000);
+    line.rest(logs);
+    return line.run(argc, argv, [&] {
+        if (RUNNING_ON_VALGRIND == 0 || counts.empty() || logs.empty()) {
+            throw cli::WrongUse("needs callgrind, --counts BASE and a log: make wcet");
+        }
+        run(counts, tries, logs);
         return 0;
-    } catch (const std::exception &error) {
-        std::fprintf(stderr, "wcet: %s\n", error.what());
-        return 1;
-    }
+    });
 }

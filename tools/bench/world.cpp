@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <functional>
-#include <stdexcept>
+
+#include "cli/wrong_use.h"
 
 namespace bench
 {
@@ -298,7 +299,7 @@ World make_world(const std::string &kind, Random &random)
             return world;
         }
     }
-    throw std::invalid_argument("no kind of world is called " + kind);
+    throw cli::WrongUse("no kind of world is called " + kind);
 }
 
 } // namespace bench

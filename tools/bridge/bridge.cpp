@@ -9,6 +9,7 @@
 #include <poll.h>
 
 #include "bridge/frame.h"
+#include "cli/wrong_use.h"
 
 namespace bridge
 {
@@ -39,7 +40,7 @@ Bridge::Bridge(const std::string &lcm_url, UdpLink link, const Selection &send, 
     }
     for (const std::string &channel : send_.names()) {
         if (accept_.contains(channel)) {
-            throw std::invalid_argument(channel + " is both sent and accepted: it would go round for ever");
+            throw cli::WrongUse(channel + " is both sent and accepted: it would go round for ever");
         }
         lcm_subscription_t *subscription = lcm_subscribe(lcm_.get(), channel.c_str(), on_message, this);
         if (!subscription) {

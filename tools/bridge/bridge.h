@@ -28,7 +28,7 @@ struct Counts {
 class Bridge
 {
   public:
-    /* Throws std::runtime_error when LCM cannot be joined, std::invalid_argument when a channel is both sent
+    /* Throws std::runtime_error when LCM cannot be joined, cli::WrongUse when a channel is both sent
      * and accepted: it would go round for ever. */
     Bridge(const std::string &lcm_url, UdpLink link, const Selection &send, const Selection &accept);
 

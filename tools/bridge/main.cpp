@@ -1,15 +1,12 @@
 /* ale-bridge: a selected, thinned set of channels over a unicast link. */
-#include <atomic>
 #include <cinttypes>
-#include <csignal>
 #include <cstdio>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include <getopt.h>
-
 #include "bridge/bridge.h"
+#include "cli/command_line.h"
+#include "cli/interrupt.h"
 
 namespace
 {
@@ -45,52 +42,6 @@ struct Options {
     std::string lcm_url;
 };
 
-std::atomic<bool> interrupted{false};
-
-/* The exit code when the command line has been answered already, else -1. */
-int parse(int argc, char **argv, Options &options)
-{
-    static const option known[] = {
-        {"listen", required_argument, nullptr, 'i'},  {"connect", required_argument, nullptr, 'c'},
-        {"send", required_argument, nullptr, 's'},    {"accept", required_argument, nullptr, 'a'},
-        {"lcm-url", required_argument, nullptr, 'l'}, {"help", no_argument, nullptr, 'h'},
-        {"version", no_argument, nullptr, 'v'},       {nullptr, 0, nullptr, 0}};
-    for (int choice; (choice = getopt_long(argc, argv, "", known, nullptr)) != -1;) {
-        switch (choice) {
-        case 'i':
-            options.listen = optarg;
-            break;
-        case 'c':
-            options.connect = optarg;
-            break;
-        case 's':
-            options.send.emplace_back(optarg);
-            break;
-        case 'a':
-            options.accept.emplace_back(optarg);
-            break;
-        case 'l':
-            options.lcm_url = optarg;
-            break;
-        case 'h':
-            std::fputs(usage, stdout);
-            return 0;
-        case 'v':
-            std::puts("ale-bridge 0.1.0");
-            return 0;
-        default:
-            return 2;
-        }
-    }
-    if (optind < argc) {
-        throw std::invalid_argument("what is \"" + std::string(argv[optind]) + "\"? (see --help)");
-    }
-    if (options.listen.empty() == options.connect.empty()) {
-        throw std::invalid_argument("one of --listen and --connect is wanted (see --help)");
-    }
-    return -1;
-}
-
 const std::vector<std::string> &either(const std::vector<std::string> &chosen,
                                        const std::vector<std::string> &usual)
 {
@@ -100,13 +51,16 @@ const std::vector<std::string> &either(const std::vector<std::string> &chosen,
 void run(const Options &options)
 {
     const bool robot = !options.listen.empty();
+    if (robot != options.connect.empty()) {
+        throw cli::WrongUse("one of --listen and --connect is wanted");
+    }
     const bridge::Selection send(either(options.send, robot ? of_robot : of_operator));
     const bridge::Selection accept(either(options.accept, robot ? of_operator : of_robot));
     bridge::Bridge carrier(options.lcm_url,
                            robot ? bridge::UdpLink::listening(options.listen)
                                  : bridge::UdpLink::connected(options.connect),
                            send, accept);
-    while (!interrupted) {
+    while (!cli::interrupted()) {
         carrier.step();
     }
     const bridge::Counts &counts = carrier.counts();
@@ -120,22 +74,16 @@ void run(const Options &options)
 
 int main(int argc, char **argv)
 {
-    try {
-        Options options;
-        const int answered = parse(argc, argv, options);
-        if (answered >= 0) {
-            return answered;
-        }
-        for (const int number : {SIGINT, SIGTERM}) {
-            std::signal(number, [](int) { interrupted = true; });
-        }
+    Options options;
+    cli::CommandLine line("ale-bridge", usage);
+    line.text("listen", options.listen);
+    line.text("connect", options.connect);
+    line.texts("send", options.send);
+    line.texts("accept", options.accept);
+    line.text("lcm-url", options.lcm_url);
+    return line.run(argc, argv, [&] {
+        cli::catch_interrupts();
         run(options);
         return 0;
-    } catch (const std::invalid_argument &error) {
-        std::fprintf(stderr, "ale-bridge: %s\n", error.what());
-        return 2;
-    } catch (const std::exception &error) {
-        std::fprintf(stderr, "ale-bridge: %s\n", error.what());
-        return 1;
-    }
+    });
 }

@@ -1,10 +1,9 @@
 #include "bridge/selection.h"
 
 #include <cmath>
-#include <cstdlib>
-#include <stdexcept>
 
 #include "bridge/frame.h"
+#include "cli/words.h"
 
 namespace bridge
 {
@@ -12,17 +11,13 @@ namespace bridge
 namespace
 {
 
+constexpr double least_hz = 0.001;
 constexpr double most_hz = 1000;
 constexpr double us_per_s = 1e6;
 
 int64_t period_of(const std::string &word, const std::string &rate)
 {
-    char *rest = nullptr;
-    const double hz = std::strtod(rate.c_str(), &rest);
-    if (rate.empty() || *rest != '\0' || !(hz > 0 && hz <= most_hz)) {
-        throw std::invalid_argument(word + ": after the colon comes a rate up to 1000 Hz");
-    }
-    return std::llround(us_per_s / hz);
+    return std::llround(us_per_s / cli::number_of(word + ": rate", rate, least_hz, most_hz));
 }
 
 } // namespace
@@ -33,7 +28,7 @@ Selection::Selection(const std::vector<std::string> &words)
         const size_t colon = word.find(':');
         const std::string channel = word.substr(0, colon);
         if (channel.empty() || channel.size() > most_channel) {
-            throw std::invalid_argument("\"" + word + "\" names no channel");
+            throw cli::WrongUse("\"" + word + "\" names no channel");
         }
         channels_[channel].period_us =
             colon == std::string::npos ? 0 : period_of(word, word.substr(colon + 1));

@@ -13,7 +13,7 @@ namespace bridge
 class Selection
 {
   public:
-    /* Each "CHANNEL" or "CHANNEL:HZ", 0 < HZ <= 1000. Throws std::invalid_argument saying what is wrong. */
+    /* Each "CHANNEL" or "CHANNEL:HZ", 0.001 <= HZ <= 1000. Throws cli::WrongUse saying what is wrong. */
     explicit Selection(const std::vector<std::string> &words);
 
     bool contains(const std::string &channel) const

@@ -9,6 +9,8 @@
 #include <netdb.h>
 #include <unistd.h>
 
+#include "cli/wrong_use.h"
+
 namespace bridge
 {
 
@@ -34,8 +36,7 @@ AddressList resolve(const std::string &address, bool listen)
     addrinfo *found = nullptr;
     const bool complete = listen || !host.empty();
     if (!complete || getaddrinfo(host.empty() ? nullptr : host.c_str(), port.c_str(), &hints, &found) != 0) {
-        throw std::invalid_argument("no such address: " + address +
-                                    (listen ? " (ADDR:PORT)" : " (HOST:PORT)"));
+        throw cli::WrongUse("no such address: " + address + (listen ? " (ADDR:PORT)" : " (HOST:PORT)"));
     }
     return {found, freeaddrinfo};
 }

@@ -17,7 +17,7 @@ constexpr int64_t silence_us = 3000000;
 class UdpLink
 {
   public:
-    /* address: [HOST:]PORT to listen on, HOST:PORT to connect to. Throws std::invalid_argument for what is no
+    /* address: [HOST:]PORT to listen on, HOST:PORT to connect to. Throws cli::WrongUse for what is no
      * address and std::runtime_error when the socket cannot be had. */
     static UdpLink listening(const std::string &address);
     static UdpLink connected(const std::string &address);

@@ -6,10 +6,7 @@
 #include <vector>
 
 #include "calibrate/statistics.h"
-
-extern "C" {
-#include "log/log.h"
-}
+#include "replay/log_reader.h"
 
 namespace calibrate
 {
@@ -19,25 +16,6 @@ namespace
 
 constexpr double radians_per_bam = 6.283185307179586 / 4294967296.0;
 constexpr double not_a_value = std::numeric_limits<double>::quiet_NaN();
-
-struct CloseLog {
-    void operator()(ale_log_t *log) const
-    {
-        ale_log_close(log);
-    }
-};
-
-using Log = std::unique_ptr<ale_log_t, CloseLog>;
-
-Log open_log(const std::string &path)
-{
-    ale_log_t *opened = nullptr;
-    ale_log_error_t error;
-    if (ale_log_open(&opened, path.c_str(), &error) < 0) {
-        throw std::runtime_error(error.message);
-    }
-    return Log(opened);
-}
 
 bool same_geometry(const ale_scan_t &a, const ale_scan_t &b)
 {
@@ -78,11 +56,11 @@ double share_of_moved_beams(const Eigen::MatrixXd &range)
 
 Recording read_recording(const std::string &path)
 {
-    const Log log = open_log(path);
+    ale::LogReader log(path);
     Recording recording;
     std::vector<std::vector<double>> rows;
     const auto event = std::make_unique<ale_log_event_t>();
-    while (rows.size() < most_scans && ale_log_next(log.get(), event.get()) > 0) {
+    while (rows.size() < most_scans && log.next(*event)) {
         if (event->kind != ALE_LOG_SCAN) {
             continue;
         }

@@ -11,6 +11,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "cli/wrong_use.h"
+
 namespace console
 {
 
@@ -27,7 +29,7 @@ AddressList resolve(const std::string &host, uint16_t port)
     addrinfo *found = nullptr;
     const int error = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found);
     if (error != 0) {
-        throw std::invalid_argument("no such address: " + host);
+        throw cli::WrongUse("--http: no such address: " + host);
     }
     return {found, freeaddrinfo};
 }
@@ -76,13 +78,13 @@ HttpAddress parse_http_address(const std::string &text)
 {
     const size_t colon = text.rfind(':');
     if (colon == std::string::npos || colon == 0) {
-        throw std::invalid_argument("not of the form ADDR:PORT: " + text);
+        throw cli::WrongUse("--http: not of the form ADDR:PORT: " + text);
     }
     const char *end = text.data() + text.size();
     unsigned port = 0;
     const auto [rest, error] = std::from_chars(text.data() + colon + 1, end, port);
     if (error != std::errc() || rest != end || port > UINT16_MAX) {
-        throw std::invalid_argument("no port from 0 to 65535 in " + text);
+        throw cli::WrongUse("--http: no port from 0 to 65535 in " + text);
     }
     const auto found = resolve(without_brackets(text.substr(0, colon)), static_cast<uint16_t>(port));
     return {numeric_host(*found), static_cast<uint16_t>(port), found->ai_family == AF_INET6};

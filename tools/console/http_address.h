@@ -21,7 +21,7 @@ struct HttpAddress {
 bool is_loopback(const HttpAddress &address);
 
 /* ADDR:PORT, e.g. 127.0.0.1:8080, localhost:8080, [::1]:8080, 0.0.0.0:0 (port 0: any free one).
- * Throws std::invalid_argument saying what is wrong with it. */
+ * Throws cli::WrongUse saying what is wrong with it. */
 HttpAddress parse_http_address(const std::string &text);
 
 /* Throws std::runtime_error naming the address and the reason when nobody can listen there now. */

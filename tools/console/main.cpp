@@ -9,11 +9,11 @@
 #include <string>
 #include <thread>
 
-#include <getopt.h>
 #include <sodium.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "cli/command_line.h"
 #include "console/board.h"
 #include "console/commander.h"
 #include "console/http_address.h"
@@ -34,7 +34,8 @@ constexpr char usage[] =
     "                    that can be reached from elsewhere gets one of its own\n"
     "  --keys FILE       the operator's key (ale-keys makes it); without it the page only watches\n"
     "  --help, --version\n"
-    "Prints the page's address on stdout. Ends with Ctrl-C or SIGTERM.\n";
+    "Prints the page's address on stdout. Ends with Ctrl-C or SIGTERM. Exit: 0 fine, 1 failed, 2 wrong "
+    "use.\n";
 
 constexpr size_t least_token = 12;
 constexpr size_t longest_token = 128;
@@ -45,47 +46,6 @@ struct Options {
     std::string keys;
     std::string token;
 };
-
-/* The exit code when the command line has been answered already, else -1. */
-int parse(int argc, char **argv, Options &options)
-{
-    static const option known[] = {{"lcm-url", required_argument, nullptr, 'l'},
-                                   {"http", required_argument, nullptr, 'a'},
-                                   {"keys", required_argument, nullptr, 'k'},
-                                   {"help", no_argument, nullptr, 'h'},
-                                   {"version", no_argument, nullptr, 'v'},
-                                   {"token", required_argument, nullptr, 't'},
-                                   {nullptr, 0, nullptr, 0}};
-    for (int choice; (choice = getopt_long(argc, argv, "", known, nullptr)) != -1;) {
-        switch (choice) {
-        case 'l':
-            options.lcm_url = optarg;
-            break;
-        case 'a':
-            options.http = optarg;
-            break;
-        case 'k':
-            options.keys = optarg;
-            break;
-        case 't':
-            options.token = optarg;
-            break;
-        case 'h':
-            std::fputs(usage, stdout);
-            return 0;
-        case 'v':
-            std::puts("ale-console 0.1.0");
-            return 0;
-        default:
-            return 2;
-        }
-    }
-    if (optind < argc) {
-        std::fprintf(stderr, "ale-console: what is \"%s\"? (see --help)\n", argv[optind]);
-        return 2;
-    }
-    return -1;
-}
 
 /* A forged message may claim more elements than memory holds: it fails at this limit and is counted. The
  * sanitizers map far more than they use and must do without. */
@@ -123,8 +83,30 @@ void follow_robot(console::LcmFeed &feed, console::Board &board, const std::atom
     }
 }
 
-void run(const Options &options, const console::HttpAddress &address, const sigset_t &endings)
+/* Blocked before any thread exists, so that all inherit it and only sigwait sees them. */
+sigset_t block_endings()
 {
+    sigset_t endings;
+    sigemptyset(&endings);
+    sigaddset(&endings, SIGINT);
+    sigaddset(&endings, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &endings, nullptr);
+    return endings;
+}
+
+void check(const Options &options)
+{
+    if (!options.token.empty() && !is_token(options.token)) {
+        throw cli::WrongUse("--token wants 12 to 128 letters and digits");
+    }
+    if (sodium_init() < 0) {
+        throw std::runtime_error("no random numbers on this machine");
+    }
+}
+
+void run(const Options &options, const sigset_t &endings)
+{
+    const console::HttpAddress address = console::parse_http_address(options.http);
     console::Board board;
     console::LcmFeed feed(options.lcm_url);
     console::Commander commander(options.lcm_url, options.keys);
@@ -162,34 +144,17 @@ void run(const Options &options, const console::HttpAddress &address, const sigs
 int main(int argc, char **argv)
 {
     Options options;
-    const int answered = parse(argc, argv, options);
-    if (answered >= 0) {
-        return answered;
-    }
-    if (!options.token.empty() && !is_token(options.token)) {
-        std::fputs("ale-console: --token wants 12 to 128 letters and digits\n", stderr);
-        return 2;
-    }
-    if (sodium_init() < 0) {
-        std::fputs("ale-console: no random numbers on this machine\n", stderr);
-        return 1;
-    }
-    /* Blocked before any thread exists, so that all inherit it and only sigwait sees them. */
-    sigset_t endings;
-    sigemptyset(&endings);
-    sigaddset(&endings, SIGINT);
-    sigaddset(&endings, SIGTERM);
-    pthread_sigmask(SIG_BLOCK, &endings, nullptr);
-    std::signal(SIGPIPE, SIG_IGN);
-    limit_memory();
-    try {
-        run(options, console::parse_http_address(options.http), endings);
-    } catch (const std::invalid_argument &error) {
-        std::fprintf(stderr, "ale-console: --http: %s\n", error.what());
-        return 2;
-    } catch (const std::exception &error) {
-        std::fprintf(stderr, "ale-console: %s\n", error.what());
-        return 1;
-    }
-    return 0;
+    cli::CommandLine line("ale-console", usage);
+    line.text("lcm-url", options.lcm_url);
+    line.text("http", options.http);
+    line.text("token", options.token);
+    line.text("keys", options.keys);
+    return line.run(argc, argv, [&] {
+        check(options);
+        const sigset_t endings = block_endings();
+        std::signal(SIGPIPE, SIG_IGN);
+        limit_memory();
+        run(options, endings);
+        return 0;
+    });
 }

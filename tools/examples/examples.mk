@@ -5,7 +5,6 @@ $(SHARED_LIBRARY): $(LIB_SOURCES) $(wildcard lib/*.h lib/*/*.h)
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 -D_GNU_SOURCE $(OPT) -fPIC -shared -Ilib $(LIB_SOURCES) -o $@
 
-LIBRARY_VERSION = 0.1
 .PHONY: library install-library
 library: $(BUILD)/libale.a $(SHARED_LIBRARY) ## libale alone, static and shared
 install: install-library
@@ -15,4 +14,4 @@ install-library: library
 	install -m 755 $(SHARED_LIBRARY) $(DESTDIR)$(PREFIX)/lib
 	for h in ale.h $(patsubst lib/%,%,$(wildcard lib/base/*.h)) extract/extract.h; do \
 	    install -D -m 644 lib/$$h $(DESTDIR)$(PREFIX)/include/ale/$$h || exit 1; done
-	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(LIBRARY_VERSION)|' tools/make/libale.pc.in > $(DESTDIR)$(PREFIX)/lib/pkgconfig/libale.pc
+	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' tools/make/libale.pc.in > $(DESTDIR)$(PREFIX)/lib/pkgconfig/libale.pc

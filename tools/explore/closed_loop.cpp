@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstring>
 #include <new>
-#include <stdexcept>
 
+#include "cli/wrong_use.h"
 #include "sim/units.h"
 
 extern "C" {
@@ -44,7 +44,7 @@ ale_pipeline_t *new_pipeline(const ale_pipeline_config_t &config)
     auto *pipeline = static_cast<ale_pipeline_t *>(memory);
     if (ale_pipeline_init(pipeline, &config) < 0) {
         ::operator delete(memory);
-        throw std::invalid_argument("the configuration is refused by the core");
+        throw cli::WrongUse("the configuration is refused by the core");
     }
     return pipeline;
 }

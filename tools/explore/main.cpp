@@ -1,12 +1,10 @@
 /* ale-explore: how the robot explores a world of the simulator, minutes in seconds. */
 #include <cstdio>
-#include <stdexcept>
 
 #include "explore/closed_loop.h"
 #include "explore/options.h"
 #include "explore/score.h"
 #include "export/map_image.h"
-#include "sim/wrong_use.h"
 
 namespace
 {
@@ -59,12 +57,8 @@ bool explore_once(const sim::World &world, const explore::Options &options, uint
     return report(loop, world, options, seed);
 }
 
-int run(int argc, char **argv)
+int run(const explore::Options &options)
 {
-    explore::Options options;
-    if (const int answered = explore::parse_options(argc, argv, options); answered >= 0) {
-        return answered;
-    }
     const sim::World world = sim::load_world(options.world);
     bool well = true;
     for (uint64_t seed = options.first_seed; seed < options.first_seed + options.seeds; seed++) {
@@ -77,13 +71,5 @@ int run(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
-    try {
-        return run(argc, argv);
-    } catch (const sim::WrongUse &error) {
-        std::fprintf(stderr, "ale-explore: %s (see --help)\n", error.what());
-        return 2;
-    } catch (const std::exception &error) {
-        std::fprintf(stderr, "ale-explore: %s\n", error.what());
-        return 1;
-    }
+    return explore::with_options(argc, argv, run);
 }

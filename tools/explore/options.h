@@ -2,6 +2,7 @@
 #ifndef ALE_EXPLORE_OPTIONS_H
 #define ALE_EXPLORE_OPTIONS_H
 
+#include <functional>
 #include <string>
 
 #include "sim/world_source.h"
@@ -32,8 +33,8 @@ struct Options {
     }
 };
 
-/* -1, or the exit code where the answer was given already. Throws sim::WrongUse. */
-int parse_options(int argc, char **argv, Options &options);
+/* Lets the program do its work with what the command line says; the exit code. */
+int with_options(int argc, char **argv, const std::function<int(const Options &)> &work);
 
 } // namespace explore
 

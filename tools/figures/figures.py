@@ -257,7 +257,7 @@ def figure_thresholds(folder, bench):
     print("| --- | ---: | ---: | ---: | ---: |")
     pair = "{0[tp]:.1f} / {0[fp_straight]:.1f}".format
     for axes, noise in zip(all_axes, NOISES):
-        rows = [accuracy(bench, noise, "static-ale-tuned", "--threshold", str(e), "0") for e in THRESHOLDS_MM]
+        rows = [accuracy(bench, noise, "static-ale-tuned", "--threshold", f"{e},0") for e in THRESHOLDS_MM]
         ale, paper = accuracy(bench, noise, "ale"), accuracy(bench, noise, "static-ale-3.7mm")
         axes.plot(THRESHOLDS_MM, [row["tp"] for row in rows], color=GREEN, label="found, static")
         axes.plot(THRESHOLDS_MM, [row["fp_straight"] for row in rows], color=RED, label="false, static")

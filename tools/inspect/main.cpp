@@ -1,25 +1,15 @@
 /* ale-inspect: draws one scan of a log and what the extractor decided about it. */
-#include <cerrno>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
+#include "cli/robot_files.h"
 #include "inspect/picture.h"
-
-extern "C" {
-#include "config.h"
-#include "log/log.h"
-}
+#include "replay/log_reader.h"
 
 namespace
 {
-
-#ifndef ALE_VERSION
-#define ALE_VERSION "0.1"
-#endif
 
 constexpr char usage[] =
     "usage: ale-inspect LOG SCAN [--out F.svg] [--config FILE]\n"
@@ -31,82 +21,30 @@ constexpr char usage[] =
     "  --help, --version\n"
     "Exit 0 fine, 1 failed, 2 wrong use.\n";
 
+constexpr long most_scans = 1000000000;
+
 struct Options {
     std::string log;
     std::string out = "-";
     std::string config;
-    long scan = -1;
+    long scan = 0;
 };
-
-struct UsageError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
-long scan_number(const std::string &word)
-{
-    char *end = nullptr;
-    errno = 0;
-    const long number = std::strtol(word.c_str(), &end, 10);
-    if (errno != 0 || end == word.c_str() || *end != '\0' || number < 0) {
-        throw UsageError("SCAN is a number from 0, not " + word);
-    }
-    return number;
-}
-
-Options parse(int argc, char **argv)
-{
-    Options options;
-    for (int k = 1; k < argc; k++) {
-        const std::string word = argv[k];
-        if (word == "--out" || word == "--config") {
-            if (++k >= argc) {
-                throw UsageError(word + " needs a file name");
-            }
-            (word == "--out" ? options.out : options.config) = argv[k];
-        } else if (word.rfind("--", 0) == 0) {
-            throw UsageError("unknown option " + word);
-        } else if (options.log.empty()) {
-            options.log = word;
-        } else if (options.scan < 0) {
-            options.scan = scan_number(word);
-        } else {
-            throw UsageError("too many words, from " + word + " on");
-        }
-    }
-    if (options.scan < 0) {
-        throw UsageError("LOG and SCAN are needed");
-    }
-    return options;
-}
 
 ale_extract_config_t extraction_of(const Options &options)
 {
     ale_config_t config = ale_config_default();
-    ale_config_error_t error;
-    if (!options.config.empty() && ale_config_load(options.config.c_str(), &config, &error) < 0) {
-        throw UsageError(error.message);
+    if (!options.config.empty()) {
+        cli::load_config(options.config, config);
     }
     return config.pipeline.extract;
 }
 
-struct CloseLog {
-    void operator()(ale_log_t *log) const
-    {
-        ale_log_close(log);
-    }
-};
-
 std::unique_ptr<ale_scan_t> scan_of(const Options &options)
 {
-    ale_log_t *opened = nullptr;
-    ale_log_error_t error;
-    if (ale_log_open(&opened, options.log.c_str(), &error) < 0) {
-        throw std::runtime_error(error.message);
-    }
-    const std::unique_ptr<ale_log_t, CloseLog> log(opened);
+    ale::LogReader log(options.log);
     const auto event = std::make_unique<ale_log_event_t>();
     long number = 0;
-    while (ale_log_next(log.get(), event.get()) > 0) {
+    while (log.next(*event)) {
         if (event->kind == ALE_LOG_SCAN && number++ == options.scan) {
             return std::make_unique<ale_scan_t>(event->scan);
         }
@@ -128,36 +66,20 @@ void run(const Options &options)
     inspect::draw(*scan, *trace, title, options.out);
 }
 
-bool asks_for(int argc, char **argv, const std::string &option)
-{
-    for (int k = 1; k < argc; k++) {
-        if (argv[k] == option) {
-            return true;
-        }
-    }
-    return false;
-}
-
 } // namespace
 
 int main(int argc, char **argv)
 {
-    if (asks_for(argc, argv, "--help")) {
-        std::fputs(usage, stdout);
+    Options options;
+    cli::CommandLine line("ale-inspect", usage);
+    line.argument("LOG", options.log);
+    line.argument("SCAN", [&options](const std::string &word) {
+        options.scan = cli::number_of("SCAN", word, 0L, most_scans);
+    });
+    line.text("out", options.out);
+    line.text("config", options.config);
+    return line.run(argc, argv, [&] {
+        run(options);
         return 0;
-    }
-    if (asks_for(argc, argv, "--version")) {
-        std::puts("ale-inspect " ALE_VERSION);
-        return 0;
-    }
-    try {
-        run(parse(argc, argv));
-        return 0;
-    } catch (const UsageError &e) {
-        std::fprintf(stderr, "ale-inspect: %s\n", e.what());
-        return 2;
-    } catch (const std::exception &e) {
-        std::fprintf(stderr, "ale-inspect: %s\n", e.what());
-        return 1;
-    }
+    });
 }

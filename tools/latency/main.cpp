@@ -1,19 +1,16 @@
 /* ale-latency: where the time from a scan's first beam to its pose goes, live or from an LCM log. */
-#include <atomic>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <ctime>
-#include <exception>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
-#include <getopt.h>
 #include <lcm/lcm.h>
 
+#include "cli/command_line.h"
+#include "cli/interrupt.h"
 #include "console/lcm_feed.h"
 #include "latency/latencies.h"
 #include "latency/report.h"
@@ -43,54 +40,11 @@ struct Options {
     long poses = 0;
 };
 
-std::atomic<bool> interrupted{false};
-
-long positive_count(const char *name, const char *text)
+void check(const Options &options)
 {
-    char *rest = nullptr;
-    const long value = std::strtol(text, &rest, 10);
-    if (rest == text || *rest != '\0' || value < 1 || value > 1000000000) {
-        throw std::invalid_argument(std::string(name) + " wants a whole number above 0, not " + text);
+    if (!options.log.empty() && (!options.lcm_url.empty() || options.seconds + options.poses > 0)) {
+        throw cli::WrongUse("one log, or the robot itself");
     }
-    return value;
-}
-
-/* The exit code when the command line has been answered already, else -1. */
-int parse(int argc, char **argv, Options &options)
-{
-    static const option known[] = {
-        {"lcm-url", required_argument, nullptr, 'l'}, {"seconds", required_argument, nullptr, 's'},
-        {"poses", required_argument, nullptr, 'p'},   {"help", no_argument, nullptr, 'h'},
-        {"version", no_argument, nullptr, 'v'},       {nullptr, 0, nullptr, 0}};
-    for (int choice; (choice = getopt_long(argc, argv, "", known, nullptr)) != -1;) {
-        switch (choice) {
-        case 'l':
-            options.lcm_url = optarg;
-            break;
-        case 's':
-            options.seconds = positive_count("--seconds", optarg);
-            break;
-        case 'p':
-            options.poses = positive_count("--poses", optarg);
-            break;
-        case 'h':
-            std::fputs(usage, stdout);
-            return 0;
-        case 'v':
-            std::puts("ale-latency 0.1.0");
-            return 0;
-        default:
-            return 2;
-        }
-    }
-    if (optind < argc) {
-        options.log = argv[optind++];
-    }
-    if (optind < argc ||
-        (!options.log.empty() && (!options.lcm_url.empty() || options.seconds + options.poses > 0))) {
-        throw std::invalid_argument("one log, or the robot itself (see --help)");
-    }
-    return -1;
 }
 
 /* Returns how many messages made no sense. */
@@ -100,7 +54,7 @@ uint64_t listen(const Options &options, latency::Latencies &latencies)
     feed.on<ale::pose_t>(channel, [&](const ale::pose_t &pose) { latencies.add(pose); });
     std::fputs("ale-latency: listening\n", stderr);
     const std::time_t end = std::time(nullptr) + options.seconds;
-    while (!interrupted && (options.seconds == 0 || std::time(nullptr) < end) &&
+    while (!cli::interrupted() && (options.seconds == 0 || std::time(nullptr) < end) &&
            (options.poses == 0 || latencies.poses() < options.poses)) {
         feed.wait(50);
     }
@@ -155,21 +109,15 @@ void run(const Options &options)
 int main(int argc, char **argv)
 {
     Options options;
-    try {
-        const int answered = parse(argc, argv, options);
-        if (answered >= 0) {
-            return answered;
-        }
-        const auto interrupt = [](int) { interrupted = true; };
-        std::signal(SIGINT, interrupt);
-        std::signal(SIGTERM, interrupt);
+    cli::CommandLine line("ale-latency", usage);
+    line.text("lcm-url", options.lcm_url);
+    line.number("seconds", options.seconds, 1L, 1000000000L);
+    line.number("poses", options.poses, 1L, 1000000000L);
+    line.possible_argument("LOG", options.log);
+    return line.run(argc, argv, [&] {
+        check(options);
+        cli::catch_interrupts();
         run(options);
-    } catch (const std::invalid_argument &error) {
-        std::fprintf(stderr, "ale-latency: %s\n", error.what());
-        return 2;
-    } catch (const std::exception &error) {
-        std::fprintf(stderr, "ale-latency: %s\n", error.what());
-        return 1;
-    }
-    return 0;
+        return 0;
+    });
 }

@@ -4,7 +4,7 @@
 #   lib/graph/*.cpp      -> libale_graph.a      the mapper
 #   drivers/*/*.c        -> libale_drivers.a    with the generated LCM types
 #   firmware/**/*.c      -> libale_firmware.a   all but main.c; main.c -> ale-slamd; one realtime/rt_$(RT).c (rtai.mk)
-#   tools/export/*.cpp   -> linked to every tool
+#   tools/cli, tools/export -> libale_tools.a       linked to every tool
 #   tools/NAME/*.c, .cpp -> ale-NAME            page/ beside them is embedded
 #
 # Dependencies point down only: the include paths of each floor name only what lies below it.
@@ -64,7 +64,7 @@ LIB_SOURCES = $(wildcard lib/*/*.c)
 GRAPH_SOURCES = $(wildcard lib/graph/*.cpp)
 DRIVER_SOURCES = $(wildcard drivers/*/*.c)
 FIRMWARE_SOURCES = $(filter-out firmware/main.c firmware/realtime/rt_%.c,$(wildcard firmware/*.c firmware/*/*.c)) firmware/realtime/rt_$(RT).c
-EXPORT_SOURCES = $(wildcard tools/export/*.c tools/export/*.cpp)
+TOOL_SHARED_SOURCES = $(wildcard tools/cli/*.cpp tools/export/*.c tools/export/*.cpp)
 
 LIB_INCLUDES = -Ilib
 DRIVER_INCLUDES = -Ilib -Idrivers $(SYSTEM_INCLUDES)
@@ -111,11 +111,11 @@ $(BUILD)/libale_drivers.a: $(call objects,$(DRIVER_SOURCES)) $(LCM_OBJECTS)
 	$(archive)
 $(BUILD)/libale_firmware.a: $(call objects,$(FIRMWARE_SOURCES)) $(BUILD)/realtime-port
 	$(archive)
-$(BUILD)/libale_export.a: $(call objects,$(EXPORT_SOURCES))
+$(BUILD)/libale_tools.a: $(call objects,$(TOOL_SHARED_SOURCES))
 	$(archive)
 
-ARCHIVES = $(addprefix $(BUILD)/,libale_export.a libale_firmware.a libale_drivers.a $(if $(GRAPH_SOURCES),libale_graph.a) libale.a)
-FIRMWARE_ARCHIVES = $(filter-out %export.a,$(ARCHIVES))
+ARCHIVES = $(addprefix $(BUILD)/,libale_tools.a libale_firmware.a libale_drivers.a $(if $(GRAPH_SOURCES),libale_graph.a) libale.a)
+FIRMWARE_ARCHIVES = $(filter-out %tools.a,$(ARCHIVES))
 
 define link
 	$(call say,link,$@)
@@ -124,7 +124,7 @@ define link
 endef
 
 # Programs: one folder each; bench, examples, figures and python have rules of their own (tools/NAME/NAME.mk).
-TOOL_FOLDERS = $(filter-out export make bench examples figures python worlds,$(notdir $(patsubst %/,%,$(sort $(dir $(wildcard tools/*/*.c tools/*/*.cpp))))))
+TOOL_FOLDERS = $(filter-out cli export make bench examples figures python worlds,$(notdir $(patsubst %/,%,$(sort $(dir $(wildcard tools/*/*.c tools/*/*.cpp))))))
 PROGRAMS = $(addprefix $(BUILD)/bin/ale-,$(if $(wildcard firmware/main.c),slamd) $(TOOL_FOLDERS))
 
 .PHONY: programs

@@ -24,7 +24,7 @@ $(BUILD)/libale_test_shared.a: $(call objects,$(TEST_SHARED_SOURCES) $(TEST_WORL
 
 include tests/rtai/rtai.mk
 TEST_ARCHIVES = $(if $(TEST_SHARED_SOURCES),$(BUILD)/libale_test_shared.a) $(FIRMWARE_ARCHIVES)
-$(BUILD)/tests/tools/%: $(OBJ)/tests/tools/%.cpp.o $(BUILD)/libale_tool_parts.a $(BUILD)/libale_export.a $(TEST_ARCHIVES)
+$(BUILD)/tests/tools/%: $(OBJ)/tests/tools/%.cpp.o $(BUILD)/libale_tool_parts.a $(BUILD)/libale_tools.a $(TEST_ARCHIVES)
 	$(call link,-lgtest_main -lgtest)
 $(BUILD)/tests/%: $(OBJ)/tests/%.cpp.o $(TEST_ARCHIVES)
 	$(call link,-lgtest_main -lgtest)

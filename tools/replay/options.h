@@ -2,6 +2,7 @@
 #ifndef ALE_REPLAY_OPTIONS_H
 #define ALE_REPLAY_OPTIONS_H
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,9 +33,8 @@ struct ReplayOptions {
     bool points = false;
 };
 
-/* The exit code when the command line has been answered (0: help, version; 2: wrong use, said on stderr),
- * else -1 and *options filled. */
-int parse_options(int argc, char **argv, ReplayOptions &options);
+/* Lets the program do its work with what the command line says; the exit code. */
+int with_options(int argc, char **argv, const std::function<int(const ReplayOptions &)> &work);
 
 } // namespace ale
 

@@ -5,6 +5,7 @@
 #include <new>
 #include <optional>
 
+#include "cli/wrong_use.h"
 #include "export/map_image.h"
 #include "export/scan_cloud.h"
 #include "replay/features_file.h"
@@ -116,7 +117,7 @@ void Replay::begin(const char *recorded_config)
         }
     }
     if (status < 0) {
-        throw std::invalid_argument("the configuration has a value that the core refuses");
+        throw cli::WrongUse("the configuration has a value that the core refuses");
     }
     if (!options_.load_map.empty()) {
         load_map();

@@ -8,7 +8,7 @@
 namespace ale
 {
 
-/* Throws std::runtime_error (log or file trouble; no scan in the log) or std::invalid_argument (bad
+/* Throws std::runtime_error (log or file trouble; no scan in the log) or cli::WrongUse (bad
  * configuration), each with one line for people. */
 void replay(const ReplayOptions &options);
 

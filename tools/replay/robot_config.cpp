@@ -1,5 +1,7 @@
 #include "replay/robot_config.h"
 
+#include "cli/robot_files.h"
+
 namespace ale
 {
 
@@ -22,12 +24,11 @@ ale_noise_t noise_of_large_scanners()
 void load(ale_config_t &config, const ReplayOptions &options, const char *recorded)
 {
     ale_config_error_t error;
-    const int status = !options.config.empty() ? ale_config_load(options.config.c_str(), &config, &error)
-                       : recorded
-                           ? ale_config_parse(recorded, "configuration in the recording", &config, &error)
-                           : 0;
-    if (status < 0) {
-        throw std::invalid_argument(error.message);
+    if (!options.config.empty()) {
+        cli::load_config(options.config, config);
+    } else if (recorded &&
+               ale_config_parse(recorded, "configuration in the recording", &config, &error) < 0) {
+        throw cli::WrongUse(error.message);
     }
 }
 

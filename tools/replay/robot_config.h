@@ -13,7 +13,7 @@ namespace ale
 {
 
 /* recorded: the configuration text of a flight recording, or nullptr; --config goes before it.
- * Throws std::invalid_argument with the one line that names file, line and key. */
+ * Throws cli::WrongUse with the one line that names file, line and key. */
 ale_config_t robot_config(const ReplayOptions &options, const ale_log_info_t &info, const char *recorded);
 
 } // namespace ale

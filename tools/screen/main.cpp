@@ -1,14 +1,12 @@
 /* ale-screen: the robot's state and map as text, for those who are on the robot by ssh. */
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
-#include <exception>
+#include <stdexcept>
 #include <string>
 
-#include <getopt.h>
-
+#include "cli/command_line.h"
+#include "cli/interrupt.h"
 #include "console/lcm_feed.h"
 #include "screen/picture.h"
 #include "screen/robot_state.h"
@@ -36,41 +34,6 @@ struct Options {
     bool once = false;
 };
 
-std::atomic<bool> interrupted{false};
-
-/* The exit code when the command line has been answered already, else -1. */
-int parse(int argc, char **argv, Options &options)
-{
-    static const option known[] = {{"lcm-url", required_argument, nullptr, 'l'},
-                                   {"once", no_argument, nullptr, 'o'},
-                                   {"help", no_argument, nullptr, 'h'},
-                                   {"version", no_argument, nullptr, 'v'},
-                                   {nullptr, 0, nullptr, 0}};
-    for (int choice; (choice = getopt_long(argc, argv, "", known, nullptr)) != -1;) {
-        switch (choice) {
-        case 'l':
-            options.lcm_url = optarg;
-            break;
-        case 'o':
-            options.once = true;
-            break;
-        case 'h':
-            std::fputs(usage, stdout);
-            return 0;
-        case 'v':
-            std::puts("ale-screen 0.1.0");
-            return 0;
-        default:
-            return 2;
-        }
-    }
-    if (optind < argc) {
-        std::fprintf(stderr, "ale-screen: what is \"%s\"? (see --help)\n", argv[optind]);
-        return 2;
-    }
-    return -1;
-}
-
 /* Listens for one frame. */
 void listen(console::LcmFeed &feed, text_screen::RobotState &state)
 {
@@ -83,16 +46,15 @@ void listen(console::LcmFeed &feed, text_screen::RobotState &state)
     state.malformed = feed.malformed();
 }
 
-int print_once(console::LcmFeed &feed, text_screen::RobotState &state)
+void print_once(console::LcmFeed &feed, text_screen::RobotState &state)
 {
     const auto end = text_screen::RobotState::Clock::now() + once_waits;
     while (!(state.pose && state.status && state.map.num_lines > 0) &&
-           text_screen::RobotState::Clock::now() < end && !interrupted) {
+           text_screen::RobotState::Clock::now() < end && !cli::interrupted()) {
         listen(feed, state);
     }
     if (!state.pose) {
-        std::fputs("ale-screen: no robot heard\n", stderr);
-        return 1;
+        throw std::runtime_error("no robot heard");
     }
     for (const auto &row :
          text_screen::picture(state, text_screen::RobotState::Clock::now(), {}, once_columns, once_rows)) {
@@ -101,7 +63,6 @@ int print_once(console::LcmFeed &feed, text_screen::RobotState &state)
         }
         std::putchar('\n');
     }
-    return 0;
 }
 
 /* False: the operator has seen enough. */
@@ -136,23 +97,23 @@ void watch(console::LcmFeed &feed, text_screen::RobotState &state)
 {
     text_screen::Terminal terminal;
     text_screen::Look look;
-    while (!interrupted && take_key(terminal.key(), look)) {
+    while (!cli::interrupted() && take_key(terminal.key(), look)) {
         terminal.show(text_screen::picture(state, text_screen::RobotState::Clock::now(), look,
                                            terminal.columns(), terminal.rows()));
         listen(feed, state);
     }
 }
 
-int run(const Options &options)
+void run(const Options &options)
 {
     console::LcmFeed feed(options.lcm_url);
     text_screen::RobotState state;
     state.subscribe(feed);
     if (options.once) {
-        return print_once(feed, state);
+        print_once(feed, state);
+    } else {
+        watch(feed, state);
     }
-    watch(feed, state);
-    return 0;
 }
 
 } // namespace
@@ -160,17 +121,12 @@ int run(const Options &options)
 int main(int argc, char **argv)
 {
     Options options;
-    const int answered = parse(argc, argv, options);
-    if (answered >= 0) {
-        return answered;
-    }
-    for (const int number : {SIGINT, SIGTERM}) {
-        std::signal(number, [](int) { interrupted = true; });
-    }
-    try {
-        return run(options);
-    } catch (const std::exception &error) {
-        std::fprintf(stderr, "ale-screen: %s\n", error.what());
-        return 1;
-    }
+    cli::CommandLine line("ale-screen", usage);
+    line.text("lcm-url", options.lcm_url);
+    line.flag("once", options.once);
+    return line.run(argc, argv, [&] {
+        cli::catch_interrupts();
+        run(options);
+        return 0;
+    });
 }

@@ -1,14 +1,11 @@
 /* ale-send: one signed command from a shell, and what came of it. */
-#include <atomic>
-#include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include <getopt.h>
-
+#include "cli/command_line.h"
+#include "cli/interrupt.h"
 #include "send/robot_link.h"
 
 namespace
@@ -47,62 +44,14 @@ struct Options {
     std::vector<std::string> words;
 };
 
-std::atomic<bool> interrupted{false};
-
-double seconds_of(const char *text)
+void check(const Options &options)
 {
-    char *rest = nullptr;
-    const double value = std::strtod(text, &rest);
-    if (rest == text || *rest != '\0' || !(value > 0 && value <= 3600)) {
-        throw std::invalid_argument("--seconds wants a number up to 3600, not " + std::string(text));
-    }
-    return value;
-}
-
-/* The exit code when the command line has been answered already, else -1. */
-int parse(int argc, char **argv, Options &options)
-{
-    static const option known[] = {{"keys", required_argument, nullptr, 'k'},
-                                   {"robot", required_argument, nullptr, 'r'},
-                                   {"lcm-url", required_argument, nullptr, 'l'},
-                                   {"seconds", required_argument, nullptr, 's'},
-                                   {"help", no_argument, nullptr, 'h'},
-                                   {"version", no_argument, nullptr, 'v'},
-                                   {nullptr, 0, nullptr, 0}};
-    /* "+": a negative speed behind the verb is no option. */
-    for (int choice; (choice = getopt_long(argc, argv, "+", known, nullptr)) != -1;) {
-        switch (choice) {
-        case 'k':
-            options.keys = optarg;
-            break;
-        case 'r':
-            options.robot = optarg;
-            break;
-        case 'l':
-            options.lcm_url = optarg;
-            break;
-        case 's':
-            options.seconds = seconds_of(optarg);
-            break;
-        case 'h':
-            std::fputs(usage, stdout);
-            return 0;
-        case 'v':
-            std::puts("ale-send 0.1.0");
-            return 0;
-        default:
-            return 2;
-        }
-    }
-    options.words.assign(argv + optind, argv + argc);
     if (options.keys.empty() || options.words.empty()) {
-        throw std::invalid_argument(options.keys.empty() ? "--keys is missing (see --help)"
-                                                         : "which verb? (see --help)");
+        throw cli::WrongUse(options.keys.empty() ? "--keys is missing" : "which verb?");
     }
     if (options.seconds > 0 && options.words[0] != "drive") {
-        throw std::invalid_argument("--seconds is for drive only");
+        throw cli::WrongUse("--seconds is for drive only");
     }
-    return -1;
 }
 
 int64_t counter_of(const ale::status_t &status, const std::string &name)
@@ -130,8 +79,8 @@ std::string refusal(const ale::status_t &before, const ale::status_t &after)
 void keep_driving(send::RobotLink &link, const Options &options)
 {
     const int turns = static_cast<int>(options.seconds * 1000 / drive_period_ms);
-    for (int k = 0; k < turns && !interrupted; k++) {
-        link.wait(drive_period_ms, [] { return interrupted.load(); });
+    for (int k = 0; k < turns && !cli::interrupted(); k++) {
+        link.wait(drive_period_ms, cli::interrupted);
         link.command(options.words, drive_life_us);
     }
     if (turns > 0) {
@@ -144,7 +93,7 @@ int run(const Options &options)
     ale_secret_key_t key;
     char error[ALE_KEYS_ERROR];
     if (ale_secret_key_load(options.keys.c_str(), &key, error) < 0) {
-        throw std::invalid_argument(error);
+        throw std::runtime_error(error);
     }
     send::RobotLink link(options.lcm_url, options.robot, key);
     if (!link.wait(first_status_ms, [&] { return link.status().has_value(); })) {
@@ -157,7 +106,7 @@ int run(const Options &options)
     }
     const bool driving = options.words[0] == "drive";
     const int64_t counter = link.command(options.words, driving ? drive_life_us : life_us);
-    if (!link.wait(answer_ms, [&] { return link.answered(counter) || interrupted; })) {
+    if (!link.wait(answer_ms, [&] { return link.answered(counter) || cli::interrupted(); })) {
         throw std::runtime_error(before.robot + ": " + refusal(before, *link.status()));
     }
     const ale::status_t &answer = *link.status();
@@ -173,21 +122,16 @@ int run(const Options &options)
 
 int main(int argc, char **argv)
 {
-    try {
-        Options options;
-        const int answered = parse(argc, argv, options);
-        if (answered >= 0) {
-            return answered;
-        }
-        for (const int number : {SIGINT, SIGTERM}) {
-            std::signal(number, [](int) { interrupted = true; });
-        }
+    Options options;
+    cli::CommandLine line("ale-send", usage);
+    line.text("keys", options.keys);
+    line.text("robot", options.robot);
+    line.text("lcm-url", options.lcm_url);
+    line.number("seconds", options.seconds, 0.001, 3600.0);
+    line.rest(options.words);
+    return line.run(argc, argv, [&] {
+        check(options);
+        cli::catch_interrupts();
         return run(options);
-    } catch (const std::invalid_argument &error) {
-        std::fprintf(stderr, "ale-send: %s\n", error.what());
-        return 2;
-    } catch (const std::exception &error) {
-        std::fprintf(stderr, "ale-send: %s\n", error.what());
-        return 1;
-    }
+    });
 }

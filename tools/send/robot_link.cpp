@@ -4,6 +4,8 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "cli/wrong_use.h"
+
 namespace send
 {
 
@@ -64,7 +66,7 @@ int64_t RobotLink::command(const std::vector<std::string> &words, int64_t life_u
     ale_command_t command;
     uint8_t bytes[ALE_COMMAND_BYTES];
     if (ale_command_from_words(texts.data(), static_cast<uint32_t>(texts.size()), &command) < 0) {
-        throw std::invalid_argument("too many words, or one that is too long");
+        throw cli::WrongUse("too many words, or one that is too long");
     }
     const size_t count = ale_operator_command(&operator_, host_us(), life_us, &command, bytes);
     if (count == 0) {

@@ -1,12 +1,11 @@
 #include "sim/faults.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <sstream>
 
-#include "sim/wrong_use.h"
+#include "cli/words.h"
 
 namespace sim
 {
@@ -35,18 +34,12 @@ constexpr uint64_t own_stream = 0xfa017;
 
 [[noreturn]] void fail(const std::string &fault, const std::string &what)
 {
-    throw WrongUse("--faults " + fault + ": " + what);
+    throw cli::WrongUse("--faults " + fault + ": " + what);
 }
 
 double number(const std::string &text, double most, const std::string &fault)
 {
-    double value = 0;
-    const char *end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc() || stop != end || !(value >= 0 && value <= most)) {
-        fail(fault, "\"" + text + "\" is no number from 0 to " + std::to_string(std::lround(most)));
-    }
-    return value;
+    return cli::number_of("--faults " + fault + ":", text, 0.0, most);
 }
 
 const Description &describe(const std::string &name, const std::string &fault)

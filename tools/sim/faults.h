@@ -36,7 +36,7 @@ struct Fault {
     int64_t at_scan; /* -1: at a time */
 };
 
-/* Throws WrongUse that names the fault and what is wrong with it. */
+/* Throws cli::WrongUse that names the fault and what is wrong with it. */
 std::vector<Fault> parse_faults(const std::string &spec);
 
 class Faults

@@ -102,14 +102,8 @@ Pose pose_of(const ale_pose_t &pose)
 } // namespace
 
 LogSource::LogSource(const std::string &path, bool once)
-    : once_(once), path_(path), event_(std::make_unique<ale_log_event_t>())
+    : once_(once), path_(path), log_(path), event_(std::make_unique<ale_log_event_t>())
 {
-    ale_log_t *log = nullptr;
-    ale_log_error_t error = {};
-    if (ale_log_open(&log, path.c_str(), &error) < 0) {
-        throw std::runtime_error(error.message);
-    }
-    log_.reset(log);
     read_ahead();
     if (turns_.empty()) {
         throw std::runtime_error(path + ": no scan in it");
@@ -119,14 +113,10 @@ LogSource::LogSource(const std::string &path, bool once)
 void LogSource::read_ahead()
 {
     while (!at_end_ && turns_.size() < scans_ahead) {
-        const int got = ale_log_next(log_.get(), event_.get());
-        if (got < 0) {
-            throw std::runtime_error(ale_log_last_error(log_.get()));
-        }
-        at_end_ = got == 0;
-        if (got > 0 && event_->kind == ALE_LOG_ODOMETRY) {
+        at_end_ = !log_.next(*event_);
+        if (!at_end_ && event_->kind == ALE_LOG_ODOMETRY) {
             unplaced_.push_back(event_->odometry);
-        } else if (got > 0 && event_->kind == ALE_LOG_SCAN) {
+        } else if (!at_end_ && event_->kind == ALE_LOG_SCAN) {
             take_scan(event_->scan);
         }
     }

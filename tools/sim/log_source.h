@@ -9,11 +9,8 @@
 #include <memory>
 #include <string>
 
+#include "replay/log_reader.h"
 #include "sim/source.h"
-
-extern "C" {
-#include "log/log.h"
-}
 
 namespace sim
 {
@@ -41,17 +38,10 @@ class LogSource : public Source
     }
     const ale_log_info_t &info() const
     {
-        return *ale_log_info(log_.get());
+        return log_.info();
     }
 
   private:
-    struct Close {
-        void operator()(ale_log_t *log) const
-        {
-            ale_log_close(log);
-        }
-    };
-
     void read_ahead();
     void take_scan(const ale_scan_t &scan);
     void stay();
@@ -59,7 +49,7 @@ class LogSource : public Source
 
     bool once_;
     std::string path_;
-    std::unique_ptr<ale_log_t, Close> log_;
+    ale::LogReader log_;
     std::unique_ptr<ale_log_event_t> event_;
     Scanner scanner_;
     std::vector<BlindSector> blind_;

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "cli/interrupt.h"
 #include "sim/bus.h"
 #include "sim/describe.h"
 #include "sim/log_source.h"
@@ -17,26 +18,9 @@
 #include "sim/units.h"
 #include "sim/world_source.h"
 #include "sim/write_log.h"
-#include "sim/wrong_use.h"
 
 namespace
 {
-
-volatile bool stop = false;
-
-extern "C" void on_signal(int)
-{
-    stop = true;
-}
-
-void catch_signals()
-{
-    struct sigaction action = {};
-    action.sa_handler = on_signal; /* no SA_RESTART: a wait ends at once */
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-    std::signal(SIGHUP, SIG_IGN);
-}
 
 class OutFile
 {
@@ -159,7 +143,7 @@ void play(const sim::Options &options)
         odometry = std::make_unique<sim::OdometryOut>(options.lcm_url);
     }
     sim::Simulator simulator(*source, options.simulator, odometry.get(), drive.get(), truth.get());
-    simulator.run(stop);
+    simulator.run(cli::interrupted);
     truth.finish();
     print_tally(simulator.tally());
     if (driven) {
@@ -167,13 +151,10 @@ void play(const sim::Options &options)
     }
 }
 
-int run(int argc, char **argv)
+int run(const sim::Options &options)
 {
-    sim::Options options;
-    if (const int answered = sim::parse_options(argc, argv, options); answered >= 0) {
-        return answered;
-    }
-    catch_signals();
+    cli::catch_interrupts();
+    std::signal(SIGHUP, SIG_IGN);
     if (options.describe) {
         describe(options);
     } else if (!options.write_log.empty()) {
@@ -188,13 +169,5 @@ int run(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
-    try {
-        return run(argc, argv);
-    } catch (const sim::WrongUse &error) {
-        std::fprintf(stderr, "ale-sim: %s (see --help)\n", error.what());
-        return 2;
-    } catch (const std::exception &error) {
-        std::fprintf(stderr, "ale-sim: %s\n", error.what());
-        return 1;
-    }
+    return sim::with_options(argc, argv, run);
 }

@@ -1,15 +1,13 @@
 #include "sim/options.h"
 
-#include <charconv>
-#include <cstdio>
-#include <sstream>
-#include <vector>
+#include <cmath>
 
-#include <getopt.h>
-
-#include "sim/wrong_use.h"
+#include "cli/command_line.h"
 
 namespace sim
+{
+
+namespace
 {
 
 const char usage[] =
@@ -47,53 +45,55 @@ const char usage[] =
     "At the end, on stdout: scans, sent, damaged, swallowed (and collisions), one a line.\n"
     "Exit: 0 fine, 1 failed, 2 wrong use.\n";
 
-namespace
+void bind_scanner(cli::CommandLine &line, SimulatorOptions &o)
 {
-
-double number(const std::string &option, const std::string &text, double low, double high)
-{
-    double value = 0;
-    const char *end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc() || stop != end || !(value >= low && value <= high)) {
-        std::ostringstream message;
-        message << "--" << option << " " << text << ": expected a number from " << low << " to " << high;
-        throw WrongUse(message.str());
-    }
-    return value;
+    line.text("pty", o.link);
+    line.choice("protocol", o.protocol,
+                cli::Choices<Protocol>{{"scip1", Protocol::scip1},
+                                       {"scip1-only", Protocol::scip1_only},
+                                       {"scip2", Protocol::scip2}});
+    line.number("speed", o.speed, 0.01, 1000.0);
+    line.number("baud-limit", o.baud_limit, int64_t{100}, int64_t{1000000000});
+    line.option("command-interval", [&o](const std::string &word) {
+        o.command_interval_us = std::llround(cli::number_of("--command-interval", word, 0.0, 10000.0) * 1000);
+    });
+    line.number("seed", o.seed, uint64_t{0}, uint64_t{4000000000});
+    line.text("faults", o.faults);
 }
 
-Pose mounting(const std::string &text)
+void bind_world(cli::CommandLine &line, Options &o)
 {
-    std::istringstream parts(text);
-    std::vector<double> v;
-    for (std::string part; std::getline(parts, part, ',');) {
-        v.push_back(number("sensor", part, -10, 10));
-    }
-    if (v.size() != 3) {
-        throw WrongUse("--sensor " + text + ": expected X,Y,THETA");
-    }
-    return {v[0], v[1], v[2]};
+    line.text("world", o.world);
+    line.flag("drive", o.drive);
+    line.text("noise", o.world_source.noise);
+    line.option("sensor", [&o](const std::string &word) {
+        const cli::Mounting at = cli::mounting_of("--sensor", word);
+        o.sensor = {at.x_m, at.y_m, at.theta_rad};
+    });
+    line.option("odometry-lag", [&o](const std::string &word) {
+        o.world_source.odometry_lag_us = std::llround(cli::number_of("--odometry-lag", word, 0.0, 1.0) * 1e6);
+    });
+    line.number("max-speed", o.world_source.journey.limits.speed, 0.01, 5.0);
+    line.number("max-turn", o.world_source.journey.limits.turn_rate, 0.01, 10.0);
+    line.text("write-log", o.write_log);
 }
 
-Protocol protocol(const std::string &text)
+void bind(cli::CommandLine &line, Options &o)
 {
-    if (text == "scip1") {
-        return Protocol::scip1;
-    }
-    if (text == "scip1-only") {
-        return Protocol::scip1_only;
-    }
-    if (text == "scip2") {
-        return Protocol::scip2;
-    }
-    throw WrongUse("--protocol " + text + ": there are scip1, scip1-only, scip2");
+    bind_scanner(line, o.simulator);
+    bind_world(line, o);
+    line.text("log", o.log);
+    line.flag("once", o.once);
+    line.text("lcm-url", o.lcm_url);
+    line.flag("no-odometry", o.odometry, false);
+    line.text("truth", o.truth);
+    line.flag("describe", o.describe);
 }
 
 void require(bool condition, const char *message)
 {
     if (!condition) {
-        throw WrongUse(message);
+        throw cli::WrongUse(message);
     }
 }
 
@@ -112,162 +112,19 @@ void check(const Options &o)
     require(!o.drive || o.world_source.odometry_lag_us == 0, "--drive and --odometry-lag do not go together");
 }
 
-enum Choice {
-    log_file = 256,
-    world_file,
-    link_path,
-    protocol_name,
-    speed,
-    baud_limit,
-    command_interval,
-    once,
-    seed,
-    faults,
-    lcm_url,
-    no_odometry,
-    truth_file,
-    describe,
-    drive,
-    noise_name,
-    sensor,
-    odometry_lag,
-    max_speed,
-    max_turn,
-    log_out,
-    help,
-    version
-};
-
-const option known[] = {{"log", required_argument, nullptr, log_file},
-                        {"world", required_argument, nullptr, world_file},
-                        {"pty", required_argument, nullptr, link_path},
-                        {"protocol", required_argument, nullptr, protocol_name},
-                        {"speed", required_argument, nullptr, speed},
-                        {"baud-limit", required_argument, nullptr, baud_limit},
-                        {"command-interval", required_argument, nullptr, command_interval},
-                        {"once", no_argument, nullptr, once},
-                        {"seed", required_argument, nullptr, seed},
-                        {"faults", required_argument, nullptr, faults},
-                        {"lcm-url", required_argument, nullptr, lcm_url},
-                        {"no-odometry", no_argument, nullptr, no_odometry},
-                        {"truth", required_argument, nullptr, truth_file},
-                        {"describe", no_argument, nullptr, describe},
-                        {"drive", no_argument, nullptr, drive},
-                        {"noise", required_argument, nullptr, noise_name},
-                        {"sensor", required_argument, nullptr, sensor},
-                        {"odometry-lag", required_argument, nullptr, odometry_lag},
-                        {"max-speed", required_argument, nullptr, max_speed},
-                        {"max-turn", required_argument, nullptr, max_turn},
-                        {"write-log", required_argument, nullptr, log_out},
-                        {"help", no_argument, nullptr, help},
-                        {"version", no_argument, nullptr, version},
-                        {nullptr, 0, nullptr, 0}};
-
-void take_world_option(int choice, const char *text, Options &o)
-{
-    RobotLimits &limits = o.world_source.journey.limits;
-    switch (choice) {
-    case drive:
-        o.drive = true;
-        break;
-    case noise_name:
-        o.world_source.noise = text;
-        break;
-    case sensor:
-        o.sensor = mounting(text);
-        break;
-    case odometry_lag:
-        o.world_source.odometry_lag_us = std::llround(number("odometry-lag", text, 0, 1) * 1e6);
-        break;
-    case max_speed:
-        limits.speed = number("max-speed", text, 0.01, 5);
-        break;
-    case max_turn:
-        limits.turn_rate = number("max-turn", text, 0.01, 10);
-        break;
-    default:
-        o.write_log = text;
-        break;
-    }
-}
-
-void take_option(int choice, const char *text, Options &o)
-{
-    switch (choice) {
-    case log_file:
-        o.log = text;
-        break;
-    case world_file:
-        o.world = text;
-        break;
-    case link_path:
-        o.simulator.link = text;
-        break;
-    case protocol_name:
-        o.simulator.protocol = protocol(text);
-        break;
-    case speed:
-        o.simulator.speed = number("speed", text, 0.01, 1000);
-        break;
-    case baud_limit:
-        o.simulator.baud_limit = std::llround(number("baud-limit", text, 100, 1e9));
-        break;
-    case command_interval:
-        o.simulator.command_interval_us = std::llround(number("command-interval", text, 0, 10000) * 1000);
-        break;
-    case once:
-        o.once = true;
-        break;
-    case seed:
-        o.simulator.seed = static_cast<uint64_t>(number("seed", text, 0, 4e9));
-        break;
-    case faults:
-        o.simulator.faults = text;
-        break;
-    case lcm_url:
-        o.lcm_url = text;
-        break;
-    case no_odometry:
-        o.odometry = false;
-        break;
-    case truth_file:
-        o.truth = text;
-        break;
-    case describe:
-        o.describe = true;
-        break;
-    default:
-        take_world_option(choice, text, o);
-        break;
-    }
-}
-
 } // namespace
 
-int parse_options(int argc, char **argv, Options &options)
+int with_options(int argc, char **argv, const std::function<int(const Options &)> &work)
 {
-    for (int choice; (choice = getopt_long(argc, argv, "", known, nullptr)) != -1;) {
-        switch (choice) {
-        case help:
-            std::fputs(usage, stdout);
-            return 0;
-        case version:
-            std::puts("ale-sim 0.1.0");
-            return 0;
-        case '?':
-            return 2;
-        default:
-            take_option(choice, optarg, options);
-            break;
-        }
-    }
-    if (optind < argc) {
-        throw WrongUse(std::string("what is \"") + argv[optind] + "\"?");
-    }
-    check(options);
-    options.world_source.once = options.once || !options.write_log.empty();
-    options.world_source.journey.seed = options.simulator.seed;
-    return -1;
+    Options options;
+    cli::CommandLine line("ale-sim", usage);
+    bind(line, options);
+    return line.run(argc, argv, [&] {
+        check(options);
+        options.world_source.once = options.once || !options.write_log.empty();
+        options.world_source.journey.seed = options.simulator.seed;
+        return work(options);
+    });
 }
 
 } // namespace sim

@@ -2,6 +2,7 @@
 #ifndef ALE_SIM_OPTIONS_H
 #define ALE_SIM_OPTIONS_H
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -26,11 +27,8 @@ struct Options {
     std::string lcm_url;
 };
 
-extern const char usage[];
-
-/* The exit code when the command line has been answered already (help, version), else -1 with *options
- * filled. Throws WrongUse. */
-int parse_options(int argc, char **argv, Options &options);
+/* Lets the program do its work with what the command line says; the exit code. */
+int with_options(int argc, char **argv, const std::function<int(const Options &)> &work);
 
 } // namespace sim
 

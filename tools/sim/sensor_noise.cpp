@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "bench/random.hpp"
-#include "sim/wrong_use.h"
+#include "cli/wrong_use.h"
 
 namespace sim
 {
@@ -80,7 +80,7 @@ const NoiseModel &noise_model(const std::string &name)
     const auto *found = std::find_if(std::begin(models), std::end(models),
                                      [&](const NoiseModel &m) { return name == m.name; });
     if (found == std::end(models)) {
-        throw WrongUse("--noise " + name + ": there are real, white, none");
+        throw cli::WrongUse("--noise " + name + ": there are real, white, none");
     }
     return *found;
 }

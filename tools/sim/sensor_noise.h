@@ -31,7 +31,7 @@ struct NoiseModel {
     double grazing_dropout; /* chance of failure of a beam that runs along its wall */
 };
 
-/* Throws WrongUse that lists the names there are. */
+/* Throws cli::WrongUse that lists the names there are. */
 const NoiseModel &noise_model(const std::string &name);
 
 /* Errors of one run: everything follows from the seed and the number of the scan. */

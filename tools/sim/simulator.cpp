@@ -32,10 +32,10 @@ Simulator::Simulator(Source &source, const SimulatorOptions &options, OdometryOu
 {
 }
 
-void Simulator::run(const volatile bool &stop)
+void Simulator::run(bool (*stop)())
 {
     Progress progress;
-    while (!stop && !over_) {
+    while (!stop() && !over_) {
         const int64_t now_us = clock_.now_us();
         end_outage(now_us);
         listen(now_us);

@@ -44,8 +44,8 @@ class Simulator
     Simulator(Source &source, const SimulatorOptions &options, OdometryOut *odometry, DriveIn *drive,
               std::FILE *truth);
 
-    /* Runs until the source ends or `stop` becomes true. */
-    void run(const volatile bool &stop);
+    /* Runs until the source ends or somebody says stop. */
+    void run(bool (*stop)());
 
     const Tally &tally() const
     {

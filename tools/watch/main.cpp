@@ -1,16 +1,12 @@
 /* ale-watch: what the robot publishes, as one line a second and as files at the end. */
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
-#include <cstdlib>
-#include <exception>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include <getopt.h>
-
+#include "cli/interrupt.h"
+#include "cli/robot_files.h"
 #include "console/lcm_feed.h"
 #include "watch/pictures.h"
 #include "watch/record.h"
@@ -43,67 +39,6 @@ struct Options {
     double until_silent_s = 0;
 };
 
-std::atomic<bool> interrupted{false};
-
-double positive_number(const char *name, const char *text)
-{
-    char *rest = nullptr;
-    const double value = std::strtod(text, &rest);
-    if (rest == text || *rest != '\0' || !(value > 0 && value < 1e9)) {
-        throw std::invalid_argument(std::string(name) + " wants a number of seconds, not " + text);
-    }
-    return value;
-}
-
-/* The exit code when the command line has been answered already, else -1. */
-int parse(int argc, char **argv, Options &options)
-{
-    static const option known[] = {{"lcm-url", required_argument, nullptr, 'l'},
-                                   {"map", required_argument, nullptr, 'm'},
-                                   {"trajectory", required_argument, nullptr, 't'},
-                                   {"csv", required_argument, nullptr, 'c'},
-                                   {"seconds", required_argument, nullptr, 's'},
-                                   {"until-silent", required_argument, nullptr, 'u'},
-                                   {"help", no_argument, nullptr, 'h'},
-                                   {"version", no_argument, nullptr, 'v'},
-                                   {nullptr, 0, nullptr, 0}};
-    for (int choice; (choice = getopt_long(argc, argv, "", known, nullptr)) != -1;) {
-        switch (choice) {
-        case 'l':
-            options.lcm_url = optarg;
-            break;
-        case 'm':
-            watch::require_picture_kind(optarg);
-            options.maps.emplace_back(optarg);
-            break;
-        case 't':
-            options.trajectory = optarg;
-            break;
-        case 'c':
-            options.csv = optarg;
-            break;
-        case 's':
-            options.seconds = positive_number("--seconds", optarg);
-            break;
-        case 'u':
-            options.until_silent_s = positive_number("--until-silent", optarg);
-            break;
-        case 'h':
-            std::fputs(usage, stdout);
-            return 0;
-        case 'v':
-            std::puts("ale-watch 0.1.0");
-            return 0;
-        default:
-            return 2;
-        }
-    }
-    if (optind < argc) {
-        throw std::invalid_argument("what is \"" + std::string(argv[optind]) + "\"? (see --help)");
-    }
-    return -1;
-}
-
 double seconds_between(Clock::time_point from, Clock::time_point to)
 {
     return std::chrono::duration<double>(to - from).count();
@@ -115,7 +50,7 @@ void watch_robot(const Options &options, console::LcmFeed &feed, watch::Record &
     const Clock::time_point start = Clock::now();
     Clock::time_point last_pose = start;
     size_t poses = 0;
-    for (int lines = 0; !interrupted;) {
+    for (int lines = 0; !cli::interrupted();) {
         feed.wait(50);
         const Clock::time_point now = Clock::now();
         if (record.poses().size() != poses) {
@@ -171,22 +106,19 @@ void run(const Options &options)
 
 int main(int argc, char **argv)
 {
+    constexpr double shortest_s = 0.001;
+    constexpr double longest_s = 1e9;
     Options options;
-    try {
-        const int answered = parse(argc, argv, options);
-        if (answered >= 0) {
-            return answered;
-        }
-        const auto interrupt = [](int) { interrupted = true; };
-        std::signal(SIGINT, interrupt);
-        std::signal(SIGTERM, interrupt);
+    cli::CommandLine line("ale-watch", usage);
+    line.text("lcm-url", options.lcm_url);
+    cli::map_images(line, options.maps);
+    line.text("trajectory", options.trajectory);
+    line.text("csv", options.csv);
+    line.number("seconds", options.seconds, shortest_s, longest_s);
+    line.number("until-silent", options.until_silent_s, shortest_s, longest_s);
+    return line.run(argc, argv, [&] {
+        cli::catch_interrupts();
         run(options);
-    } catch (const std::invalid_argument &error) {
-        std::fprintf(stderr, "ale-watch: %s\n", error.what());
-        return 2;
-    } catch (const std::exception &error) {
-        std::fprintf(stderr, "ale-watch: %s\n", error.what());
-        return 1;
-    }
-    return 0;
+        return 0;
+    });
 }

@@ -2,11 +2,11 @@
 
 #include <memory>
 #include <random>
-#include <stdexcept>
 
 #include "bridge/arrivals.h"
 #include "bridge/frame.h"
 #include "bridge/selection.h"
+#include "cli/wrong_use.h"
 
 using bridge::Arrivals;
 using bridge::decode;
@@ -104,7 +104,7 @@ TEST(Selection, TakesWhatIsNamedAndThinsItEvenly)
 TEST(Selection, WordsThatMeanNothingAreRefused)
 {
     for (const char *word : {"", ":5", "A:", "A:0", "A:-1", "A:fast", "A:2x", "A:1e9", "A:nan"}) {
-        EXPECT_THROW(Selection({word}), std::invalid_argument) << word;
+        EXPECT_THROW(Selection({word}), cli::WrongUse) << word;
     }
 }
 

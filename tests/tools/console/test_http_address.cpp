@@ -1,4 +1,5 @@
 // Where the console listens and which pages may talk to it.
+#include "cli/wrong_use.h"
 #include "console/http_address.h"
 
 #include <stdexcept>
@@ -31,7 +32,7 @@ TEST(HttpAddress, WhatIsNoAddressIsRefusedWithItsName)
         try {
             parse_http_address(text);
             ADD_FAILURE() << text;
-        } catch (const std::invalid_argument &error) {
+        } catch (const cli::WrongUse &error) {
             EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
         }
     }

@@ -1,8 +1,8 @@
 // Faults: the grammar, when they strike, and what they do to a frame.
 #include <gtest/gtest.h>
 
+#include "cli/wrong_use.h"
 #include "sim/faults.h"
-#include "sim/wrong_use.h"
 
 namespace
 {
@@ -29,7 +29,7 @@ TEST(Faults, wrong_grammar_is_wrong_use)
     for (const char *wrong :
          {"flip", "flap@3", "flip@", "flip@x", "flip@-1", "flip:3@1", "garbage:@1", "garbage:x@1", "wrap@#5",
           "@4", "silence:99999@1", "hardware:98@1", ",", "flip@1,,cut@2"}) {
-        EXPECT_THROW(sim::parse_faults(wrong), sim::WrongUse) << wrong;
+        EXPECT_THROW(sim::parse_faults(wrong), cli::WrongUse) << wrong;
     }
 }
 

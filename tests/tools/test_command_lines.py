@@ -1,0 +1,64 @@
+"""What every program answers alike: --help, --version, an option that it does not have, a file that is not there."""
+import os
+import pathlib
+import re
+import subprocess
+
+import pytest
+
+BINARIES = pathlib.Path(os.environ.get("ALE_BUILD", "build")).resolve() / "bin"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+VERSION = re.search(r'ALE_VERSION "(.*)"', (ROOT / "lib/base/version.h").read_text())[1]
+ABSENT = "absent/file"
+# How each is told of a file that is not there, and its exit code: a configuration is wrong use. Empty: reads none.
+MISSING_FILE = {
+    "ale-bridge": ("", 0),
+    "ale-calibrate": (ABSENT, 1),
+    "ale-console": (f"--http 127.0.0.1:0 --keys {ABSENT}", 1),
+    "ale-explore": (f"--world {ABSENT}", 1),
+    "ale-inspect": (f"{ABSENT} 0", 1),
+    "ale-keys": (f"--list {ABSENT}", 1),
+    "ale-latency": (ABSENT, 1),
+    "ale-record": (f"--port /dev/null --no-lcm --out {ABSENT}", 1),
+    "ale-replay": (ABSENT, 1),
+    "ale-screen": ("", 0),
+    "ale-send": (f"--keys {ABSENT} stop", 1),
+    "ale-sim": (f"--pty urg --world {ABSENT}", 1),
+    "ale-slamd": (f"--config {ABSENT}", 2),
+    "ale-watch": ("", 0),
+}
+
+
+def run(name, *words, cwd=None):
+    return subprocess.run([BINARIES / name, *words], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=20, cwd=cwd,
+                          check=False)
+
+
+def test_every_program_is_in_the_table():
+    assert sorted(path.name for path in BINARIES.iterdir()) == sorted(MISSING_FILE)
+
+
+@pytest.mark.parametrize("name", MISSING_FILE)
+def test_it_tells_how_it_is_used_and_its_version_on_stdout(name):
+    told = run(name, "--help")
+    assert (told.returncode, told.stderr) == (0, "")
+    assert told.stdout.startswith(f"usage: {name} ")
+    assert "--help, --version" in told.stdout and re.search("[Ee]xit", told.stdout)
+    told = run(name, "--version")
+    assert (told.returncode, told.stdout, told.stderr) == (0, f"{name} {VERSION}\n", "")
+
+
+@pytest.mark.parametrize("name", MISSING_FILE)
+def test_an_option_that_it_does_not_have_is_named_in_one_line(name):
+    refused = run(name, "--no-such-option")
+    assert (refused.returncode, refused.stdout) == (2, "")
+    assert "--no-such-option" in refused.stderr and refused.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("name", [name for name, (words, _) in MISSING_FILE.items() if words])
+def test_a_file_that_is_not_there_is_named_in_one_line(name, tmp_path):
+    words, code = MISSING_FILE[name]
+    failed = run(name, *words.split(), cwd=tmp_path)
+    assert (failed.returncode, failed.stdout) == (code, "")
+    assert failed.stderr.startswith(f"{name}: ") and ABSENT in failed.stderr and failed.stderr.count("\n") == 1
+    assert list(tmp_path.iterdir()) == [], "nothing is left behind"

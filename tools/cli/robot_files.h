@@ -1,0 +1,26 @@
+/* Files that several programs are told of: the robot's configuration, and pictures of the map. */
+#ifndef ALE_CLI_ROBOT_FILES_H
+#define ALE_CLI_ROBOT_FILES_H
+
+#include <string>
+
+#include "cli/command_line.h"
+
+extern "C" {
+#include "config.h"
+}
+
+namespace cli
+{
+
+/* Takes what the file says over what config holds. Throws WrongUse that names file, line and key. */
+void load_config(const std::string &path, ale_config_t &config);
+
+/* "--map FILE" of a kind that write_map_image() can write; another is WrongUse. */
+void map_image(CommandLine &line, std::string &path);
+/* The same, as often as wanted. */
+void map_images(CommandLine &line, std::vector<std::string> &paths);
+
+} // namespace cli
+
+#endif
