@@ -3,7 +3,7 @@
 PREFIX ?= /usr/local
 SYSCONFDIR ?= /etc
 DEPLOY = firmware/deploy
-VERSION = $(shell sed -n 's/.*ALE_VERSION "\(.*\)"/\1/p' lib/base/version.h)
+VERSION := $(shell sed -n 's/.*ALE_VERSION "\(.*\)"/\1/p' lib/base/version.h)
 DEB = $(BUILD)/ale-slam_$(VERSION)_$(shell dpkg --print-architecture 2>/dev/null).deb
 
 .PHONY: install install-service deb test-deb
