@@ -164,8 +164,14 @@ static void receive(ale_urg_t *urg)
     urg->read_us = ale_urg_now_us(urg);
     urg->byte_count = (uint32_t)status;
     urg->bytes_used = 0;
-    if (status > 0 && urg->config.tap != NULL) {
-        urg->config.tap(urg->config.tap_user, false, urg->bytes, urg->byte_count, urg->read_us);
+}
+
+/* The bytes of one step of the parser: what is tapped ends where a scan does, though it was read in one go.
+ */
+static void tap_received(const ale_urg_t *urg, const uint8_t *bytes, uint32_t count)
+{
+    if (urg->config.tap != NULL) {
+        urg->config.tap(urg->config.tap_user, false, bytes, count, urg->read_us);
     }
 }
 
@@ -174,8 +180,11 @@ static void parse(ale_urg_t *urg)
 {
     while (urg->bytes_used < urg->byte_count) {
         ale_scip_event_t event;
-        urg->bytes_used += (uint32_t)ale_scip_parse(&urg->parser, urg->bytes + urg->bytes_used,
-                                                    urg->byte_count - urg->bytes_used, urg->read_us, &event);
+        const uint8_t *bytes = urg->bytes + urg->bytes_used;
+        const uint32_t count = (uint32_t)ale_scip_parse(
+            &urg->parser, bytes, urg->byte_count - urg->bytes_used, urg->read_us, &event);
+        urg->bytes_used += count;
+        tap_received(urg, bytes, count);
         ale_urg_dialogue_event(urg, &event);
         if (event.kind == ALE_SCIP_SCAN || event.kind == ALE_SCIP_LOST) {
             break;

@@ -29,7 +29,8 @@ typedef struct {
     uint8_t skip;
     int32_t step_ms;   /* longest time a step may block; 0: 50 */
     double time_scale; /* device seconds per host second (a simulator that runs faster); 0: 1 */
-    /* Called for every run of bytes as it passes: sent (true) or received (false). NULL: nobody. */
+    /* Called for every run of bytes as it passes: sent (true), or received (false) and about to be used; such
+     * a run ends where a scan does. NULL: nobody. */
     void (*tap)(void *user, bool sent, const uint8_t *bytes, uint32_t count, int64_t host_us);
     void *tap_user;
     /* The clock of all stamps, microseconds, running time_scale as fast as the host's; NULL: CLOCK_MONOTONIC

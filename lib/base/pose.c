@@ -42,3 +42,10 @@ ale_pose_t ale_pose_between(ale_pose_t a, ale_pose_t b)
     const ale_point_t p = ale_rotate(d, 0u - a.theta_bam);
     return (ale_pose_t){p.x_um, p.y_um, b.theta_bam - a.theta_bam};
 }
+
+ale_pose_t ale_pose_shift(ale_pose_t from, ale_pose_t to)
+{
+    const uint32_t turn_bam = to.theta_bam - from.theta_bam;
+    const ale_point_t turned = ale_rotate((ale_point_t){from.x_um, from.y_um}, turn_bam);
+    return (ale_pose_t){to.x_um - turned.x_um, to.y_um - turned.y_um, turn_bam};
+}

@@ -37,4 +37,8 @@ ale_pose_t ale_pose_inverse(ale_pose_t a);
 /* The pose b as seen from a (both given in one frame): compose(inverse(a), b) with one rounding. */
 ale_pose_t ale_pose_between(ale_pose_t a, ale_pose_t b);
 
+/* The motion of the whole plane that carries the pose `from` to the pose `to`: compose(shift, from) is `to`
+ * to the micrometre, and from a pose to itself it is no motion at all. */
+ale_pose_t ale_pose_shift(ale_pose_t from, ale_pose_t to);
+
 #endif

@@ -20,7 +20,7 @@ enum {
 
 static bool has_gone_on(const ale_pipeline_t *p)
 {
-    const ale_pose_t way = ale_pose_between(p->keyframe_smooth, p->smooth);
+    const ale_pose_t way = ale_pose_between(p->keyframe_smooth, p->smooth.pose);
     const int64_t x = way.x_um;
     const int64_t y = way.y_um;
     return x * x + y * y > (int64_t)ALE_KEYFRAME_STEP_UM * ALE_KEYFRAME_STEP_UM ||
@@ -39,7 +39,7 @@ bool ale_pipeline_keyframe(ale_pipeline_t *p, ale_keyframe_t *out)
     out->corrections = p->corrections;
     out->scan = p->scans - 1;
     out->stamp_us = p->scan.stamp_us;
-    out->smooth = p->smooth;
+    out->smooth = p->smooth.pose;
     out->map = p->motion.pose;
     out->broken = p->broken;
     out->weak = p->tracker.state != ALE_STATE_GOOD;
@@ -48,7 +48,7 @@ bool ale_pipeline_keyframe(ale_pipeline_t *p, ale_keyframe_t *out)
     out->straightened = p->straightened;
     memcpy(out->bearing_bam, p->bearing_bam, sizeof out->bearing_bam);
     out->features = p->features;
-    p->keyframe_smooth = p->smooth;
+    p->keyframe_smooth = p->smooth.pose;
     p->keyframes++;
     p->broken = false;
     return true;
@@ -58,6 +58,7 @@ static void correct_robot(ale_pipeline_t *p, ale_pose_t shift)
 {
     const ale_pose_t before = p->motion.pose;
     p->motion.pose = ale_pose_compose(shift, before);
+    ale_smooth_hold(&p->smooth, p->motion.pose);
     ale_lag_turn(&p->lag, shift.theta_bam);
     const bool moved = ale_abs64((int64_t)p->motion.pose.x_um - before.x_um) > MOVED_UM ||
                        ale_abs64((int64_t)p->motion.pose.y_um - before.y_um) > MOVED_UM ||
@@ -84,6 +85,7 @@ bool ale_pipeline_correct(ale_pipeline_t *p, const ale_correction_t *correction)
 void ale_pipeline_relocate(ale_pipeline_t *p, ale_pose_t pose)
 {
     p->motion.pose = pose;
+    ale_smooth_hold(&p->smooth, pose);
     ale_motion_widen(&p->motion, SHOWN_SIGMA_UM, SHOWN_SIGMA_URAD);
     ale_tracker_found(&p->tracker);
     p->map.near_radius_um = 0;

@@ -14,6 +14,7 @@
 #include "track/refine.h"
 #include "track/registration.h"
 #include "track/relocation.h"
+#include "track/smooth_pose.h"
 #include "track/tracker.h"
 #include "track/view.h"
 #include "track/wheels.h"
@@ -32,7 +33,7 @@ struct ale_pipeline {
     ale_pace_t pace;
     ale_motion_t motion;
     ale_tracker_t tracker;
-    ale_pose_t smooth;
+    ale_smooth_t smooth;
     uint32_t scans;
     ale_local_map_t map;
     ale_drift_t drift; /* of the map around the robot */

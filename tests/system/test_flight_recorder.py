@@ -73,8 +73,7 @@ def test_a_recording_on_command_replays_to_the_same_poses(chain, folder):
     poses = replayed(path, chain.folder)
     assert len(poses) >= len(told)
     for one, (_, x, y) in zip(told, poses):
-        # The trajectory is told as seen from its first pose: that rounds once more.
-        assert abs(int(one["map_x_um"]) - x * 1e6) < 2 and abs(int(one["map_y_um"]) - y * 1e6) < 2, one["scan"]
+        assert (int(one["map_x_um"]), int(one["map_y_um"])) == (round(x * 1e6), round(y * 1e6)), one["scan"]
     kinds = [kind for kind, _, _ in chunks(path)]
     assert kinds[0] == CONFIG and kinds.count(STAGES) == len(told) and kinds.count(ODOMETRY) > len(told)
     counters = chain.listener.counters()

@@ -38,7 +38,7 @@ ale_pose_t blend(ale_pose_t a, ale_pose_t b, uint32_t part, uint32_t whole)
 /* Where a keyframe puts a scan that was tracked together with it. */
 ale_pose_t placed(const ale_mapper_pose_t &keyframe, const ale_pose_t &smooth)
 {
-    return ale_pose_compose(keyframe.pose, ale_pose_between(keyframe.smooth, smooth));
+    return ale_pose_compose(ale_pose_shift(keyframe.smooth, keyframe.pose), smooth);
 }
 
 } // namespace

@@ -1,0 +1,39 @@
+/* The first part of a scan's way: from raw ranges to what they show. */
+#include <stddef.h>
+
+#include "base/fixed.h"
+#include "track/deskew.h"
+#include "track/piece.h"
+#include "track/pipeline_steps.h"
+
+/* The noise model with the beams' own noise as the extractor found it in this scan. */
+static ale_noise_t measured_noise(const ale_pipeline_t *p)
+{
+    ale_noise_t noise = p->config.extract.noise;
+    const ale_scan_noise_t *found = &p->extractor.noise;
+    noise.own_um = (int32_t)ale_isqrt((uint64_t)ale_mul_shift(found->own_mm2_q36, 1000000, 36));
+    noise.own_ppm = (int32_t)ale_isqrt((uint64_t)ale_mul_shift(found->own_relative_q36, 1000000000000, 36));
+    return noise;
+}
+
+const uint32_t *ale_pipeline_bearings(const ale_pipeline_t *p)
+{
+    return p->straightened ? p->bearing_bam : NULL;
+}
+
+void ale_pipeline_look(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t velocity[ALE_AXES])
+{
+    int32_t sensor_velocity[ALE_AXES];
+    p->scan = *raw;
+    p->looked = true;
+    ale_scan_mask(&p->scan, p->config.blind, p->config.blind_count);
+    ale_sensor_velocity(velocity, p->config.sensor, sensor_velocity);
+    p->straightened = ale_deskew(&p->scan, sensor_velocity, p->bearing_bam);
+    const uint32_t *bearing_bam = ale_pipeline_bearings(p);
+    ale_stage_end(&p->hook, ALE_STAGE_DESKEW);
+    ale_extract_scan(&p->extractor, &p->scan, bearing_bam, &p->features);
+    const ale_noise_t noise = measured_noise(p);
+    p->view_count = ale_views_of(&p->features, &p->scan, p->config.sensor, noise.surface_um / 2, p->view);
+    p->view_count +=
+        ale_pieces_of(&p->features, &p->scan, bearing_bam, p->config.sensor, &noise, &p->view[p->view_count]);
+}

@@ -1,0 +1,185 @@
+/* The robot is about where the prediction puts it: match, judge, map. */
+#include <stddef.h>
+
+#include "base/fixed.h"
+#include "track/map_update.h"
+#include "track/pipeline_steps.h"
+
+enum {
+    ACQUIRE_OFFSET_UM = 600000, /* how far a wall may lie from where the prediction puts it */
+    ACQUIRE_ANGLE_URAD = 300000,
+    ACQUIRE_SIGMAS = 4,
+    ACQUIRE_PIECE_UM = 100000,
+    LEARN_DETERMINED_UM = 10000, /* scans that know the way well enough to teach the wheels */
+    LEARN_LAG_VAR_UM2 = 4000000, /* and a lag that could not have made (2 mm)^2 of it */
+    ANCHOR_SIGMA_UM = 1000,      /* of the pose to the walls that are born from it */
+    ANCHOR_SIGMA_URAD = 500,
+    REGISTER_UM = 100000, /* how far wheels may be off beyond what they promise */
+    REGISTER_URAD = 60000,
+    REGISTER_MOST_UM = 1000000,
+    REGISTER_MOST_URAD = 450000,
+    SLACK_UM = 60000,
+    SLACK_URAD = 30000,
+    SLACK_MOST_UM = 200000, /* a way that may be off by more says nothing of what was seen where */
+    SLACK_MOST_URAD = 100000,
+    REJECT_PARTS = 10 /* less than this part of what is shown, found in the map, is found by chance */
+};
+
+static const ale_gate_t narrow_gate = {60000, 200000, 4, 50000};
+static const ale_gate_t register_gate = {250000, 200000, 6, 100000};
+
+void ale_pipeline_match(ale_pipeline_t *p, const ale_motion_t *predicted, int32_t reach_um)
+{
+    const ale_gate_t gate = {ACQUIRE_OFFSET_UM, ACQUIRE_ANGLE_URAD, ACQUIRE_SIGMAS, ACQUIRE_PIECE_UM};
+    const ale_scene_t scene = {&p->map, p->view, p->view_count};
+    const ale_point_t centre = {predicted->pose.x_um, predicted->pose.y_um};
+    ale_local_map_approach(&p->map, centre, reach_um);
+    ale_refine(predicted, &scene, &gate, &p->fit);
+}
+
+/* What a good scan teaches about the wheels: their lag from turns, their scale from the way. */
+static void teach_wheels(ale_pipeline_t *p, const ale_motion_t *before, const ale_wheel_motion_t *counted)
+{
+    const int64_t dt_us = p->motion.stamp_us - before->stamp_us;
+    if (!p->config.use_odometry || dt_us <= 0 || dt_us > ALE_SCAN_PERIOD_MAX_US ||
+        !ale_information_determines(&p->fit.information, LEARN_DETERMINED_UM)) {
+        return;
+    }
+    const ale_pose_t way = ale_pose_between(before->pose, p->motion.pose);
+    const ale_heading_t heading = {p->motion.stamp_us, p->motion.pose.theta_bam, p->motion.velocity[2]};
+    ale_lag_add_heading(&p->lag, &heading);
+    ale_lag_update(&p->lag, &p->wheels);
+    if (counted && counted->lag_var_um2 < LEARN_LAG_VAR_UM2) {
+        ale_wheel_scale_learn(&p->scale, way.x_um, counted->counted_um);
+    }
+}
+
+/* The scan goes into the map. */
+static void take_in(ale_pipeline_t *p, bool grow)
+{
+    if (p->frozen) {
+        return;
+    }
+    const ale_pose_t sensor = ale_pose_compose(p->fit.motion.pose, p->config.sensor);
+    ale_map_update(&p->map, p->view, p->view_count, &p->fit, p->drift, p->scans, grow);
+    p->matched_corners = ale_map_corners_update(&p->map.corners, &p->features, sensor, p->scans, grow);
+}
+
+void ale_pipeline_first(ale_pipeline_t *p)
+{
+    p->fit.motion = p->motion;
+    ale_pipeline_match(p, &p->motion, p->scan.range_max_um);
+    p->fit.motion = p->motion;
+    ale_stage_end(&p->hook, ALE_STAGE_MATCH);
+    take_in(p, true);
+    p->started = p->view_count > 0;
+}
+
+/* Asks the near walls that were not matched whether they are there; those that are not fade. */
+static ale_sights_t look_around(ale_pipeline_t *p)
+{
+    const ale_pose_t sensor = ale_pose_compose(p->motion.pose, p->config.sensor);
+    return ale_fade(&p->fade, &p->map, &p->scan, ale_pipeline_bearings(p), sensor, p->scans,
+                    p->tracker.state == ALE_STATE_GOOD && !p->frozen);
+}
+
+static int64_t sigma_of(const ale_matrix_t *cov, int axis)
+{
+    return (int64_t)ale_isqrt((uint64_t)ale_max64(cov->m[axis][axis], 0));
+}
+
+/* The scan at hand as the witness hears of it: on the way that is smooth, which no correction of the map
+ * bends. */
+static ale_seen_t seen(const ale_pipeline_t *p, const ale_motion_t *before)
+{
+    const ale_pose_t robot = ale_pose_compose(p->smooth.pose, ale_pose_between(before->pose, p->motion.pose));
+    return (ale_seen_t){.scan = &p->scan,
+                        .bearing_bam = ale_pipeline_bearings(p),
+                        .robot = robot,
+                        .sensor = ale_pose_compose(robot, p->config.sensor),
+                        .view = p->view,
+                        .view_count = p->view_count};
+}
+
+/* Hears the last scan when the map knows little of this one; a scan that fits is the next to be heard, one
+ * that does not leaves the prediction as it is. */
+static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted, bool counted)
+{
+    const ale_seen_t now = seen(p, before);
+    const ale_matrix_t *cov = &p->motion.cov;
+    const int64_t offset_um = SLACK_UM + 2 * ale_max64(sigma_of(cov, 0), sigma_of(cov, 1));
+    const ale_slack_t slack = {
+        (int32_t)ale_min64(offset_um, counted ? SLACK_MOST_UM : 2 * SLACK_UM),
+        (int32_t)ale_min64(2 * sigma_of(cov, 2), counted ? SLACK_MOST_URAD : SLACK_URAD)};
+    const bool doubt = ale_tracker_is_strange(&p->tracker, &p->fit);
+    const ale_testimony_t heard = doubt ? ale_witness_hear(&p->witness, &now, slack) : (ale_testimony_t){0};
+    ale_tracker_notice(&p->tracker, doubt ? &heard : NULL, counted);
+    if (p->tracker.jumped) {
+        const ale_scene_t scene = {&p->map, p->view, p->view_count};
+        ale_refine_reject(predicted, &scene, &p->fit);
+        p->motion = *predicted;
+    } else {
+        ale_witness_keep(&p->witness, &now);
+    }
+}
+
+/* Where the scan shows enough, but too little of it is in the map to hold the pose, the map goes on from
+ * here: new walls hold the robot as exactly as old ones, and how far they may be off is the drift they are
+ * born with. */
+static void anchor(ale_pipeline_t *p)
+{
+    if (ale_tracker_may_anchor(&p->tracker, &p->fit)) {
+        p->drift = ale_drift_of_new_wall(p->drift, &p->fit.motion.cov);
+        ale_motion_widen(&p->fit.motion, ANCHOR_SIGMA_UM, ANCHOR_SIGMA_URAD);
+        p->motion = p->fit.motion;
+    }
+}
+
+/* The map explains too little of the scan. Wide gates may have caught the wrong walls: once more with narrow
+ * ones; then from where the last scan says that the robot is. What only little speaks for is not believed. */
+static void match_again(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted)
+{
+    const ale_scene_t scene = {&p->map, p->view, p->view_count};
+    const ale_matrix_t *cov = &predicted->cov;
+    const int64_t reach_um = REGISTER_UM + 5 * ale_max64(sigma_of(cov, 0), sigma_of(cov, 1));
+    const int64_t reach_urad = REGISTER_URAD + 5 * sigma_of(cov, 2);
+    /* on the way that is smooth, as the witness is */
+    const ale_pose_t guess =
+        ale_pose_compose(p->smooth.pose, ale_pose_between(before->pose, predicted->pose));
+    ale_pose_t way = ale_pose_between(p->witness.robot, guess);
+    ale_refine_again(predicted, predicted->pose, &scene, &narrow_gate, &p->fit);
+    if (ale_tracker_doubts(&p->fit) &&
+        ale_register(&p->registration, (ale_views_t){p->witness.view, p->witness.view_count},
+                     (ale_views_t){p->view, p->view_count}, (int32_t)ale_min64(reach_um, REGISTER_MOST_UM),
+                     (int32_t)ale_min64(reach_urad, REGISTER_MOST_URAD), &way)) {
+        const ale_pose_t there = ale_pose_compose(p->witness.robot, way);
+        const ale_pose_t from = ale_pose_compose(before->pose, ale_pose_between(p->smooth.pose, there));
+        ale_refine_again(predicted, from, &scene, &register_gate, &p->fit);
+    }
+    if (p->fit.matched_um * REJECT_PARTS < p->fit.shown_um) {
+        ale_refine_reject(predicted, &scene, &p->fit);
+    }
+}
+
+void ale_pipeline_track(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted,
+                        const ale_wheel_motion_t *wheels)
+{
+    ale_pipeline_match(p, predicted, p->scan.range_max_um);
+    if (ale_tracker_doubts(&p->fit)) {
+        match_again(p, before, predicted);
+    }
+    p->motion = p->fit.motion;
+    notice(p, before, predicted, wheels != NULL);
+    p->drift = ale_drift_here(&p->map, p->view, p->view_count, &p->fit, p->drift);
+    if (!p->tracker.jumped) {
+        ale_liveliness_learn(&p->liveliness[wheels != NULL], predicted, &p->motion);
+        teach_wheels(p, before, wheels);
+    }
+    ale_stage_end(&p->hook, ALE_STAGE_MATCH);
+    anchor(p);
+    take_in(p, ale_tracker_may_map(&p->tracker, &p->fit));
+    ale_local_map_approach(&p->map, (ale_point_t){p->motion.pose.x_um, p->motion.pose.y_um},
+                           p->scan.range_max_um);
+    const ale_sights_t sights = look_around(p);
+    ale_tracker_judge(&p->tracker, &p->fit, &sights);
+}
