@@ -39,6 +39,7 @@ struct ale_recorder {
     char *config_text;
     ale_ring_t *acquired; /* item_t, from the acquire thread */
     ale_ring_t *told;     /* item_t, from telemetry */
+    ale_ring_t *later;    /* item_t: odometry that no scan written so far was estimated with */
     ale_flight_ring_t *flight;
     int wake; /* event descriptor: a recording is wanted, or the end */
     ale_rt_task_t *task;
@@ -151,7 +152,9 @@ uint32_t ale_recorder_written(const ale_recorder_t *recorder)
 
 uint32_t ale_recorder_refused(const ale_recorder_t *recorder)
 {
-    return recorder ? ale_ring_refused(recorder->acquired) + ale_ring_refused(recorder->told) : 0;
+    return recorder ? ale_ring_refused(recorder->acquired) + ale_ring_refused(recorder->told) +
+                          ale_ring_refused(recorder->later)
+                    : 0;
 }
 
 /* ---- the recorder's thread: both queues into one order ---- */
@@ -188,11 +191,27 @@ static bool came_later(const item_t *item, uint32_t odometry_taken)
     return item->kind == ALE_CHUNK_ODOMETRY && (int32_t)(item->number - odometry_taken) >= 0;
 }
 
-static void keep_told(ale_recorder_t *recorder, uint32_t count, bool later, uint32_t odometry_taken)
+/* What waits from the scans before, as far as the estimate task has seen it by now. */
+static void keep_later(ale_recorder_t *recorder, uint32_t odometry_taken)
+{
+    for (uint32_t ready = ale_ring_ready(recorder->later); ready > 0; ready--) {
+        const item_t *item = ale_ring_at(recorder->later, 0);
+        if (came_later(item, odometry_taken)) {
+            return;
+        }
+        keep_chunk(recorder, item);
+        ale_ring_release(recorder->later);
+    }
+}
+
+/* What was told before the result: what was known to it goes before its scan, the rest waits. */
+static void keep_told(ale_recorder_t *recorder, uint32_t count, uint32_t odometry_taken)
 {
     for (uint32_t k = 0; k < count; k++) {
         const item_t *item = ale_ring_at(recorder->told, k);
-        if (item->type == ITEM_CHUNK && came_later(item, odometry_taken) == later) {
+        if (came_later(item, odometry_taken)) {
+            put(recorder->later, item, item->bytes);
+        } else {
             keep_chunk(recorder, item);
         }
     }
@@ -216,8 +235,9 @@ static void release_told(ale_recorder_t *recorder, uint32_t count)
     }
 }
 
-/* One scan: what the estimate task knew before it, its bytes, what came meanwhile, and what came of it. A
- * scan whose result found no room, or a result whose scan did not, goes alone. False: nothing is complete. */
+/* One scan: what the estimate task knew before it, its bytes, and what came of it; odometry that came
+ * meanwhile waits for the scan that knows it. A scan whose result found no room, or a result whose scan did
+ * not, goes alone. False: nothing is complete. */
 static bool keep_scan(ale_recorder_t *recorder)
 {
     const uint32_t acquired = ale_ring_ready(recorder->acquired);
@@ -233,13 +253,13 @@ static bool keep_scan(ale_recorder_t *recorder)
     ale_flight_result_t kept;
     memcpy(&kept, result->bytes, sizeof kept);
     if (ahead >= 0) {
-        keep_told(recorder, result_at, false, kept.odometry_taken);
+        keep_later(recorder, kept.odometry_taken);
+        keep_told(recorder, result_at, kept.odometry_taken);
     }
     if (ahead <= 0) {
         keep_acquired(recorder, scan_at + 1);
     }
     if (ahead >= 0) {
-        keep_told(recorder, result_at, true, kept.odometry_taken);
         keep_result(recorder, result);
         release_told(recorder, result_at + 1);
     }
@@ -249,6 +269,10 @@ static bool keep_scan(ale_recorder_t *recorder)
 /* What makes no scan, or waits too long for its result: as it came. */
 static void keep_all(ale_recorder_t *recorder)
 {
+    for (uint32_t count = ale_ring_ready(recorder->later); count > 0; count--) {
+        keep_chunk(recorder, ale_ring_at(recorder->later, 0));
+        ale_ring_release(recorder->later);
+    }
     for (uint32_t count = ale_ring_ready(recorder->told); count > 0; count--) {
         const item_t *item = ale_ring_at(recorder->told, 0);
         if (item->type == ITEM_RESULT) {
@@ -355,6 +379,9 @@ static void destroy(ale_recorder_t *recorder)
     if (recorder->told) {
         ale_ring_destroy(recorder->told);
     }
+    if (recorder->later) {
+        ale_ring_destroy(recorder->later);
+    }
     ale_flight_ring_destroy(recorder->flight);
     ale_wake_close(recorder->wake);
     free(recorder->config_text);
@@ -371,11 +398,12 @@ ale_recorder_t *ale_recorder_start(const ale_config_t *config)
     recorder->config_text = print_config(config);
     recorder->acquired = ale_ring_create(sizeof(item_t), BYTES_SLOTS);
     recorder->told = ale_ring_create(sizeof(item_t), WORDS_SLOTS);
+    recorder->later = ale_ring_create(sizeof(item_t), WORDS_SLOTS);
     recorder->flight = ale_flight_ring_create((uint32_t)config->recorder_megabytes * MEGABYTE);
     recorder->wake = ale_wake_open();
     recorder->moved_ns = ale_rt_now_ns();
-    if (recorder->config_text && recorder->acquired && recorder->told && recorder->flight &&
-        recorder->wake >= 0) {
+    if (recorder->config_text && recorder->acquired && recorder->told && recorder->later &&
+        recorder->flight && recorder->wake >= 0) {
         recorder->task = ale_rt_task_start(&(ale_rt_task_config_t){
             .name = "ale-recorder", .kind = ALE_RT_BACKGROUND, .body = run, .user = recorder});
     }

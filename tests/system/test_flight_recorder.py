@@ -1,4 +1,5 @@
 """The flight recorder: what it leaves on disk replays to the very poses of the flight."""
+import itertools
 import signal
 import struct
 import subprocess
@@ -78,7 +79,10 @@ def test_a_recording_on_command_replays_to_the_same_poses(chain, folder):
     assert len(told) >= 150 and [int(one["scan"]) for one in told] == list(range(len(told)))
     poses = replayed(path, chain.folder)
     assert len(poses) >= len(told)
-    for one, (_, x, y) in zip(told, poses):
+    # A busy machine may have set a scan aside for a newer one: the recording has it, the flight went on without it.
+    flown = list(itertools.takewhile(lambda one: one["overloaded"] == "0", told))
+    assert flown
+    for one, (_, x, y) in zip(flown, poses):
         assert (int(one["map_x_um"]), int(one["map_y_um"])) == (round(x * 1e6), round(y * 1e6)), one["scan"]
     kinds = [kind for kind, _, _ in chunks(path)]
     assert kinds[0] == CONFIG and kinds.count(STAGES) == len(told) and kinds.count(ODOMETRY) > len(told)
