@@ -64,7 +64,7 @@ ale_mapper_thread_t *ale_mapper_thread_start(ale_exchange_t *exchange)
         return NULL;
     }
     thread->exchange = exchange;
-    thread->mapper = ale_mapper_create();
+    thread->mapper = ale_mapper_create(ALE_MAPPER_KEYFRAMES);
     thread->wanted = ale_wake_open();
     if (thread->mapper && thread->wanted >= 0) {
         thread->task = ale_rt_task_start(&(ale_rt_task_config_t){

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 
 #include "graph/building_axes.h"
+#include "graph/thinning.h"
 
 namespace ale
 {
@@ -20,7 +21,8 @@ constexpr double drift_per_metre = 0.008; // how far the guess may have drifted
 constexpr double drift_rad_per_metre = 0.002;
 constexpr double max_window_m = 2.0;
 constexpr double max_window_rad = 0.35;
-constexpr int patch_nodes = 6;         // to each side of the place
+constexpr int patch_nodes = 6; // to each side of the place
+constexpr int present_nodes = 2 * patch_nodes;
 constexpr double patch_reach_m = 4.0;  // and as far from it
 constexpr double clear_overlap = 0.55; // one node's word, confirmed by another
 constexpr double least_overlap = 0.30; // much is out of sight: more nodes must agree
@@ -82,9 +84,17 @@ bool near(const Pose &guess, const LoopMatch &match, double overlap)
 
 } // namespace
 
+LoopCloser::LoopCloser(size_t capacity) : capacity_(std::max(capacity, least_capacity))
+{
+    nodes_.reserve(capacity_);
+    graph_.reserve(capacity_, capacity_ * (1 + loop_candidates));
+}
+
 bool LoopCloser::add(Node node, const Pose &motion)
 {
+    make_room();
     nodes_.push_back(std::move(node));
+    added_++;
     link_to_previous(motion);
     bool moved = false;
     for (const int there : candidates()) {
@@ -117,11 +127,11 @@ bool LoopCloser::add(Node node, const Pose &motion)
 // Turns what has drifted back to the directions of the walls. Twice: large drift hides which wall is which.
 bool LoopCloser::straighten()
 {
-    if (nodes_.size() < straightened_at_ + straighten_every ||
+    if (added_ < straightened_at_ + straighten_every ||
         !have_drifted(headings_by_walls(nodes_, graph_.poses()), graph_.poses())) {
         return false;
     }
-    straightened_at_ = nodes_.size();
+    straightened_at_ = added_;
     const PoseGraph before = graph_;
     for (int round = 0; round < straighten_rounds; round++) {
         graph_.set_headings(headings_by_walls(nodes_, graph_.poses()));
@@ -132,6 +142,49 @@ bool LoopCloser::straighten()
     }
     statistics_.straightened++;
     return true;
+}
+
+// The first node holds the map in its place, the last ones are the present visit, and loops that wait for
+// confirmation are of these nodes and no others.
+void LoopCloser::make_room()
+{
+    if (nodes_.size() < capacity_) {
+        return;
+    }
+    std::vector<bool> may_go(nodes_.size(), true);
+    may_go.front() = false;
+    std::fill(may_go.end() - present_nodes, may_go.end(), false);
+    for (const Loop &loop : pending_) {
+        may_go[static_cast<size_t>(loop.from)] = may_go[static_cast<size_t>(loop.to)] = false;
+    }
+    const std::optional<size_t> gone = most_redundant(graph_.poses(), may_go);
+    if (!gone) {
+        return; // never: fewer are held than the least capacity
+    }
+    const int k = static_cast<int>(*gone);
+    nodes_.erase(nodes_.begin() + k);
+    graph_.take_out(k, static_cast<int>(loop_candidates));
+    for (Loop &loop : pending_) {
+        loop.from -= loop.from > k ? 1 : 0;
+        loop.to -= loop.to > k ? 1 : 0;
+    }
+    statistics_.thinned++;
+}
+
+void LoopCloser::begin_anew()
+{
+    nodes_.clear();
+    graph_.clear();
+    pending_.clear();
+    added_ = straightened_at_ = 0;
+    statistics_ = {};
+}
+
+void LoopCloser::told()
+{
+    for (size_t k = 0; k < nodes_.size(); k++) {
+        nodes_[k].tracked = graph_.poses()[k];
+    }
 }
 
 void LoopCloser::link_to_previous(const Pose &motion)

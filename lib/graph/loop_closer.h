@@ -8,6 +8,9 @@
 // tracker has recognised the place itself nothing is to be corrected: the tie is noted as the tracker knows
 // it, so that later corrections keep it. Work of one call: at most loop_candidates matches, and one
 // optimisation when a loop was believed.
+//
+// Memory is bounded: when it holds as many nodes as it may, the next one takes the place of the most
+// redundant (thinning.h), whose ties go over to its neighbours on the way.
 #ifndef ALE_GRAPH_LOOP_CLOSER_H
 #define ALE_GRAPH_LOOP_CLOSER_H
 
@@ -29,11 +32,16 @@ struct LoopStatistics {
     uint32_t contradicted; // taken back after optimisation
     uint32_t loops;        // believed
     uint32_t straightened; // headings had drifted from the directions of the walls
+    uint32_t thinned;      // nodes that made room for others
 };
 
 class LoopCloser
 {
   public:
+    // At most so many nodes are kept: at least least_capacity, so that the present visit is whole.
+    explicit LoopCloser(size_t capacity);
+    static constexpr size_t least_capacity = 64;
+
     // `motion` is the node's pose as seen from the node before; of the first one its pose in the map. True
     // when earlier poses moved.
     bool add(Node node, const Pose &motion);
@@ -42,6 +50,10 @@ class LoopCloser
     {
         return nodes_;
     }
+    // The tracker was told where all nodes are.
+    void told();
+    // As after the constructor; allocates nothing.
+    void begin_anew();
     const std::vector<Pose> &poses() const
     {
         return graph_.poses();
@@ -61,6 +73,7 @@ class LoopCloser
     };
     enum class Sight { unclear, known, displaced };
 
+    void make_room();
     void link_to_previous(const Pose &motion);
     std::vector<int> candidates() const;
     Sight look_for_loop(int there, Loop *loop) const;
@@ -72,10 +85,12 @@ class LoopCloser
     std::vector<SurfacePoint> patch_around(int k, int before, int after) const;
     std::vector<CornerMark> corners_around(int k, int before, int after) const;
 
-    std::vector<Node> nodes_;
+    size_t capacity_;
+    std::vector<Node> nodes_; // in the order of the way
     PoseGraph graph_;
     std::deque<Loop> pending_;
-    size_t straightened_at_ = 0; // keyframes there were then
+    size_t added_ = 0;           // nodes, ever
+    size_t straightened_at_ = 0; // how many had been added then
     LoopStatistics statistics_{};
 };
 

@@ -2,7 +2,9 @@ extern "C" {
 #include "graph/mapper.h"
 }
 
+#include <algorithm>
 #include <cmath>
+#include <deque>
 #include <new>
 
 #include "graph/loop_closer.h"
@@ -32,10 +34,14 @@ bool is_worth_it(const Pose &before, const Pose &after)
 } // namespace
 
 struct ale_mapper {
+    explicit ale_mapper(size_t keyframes) : closer(keyframes)
+    {
+    }
+
     uint32_t epoch = 0;
     ale::LoopCloser closer;
-    std::vector<Pose> known;      // each keyframe as the tracker places it
-    std::vector<Pose> last_shift; // of each correction handed out
+    uint32_t heard = 0;          // corrections that the tracker had taken in with the last keyframe
+    std::deque<Pose> last_shift; // of each correction handed out since
     uint32_t refused = 0;
 };
 
@@ -43,20 +49,24 @@ namespace
 {
 
 // Where the tracker sees the keyframe, moved by the corrections that it had not heard of.
-Pose where_it_is(const ale_mapper &mapper, const ale_keyframe_t &keyframe)
+Pose where_it_is(ale_mapper &mapper, const ale_keyframe_t &keyframe)
 {
+    for (; mapper.heard < keyframe.corrections && !mapper.last_shift.empty(); mapper.heard++) {
+        mapper.last_shift.pop_front();
+    }
     Pose pose = ale::from_core(keyframe.map);
-    for (size_t k = keyframe.corrections; k < mapper.last_shift.size(); k++) {
-        pose = ale::compose(mapper.last_shift[k], pose);
+    for (const Pose &shift : mapper.last_shift) {
+        pose = ale::compose(shift, pose);
     }
     return pose;
 }
 
 void begin_anew(ale_mapper &mapper)
 {
-    const uint32_t refused = mapper.refused;
-    mapper = ale_mapper{};
-    mapper.refused = refused;
+    mapper.closer.begin_anew();
+    mapper.epoch = 0;
+    mapper.heard = 0;
+    mapper.last_shift.clear();
 }
 
 void add(ale_mapper &mapper, const ale_keyframe_t &keyframe)
@@ -66,21 +76,25 @@ void add(ale_mapper &mapper, const ale_keyframe_t &keyframe)
         mapper.epoch = keyframe.epoch;
     }
     ale::Node node = ale::node_of(keyframe);
-    const Pose pose = where_it_is(mapper, keyframe);
-    Pose motion;
-    if (!mapper.known.empty()) {
-        motion = ale::between(mapper.known.back(), pose);
-        node.path_m = mapper.closer.nodes().back().path_m + ale::length(motion.x, motion.y);
+    node.tracked = where_it_is(mapper, keyframe);
+    Pose motion = node.tracked;
+    if (!mapper.closer.nodes().empty()) {
+        const ale::Node &before = mapper.closer.nodes().back();
+        motion = ale::between(before.tracked, node.tracked);
+        node.path_m = before.path_m + ale::length(motion.x, motion.y);
     }
-    mapper.known.push_back(pose);
-    mapper.closer.add(std::move(node), mapper.known.size() == 1 ? pose : motion);
+    mapper.closer.add(std::move(node), motion);
 }
 
 } // namespace
 
-ale_mapper_t *ale_mapper_create(void)
+ale_mapper_t *ale_mapper_create(uint32_t keyframes)
 {
-    return new (std::nothrow) ale_mapper;
+    try {
+        return new ale_mapper(std::min<size_t>(keyframes, ALE_CORRECTION_SHIFTS));
+    } catch (const std::bad_alloc &) {
+        return nullptr;
+    }
 }
 
 void ale_mapper_destroy(ale_mapper_t *mapper)
@@ -103,31 +117,30 @@ int ale_mapper_add(ale_mapper_t *mapper, const ale_keyframe_t *keyframe)
 bool ale_mapper_correction(ale_mapper_t *mapper, ale_correction_t *out)
 {
     const std::vector<Pose> &now = mapper->closer.poses();
+    const std::vector<ale::Node> &nodes = mapper->closer.nodes();
     bool worth = false;
     for (size_t k = 0; k < now.size(); k++) {
-        worth = worth || is_worth_it(mapper->known[k], now[k]);
+        worth = worth || is_worth_it(nodes[k].tracked, now[k]);
     }
     if (!worth) {
         return false;
     }
-    // more keyframes than shifts: every so many share one; the last keyframe always has its own
-    const size_t every = (now.size() - 1) / ALE_CORRECTION_SHIFTS + 1;
     out->epoch = mapper->epoch;
-    out->due = mapper->closer.nodes().back().scan + ALE_CORRECTION_DELAY_SCANS;
+    out->due = nodes.back().scan + ALE_CORRECTION_DELAY_SCANS;
     out->count = 0;
-    for (size_t back = (now.size() - 1) % every; back < now.size(); back += every) {
-        out->shift[out->count++] = {mapper->closer.nodes()[back].scan,
-                                    ale::to_core(shift_of(mapper->known[back], now[back]))};
+    for (size_t k = 0; k < now.size(); k++) {
+        out->shift[out->count++] = {nodes[k].scan, ale::to_core(shift_of(nodes[k].tracked, now[k]))};
     }
-    mapper->last_shift.push_back(shift_of(mapper->known.back(), now.back()));
-    mapper->known = now;
+    mapper->last_shift.push_back(shift_of(nodes.back().tracked, now.back()));
+    mapper->closer.told();
     return true;
 }
 
 ale_mapper_statistics_t ale_mapper_statistics(const ale_mapper_t *mapper)
 {
     const ale::LoopStatistics &s = mapper->closer.statistics();
-    return {static_cast<uint32_t>(mapper->known.size()),
+    return {static_cast<uint32_t>(mapper->closer.nodes().size()),
+            s.thinned,
             s.candidates,
             s.known,
             s.unclear,

@@ -1,6 +1,6 @@
 /* The mapper behind the real-time loop, as C sees it: keyframes in, corrections of the map out.
  *
- *   ale_mapper_t *mapper = ale_mapper_create();
+ *   ale_mapper_t *mapper = ale_mapper_create(ALE_MAPPER_KEYFRAMES);
  *   ale_mapper_add(mapper, &keyframe);
  *   if (ale_mapper_correction(mapper, &correction)) ... hand it to ale_pipeline_correct ...
  *   ale_mapper_destroy(mapper);
@@ -20,10 +20,15 @@
  * URG-04LX, many times what the mapper takes. */
 enum { ALE_CORRECTION_DELAY_SCANS = 5 };
 
+/* How many keyframes a mapper is to hold: a kilometre of new ground. Each has a shift in a correction. With
+ * the 400 points of a URG-04LX's usual keyframe they take TODO MB. */
+enum { ALE_MAPPER_KEYFRAMES = ALE_CORRECTION_SHIFTS };
+
 typedef struct ale_mapper ale_mapper_t;
 
 typedef struct {
-    uint32_t keyframes;
+    uint32_t keyframes;    /* held */
+    uint32_t thinned;      /* gave their place to later ones */
     uint32_t candidates;   /* places looked at again */
     uint32_t known;        /* where the tracker was right */
     uint32_t unclear;      /* too little overlap, or another place fits nearly as well */
@@ -40,8 +45,10 @@ typedef struct {
     ale_pose_t pose;   /* map frame, corrected by all loops so far */
 } ale_mapper_pose_t;
 
-/* NULL: out of memory. */
-ale_mapper_t *ale_mapper_create(void);
+/* Holds at most so many keyframes, 64..ALE_CORRECTION_SHIFTS (others are taken as the nearest of these). When
+ * it is full a new keyframe takes the place of the most redundant one: that with most others near it. NULL:
+ * out of memory. */
+ale_mapper_t *ale_mapper_create(uint32_t keyframes);
 void ale_mapper_destroy(ale_mapper_t *mapper);
 
 /* Takes a keyframe and looks for loops. A keyframe of a new epoch begins the graph anew; one of the same
@@ -54,7 +61,7 @@ bool ale_mapper_correction(ale_mapper_t *mapper, ale_correction_t *out);
 
 ale_mapper_statistics_t ale_mapper_statistics(const ale_mapper_t *mapper);
 
-/* The keyframes of this epoch, in order: k < statistics.keyframes. */
+/* The keyframes of this epoch that are held, in order: k < statistics.keyframes. */
 ale_mapper_pose_t ale_mapper_pose(const ale_mapper_t *mapper, uint32_t k);
 
 #endif

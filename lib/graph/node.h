@@ -34,6 +34,7 @@ struct WallSight {
 struct Node {
     uint32_t scan;
     Pose smooth;   // as it was handed in
+    Pose tracked;  // as the tracker places it, with the corrections that it was handed
     double path_m; // driven since the start
     bool broken;   // smooth does not tie it to the node before
     bool weak;     // part of its pose was guessed from wheels or velocity

@@ -1,5 +1,8 @@
 #include "graph/pose_graph.h"
 
+#include <algorithm>
+
+#include <Eigen/LU>
 #include <Eigen/Sparse>
 #include <Eigen/SparseCholesky>
 
@@ -119,7 +122,40 @@ double robust_cost(double chi2)
     return kernel_weight(chi2) * chi2;
 }
 
+// What a displacement of a pose, seen in its own frame, is in the frame of another that `step` leads to.
+Eigen::Matrix3d carried_over(const Pose &step)
+{
+    const Pose back = inverse(step);
+    Eigen::Matrix3d a = Eigen::Matrix3d::Identity();
+    a.block<2, 2>(0, 0) = rotation(back.theta);
+    a.block<2, 1>(0, 2) << back.y, -back.x;
+    return a;
+}
+
+// One measurement after the other; they err independently.
+GraphEdge composed(const GraphEdge &first, const GraphEdge &second, bool robust)
+{
+    const Eigen::Matrix3d carry = carried_over(second.measured);
+    const Eigen::Matrix3d covariance =
+        carry * first.information.inverse() * carry.transpose() + second.information.inverse();
+    return {first.from, second.to, compose(first.measured, second.measured), covariance.inverse(), robust};
+}
+
 } // namespace
+
+void PoseGraph::reserve(size_t poses, size_t edges)
+{
+    poses_.reserve(poses);
+    edges_.reserve(edges);
+}
+
+void PoseGraph::clear()
+{
+    poses_.clear();
+    edges_.clear();
+    headings_.building = 0;
+    headings_.priors.clear();
+}
 
 int PoseGraph::add_pose(const Pose &pose)
 {
@@ -136,6 +172,63 @@ double PoseGraph::residual2(const GraphEdge &edge) const
 {
     const Eigen::Vector3d e = error_of(edge, poses_);
     return e.dot(edge.information * e);
+}
+
+bool PoseGraph::has_room(const GraphEdge &edge, int max_robust) const
+{
+    int ending_there = 0;
+    for (const GraphEdge &other : edges_) {
+        if (other.robust && other.to == edge.to) {
+            ending_there++;
+            if (other.from == edge.from) {
+                return false;
+            }
+        }
+    }
+    return ending_there < max_robust;
+}
+
+// Of poses above k, which is no more.
+void PoseGraph::renumber_above(int k)
+{
+    const auto moved = [k](int pose) { return pose > k ? pose - 1 : pose; };
+    for (GraphEdge &edge : edges_) {
+        edge.from = moved(edge.from);
+        edge.to = moved(edge.to);
+    }
+    std::vector<HeadingPrior> &priors = headings_.priors;
+    priors.erase(std::remove_if(priors.begin(), priors.end(),
+                                [k](const HeadingPrior &prior) { return prior.pose == k; }),
+                 priors.end());
+    for (HeadingPrior &prior : priors) {
+        prior.pose = moved(prior.pose);
+    }
+}
+
+void PoseGraph::take_out(int k, int max_robust)
+{
+    const auto touches = [k](const GraphEdge &edge) { return edge.from == k || edge.to == k; };
+    const auto kept_end = std::stable_partition(edges_.begin(), edges_.end(),
+                                                [&](const GraphEdge &edge) { return !touches(edge); });
+    const std::vector<GraphEdge> loose(kept_end, edges_.end());
+    edges_.erase(kept_end, edges_.end());
+    const auto on_the_way = [&](int from) {
+        return *std::find_if(loose.begin(), loose.end(),
+                             [from](const GraphEdge &edge) { return !edge.robust && edge.from == from; });
+    };
+    const GraphEdge before = on_the_way(k - 1);
+    const GraphEdge after = on_the_way(k);
+    edges_.push_back(composed(before, after, false));
+    for (const GraphEdge &edge : loose) {
+        if (edge.robust) {
+            const GraphEdge moved = edge.to == k ? composed(edge, after, true) : composed(before, edge, true);
+            if (has_room(moved, max_robust)) {
+                edges_.push_back(moved);
+            }
+        }
+    }
+    poses_.erase(poses_.begin() + k);
+    renumber_above(k);
 }
 
 GraphReport PoseGraph::optimise(int max_iterations)

@@ -50,6 +50,9 @@ struct GraphReport {
 class PoseGraph
 {
   public:
+    // Memory for so many, so that adding them allocates nothing.
+    void reserve(size_t poses, size_t edges);
+    void clear(); // keeps that memory
     int add_pose(const Pose &pose);
     void add_edge(const GraphEdge &edge);
     // In place of those before.
@@ -58,6 +61,12 @@ class PoseGraph
         headings_ = std::move(headings);
     }
     GraphReport optimise(int max_iterations);
+
+    // Takes pose k out, one that has a pose before and after it; those after it move down by one. The two
+    // edges of the way become one, measured through it. Robust edges that end at it end at the pose after
+    // it, those that begin at it begin at the pose before it; what would tie two poses twice, or be more
+    // than max_robust that end at one pose, falls away. O(poses + edges * max_robust).
+    void take_out(int k, int max_robust);
 
     const std::vector<Pose> &poses() const
     {
@@ -72,6 +81,9 @@ class PoseGraph
     double residual2(const GraphEdge &edge) const;
 
   private:
+    bool has_room(const GraphEdge &edge, int max_robust) const;
+    void renumber_above(int k);
+
     std::vector<Pose> poses_;
     std::vector<GraphEdge> edges_;
     BuildingHeadings headings_;

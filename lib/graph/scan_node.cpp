@@ -101,7 +101,15 @@ Node node_of(const ale_keyframe_t &keyframe)
     const Eigen::Matrix2d turn = rotation(sensor.theta);
     const Beams beams = beams_of(keyframe.taken, keyframe.straightened ? keyframe.bearing_bam : nullptr);
     const std::vector<int> line = lines_of(keyframe.features, beams.p.size());
-    Node node{keyframe.scan, from_core(keyframe.smooth), 0, keyframe.broken, keyframe.weak, {}, {}, {}};
+    Node node{keyframe.scan,
+              from_core(keyframe.smooth),
+              from_core(keyframe.map),
+              0,
+              keyframe.broken,
+              keyframe.weak,
+              {},
+              {},
+              {}};
     add_walls(keyframe.features, sensor, &node);
     Eigen::Vector2d last(1e9, 1e9);
     for (size_t k = 0; k < beams.p.size(); k++) {

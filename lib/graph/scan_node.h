@@ -15,7 +15,7 @@ namespace ale
 constexpr double node_point_spacing_m = 0.04;
 
 // Points of a line lie on it and carry its normal; other points the normal of their neighbourhood, if it has
-// one. path_m is left 0.
+// one. path_m is left 0, `tracked` is the pose in the keyframe.
 Node node_of(const ale_keyframe_t &keyframe);
 
 } // namespace ale

@@ -43,7 +43,8 @@ ale_pose_t placed(const ale_mapper_pose_t &keyframe, const ale_pose_t &smooth)
 
 } // namespace
 
-Loops::Loops() : mapper_(ale_mapper_create()), keyframe_(std::make_unique<ale_keyframe_t>())
+Loops::Loops()
+    : mapper_(ale_mapper_create(ALE_MAPPER_KEYFRAMES)), keyframe_(std::make_unique<ale_keyframe_t>())
 {
     if (!mapper_) {
         throw std::bad_alloc();
@@ -63,7 +64,9 @@ void Loops::after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate)
     if (!ale_pipeline_keyframe(pipeline, keyframe_.get())) {
         return;
     }
-    broken_.push_back(keyframe_->broken);
+    if (keyframe_->broken) {
+        breaks_.push_back(keyframe_->scan);
+    }
     const int64_t start_ns = thread_time_ns();
     ale_mapper_add(mapper_.get(), keyframe_.get());
     auto correction = std::make_unique<ale_correction_t>();
@@ -85,21 +88,32 @@ void Loops::finish(ale_pipeline_t *pipeline)
     }
 }
 
+/* Whether the way as tracked leads from one scan to the other. */
+bool Loops::tied(uint32_t scan, uint32_t later) const
+{
+    const auto next = std::upper_bound(breaks_.begin(), breaks_.end(), scan);
+    return next == breaks_.end() || *next > later;
+}
+
+/* The mapper holds not every keyframe that it was given: between two of them there may be any distance, and a
+ * break. */
 ale_pose_t Loops::corrected(uint32_t scan) const
 {
     const Tracked &tracked = tracked_[scan];
     const auto after = std::upper_bound(
         keyframes_.begin(), keyframes_.end(), scan,
         [](uint32_t number, const ale_mapper_pose_t &keyframe) { return number < keyframe.scan; });
-    const bool tied = after != keyframes_.end() && !broken_[static_cast<size_t>(after - keyframes_.begin())];
-    if (after == keyframes_.begin()) {
-        return tied ? placed(*after, tracked.smooth) : tracked.map;
+    const bool by_later = after != keyframes_.end() && tied(scan, after->scan);
+    const bool by_earlier = after != keyframes_.begin() && tied((after - 1)->scan, scan);
+    if (by_earlier && by_later) {
+        const ale_mapper_pose_t &before = *(after - 1);
+        return blend(placed(before, tracked.smooth), placed(*after, tracked.smooth), scan - before.scan,
+                     after->scan - before.scan);
     }
-    const ale_mapper_pose_t &before = *(after - 1);
-    const ale_pose_t from_before = placed(before, tracked.smooth);
-    return tied ? blend(from_before, placed(*after, tracked.smooth), scan - before.scan,
-                        after->scan - before.scan)
-                : from_before;
+    if (by_earlier) {
+        return placed(*(after - 1), tracked.smooth);
+    }
+    return by_later ? placed(*after, tracked.smooth) : tracked.map;
 }
 
 } // namespace ale

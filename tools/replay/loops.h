@@ -55,12 +55,14 @@ class Loops
         }
     };
 
+    bool tied(uint32_t scan, uint32_t later) const;
+
     std::unique_ptr<ale_mapper_t, Destroy> mapper_;
     std::unique_ptr<ale_keyframe_t> keyframe_;
     std::deque<std::unique_ptr<ale_correction_t>> due_;
     std::vector<Tracked> tracked_;             /* by scan */
     std::vector<ale_mapper_pose_t> keyframes_; /* after finish() */
-    std::vector<bool> broken_;                 /* by keyframe: nothing ties it to the one before */
+    std::vector<uint32_t> breaks_;             /* scans that nothing ties to those before them */
     int64_t longest_ns_ = 0;
 };
 

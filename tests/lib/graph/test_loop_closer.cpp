@@ -1,4 +1,6 @@
 // lib/graph/loop_closer: a walk around a block, with drift, against the truth.
+#include <set>
+
 #include <gtest/gtest.h>
 
 #include "graph/loop_closer.h"
@@ -23,6 +25,8 @@ void add(ale::LoopCloser *closer, const ale::Node &node)
                                               : ale::between(closer->nodes().back().smooth, node.smooth));
 }
 
+constexpr size_t plenty = 1000;
+
 struct Walk {
     double tracked;
     double corrected;
@@ -32,7 +36,7 @@ struct Walk {
 Walk walk(double laps, double bend_rad_m, unsigned seed)
 {
     const std::vector<ale::Pose> truth = ring_corridor::truth(laps);
-    ale::LoopCloser closer;
+    ale::LoopCloser closer(plenty);
     std::vector<ale::Pose> tracked;
     for (const ale::Node &node : ring_corridor::drifting(truth, bend_rad_m, seed)) {
         tracked.push_back(node.smooth);
@@ -65,11 +69,42 @@ TEST(LoopCloser, WhereTheTrackerIsRightNothingMoves)
     EXPECT_LE(w.corrected, w.tracked + 0.02);
 }
 
+// Twice around the block with room for less than half of one round.
+TEST(LoopCloser, AFullGraphThinsOutAndStaysRight)
+{
+    const std::vector<ale::Pose> truth = ring_corridor::truth(2);
+    ale::LoopCloser closer(ale::LoopCloser::least_capacity);
+    double tracked_m = 0;
+    for (const ale::Node &node : ring_corridor::drifting(truth, 0.0008, 1)) {
+        add(&closer, node);
+        ASSERT_LE(closer.nodes().size(), ale::LoopCloser::least_capacity);
+        ASSERT_EQ(closer.nodes().size(), closer.poses().size());
+        tracked_m = std::max(
+            tracked_m, std::hypot(node.smooth.x - truth[node.scan].x, node.smooth.y - truth[node.scan].y));
+    }
+    std::vector<ale::Pose> true_of_held;
+    std::set<int> sides;
+    uint32_t before = 0;
+    for (const ale::Node &node : closer.nodes()) {
+        EXPECT_TRUE(node.scan > before || true_of_held.empty()) << "in the order of the way";
+        before = node.scan;
+        true_of_held.push_back(truth[node.scan]);
+        sides.insert(static_cast<int>(node.scan / 36 % 4));
+    }
+    EXPECT_EQ(closer.nodes().front().scan, 0U);
+    EXPECT_EQ(closer.nodes().back().scan, truth.size() - 1);
+    EXPECT_EQ(sides.size(), 4U) << "all of the way is held";
+    EXPECT_EQ(closer.statistics().thinned, truth.size() - ale::LoopCloser::least_capacity);
+    EXPECT_GT(closer.statistics().loops, 0U);
+    EXPECT_GT(tracked_m, 1.0);
+    EXPECT_LT(largest_error(true_of_held, closer.poses()), 0.35);
+}
+
 // Four sides of a square hall that look alike: the place that was left is not the place that is reached.
 TEST(LoopCloser, APlaceThatOnlyLooksLikeAnotherIsNotALoop)
 {
     std::vector<ale::Node> nodes = ring_corridor::drifting(ring_corridor::truth(0.5), 0, 5);
-    ale::LoopCloser closer;
+    ale::LoopCloser closer(plenty);
     for (const ale::Node &node : nodes) {
         add(&closer, node);
     }

@@ -55,7 +55,7 @@ TEST(Mapper, CorrectionsTakeTheTrackerWhereTheGraphPutsIt)
 {
     const auto keyframes = drifting_keyframes::walk(1.25, 0.0008, 2);
     const std::vector<ale::Pose> truth = ring_corridor::truth(1.25);
-    const Mapper mapper(ale_mapper_create());
+    const Mapper mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES));
     const Heard heard = follow(mapper.get(), keyframes);
     ASSERT_GT(heard.corrections.size(), 0U);
     const uint32_t count = ale_mapper_statistics(mapper.get()).keyframes;
@@ -79,10 +79,37 @@ TEST(Mapper, CorrectionsTakeTheTrackerWhereTheGraphPutsIt)
     EXPECT_LT(corrected, 0.25);
 }
 
+// Only some keyframes are held, and what was born in one that is not moves with the one before
+// it.
+TEST(Mapper, AFullMapperThinsOutAndStaysRight)
+{
+    const auto keyframes = drifting_keyframes::walk(1.4, 0.0008, 2);
+    const std::vector<ale::Pose> truth = ring_corridor::truth(1.4);
+    constexpr uint32_t capacity = 70;
+    const Mapper mapper(ale_mapper_create(capacity));
+    const Heard heard = follow(mapper.get(), keyframes);
+    const ale_mapper_statistics_t statistics = ale_mapper_statistics(mapper.get());
+    EXPECT_EQ(statistics.keyframes, capacity);
+    EXPECT_EQ(statistics.keyframes + statistics.thinned, keyframes.size());
+    ASSERT_GT(heard.corrections.size(), 0U);
+    for (const Correction &correction : heard.corrections) {
+        EXPECT_LE(correction->count, capacity);
+    }
+    for (uint32_t k = 0; k < capacity; k++) {
+        const ale_mapper_pose_t placed = ale_mapper_pose(mapper.get(), k);
+        ASSERT_EQ(placed.scan % 10, 0U);
+        EXPECT_LT(error_m(placed.pose, truth[placed.scan / 10]), 0.3) << k;
+        if (k > 0) {
+            EXPECT_GT(placed.scan, ale_mapper_pose(mapper.get(), k - 1).scan);
+        }
+    }
+    EXPECT_GT(error_m(keyframes.back()->map, truth.back()), 0.5);
+}
+
 TEST(Mapper, ACorrectionIsDueAFixedNumberOfScansAfterItsKeyframe)
 {
     const auto keyframes = drifting_keyframes::walk(1.1, 0.0008, 1);
-    const Mapper mapper(ale_mapper_create());
+    const Mapper mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES));
     for (const auto &keyframe : keyframes) {
         ale_mapper_add(mapper.get(), keyframe.get());
         auto correction = std::make_unique<ale_correction_t>();
@@ -99,7 +126,7 @@ TEST(Mapper, ACorrectionIsDueAFixedNumberOfScansAfterItsKeyframe)
 TEST(Mapper, AMapBegunAnewBeginsTheGraphAnew)
 {
     const auto keyframes = drifting_keyframes::walk(0.1, 0, 1);
-    const Mapper mapper(ale_mapper_create());
+    const Mapper mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES));
     for (const auto &keyframe : keyframes) {
         ale_mapper_add(mapper.get(), keyframe.get());
     }
@@ -112,7 +139,8 @@ TEST(Mapper, AMapBegunAnewBeginsTheGraphAnew)
 TEST(Mapper, TheSameKeyframesGiveTheSameBytes)
 {
     const auto keyframes = drifting_keyframes::walk(1.1, 0.0008, 1);
-    const Mapper mappers[2] = {Mapper(ale_mapper_create()), Mapper(ale_mapper_create())};
+    const Mapper mappers[2] = {Mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES)),
+                               Mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES))};
     const Heard heard[2] = {follow(mappers[0].get(), keyframes), follow(mappers[1].get(), keyframes)};
     ASSERT_EQ(heard[0].corrections.size(), heard[1].corrections.size());
     for (size_t k = 0; k < heard[0].corrections.size(); k++) {

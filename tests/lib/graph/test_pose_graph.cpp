@@ -1,4 +1,5 @@
 // lib/graph/pose_graph: against what can be said without solving anything.
+#include <algorithm>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -85,6 +86,104 @@ TEST(PoseGraph, ALoopThatContradictsAllOthersLosesItsWeight)
     graph.optimise(20);
     EXPECT_LT(largest_error(truth, graph.poses()), 0.05);
     EXPECT_GT(graph.residual2(graph.edges().back()), 1000);
+}
+
+// A ring of poses whose measured motions err, closed by one loop.
+ale::PoseGraph noisy_ring(unsigned seed)
+{
+    const std::vector<ale::Pose> truth = circle(40);
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal(0, 0.01);
+    ale::PoseGraph graph;
+    for (const ale::Pose &pose : truth) {
+        graph.add_pose(pose);
+    }
+    for (int k = 0; k < 39; k++) {
+        ale::Pose way = ale::between(truth[static_cast<size_t>(k)], truth[static_cast<size_t>(k) + 1]);
+        way = {way.x + normal(random), way.y + normal(random), way.theta + normal(random)};
+        const Eigen::Vector3d sigma(0.01, 0.02, k % 3 == 0 ? 0.02 : 0.005);
+        graph.add_edge({k, k + 1, way, sigma.cwiseAbs2().cwiseInverse().asDiagonal(), false});
+    }
+    graph.add_edge({0, 39, ale::between(truth[0], truth[39]), 100 * unit_information, true});
+    return graph;
+}
+
+TEST(PoseGraph, WithoutAPoseOfTheWayTheOthersLieWhereTheyLay)
+{
+    for (unsigned seed = 1; seed <= 3; seed++) {
+        ale::PoseGraph whole = noisy_ring(seed);
+        ale::PoseGraph thinned = whole;
+        whole.optimise(20);
+        for (const int k : {30, 20, 19, 18, 7}) {
+            thinned.take_out(k, 3);
+        }
+        thinned.optimise(20);
+        std::vector<ale::Pose> expected = whole.poses();
+        for (const int k : {30, 20, 19, 18, 7}) {
+            expected.erase(expected.begin() + k);
+        }
+        ASSERT_EQ(thinned.poses().size(), expected.size());
+        EXPECT_EQ(thinned.edges().size(), expected.size());
+        EXPECT_LT(largest_error(expected, thinned.poses()), 2e-4) << "seed " << seed;
+    }
+}
+
+TEST(PoseGraph, LoopsOfAPoseThatGoesAreTakenOverByItsNeighbours)
+{
+    ale::PoseGraph graph = noisy_ring(1);
+    const std::vector<ale::Pose> truth = circle(40);
+    const auto tie = [&](int from, int to) {
+        graph.add_edge({from, to,
+                        ale::between(truth[static_cast<size_t>(from)], truth[static_cast<size_t>(to)]),
+                        unit_information, true});
+    };
+    tie(5, 20);  // ends at it: goes to 21, as 20 is called then
+    tie(20, 35); // begins at it: from 19 then, to 34
+    tie(6, 20);
+    tie(6, 21); // the pair is tied already when that one goes over
+    graph.take_out(20, 3);
+    const auto has = [&](int from, int to) {
+        return std::count_if(graph.edges().begin(), graph.edges().end(), [&](const ale::GraphEdge &edge) {
+            return edge.robust && edge.from == from && edge.to == to;
+        });
+    };
+    EXPECT_EQ(has(5, 20), 1);
+    EXPECT_EQ(has(19, 34), 1);
+    EXPECT_EQ(has(6, 20), 1);
+    EXPECT_EQ(has(0, 38), 1);
+    EXPECT_EQ(graph.edges().size(), 38U + 4U);
+    for (const ale::GraphEdge &edge : graph.edges()) {
+        EXPECT_LT(edge.from, edge.to);
+        EXPECT_LT(edge.to, 39);
+        EXPECT_LT(graph.residual2(edge), 60) << "measured as it is";
+    }
+}
+
+TEST(PoseGraph, NoPoseGathersMoreLoopsThanItMay)
+{
+    ale::PoseGraph graph = noisy_ring(1);
+    const std::vector<ale::Pose> &poses = graph.poses();
+    for (int to = 20; to < 30; to++) {
+        for (int from = 0; from < 3; from++) {
+            graph.add_edge({from, to,
+                            ale::between(poses[static_cast<size_t>(from)], poses[static_cast<size_t>(to)]),
+                            unit_information, true});
+        }
+    }
+    for (int gone = 0; gone < 8; gone++) {
+        graph.take_out(2, 3);
+        graph.take_out(20 - gone, 3);
+    }
+    const auto count = static_cast<int>(graph.poses().size());
+    for (int to = 1; to < count; to++) {
+        const auto loops =
+            std::count_if(graph.edges().begin(), graph.edges().end(),
+                          [to](const ale::GraphEdge &edge) { return edge.robust && edge.to == to; });
+        EXPECT_LE(loops, 3) << to;
+    }
+    EXPECT_EQ(std::count_if(graph.edges().begin(), graph.edges().end(),
+                            [](const ale::GraphEdge &edge) { return !edge.robust; }),
+              count - 1);
 }
 
 } // namespace
