@@ -20,8 +20,8 @@
  * URG-04LX, many times what the mapper takes. */
 enum { ALE_CORRECTION_DELAY_SCANS = 5 };
 
-/* How many keyframes a mapper is to hold: a kilometre of new ground. Each has a shift in a correction. With
- * the 400 points of a URG-04LX's usual keyframe they take TODO MB. */
+/* How many keyframes a mapper is to hold: a kilometre of new ground. Each has its own shift in a correction.
+ */
 enum { ALE_MAPPER_KEYFRAMES = ALE_CORRECTION_SHIFTS };
 
 typedef struct ale_mapper ale_mapper_t;

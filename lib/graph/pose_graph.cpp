@@ -60,8 +60,10 @@ Linearised jacobians(const GraphEdge &edge, const std::vector<Pose> &poses)
 class Assembler
 {
   public:
-    explicit Assembler(size_t poses) : b_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * poses + 1)))
+    Assembler(size_t poses, size_t edges, size_t priors)
+        : b_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * poses + 1)))
     {
+        triplets_.reserve(36 * edges + 4 * priors + 3 * poses + 1);
     }
 
     void add(const GraphEdge &edge, const Linearised &j, const Eigen::Vector3d &e, double weight)
@@ -237,7 +239,7 @@ GraphReport PoseGraph::optimise(int max_iterations)
     Eigen::SparseMatrix<double> h;
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
     for (; report.iterations < max_iterations; report.iterations++) {
-        Assembler assembler(poses_.size());
+        Assembler assembler(poses_.size(), edges_.size(), headings_.priors.size());
         report.chi2 = 0;
         for (const GraphEdge &edge : edges_) {
             const Eigen::Vector3d e = error_of(edge, poses_);
