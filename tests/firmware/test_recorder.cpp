@@ -117,7 +117,20 @@ TEST_F(Recorder, OdometryLiesBeforeTheScanThatKnewItWhenItWasUsed)
     bytes("scan 1");
     ale_recorder_scan(recorder, 1);
     result(1, 3);
-    EXPECT_EQ(recorded(), "Coboodsbds");
+    EXPECT_EQ(recorded(), "Cobdsoobds");
+}
+
+TEST_F(Recorder, OdometryThatCameWhileTwoScansWereAnsweredInOneGoLiesBehindBoth)
+{
+    for (uint32_t scan = 0; scan < 3; scan++) {
+        bytes("scan");
+        ale_recorder_scan(recorder, scan);
+    }
+    odometry(0);
+    result(0, 0);
+    result(1, 0);
+    result(2, 1);
+    EXPECT_EQ(recorded(), "Cbdsbdsobds");
 }
 
 TEST_F(Recorder, AScanWithoutRoomForItsResultKeepsItsPlace)
@@ -138,7 +151,7 @@ TEST_F(Recorder, CommandsAndCorrectionsLieBeforeTheScanThatFollowsThem)
     ale_recorder_command(recorder, 1, "reset");
     ale_recorder_correction(recorder, 1, 0, ale_pose_t{});
     result(0, 0);
-    EXPECT_EQ(recorded(), "Cckbods");
+    EXPECT_EQ(recorded(), "Cckbds"); /* no scan has known the sample so far */
 }
 
 TEST_F(Recorder, BytesThatMakeNoScanAreKeptAfterAWhile)
