@@ -39,41 +39,40 @@ ale_set_point_t ale_drive_choose(const ale_drive_orders_t *orders, const ale_wis
     return wish && sees ? slowed(wish, scan, config) : (ale_set_point_t){0};
 }
 
-static void publish(const ale_drive_t *drive, ale_set_point_t set_point)
+int64_t ale_drive_wait_us(const ale_drive_orders_t *orders, const ale_wish_t *exploration, int64_t now_us)
 {
-    const ale_clock_t *clock = &drive->exchange->clock;
-    ale_bus_send_drive(drive->bus, ale_clock_to_utime(clock, ale_clock_now_us(clock)), set_point.v_um_s,
-                       set_point.w_urad_s);
-}
-
-/* Until the next turn, or the moment at which a wish runs out, or word of something new. */
-static void wait_for_turn(const ale_drive_t *drive, const ale_wish_t *first, const ale_wish_t *second)
-{
-    const ale_clock_t *clock = &drive->exchange->clock;
-    const int64_t now_us = ale_clock_now_us(clock);
     int64_t wait_us = ALE_DRIVE_PERIOD_US;
-    const ale_wish_t *const wishes[] = {first, second};
+    const ale_wish_t *const wishes[] = {&orders->operator_wish, exploration};
     for (int k = 0; k < 2; k++) {
         const int64_t left_us = wishes[k]->valid_until_us - now_us;
         wait_us = left_us > 0 ? ale_min64(wait_us, left_us) : wait_us;
     }
-    ale_wake_wait(drive->exchange->drive_again, ale_clock_real_ns(clock, wait_us));
+    return wait_us;
+}
+
+/* now_us: the moment that the set point was chosen for. */
+static void publish(const ale_drive_t *drive, int64_t now_us, ale_set_point_t set_point)
+{
+    ale_bus_send_drive(drive->bus, ale_clock_to_utime(&drive->exchange->clock, now_us), set_point.v_um_s,
+                       set_point.w_urad_s);
 }
 
 static void run(ale_rt_task_t *self, void *user)
 {
     const ale_drive_t *drive = user;
     ale_exchange_t *exchange = drive->exchange;
+    const ale_clock_t *clock = &exchange->clock;
     while (!ale_rt_task_stopping(self)) {
         bool fresh = false;
         const ale_drive_orders_t *orders = ale_snapshot_newest(exchange->drive_orders, &fresh);
         const ale_wish_t *exploration = ale_snapshot_newest(exchange->exploration, &fresh);
         const ale_scan_t *scan = ale_snapshot_newest(exchange->drive_scan, &fresh);
-        publish(drive, ale_drive_choose(orders, exploration, scan, drive->config,
-                                        ale_clock_now_us(&exchange->clock)));
-        wait_for_turn(drive, &orders->operator_wish, exploration);
+        const int64_t now_us = ale_clock_now_us(clock);
+        publish(drive, now_us, ale_drive_choose(orders, exploration, scan, drive->config, now_us));
+        const int64_t wait_us = ale_drive_wait_us(orders, exploration, ale_clock_now_us(clock));
+        ale_wake_wait(exchange->drive_again, ale_clock_real_ns(clock, wait_us));
     }
-    publish(drive, (ale_set_point_t){0});
+    publish(drive, ale_clock_now_us(clock), (ale_set_point_t){0});
 }
 
 ale_drive_t *ale_drive_start(const ale_config_t *config, ale_exchange_t *exchange)

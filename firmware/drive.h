@@ -31,6 +31,10 @@ typedef struct {
 ale_set_point_t ale_drive_choose(const ale_drive_orders_t *orders, const ale_wish_t *exploration,
                                  const ale_scan_t *scan, const ale_config_t *config, int64_t now_us);
 
+/* How long to wait at now_us for the next turn: a period, or less where a wish runs out before. 1 us at the
+ * least. Pure. */
+int64_t ale_drive_wait_us(const ale_drive_orders_t *orders, const ale_wish_t *exploration, int64_t now_us);
+
 typedef struct ale_drive ale_drive_t;
 
 /* Starts the thread with a bus of its own. NULL: no memory, threads or bus. config and exchange must outlive

@@ -3,6 +3,7 @@
 #include <lcm/lcm.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <string>
@@ -59,6 +60,36 @@ TEST_F(DriveChoice, AWishHoldsUntilItsMomentAndNoLonger)
     EXPECT_EQ(choose(kNow - 1).w_urad_s, 100000);
     EXPECT_EQ(choose(kNow).v_um_s, 0);
     EXPECT_EQ(choose(kNow).w_urad_s, 0);
+}
+
+/* The thread's turns on a clock of the test's own: whatever the phase of the turns, the first set point at
+ * zero is that of the moment at which the command's 300 ms are over. */
+TEST_F(DriveChoice, TheRobotStandsExactlyWhenTheDeadMansTimeIsOver)
+{
+    for (int64_t phase_us = 0; phase_us < ALE_DRIVE_PERIOD_US; phase_us += 777) {
+        ale_drive_desk_t desk{};
+        ASSERT_EQ(ale_drive_desk_drive(&desk, "alice", 200000, 300000, kNow), ALE_DESK_HIS);
+        orders.operator_wish = desk.wish;
+        int64_t now = kNow + phase_us;
+        int64_t longest_us = 0;
+        while (choose(now).v_um_s > 0) {
+            const int64_t wait_us = ale_drive_wait_us(&orders, &exploration, now);
+            ASSERT_GT(wait_us, 0);
+            longest_us = std::max(longest_us, wait_us);
+            now += wait_us;
+        }
+        EXPECT_EQ(now, kNow + 300000);
+        EXPECT_EQ(longest_us, ALE_DRIVE_PERIOD_US);
+    }
+}
+
+TEST_F(DriveChoice, SetPointsComeEveryPeriodAlsoWhenNobodyWantsAnything)
+{
+    EXPECT_EQ(ale_drive_wait_us(&orders, &exploration, kNow), ALE_DRIVE_PERIOD_US);
+    EXPECT_LE(ALE_DRIVE_PERIOD_US, 50000) << "20 times a second at least";
+    exploration.valid_until_us = kNow + 1;
+    EXPECT_EQ(ale_drive_wait_us(&orders, &exploration, kNow), 1);
+    EXPECT_EQ(ale_drive_wait_us(&orders, &exploration, kNow + 1), ALE_DRIVE_PERIOD_US);
 }
 
 TEST_F(DriveChoice, TheOperatorGoesBeforeExplorationAndAStopBeforeBoth)
