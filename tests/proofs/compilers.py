@@ -1,11 +1,10 @@
 """Compiles what the proofs look at: the sources of lib and firmware by rule, and one planted fault with them."""
 import concurrent.futures
 import os
-import pathlib
 import subprocess
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-BUILD = pathlib.Path(os.environ.get("ALE_BUILD", ROOT / "build")).resolve()
+from at_hand import BUILD, ROOT
+
 PLANTED = ROOT / "tests" / "planted"
 LIB = sorted(ROOT.glob("lib/*/*.c"))
 FIRMWARE = [path for path in sorted(ROOT.glob("firmware/**/*.c"))

@@ -5,25 +5,16 @@ import os
 import pathlib
 import signal
 import subprocess
-import threading
 import time
 
 import ale
-import lcm
 
-BINARIES = pathlib.Path(os.environ.get("ALE_BUILD", "build")).resolve() / "bin"
+from at_hand import BINARIES, WORLDS
+from waiting import Ear, wait_until
+
 FIRMWARE = pathlib.Path(os.environ.get("ALE_SLAMD", BINARIES / "ale-slamd")).resolve()
-WORLDS = pathlib.Path(__file__).resolve().parents[2] / "tools" / "worlds"
 TYPES = {"ALE_POSE": ale.pose_t, "ALE_FEATURES": ale.features_t, "ALE_SCAN": ale.scan_t, "ALE_MAP": ale.map_t,
          "ALE_STATUS": ale.status_t}
-
-
-def wait_until(condition, seconds, what):
-    """Waits for a condition; the time is only there to fail when it never comes."""
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, f"{what}: not within {seconds} s"
-        time.sleep(0.01)
 
 
 def program_path(name):
@@ -66,28 +57,15 @@ class Program:
         self.process.wait()
 
 
-class Listener:
-    """Keeps every message of the firmware on the channels that are asked for, in a thread of its own."""
+class Listener(Ear):
+    """Keeps every message of the firmware on the channels that are asked for."""
 
     def __init__(self, url, channels):
         self.messages = {channel: [] for channel in TYPES}
-        self.bus = lcm.LCM(url)
-        for channel in channels:
-            self.bus.subscribe(channel, self._take).set_queue_capacity(0)
-        self.stopping = threading.Event()
-        self.thread = threading.Thread(target=self._listen)
-        self.thread.start()
+        super().__init__(url, channels, self._take)
 
     def _take(self, channel, data):
         self.messages[channel].append(TYPES[channel].decode(data))
-
-    def _listen(self):
-        while not self.stopping.is_set():
-            self.bus.handle_timeout(50)
-
-    def stop(self):
-        self.stopping.set()
-        self.thread.join()
 
     @property
     def poses(self):

@@ -7,8 +7,10 @@ import subprocess
 
 import pytest
 
-from chain import WORLDS, Chain, wait_until
+from at_hand import WORLDS
+from chain import Chain
 from lcm_url import free_lcm_url
+from waiting import wait_until
 
 SCANS_UNDER_LOAD = 1000
 P99_US = 10000

@@ -9,8 +9,10 @@ import statistics
 
 import pytest
 
-from chain import WORLDS, Truth, distance_to_wall, wait_until, walls_of, wrap
+from at_hand import WORLDS
+from chain import Truth, distance_to_wall, walls_of, wrap
 from virtual_robot import Lan, Line, Machine, NoMachine, fetch_kernel, pause, set_clock
+from waiting import wait_until
 
 BOOT_S = 120
 FIRST_POSES_S = 60

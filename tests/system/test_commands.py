@@ -7,36 +7,29 @@ import threading
 import time
 
 import ale
-import lcm
 import pytest
 
-from chain import BINARIES, wait_until
+from at_hand import BINARIES
+from waiting import Ear, wait_until
 
 DEAD_MAN_US = 300000
 SCAN_LIFE_US = 400000  # with no younger scan the robot stands; a machine that is too busy may give it none
 TURN_US = 40000  # the drive thread's period
 
 
-class Motors:
+class Motors(Ear):
     """Keeps ALE_DRIVE and ALE_COMMAND as they pass."""
 
     def __init__(self, url):
         self.set_points = []
         self.commands = []
-        self.bus = lcm.LCM(url)
-        self.bus.subscribe("ALE_DRIVE", lambda _, data: self.set_points.append(ale.drive_t.decode(data)))
-        self.bus.subscribe("ALE_COMMAND", lambda _, data: self.commands.append(data))
-        self.stopping = threading.Event()
-        self.thread = threading.Thread(target=self._listen)
-        self.thread.start()
+        super().__init__(url, ["ALE_DRIVE", "ALE_COMMAND"], self._take)
 
-    def _listen(self):
-        while not self.stopping.is_set():
-            self.bus.handle_timeout(50)
-
-    def stop(self):
-        self.stopping.set()
-        self.thread.join()
+    def _take(self, channel, data):
+        if channel == "ALE_DRIVE":
+            self.set_points.append(ale.drive_t.decode(data))
+        else:
+            self.commands.append(data)
 
 
 class Rover:

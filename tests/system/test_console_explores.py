@@ -3,17 +3,14 @@
 It takes minutes and wants the processor for itself: with ALE_LONG_TESTS=1, as `make test-all` runs it."""
 import math
 import os
-import pathlib
 import subprocess
-import sys
 
 import pytest
 
-from chain import BINARIES, WORLDS, Truth, distance_to_wall, tally, wait_until, walls_of
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
-
-import browser  # noqa: E402
+import browser
+from at_hand import BINARIES, WORLDS
+from chain import Truth, distance_to_wall, tally, walls_of
+from waiting import wait_until
 
 pytestmark = [
     pytest.mark.skipif(not os.environ.get("ALE_LONG_TESTS"), reason="takes minutes: ALE_LONG_TESTS=1 runs it"),

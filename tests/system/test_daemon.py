@@ -7,7 +7,8 @@ import subprocess
 
 import pytest
 
-from chain import FIRMWARE, wait_until
+from chain import FIRMWARE
+from waiting import wait_until
 
 
 def ask(*words, prefix=()):

@@ -4,7 +4,8 @@ import statistics
 
 import pytest
 
-from chain import Truth, distance_to_wall, tally, trajectory_error, wait_until, walls_of
+from chain import Truth, distance_to_wall, tally, trajectory_error, walls_of
+from waiting import wait_until
 
 SPEED = 4
 ATE_M = 0.030

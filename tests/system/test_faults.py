@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from chain import Truth, tally, wait_until
+from chain import Truth, tally
+from waiting import wait_until
 
 SPEED = 2
 RECOVERY_S = 3

@@ -7,7 +7,8 @@ import zlib
 
 import pytest
 
-from chain import BINARIES, wait_until
+from at_hand import BINARIES
+from waiting import wait_until
 
 SPEED = 10
 DECISION, CORRECTION, STAGES, CONFIG, ODOMETRY = 7, 5, 8, 6, 3

@@ -1,7 +1,7 @@
 """From the last byte of a scan to its pose on the wire, in real time at ten scans a second."""
 import statistics
 
-from chain import wait_until
+from waiting import wait_until
 
 SCANS = 80
 MEDIAN_US = 5000

@@ -1,26 +1,16 @@
 """A real recording, played over the pseudo terminal to its end."""
 import math
-import os
-import pathlib
 import subprocess
 
-import pytest
+from at_hand import BINARIES, shared
+from chain import tally
+from waiting import wait_until
 
-from chain import BINARIES, tally, wait_until
-
-SHARED = os.environ.get("ALE_SHARED", "")
 SPEED = 20
 
 
-def recording(name):
-    path = pathlib.Path(SHARED) / "data" / "urg04lx" / name
-    if not SHARED or not path.exists():
-        pytest.skip(f"{name} is not here (ALE_SHARED)")
-    return path
-
-
 def test_exp1_is_answered_scan_by_scan(chain):
-    log = recording("exp1.dat")
+    log = shared("data/urg04lx/exp1.dat")
     config = subprocess.run([BINARIES / "ale-sim", "--log", log, "--describe"], stdout=subprocess.PIPE, text=True,
                             check=True).stdout
     firmware = chain.firmware(config, speed=SPEED)

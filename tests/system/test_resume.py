@@ -4,7 +4,9 @@ import signal
 
 import pytest
 
-from chain import WORLDS, wait_until, wrap
+from at_hand import WORLDS
+from chain import wrap
+from waiting import wait_until
 
 SPEED = 10
 LOST, GOOD = 0, 2

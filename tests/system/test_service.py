@@ -2,7 +2,7 @@
 import os
 import socket
 
-from chain import wait_until
+from waiting import wait_until
 
 
 class Manager:

@@ -20,10 +20,12 @@ import time
 
 import lcm
 
-from chain import BINARIES, TYPES, wait_until
+from at_hand import BINARIES, BUILD, ROOT, free_udp_port
+from chain import TYPES
+from waiting import wait_until
 
-CACHE = BINARIES.parent / "hil-vm"
-DEPLOYED = pathlib.Path(__file__).resolve().parents[2] / "firmware" / "deploy" / "ale-slamd.ini"
+CACHE = BUILD / "hil-vm"
+DEPLOYED = ROOT / "firmware" / "deploy" / "ale-slamd.ini"
 LCM_GROUP = "239.255.76.67"
 LCM_PORT = 7667
 # To the group's own address of Ethernet, from an address of the kind that anyone may give.
@@ -241,12 +243,6 @@ def joined(parts):
         part, more = parts[len(body)]
         body += part
     return body
-
-
-def free_udp_port():
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
 
 
 class Machine:

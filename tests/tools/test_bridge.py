@@ -6,41 +6,23 @@ import threading
 import time
 
 import ale
-import lcm
 import pytest
 
-from watching import BINARIES, free_lcm_url
+from at_hand import BINARIES, free_udp_port
+from lcm_url import free_lcm_url
+from waiting import Ear, wait_until
 
 
-def wait_until(condition, seconds, what):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, f"{what}: not within {seconds} s"
-        time.sleep(0.01)
-
-
-class Side:
+class Side(Ear):
     """One LCM port: publishes, and keeps what it hears."""
 
     def __init__(self):
         self.url = free_lcm_url()
         self.heard = []
-        self.bus = lcm.LCM(self.url)
-        self.bus.subscribe(".*", lambda channel, data: self.heard.append((channel, data))).set_queue_capacity(0)
-        self.stopping = threading.Event()
-        self.thread = threading.Thread(target=self._listen)
-        self.thread.start()
-
-    def _listen(self):
-        while not self.stopping.is_set():
-            self.bus.handle_timeout(50)
+        super().__init__(self.url, [".*"], lambda channel, data: self.heard.append((channel, data)))
 
     def on(self, channel):
         return [data for name, data in list(self.heard) if name == channel]
-
-    def stop(self):
-        self.stopping.set()
-        self.thread.join()
 
 
 class BadLink(threading.Thread):
@@ -91,12 +73,6 @@ class BadLink(threading.Thread):
         self.socket.close()
 
 
-def free_port():
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
 def start(*words):
     return subprocess.Popen([BINARIES / "ale-bridge", *map(str, words)], stdout=subprocess.PIPE,
                             stderr=subprocess.PIPE, text=True)
@@ -121,7 +97,7 @@ def sides():
 @pytest.fixture
 def ends(sides):
     """Both ends of a good link, which have found each other."""
-    port = free_port()
+    port = free_udp_port()
     robot = start("--listen", f"127.0.0.1:{port}", "--lcm-url", sides[0].url)
     operator = start("--connect", f"127.0.0.1:{port}", "--lcm-url", sides[1].url)
     assert "is there" in operator.stderr.readline()
@@ -177,7 +153,7 @@ def test_what_a_stranger_injects_is_refused(sides, ends):
 
 def test_over_a_bad_link_nothing_comes_twice_or_out_of_order(sides):
     robot, operator = sides
-    port = free_port()
+    port = free_udp_port()
     air = BadLink(port)
     ends = [start("--listen", f"127.0.0.1:{port}", "--lcm-url", robot.url),
             start("--connect", f"127.0.0.1:{air.port}", "--lcm-url", operator.url)]

@@ -1,7 +1,5 @@
 """ale-calibrate and ale-inspect as a user calls them."""
 import math
-import os
-import pathlib
 import random
 import re
 import subprocess
@@ -9,14 +7,14 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-BIN = pathlib.Path(os.environ.get("ALE_BUILD", ROOT / "build")) / "bin"
+from at_hand import BINARIES, shared
+
 STEP = 2 * math.pi / 1024
 KEYS = {"own_um", "own_ppm", "shared_um", "shared_ppm", "shared_beams", "surface_um", "bearing_nrad"}
 
 
 def run(program, *words):
-    return subprocess.run([BIN / program, *map(str, words)], check=False, capture_output=True, text=True)
+    return subprocess.run([BINARIES / program, *map(str, words)], check=False, capture_output=True, text=True)
 
 
 def room(bearing):
@@ -105,9 +103,7 @@ def test_files_that_cannot_be_used_are_named(log, tmp_path):
 
 
 def test_a_real_recording_at_rest_is_calibrated():
-    path = pathlib.Path(os.environ.get("ALE_SHARED") or "/nonexistent") / "data/urg04lx/obstacle_demo_front.scan.gz"
-    if not path.exists():
-        pytest.skip("the recording is not here")
+    path = shared("data/urg04lx/obstacle_demo_front.scan.gz")
     done = run("ale-calibrate", path)
     assert done.returncode == 0, done.stderr
     values = {key: int(value) for key, value in re.findall(r"^(\w+) = (\d+)$", done.stdout, re.M)}

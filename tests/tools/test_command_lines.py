@@ -1,13 +1,11 @@
 """What every program answers alike: --help, --version, an option that it does not have, a file that is not there."""
-import os
-import pathlib
 import re
 import subprocess
 
 import pytest
 
-BINARIES = pathlib.Path(os.environ.get("ALE_BUILD", "build")).resolve() / "bin"
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from at_hand import BINARIES, ROOT
+
 VERSION = re.search(r'ALE_VERSION "(.*)"', (ROOT / "lib/base/version.h").read_text())[1]
 ABSENT = "absent/file"
 # How each is told of a file that is not there, and its exit code: a configuration is wrong use. Empty: reads none.

@@ -7,17 +7,16 @@ import signal
 import socket
 import struct
 import subprocess
-import threading
 import time
 import urllib.error
 import urllib.request
 
 import ale
-import lcm
 import pytest
 
 from robot_double import WALLS
-from watching import BINARIES, Console, alice, commands, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
+from at_hand import BINARIES
+from watching import Console, alice, commands, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
 from web_socket import Refused, WebSocket
 
 

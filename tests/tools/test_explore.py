@@ -5,7 +5,7 @@ import subprocess
 
 import pytest
 
-from watching import BINARIES
+from at_hand import BINARIES
 
 EXPLORE = pathlib.Path("tools/make/explore.py")
 ROOM = """# a room and a half, and a chair

@@ -1,12 +1,8 @@
 """The arithmetic behind the figures: criteria and expected error."""
-import pathlib
-import sys
-
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools/figures"))
-import criteria  # noqa: E402
+import criteria
 
 
 def test_points_on_a_line_have_no_residual_of_either_kind():

@@ -7,7 +7,8 @@ import lcm
 import pytest
 
 from robot_double import RobotDouble
-from watching import BINARIES, lcm_url, robot  # noqa: F401 (fixtures)
+from at_hand import BINARIES
+from watching import lcm_url, robot  # noqa: F401 (fixtures)
 
 SPANS = ["sweep", "wait", "deskew", "smooth", "extract", "match", "map", "send", "in all"]
 STAGES = SPANS[2:7]

@@ -2,18 +2,15 @@
 import ctypes
 import math
 import os
-import pathlib
 import re
 import subprocess
-import sys
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-BUILD = pathlib.Path(os.environ.get("ALE_BUILD", ROOT / "build"))
+import ale_lines
+from at_hand import BUILD, ROOT
+
 ROOM = ROOT / "tools/examples/room.txt"
-sys.path.insert(0, str(ROOT / "tools/python"))
-import ale_lines  # noqa: E402
 
 
 def run(*command, **options):

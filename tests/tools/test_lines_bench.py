@@ -1,14 +1,13 @@
 """The line benchmark's program, and its judgement beside an independent one where that is at hand."""
 import json
 import os
-import pathlib
 import subprocess
 import sys
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-BUILD = pathlib.Path(os.environ.get("ALE_BUILD", ROOT / "build"))
+from at_hand import BUILD, ROOT, shared
+
 PROGRAM = BUILD / "bench/lines"
 
 
@@ -55,16 +54,9 @@ def test_a_missing_recording_is_named(program, tmp_path):
     assert "none.log" in done.stderr
 
 
-def independent_score():
-    path = pathlib.Path(os.environ.get("ALE_SHARED") or "/nonexistent") / "bench/lines/score.py"
-    if not path.exists():
-        pytest.skip("the independent score.py is not here")
-    return path
-
-
 @pytest.mark.parametrize("noise", ["urg", "real"])
 def test_the_score_agrees_with_an_independent_one(program, tmp_path, noise):
-    score = independent_score()
+    score = shared("bench/lines/score.py")
     replay = BUILD / "bin/ale-replay"
     if not replay.exists():
         pytest.skip("ale-replay is not built")

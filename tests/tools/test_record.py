@@ -1,19 +1,15 @@
 """ale-record on a pseudo terminal: what the sensor sends is recorded, through every fault of the line."""
 import json
 import os
-import pathlib
 import signal
 import subprocess
-import sys
-import time
 
 import pytest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools" / "python"))
+from at_hand import BINARIES
+from lcm_url import free_lcm_url
+from waiting import wait_until
 
-from lcm_url import NoMulticast, ensure_multicast, free_lcm_url  # noqa: E402
-
-BIN = pathlib.Path(os.environ.get("ALE_BUILD", "build")).resolve() / "bin"
 ROOM = "-1 -2 3 -2\n3 -2 3 1\n3 1 -1 1\n-1 1 -1 -2\n"
 SPEED = 4
 TURN_S = 0.1
@@ -34,17 +30,14 @@ class Bench:
         (folder / "room.world").write_text(ROOM, encoding="utf-8")
 
     def program(self, name, *words):
-        process = subprocess.Popen([BIN / name, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen([BINARIES / name, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.programs.append(process)
         return process
 
     def sensor(self, *words):
         process = self.program("ale-sim", "--world", self.folder / "room.world", "--pty", self.link, "--speed", SPEED, *words)
-        end = time.monotonic() + 10
-        while not self.link.exists():
-            assert process.poll() is None, process.stderr.read()
-            assert time.monotonic() < end, "no pseudo terminal"
-            time.sleep(0.005)
+        wait_until(lambda: self.link.exists() or process.poll() is not None, 10, "the pseudo terminal")
+        assert process.poll() is None, process.stderr.read()
         return process
 
     def recorder(self, *words):
@@ -52,7 +45,7 @@ class Bench:
 
     def poses(self):
         poses = self.folder / "poses.jsonl"
-        subprocess.run([BIN / "ale-replay", self.out, "--poses", poses], check=True, capture_output=True, timeout=60)
+        subprocess.run([BINARIES / "ale-replay", self.out, "--poses", poses], check=True, capture_output=True, timeout=60)
         return [json.loads(line) for line in poses.read_text(encoding="utf-8").splitlines()]
 
 
@@ -95,10 +88,7 @@ def test_every_scan_that_the_sensor_sent_is_in_the_recording(bench):
 def test_signal_ends_the_recording_cleanly_and_leaves_the_sensor_quiet(bench):
     sensor = bench.sensor("--no-odometry")
     recorder = bench.recorder("--no-lcm")
-    end = time.monotonic() + 10
-    while not bench.out.exists() or bench.out.stat().st_size < 50000:
-        assert time.monotonic() < end
-        time.sleep(0.02)
+    wait_until(lambda: bench.out.exists() and bench.out.stat().st_size >= 50000, 10, "50 kB")
     recorder.send_signal(signal.SIGINT)
     recorded = counts(finished(recorder))
     before = bench.out.stat().st_size
@@ -128,16 +118,12 @@ def test_sensor_is_heard_again_within_three_seconds_after(bench, fault, cost, lo
     assert times[-1] - times[0] > 6, "it went on to the end"
 
 
-def test_odometry_is_recorded_in_the_time_of_the_scans(bench):
-    try:
-        ensure_multicast()
-    except NoMulticast as error:
-        pytest.skip(str(error))
+def test_odometry_is_recorded_in_the_time_of_the_scans(bench, multicast):
     url = free_lcm_url()
     bench.sensor("--lcm-url", url)
     recorded = counts(finished(bench.recorder("--lcm-url", url, "--seconds", 1)))
     assert recorded["odometry"] > recorded["scans"] / 2
-    done = subprocess.run([BIN / "ale-replay", bench.out, "--poses", bench.folder / "with.jsonl"], check=True,
+    done = subprocess.run([BINARIES / "ale-replay", bench.out, "--poses", bench.folder / "with.jsonl"], check=True,
                           capture_output=True, text=True, timeout=60)
     assert "scans" in done.stderr
 
@@ -174,12 +160,12 @@ def finished_with_error(process, code):
                                    ("--port", "x", "--out", "y", "--time-scale", "1000"),
                                    ("--port", "x", "--out", "y", "--lcm-url", "u", "--no-lcm")])
 def test_wrong_use_is_told_in_a_line(words):
-    done = subprocess.run([BIN / "ale-record", *words], capture_output=True, text=True, timeout=10, check=False)
+    done = subprocess.run([BINARIES / "ale-record", *words], capture_output=True, text=True, timeout=10, check=False)
     assert done.returncode == 2
-    assert done.stderr.startswith(("ale-record: ", str(BIN))) and done.stderr.count("\n") == 1
+    assert done.stderr.startswith(("ale-record: ", str(BINARIES))) and done.stderr.count("\n") == 1
 
 
 def test_help_and_version_go_to_stdout():
     for word, start in (("--help", "usage: ale-record"), ("--version", "ale-record ")):
-        done = subprocess.run([BIN / "ale-record", word], capture_output=True, text=True, timeout=10, check=False)
+        done = subprocess.run([BINARIES / "ale-record", word], capture_output=True, text=True, timeout=10, check=False)
         assert done.returncode == 0 and done.stdout.startswith(start) and done.stderr == ""

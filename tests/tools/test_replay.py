@@ -3,14 +3,14 @@ import gzip
 import hashlib
 import json
 import math
-import os
-import pathlib
 import subprocess
 import xml.etree.ElementTree as ElementTree
 
 import pytest
 
-REPLAY = pathlib.Path(os.environ.get("ALE_BUILD", "build")).resolve() / "bin" / "ale-replay"
+from at_hand import BINARIES, shared
+
+REPLAY = BINARIES / "ale-replay"
 STEP = 2 * math.pi / 1024
 BEAMS = 682
 ROOM = (-2.0, -1.5, 2.5, 1.7)  # left, bottom, right, top
@@ -215,10 +215,7 @@ def test_bad_lines_are_counted_and_the_last_is_named(room_log, tmp_path):
 
 
 def test_recordings_of_a_real_rover_have_a_pose_for_every_scan(tmp_path):
-    shared = os.environ.get("ALE_SHARED")
-    if not shared:
-        pytest.skip("no recordings at hand")
-    replay(f"{shared}/data/urg04lx/exp1.dat", "--trajectory", tmp_path / "t.tum")
+    replay(shared("data/urg04lx/exp1.dat"), "--trajectory", tmp_path / "t.tum")
     poses = read_tum(tmp_path / "t.tum")
     assert len(poses) == 756
     assert poses[0][:3] == [212.387282, 0, 0] and poses[-1][0] == 287.007421

@@ -8,7 +8,7 @@ import subprocess
 
 import pytest
 
-from watching import BINARIES
+from at_hand import BINARIES
 
 RUN = pathlib.Path("tools/make/run.py")
 WORLD = """# a room and a half, and a short way

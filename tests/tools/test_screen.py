@@ -7,7 +7,8 @@ import time
 
 import pytest
 
-from watching import BINARIES, lcm_url, pulse, robot  # noqa: F401 (fixtures)
+from at_hand import BINARIES
+from watching import lcm_url, pulse, robot  # noqa: F401 (fixtures)
 
 
 def run(*arguments, **more):

@@ -1,17 +1,17 @@
 """ale-sim over its pseudo terminal, as a client meets it: both protocols, pacing, faults, logs, errors."""
 import math
 import os
-import pathlib
 import signal
 import subprocess
 import time
 
 import pytest
 
+from at_hand import BINARIES, WORLDS, shared
 from scip_client import Client, Gone
+from waiting import wait_until
 
-SIM = pathlib.Path(os.environ.get("ALE_BUILD", "build")).resolve() / "bin" / "ale-sim"
-WORLDS = pathlib.Path(__file__).resolve().parents[2] / "tools" / "worlds"
+SIM = BINARIES / "ale-sim"
 ROOM = "-1 -2 3 -2\n3 -2 3 1\n3 1 -1 1\n-1 1 -1 -2\n"
 STREAM = "MD0044072501000"
 
@@ -27,14 +27,8 @@ class Simulator:
         words = (SIM, *source, "--pty", self.link, *([] if odometry else ["--no-odometry"]), *words)
         self.process = subprocess.Popen([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                         text=True)
-        self.wait_for_link()
-
-    def wait_for_link(self, seconds=10):
-        end = time.monotonic() + seconds
-        while not self.link.exists():
-            assert self.process.poll() is None, self.process.stderr.read()
-            assert time.monotonic() < end, "no link"
-            time.sleep(0.002)
+        wait_until(lambda: self.link.exists() or self.process.poll() is not None, 10, "the pseudo terminal")
+        assert self.process.poll() is None, self.process.stderr.read()
 
     def tally(self, seconds=20):
         """Waits for the end; what was counted."""
@@ -350,10 +344,7 @@ def test_a_log_is_played_as_it_was_recorded(start, tmp_path):
 
 
 def test_a_real_recording_is_played_with_its_error_codes(start):
-    shared = os.environ.get("ALE_SHARED")
-    recording = pathlib.Path(shared or "") / "data" / "urg04lx" / "exp1.dat"
-    if not shared or not recording.exists():
-        pytest.skip("no recordings (ALE_SHARED)")
+    recording = shared("data/urg04lx/exp1.dat")
     rows = [[int(word) for word in line.split()[25:707]] for line in recording.read_text().splitlines()[:40]]
     client = streaming(start("--log", recording, "--speed", 8, world=None))
     for row in rows:
@@ -409,10 +400,7 @@ def test_a_stale_link_is_replaced_and_the_own_one_removed(tmp_path, start):
     other = simulator.folder / "urg2"
     other.symlink_to("/dev/null")
     second = subprocess.Popen([SIM, "--world", simulator.folder / "room.world", "--no-odometry", "--pty", other])
-    end = time.monotonic() + 10
-    while os.readlink(other) == "/dev/null":
-        assert time.monotonic() < end
-        time.sleep(0.01)
+    wait_until(lambda: os.readlink(other) != "/dev/null", 10, "the new link")
     second.terminate()
     assert second.wait(timeout=10) == 0
     assert not other.is_symlink()

@@ -1,7 +1,6 @@
 """ale-sim and LCM: wheel odometry out, velocity set points in."""
 import math
 import select
-import threading
 import time
 
 import ale
@@ -10,6 +9,7 @@ import pytest
 
 from scip_client import Client, Gone
 from test_sim import ROOM, STREAM, Simulator
+from waiting import Pulse
 from watching import lcm_url  # noqa: F401 (fixture)
 
 
@@ -77,27 +77,20 @@ def test_at_another_speed_the_time_of_day_is_scaled(simulator, lcm_url):
     assert {round(b - a, 3) for a, b in zip(stamps, stamps[1:])} == {0.05}
 
 
-class Driver:
+class Driver(Pulse):
     """Sends one set point, again and again, until it is told another or to be silent."""
 
     def __init__(self, url):
         self.bus = lcm.LCM(url)
         self.set_point = None
-        self.stopping = threading.Event()
-        self.thread = threading.Thread(target=self._drive)
-        self.thread.start()
+        super().__init__(0.05, self._send)
 
-    def _drive(self):
-        while not self.stopping.wait(0.05):
-            if self.set_point:
-                message = ale.drive_t()
-                message.utime = time.time_ns() // 1000
-                message.v, message.w = self.set_point
-                self.bus.publish("ALE_DRIVE", message.encode())
-
-    def stop(self):
-        self.stopping.set()
-        self.thread.join()
+    def _send(self):
+        if self.set_point:
+            message = ale.drive_t()
+            message.utime = time.time_ns() // 1000
+            message.v, message.w = self.set_point
+            self.bus.publish("ALE_DRIVE", message.encode())
 
 
 @pytest.fixture

@@ -10,7 +10,8 @@ import ale
 import pytest
 
 from robot_double import WALLS
-from watching import BINARIES, lcm_url, robot  # noqa: F401 (fixtures)
+from at_hand import BINARIES
+from watching import lcm_url, robot  # noqa: F401 (fixtures)
 
 SCANS = 25
 

@@ -1,9 +1,5 @@
 """Fixtures for tests of the programs that watch the robot: a free LCM URL, ale-console, a pulse of scans."""
-import os
-import pathlib
 import subprocess
-import sys
-import threading
 import time
 import urllib.request
 
@@ -11,13 +7,10 @@ import ale
 import lcm
 import pytest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools" / "python"))
-
-from lcm_url import free_lcm_url  # noqa: E402
-
-from robot_double import RobotDouble  # noqa: E402
-
-BINARIES = pathlib.Path(os.environ.get("ALE_BUILD", "build")).resolve() / "bin"
+from at_hand import BINARIES
+from lcm_url import free_lcm_url
+from robot_double import RobotDouble
+from waiting import Pulse
 
 
 @pytest.fixture
@@ -78,26 +71,9 @@ def robot(lcm_url):
     return RobotDouble(lcm_url)
 
 
-class Pulse:
-    """Ten scans a second from the robot double until it is stopped."""
-
-    def __init__(self, robot):
-        self.robot = robot
-        self.stopping = threading.Event()
-        self.thread = threading.Thread(target=self._beat)
-        self.thread.start()
-
-    def _beat(self):
-        while not self.stopping.wait(0.1):
-            self.robot.step()
-
-    def stop(self):
-        self.stopping.set()
-        self.thread.join()
-
-
 @pytest.fixture
 def pulse(robot):
-    beating = Pulse(robot)
+    """Ten scans a second from the robot double."""
+    beating = Pulse(0.1, robot.step)
     yield beating
     beating.stop()

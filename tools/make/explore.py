@@ -11,13 +11,11 @@ import argparse
 import math
 import pathlib
 import re
-import signal
 import sys
 import time
 
-from run import (ANSWER_SECONDS, START_SECONDS, STALL_SECONDS, Chain, Failure, Tally, ask, last_number, positive,
-                 prepare_multicast, require_programs, say)
-import lcm_url
+from programs import (ANSWER_SECONDS, START_SECONDS, STALL_SECONDS, Chain, Failure, Tally, ask, common_options, conclude,
+                      last_number, positive, private_lcm_url, require_programs, say)
 
 WORLD = pathlib.Path("tools/worlds/arena.world")
 FARTHEST_OFF_M = 0.10
@@ -70,7 +68,7 @@ def off_from_start(truth):
 
 
 def explore(chain, arguments):
-    url = lcm_url.free_lcm_url()
+    url = private_lcm_url()
     sim, watch, secret = start_programs(chain, arguments, url)
     started = time.monotonic()
     say(ask([chain.binaries / "ale-send", "--keys", secret, "--lcm-url", url, "explore", "on"]).strip())
@@ -89,7 +87,6 @@ def run(arguments):
     require_programs(arguments.build / "bin", PROGRAMS)
     for old in [folder / name for name in (*RESULTS, "urg")]:
         old.unlink(missing_ok=True)
-    prepare_multicast()
     chain = Chain(folder, arguments.build / "bin")
     try:
         seconds, seen, collisions = explore(chain, arguments)
@@ -104,26 +101,12 @@ def run(arguments):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build"), help="where the programs are")
+    common_options(parser)
     parser.add_argument("--world", type=pathlib.Path, default=WORLD, help=f"world to explore (default {WORLD})")
-    parser.add_argument("--speed", type=positive, default=1.0, help="faster than real time by this factor")
     parser.add_argument("--seed", type=int, default=1, help="another run of noise, wheel errors and slip")
     parser.add_argument("--longest", type=positive, default=1800, help="seconds of the robot's time to wait")
     arguments = parser.parse_args()
-
-    def interrupted(*_):
-        raise KeyboardInterrupt
-
-    signal.signal(signal.SIGTERM, interrupted)
-    try:
-        run(arguments)
-    except Failure as failure:
-        print(f"explore: {failure}", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        print("explore: interrupted, all programs stopped", file=sys.stderr)
-        return 130
-    return 0
+    return conclude("explore", lambda: run(arguments))
 
 
 if __name__ == "__main__":
