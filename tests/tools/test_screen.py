@@ -26,11 +26,11 @@ def test_without_a_terminal_it_says_so(lcm_url):
     assert done.returncode == 1 and "no terminal" in done.stderr
 
 
-def test_one_picture_has_the_state_the_map_and_the_numbers(lcm_url, pulse):
+def test_one_picture_has_the_state_the_map_and_the_numbers(lcm_url, robot, pulse):
     # The double sends its map with its first scan only.
     with subprocess.Popen([BINARIES / "ale-screen", "--lcm-url", lcm_url, "--once"], stdout=subprocess.PIPE, text=True) as one:
         while one.poll() is None:
-            pulse.robot.publish_map()
+            robot.publish_map()
             time.sleep(0.1)
         picture = one.stdout.read()
     assert one.returncode == 0

@@ -27,6 +27,9 @@ class Simulator:
         words = (SIM, *source, "--pty", self.link, *([] if odometry else ["--no-odometry"]), *words)
         self.process = subprocess.Popen([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                         text=True)
+        self.wait_for_link()
+
+    def wait_for_link(self):
         wait_until(lambda: self.link.exists() or self.process.poll() is not None, 10, "the pseudo terminal")
         assert self.process.poll() is None, self.process.stderr.read()
 
