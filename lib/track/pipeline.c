@@ -21,6 +21,8 @@ ale_pipeline_config_t ale_pipeline_default_config(void)
     return (ale_pipeline_config_t){
         .extract = ale_extract_default_config(),
         .use_odometry = true,
+        .odometry_distance_factor_ppm = ALE_WHEEL_FACTOR_ONE,
+        .odometry_turn_factor_ppm = ALE_WHEEL_FACTOR_ONE,
         .odometry_scale_ppm = 50000,
         .odometry_turn_urad_m = 35000,
         .odometry_turn_ppm = 20000,
@@ -34,9 +36,16 @@ uint32_t ale_pipeline_size(void)
     return (uint32_t)sizeof(ale_pipeline_t);
 }
 
+static bool is_factor(int32_t ppm)
+{
+    return ppm >= ALE_WHEEL_FACTOR_ONE / 2 && ppm <= 2 * ALE_WHEEL_FACTOR_ONE;
+}
+
 static bool is_valid(const ale_pipeline_config_t *c)
 {
-    return c->odometry_scale_ppm >= 0 && c->odometry_scale_ppm <= 500000 && c->odometry_turn_urad_m >= 0 &&
+    return is_factor(c->odometry_distance_factor_ppm) && is_factor(c->odometry_turn_factor_ppm) &&
+           ale_abs64(c->odometry_turn_bias_urad_m) <= 1000000 && c->odometry_scale_ppm >= 0 &&
+           c->odometry_scale_ppm <= 500000 && c->odometry_turn_urad_m >= 0 &&
            c->odometry_turn_urad_m <= 1000000 && c->odometry_turn_ppm >= 0 &&
            c->odometry_turn_ppm <= 500000 && c->odometry_lag_us >= -100000 && c->odometry_lag_us <= 300000 &&
            c->max_speed_mm_s > 0 && c->max_speed_mm_s <= 50000 && c->max_turn_mrad_s > 0 &&
@@ -68,6 +77,8 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
     const ale_pipeline_config_t *c = &pipeline->config;
     const ale_wheel_noise_t noise = {c->odometry_scale_ppm, c->odometry_turn_urad_m, c->odometry_turn_ppm};
     ale_wheels_init(&pipeline->wheels, c->max_speed_mm_s, c->max_turn_mrad_s);
+    ale_wheel_factors_init(&pipeline->factors, c->odometry_distance_factor_ppm, c->odometry_turn_factor_ppm,
+                           c->odometry_turn_bias_urad_m);
     ale_lag_init(&pipeline->lag, c->odometry_lag_us);
     ale_wheel_scale_init(&pipeline->scale, &noise);
     ale_liveliness_init(&pipeline->liveliness[0]);
@@ -98,7 +109,9 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
 void ale_pipeline_odometry(ale_pipeline_t *pipeline, const ale_odometry_t *sample)
 {
     if (pipeline->config.use_odometry) {
-        ale_wheels_add(&pipeline->wheels, sample);
+        const ale_odometry_t corrected = {sample->stamp_us,
+                                          ale_wheel_factors_correct(&pipeline->factors, sample->pose)};
+        ale_wheels_add(&pipeline->wheels, &corrected);
     }
 }
 

@@ -27,11 +27,14 @@ typedef struct {
     ale_extract_config_t extract;
     ale_pose_t sensor; /* mounting: pose of the laser in the robot's frame */
     bool use_odometry;
-    int32_t odometry_scale_ppm;   /* one sigma of the distance's scale error */
-    int32_t odometry_turn_urad_m; /* one sigma of the heading error for a metre driven */
-    int32_t odometry_turn_ppm;    /* one sigma of the heading error in parts of the turn */
-    int32_t odometry_lag_us;      /* prior: odometry younger than scans by this much; refined on line */
-    int32_t max_speed_mm_s;       /* what the robot can do: no step of the smooth pose exceeds it */
+    int32_t odometry_scale_ppm;           /* one sigma of the distance's scale error */
+    int32_t odometry_turn_urad_m;         /* one sigma of the heading error for a metre driven */
+    int32_t odometry_turn_ppm;            /* one sigma of the heading error in parts of the turn */
+    int32_t odometry_distance_factor_ppm; /* systematic errors, see wheel_factors.h; 1000000: none */
+    int32_t odometry_turn_factor_ppm;
+    int32_t odometry_turn_bias_urad_m;
+    int32_t odometry_lag_us; /* prior: odometry younger than scans by this much; refined on line */
+    int32_t max_speed_mm_s;  /* what the robot can do: no step of the smooth pose exceeds it */
     int32_t max_turn_mrad_s;
     uint32_t blind_count;
     ale_sector_t blind[ALE_MAX_BLIND_SECTORS];

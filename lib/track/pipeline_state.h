@@ -17,6 +17,7 @@
 #include "track/smooth_pose.h"
 #include "track/tracker.h"
 #include "track/view.h"
+#include "track/wheel_factors.h"
 #include "track/wheels.h"
 #include "track/witness.h"
 
@@ -25,6 +26,7 @@ struct ale_pipeline {
     ale_stage_hook_t hook;
     ale_extractor_t extractor;
 
+    ale_wheel_factors_t factors;
     ale_wheels_t wheels;
     ale_lag_t lag;
     ale_wheel_scale_t scale;
