@@ -2,6 +2,7 @@
 #ifndef ALE_CLI_WORDS_H
 #define ALE_CLI_WORDS_H
 
+#include <array>
 #include <charconv>
 #include <sstream>
 #include <string>
@@ -44,6 +45,10 @@ Value choice_of(const std::string &what, const std::string &word, const Choices<
     }
     throw WrongUse(what + " " + word + ": there are " + names);
 }
+
+/* Three words with commas between them; titles: "X,Y,THETA". */
+std::array<std::string, 3> three_of(const std::string &what, const std::string &word,
+                                    const std::string &titles);
 
 struct Mounting {
     double x_m;

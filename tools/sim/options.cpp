@@ -38,6 +38,8 @@ const char usage[] =
     "  --noise NAME         real (default), white, none\n"
     "  --sensor X,Y,THETA   mounting of the laser, metres and radians (default: as the world says)\n"
     "  --odometry-lag S     odometry is so much younger than its stamp says (default 0)\n"
+    "  --wheels WAY,TURN,BIAS  what the wheels count of a metre and of a radian, and radians counted for a\n"
+    "                       metre counted (default: drawn from the seed, 3 % each, no bias)\n"
     "  --max-speed V        m/s (default 0.5)\n"
     "  --max-turn W         rad/s (default 0.9)\n"
     "  --write-log FILE     write the drive as a CARMEN log instead of playing it\n"
@@ -61,6 +63,14 @@ void bind_scanner(cli::CommandLine &line, SimulatorOptions &o)
     line.text("faults", o.faults);
 }
 
+WheelGains gains_of(const std::string &word)
+{
+    const std::string what = "--wheels " + word + ":";
+    const auto [way, turn, bias] = cli::three_of("--wheels", word, "WAY,TURN,BIAS");
+    return {cli::number_of(what, way, 0.1, 10.0), cli::number_of(what, turn, 0.1, 10.0),
+            cli::number_of(what, bias, -1.0, 1.0)};
+}
+
 void bind_world(cli::CommandLine &line, Options &o)
 {
     line.text("world", o.world);
@@ -73,6 +83,8 @@ void bind_world(cli::CommandLine &line, Options &o)
     line.option("odometry-lag", [&o](const std::string &word) {
         o.world_source.odometry_lag_us = std::llround(cli::number_of("--odometry-lag", word, 0.0, 1.0) * 1e6);
     });
+    line.option("wheels",
+                [&o](const std::string &word) { o.world_source.journey.odometry.gains = gains_of(word); });
     line.number("max-speed", o.world_source.journey.limits.speed, 0.01, 5.0);
     line.number("max-turn", o.world_source.journey.limits.turn_rate, 0.01, 10.0);
     line.text("write-log", o.write_log);

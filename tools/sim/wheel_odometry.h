@@ -3,6 +3,7 @@
 #define ALE_SIM_WHEEL_ODOMETRY_H
 
 #include <cstdint>
+#include <optional>
 
 #include "bench/random.hpp"
 #include "sim/geometry.h"
@@ -10,11 +11,19 @@
 namespace sim
 {
 
+/* What wheels count of a metre driven, of a radian turned, and the radians they count for a metre counted. */
+struct WheelGains {
+    double way = 1;
+    double turn = 1;
+    double turn_per_metre = 0;
+};
+
 /* Standard deviations; what is drawn once a run (scale errors) stays for the run. */
 struct OdometryErrors {
     double scale = 0.03;
     double turn_scale = 0.03;
-    double turn_per_metre = 0.035; /* radians: 2 degrees, a random walk over the way */
+    double turn_per_metre = 0.035;                  /* radians: 2 degrees, a random walk over the way */
+    std::optional<WheelGains> gains = std::nullopt; /* instead of drawn ones */
 };
 
 class WheelOdometry
@@ -33,8 +42,7 @@ class WheelOdometry
   private:
     bench::Random random_;
     OdometryErrors errors_;
-    double scale_;
-    double turn_scale_;
+    WheelGains gains_;
     Pose pose_;
 };
 

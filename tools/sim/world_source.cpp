@@ -43,7 +43,7 @@ Event WorldSource::next()
     if (next_odometry_us_ <= turn_due_us()) {
         const int64_t stamp_us = next_odometry_us_;
         next_odometry_us_ += odometry_period_us;
-        return OdometryReport{stamp_us, journey_.wheels(stamp_us + options_.odometry_lag_us)};
+        return OdometryReport{stamp_us, odometry(stamp_us)};
     }
     return measure(next_turn_++);
 }

@@ -36,9 +36,10 @@ class WorldSource : public Source
         return journey_.truth(play_us);
     }
 
-    Pose wheels(int64_t play_us)
+    /* What the odometry stamped so says: where the wheels are a lag later. */
+    Pose odometry(int64_t stamp_us)
     {
-        return journey_.wheels(play_us);
+        return journey_.wheels(stamp_us + options_.odometry_lag_us);
     }
     const World &world() const
     {

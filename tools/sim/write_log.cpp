@@ -36,7 +36,7 @@ void write_scan(WorldSource &source, const Turn &turn, int64_t stamp_us, std::FI
         const int32_t value = turn.value_mm[static_cast<size_t>(k)];
         std::fprintf(log, " %.3f", value < smallest_range_mm ? 0 : value / 1000.0);
     }
-    const Pose robot = source.wheels(stamp_us);
+    const Pose robot = source.odometry(stamp_us);
     std::fprintf(log, " 0");
     write_pose(log, compose(robot, source.world().sensor));
     write_pose(log, robot);
