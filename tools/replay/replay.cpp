@@ -1,13 +1,12 @@
 #include "replay/replay.h"
 
-#include <cstddef>
 #include <memory>
-#include <new>
 #include <optional>
 
 #include "cli/wrong_use.h"
 #include "export/map_image.h"
 #include "export/scan_cloud.h"
+#include "replay/core_object.h"
 #include "replay/features_file.h"
 #include "replay/loops.h"
 #include "replay/poses_file.h"
@@ -30,20 +29,6 @@ template <class T> void open_if_named(std::optional<T> &file, const std::string 
     if (!path.empty()) {
         file.emplace(path);
     }
-}
-
-/* An object of the core whose size only the core knows. */
-struct Free {
-    void operator()(void *memory) const
-    {
-        operator delete (memory, std::align_val_t{alignof(std::max_align_t)});
-    }
-};
-
-template <class T> std::unique_ptr<T, Free> core_object(uint32_t bytes)
-{
-    return std::unique_ptr<T, Free>(
-        static_cast<T *>(operator new (bytes, std::align_val_t{alignof(std::max_align_t)})));
 }
 
 class Replay
@@ -69,8 +54,8 @@ class Replay
     const ReplayOptions &options_;
     LogReader log_;
     ale_config_t config_{};
-    std::unique_ptr<ale_pipeline_t, Free> pipeline_;
-    std::unique_ptr<ale_extractor_t, Free> extractor_;
+    CoreObject<ale_pipeline_t> pipeline_;
+    CoreObject<ale_extractor_t> extractor_;
     bool begun_ = false;
 
     std::optional<FeaturesFile> features_file_;
@@ -132,17 +117,6 @@ void Replay::load_map()
         throw std::runtime_error(error);
     }
     ale_pipeline_load_map(pipeline_.get(), map.get(), ale_pose_t{}, false);
-}
-
-/* The bearings of a raw device do not know that it hangs upside down. */
-ale_scan_t mounted(const ale_scan_t &scan, bool upside_down)
-{
-    ale_scan_t turned = scan;
-    if (upside_down) {
-        turned.first_bearing_bam = 0U - scan.first_bearing_bam;
-        turned.step_bam = -scan.step_bam;
-    }
-    return turned;
 }
 
 void Replay::extract(const ale_scan_t &scan)

@@ -54,4 +54,14 @@ ale_config_t robot_config(const ReplayOptions &options, const ale_log_info_t &in
     return config;
 }
 
+ale_scan_t mounted(const ale_scan_t &scan, bool upside_down)
+{
+    ale_scan_t turned = scan;
+    if (upside_down) {
+        turned.first_bearing_bam = 0U - scan.first_bearing_bam;
+        turned.step_bam = -scan.step_bam;
+    }
+    return turned;
+}
+
 } // namespace ale

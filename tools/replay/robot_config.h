@@ -16,6 +16,9 @@ namespace ale
  * Throws cli::WrongUse with the one line that names file, line and key. */
 ale_config_t robot_config(const ReplayOptions &options, const ale_log_info_t &info, const char *recorded);
 
+/* The bearings of a raw device do not know that it hangs upside down. */
+ale_scan_t mounted(const ale_scan_t &scan, bool upside_down);
+
 } // namespace ale
 
 #endif
