@@ -1,0 +1,88 @@
+"""ale-mounting as its users meet it: drives of the simulator with known mounting, and a real one."""
+import os
+import pathlib
+import re
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BIN = pathlib.Path(os.environ.get("ALE_BUILD", ROOT / "build")).resolve() / "bin"
+SHARED = pathlib.Path(os.environ.get("ALE_SHARED") or "/nonexistent")
+
+
+def run(program, *words, code=0):
+    done = subprocess.run([BIN / program, *map(str, words)], check=False, capture_output=True, text=True, timeout=60)
+    assert done.returncode == code, done.stderr
+    return done
+
+
+def found(text):
+    """Key: (value, one sigma), of what is determined."""
+    return {key: (float(value), float(sigma))
+            for sigma, key, value in re.findall(r"^# \+- ([\d.]+)  .*\n(\w+) = (\S+)$", text, re.M)}
+
+
+@pytest.fixture(name="drive", scope="module")
+def _drive(tmp_path_factory):
+    log = tmp_path_factory.mktemp("drive") / "home.log"
+    run("ale-sim", "--world", ROOT / "tools/worlds/home.world", "--write-log", log, "--sensor", "0.12,-0.05,0.2",
+        "--wheels", "0.96,1.03,0.02", "--odometry-lag", "0.08")
+    return log
+
+
+def test_a_simulated_drive_shows_mounting_wheels_and_lag(drive, tmp_path):
+    config = tmp_path / "robot.ini"
+    run("ale-mounting", drive, "--out", config)
+    values = found(config.read_text())
+    truth = {"x": (0.12, 0.003), "y": (-0.05, 0.003), "theta": (0.2, 0.003), "lag_us": (80000, 5000),
+             "distance_factor": (1 / 0.96, 0.002), "turn_factor": (1 / 1.03, 0.02), "turn_bias": (0.02, 0.02)}
+    assert set(values) == set(truth)
+    for key, (true, tolerance) in truth.items():
+        value, sigma = values[key]
+        assert abs(value - true) < min(tolerance, 3.5 * sigma), (key, value, sigma)
+    assert "fine" in run("ale-slamd", "--config", config, "--check-config").stdout
+
+
+def test_what_is_found_goes_into_the_tracker(drive, tmp_path):
+    """With wheels that are put right the lag and the factors that are learnt again are nothing."""
+    first, second, poses = tmp_path / "first.ini", tmp_path / "second.ini", tmp_path / "poses.jsonl"
+    run("ale-mounting", drive, "--out", first)
+    run("ale-replay", drive, "--config", first, "--poses", poses, "--loops", "off")
+    lags = [int(lag) for lag in re.findall(r'"lag_us":(-?\d+)', poses.read_text())]
+    assert abs(lags[0] - 80000) < 5000 and abs(lags[-1] - 80000) < 8000
+    assert lags[0] == int(found(first.read_text())["lag_us"][0])
+    run("ale-mounting", drive, "--config", first, "--out", second)
+    assert found(second.read_text())["x"] == found(first.read_text())["x"], "what is known already changes nothing"
+
+
+def test_a_real_rover_is_found_near_what_its_makers_wrote():
+    log = SHARED / "data/urg04lx/exp1.dat"
+    if not log.exists():
+        pytest.skip("the recording is not here")
+    values = found(run("ale-mounting", log).stdout)
+    assert 0.07 < values["x"][0] < 0.18  # 0.145
+    assert abs(values["theta"][0]) < 0.05
+    assert 140000 < values["lag_us"][0] < 170000  # 0.15 to 0.16 s
+    assert abs(values["distance_factor"][0] - 1) < 0.05
+    assert abs(values["turn_factor"][0] - 1.07) < 0.05
+
+
+def test_help_and_version():
+    assert "usage: ale-mounting" in run("ale-mounting", "--help").stdout
+    assert re.match(r"ale-mounting \d+\.\d+", run("ale-mounting", "--version").stdout)
+
+
+@pytest.mark.parametrize("words", [[], ["a", "b"], ["--colour"], ["a", "--out"]])
+def test_wrong_use_exits_2_with_one_line(words):
+    assert run("ale-mounting", *words, code=2).stderr.count("\n") == 1
+
+
+def test_logs_that_cannot_be_used_are_named(drive, tmp_path):
+    assert "none.log" in run("ale-mounting", tmp_path / "none.log", code=1).stderr
+    still = tmp_path / "still.log"
+    still.write_text("".join(drive.read_text().splitlines(keepends=True)[:60]))
+    assert "too short" in run("ale-mounting", still, code=1).stderr
+    config = tmp_path / "bad.ini"
+    config.write_text("[odometry]\nturn_factor = 5\n")
+    assert "bad.ini:2" in run("ale-mounting", drive, "--config", config, code=2).stderr

@@ -1,0 +1,68 @@
+#include "mounting/report.h"
+
+#include <cmath>
+
+#include "export/formatted.h"
+
+namespace mounting
+{
+
+namespace
+{
+
+struct Line {
+    Quantity quantity;
+    const char *key;
+    double scale; /* from the fit's unit to the key's */
+    int digits;
+    const char *meaning;
+    const char *shows;
+};
+
+constexpr Line sensor_lines[] = {
+    {X, "x", 1, 4, "metres ahead of the point the robot turns about", "in turns and in straight ways"},
+    {Y, "y", 1, 4, "metres to its left", "in turns of both directions and in straight ways"},
+    {THETA, "theta", 1, 5, "radians", "in straight ways"}};
+
+constexpr Line odometry_lines[] = {
+    {LAG, "lag_us", 1e6, 0, "microseconds by which the odometry is younger than the scans",
+     "where turns begin and end, in scans that come at least three times a second"},
+    {DISTANCE_FACTOR, "distance_factor", 1, 5, "true way of a metre counted", "in straight ways"},
+    {TURN_FACTOR, "turn_factor", 1, 5, "true turn of a radian counted", "in turns"},
+    {TURN_BIAS, "turn_bias", 1, 5, "radians counted on a straight metre", "in long straight ways"}};
+
+std::string text_of(const Fit &fit, const Line &line)
+{
+    const Estimate &e = fit.estimate[static_cast<size_t>(line.quantity)];
+    const double value = e.value * line.scale;
+    const double sigma = e.sigma * line.scale;
+    if (!e.determined) {
+        return ale::formatted("# not determined by this drive (%.*f +- %.*f); it shows %s\n# %s =\n",
+                              line.digits, value, line.digits, sigma, line.shows, line.key);
+    }
+    return ale::formatted("# +- %.*f  %s\n%s = %.*f\n", line.digits, sigma, line.meaning, line.key,
+                          line.digits, value);
+}
+
+} // namespace
+
+std::string configuration(const Fit &fit, const std::string &source)
+{
+    std::string text =
+        "# Mounting, wheels and lag as ale-mounting found them in " + source + ": " +
+        ale::formatted("%.1f m and %.1f rad in %zu pieces,\n", fit.way, fit.turned, fit.pieces) +
+        ale::formatted(
+            "# %zu of them set aside (slip, wrong matches); a piece of the rest fits to %.1f mm and "
+            "%.1f mrad. +- is one sigma.\n\n[sensor]\n",
+            fit.set_aside, fit.way_error * 1e3, fit.turn_error * 1e3);
+    for (const Line &line : sensor_lines) {
+        text += text_of(fit, line);
+    }
+    text += "\n[odometry]\n";
+    for (const Line &line : odometry_lines) {
+        text += text_of(fit, line);
+    }
+    return text;
+}
+
+} // namespace mounting
