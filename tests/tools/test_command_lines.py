@@ -17,6 +17,7 @@ MISSING_FILE = {
     "ale-inspect": (f"{ABSENT} 0", 1),
     "ale-keys": (f"--list {ABSENT}", 1),
     "ale-latency": (ABSENT, 1),
+    "ale-mounting": (ABSENT, 1),
     "ale-record": (f"--port /dev/null --no-lcm --out {ABSENT}", 1),
     "ale-replay": (ABSENT, 1),
     "ale-screen": ("", 0),

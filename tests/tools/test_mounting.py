@@ -68,21 +68,16 @@ def test_a_real_rover_is_found_near_what_its_makers_wrote():
     assert abs(values["turn_factor"][0] - 1.07) < 0.05
 
 
-def test_help_and_version():
-    assert "usage: ale-mounting" in run("ale-mounting", "--help").stdout
-    assert re.match(r"ale-mounting \d+\.\d+", run("ale-mounting", "--version").stdout)
-
-
-@pytest.mark.parametrize("words", [[], ["a", "b"], ["--colour"], ["a", "--out"]])
+@pytest.mark.parametrize("words", [[], ["a", "b"], ["a", "--out"]])
 def test_wrong_use_exits_2_with_one_line(words):
     assert run("ale-mounting", *words, code=2).stderr.count("\n") == 1
 
 
 def test_logs_that_cannot_be_used_are_named(drive, tmp_path):
-    assert "none.log" in run("ale-mounting", tmp_path / "none.log", code=1).stderr
     still = tmp_path / "still.log"
     still.write_text("".join(drive.read_text().splitlines(keepends=True)[:60]))
-    assert "too short" in run("ale-mounting", still, code=1).stderr
+    told = run("ale-mounting", still, code=1).stderr
+    assert "still.log" in told and "too short" in told and told.count("\n") == 1
     config = tmp_path / "bad.ini"
     config.write_text("[odometry]\nturn_factor = 5\n")
     assert "bad.ini:2" in run("ale-mounting", drive, "--config", config, code=2).stderr

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "cli/wrong_use.h"
 #include "replay/core_object.h"
 #include "replay/log_reader.h"
 #include "replay/robot_config.h"
@@ -87,7 +88,7 @@ void Reader::begin(const char *recorded_config)
     alone.use_odometry = false;
     pipeline_ = ale::core_object<ale_pipeline_t>(ale_pipeline_size());
     if (ale_pipeline_init(pipeline_.get(), &alone) < 0) {
-        throw std::invalid_argument("the configuration has a value that the core refuses");
+        throw cli::WrongUse("the configuration has a value that the core refuses");
     }
     ale_pace_init(&pace_);
     ale_wheels_init(&buffer_, alone.max_speed_mm_s, alone.max_turn_mrad_s);

@@ -55,7 +55,7 @@ struct Drive {
 };
 
 /* Throws std::runtime_error with one line that names the file: not readable, no odometry, too few scans;
- * std::invalid_argument for a bad configuration. config: file for ale-slamd, or empty. */
+ * cli::WrongUse for a bad configuration. config: file for ale-slamd, or empty. */
 Drive read_drive(const std::string &log, const std::string &config);
 
 } // namespace mounting

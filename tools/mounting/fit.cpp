@@ -83,6 +83,7 @@ Eigen::Vector3d spread(const std::vector<Row> &rows)
     Eigen::Vector3d sigma;
     for (int kind = 0; kind < kinds; kind++) {
         std::vector<double> sizes;
+        sizes.reserve(rows.size());
         for (const Row &row : rows) {
             sizes.push_back(std::fabs(row.residual[kind]));
         }
@@ -126,9 +127,10 @@ Equations equations_of(const std::vector<Row> &rows, const Eigen::Vector3d &sigm
  * neighbouring pieces, which are not independent, say themselves (Newey and West's estimate). */
 Square covariance_of(const std::vector<Row> &rows, const Eigen::Vector3d &sigma, const Square &information)
 {
-    constexpr size_t reach = 2 * overlap;
+    constexpr size_t reach = 2UL * overlap;
     const Eigen::Vector3d per_variance = sigma.array().square().inverse();
     std::vector<Unknowns> score;
+    score.reserve(rows.size());
     for (const Row &row : rows) {
         score.emplace_back(row.weight * row.jacobian.transpose() * per_variance.asDiagonal() * row.residual);
     }

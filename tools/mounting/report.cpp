@@ -12,24 +12,24 @@ namespace
 
 struct Line {
     Quantity quantity;
-    const char *key;
-    double scale; /* from the fit's unit to the key's */
     int digits;
+    double scale; /* from the fit's unit to the key's */
+    const char *key;
     const char *meaning;
     const char *shows;
 };
 
 constexpr Line sensor_lines[] = {
-    {X, "x", 1, 4, "metres ahead of the point the robot turns about", "in turns and in straight ways"},
-    {Y, "y", 1, 4, "metres to its left", "in turns of both directions and in straight ways"},
-    {THETA, "theta", 1, 5, "radians", "in straight ways"}};
+    {X, 4, 1, "x", "metres ahead of the point the robot turns about", "in turns and in straight ways"},
+    {Y, 4, 1, "y", "metres to its left", "in turns of both directions and in straight ways"},
+    {THETA, 5, 1, "theta", "radians", "in straight ways"}};
 
 constexpr Line odometry_lines[] = {
-    {LAG, "lag_us", 1e6, 0, "microseconds by which the odometry is younger than the scans",
+    {LAG, 0, 1e6, "lag_us", "microseconds by which the odometry is younger than the scans",
      "where turns begin and end, in scans that come at least three times a second"},
-    {DISTANCE_FACTOR, "distance_factor", 1, 5, "true way of a metre counted", "in straight ways"},
-    {TURN_FACTOR, "turn_factor", 1, 5, "true turn of a radian counted", "in turns"},
-    {TURN_BIAS, "turn_bias", 1, 5, "radians counted on a straight metre", "in long straight ways"}};
+    {DISTANCE_FACTOR, 5, 1, "distance_factor", "true way of a metre counted", "in straight ways"},
+    {TURN_FACTOR, 5, 1, "turn_factor", "true turn of a radian counted", "in turns"},
+    {TURN_BIAS, 5, 1, "turn_bias", "radians counted on a straight metre", "in long straight ways"}};
 
 std::string text_of(const Fit &fit, const Line &line)
 {

@@ -212,6 +212,29 @@ TEST(Pipeline, AnswersEveryScanAlsoDroppedAndEmptyOnes)
     EXPECT_NEAR(convert::pose(e.map)[0], truth[0], 0.08);
 }
 
+/* Metres ahead after two seconds by wheels alone that count 0.4 m/s. */
+double ahead_by_wheels(int32_t distance_factor_ppm)
+{
+    ale_pipeline_config_t config = ale_pipeline_default_config();
+    config.odometry_distance_factor_ppm = distance_factor_ppm;
+    const room::Pipeline p = room::make(config);
+    std::mt19937 rng(1);
+    ale_estimate_t e;
+    const ale_scan_t scan = room::scan_at(room::l_shape(), room::Sensor(), room::path, 1, rng);
+    for (int k = 0; k <= 20; k++) {
+        const int64_t stamp_us = scan.stamp_us + 100000 * k;
+        const ale_odometry_t sample = {stamp_us, {40000 * k, 0, 0}};
+        ale_pipeline_odometry(p.get(), &sample);
+        k == 0 ? ale_pipeline_scan(p.get(), &scan, &e) : ale_pipeline_dropped(p.get(), stamp_us, &e);
+    }
+    return convert::pose(e.map)[0];
+}
+
+TEST(Pipeline, AKnownErrorOfTheWheelsIsTakenOff)
+{
+    EXPECT_NEAR(ahead_by_wheels(1250000) / ahead_by_wheels(1000000), 1.25, 0.01);
+}
+
 TEST(Pipeline, WithoutScansTheCovarianceGrowsAndTheStateSaysSo)
 {
     const room::Pipeline p = room::make(ale_pipeline_default_config());
@@ -410,6 +433,9 @@ TEST(Pipeline, RefusesAConfigurationOutOfRangeAndChangesNothing)
     EXPECT_EQ(room::make(bad), nullptr);
     bad = ale_pipeline_default_config();
     bad.odometry_lag_us = 400000;
+    EXPECT_EQ(room::make(bad), nullptr);
+    bad = ale_pipeline_default_config();
+    bad.odometry_turn_factor_ppm = 0;
     EXPECT_EQ(room::make(bad), nullptr);
     bad = ale_pipeline_default_config();
     bad.blind_count = ALE_MAX_BLIND_SECTORS + 1;
