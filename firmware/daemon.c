@@ -86,13 +86,13 @@ static int start_tasks(ale_daemon_t *daemon)
     const ale_config_t *config = &daemon->options->config;
     daemon->estimate = ale_rt_task_start(&(ale_rt_task_config_t){
         .name = "ale-estimate", .kind = ALE_RT_HARD, .body = ale_estimator_run, .user = daemon->estimator});
+    const bool drives = daemon->options->keys.count > 0;
+    if (daemon->estimate && drives) {
+        daemon->exchange.explore = ale_explore_start(config, &daemon->exchange);
+    }
     daemon->mapper = ale_mapper_thread_start(&daemon->exchange);
     if (daemon->estimate && daemon->mapper) {
         daemon->acquire = ale_acquire_start(config, &daemon->exchange);
-    }
-    const bool drives = daemon->options->keys.count > 0;
-    if (daemon->acquire && drives) {
-        daemon->exchange.explore = ale_explore_start(config, &daemon->exchange);
     }
     ale_rt_report_t report;
     ale_rt_report(&report);

@@ -18,6 +18,7 @@ int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock)
         .results = ale_ring_create(sizeof(ale_result_t), ALE_RESULT_SLOTS),
         .keyframes = ale_ring_create(sizeof(ale_keyframe_t), ALE_KEYFRAME_SLOTS),
         .corrections = ale_ring_create(sizeof(ale_correction_t), ALE_CORRECTION_SLOTS),
+        .grid_corrections = ale_ring_create(sizeof(ale_correction_t), ALE_CORRECTION_SLOTS),
         .map = ale_snapshot_create(sizeof(ale_map_t)),
         .health = ale_snapshot_create(sizeof(ale_urg_health_t)),
         .requests = ale_ring_create(sizeof(ale_request_t), ALE_REQUEST_SLOTS),
@@ -31,7 +32,7 @@ int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock)
         .under_way = ale_wake_open(),
     };
     const bool complete = exchange->scans && exchange->odometry && exchange->results && exchange->keyframes &&
-                          exchange->corrections && exchange->map && exchange->health && exchange->requests &&
+                          exchange->corrections && exchange->grid_corrections && exchange->map && exchange->health && exchange->requests &&
                           exchange->loaded_map && exchange->drive_orders && exchange->drive_scan &&
                           exchange->exploration && exchange->drive_again >= 0 && exchange->arrived &&
                           exchange->pulse && exchange->under_way >= 0;
@@ -48,6 +49,7 @@ void ale_exchange_close(ale_exchange_t *exchange)
     ale_ring_destroy(exchange->results);
     ale_ring_destroy(exchange->keyframes);
     ale_ring_destroy(exchange->corrections);
+    ale_ring_destroy(exchange->grid_corrections);
     ale_snapshot_destroy(exchange->map);
     ale_snapshot_destroy(exchange->health);
     ale_ring_destroy(exchange->requests);

@@ -10,7 +10,7 @@
  *   estimate ◄──────────── telemetry ──────────────────────────► drive ◄── wish (newest) ── exploration
  *      ▲                      ▲ jobs  └──── scans with poses, on or off ───────────────────────►┘
  *      └── loaded map ── map keeper
- *   estimate ── keyframes ──► mapper ── corrections ──► estimate
+ *   estimate ── keyframes ──► mapper ── corrections ──► estimate, exploration
  *
  * Rings and snapshots have one writer and one reader each. Times are of the clock inside (clock.h). */
 #ifndef ALE_FIRMWARE_EXCHANGE_H
@@ -84,6 +84,7 @@ typedef struct {
     ale_ring_t *results;               /* ale_result_t: estimate to telemetry */
     ale_ring_t *keyframes;             /* ale_keyframe_t: estimate to mapper */
     ale_ring_t *corrections;           /* ale_correction_t: mapper to estimate */
+    ale_ring_t *grid_corrections;      /* the same: mapper to exploration, when there is one */
     ale_snapshot_t *map;               /* ale_map_t: estimate to telemetry */
     ale_snapshot_t *health;            /* ale_urg_health_t: acquire to telemetry */
     ale_ring_t *requests;              /* ale_request_t: telemetry to estimate */

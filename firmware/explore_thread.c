@@ -40,6 +40,8 @@ struct ale_explore {
     /* Counts requests; odd: on. */
     atomic_uint request;
     uint32_t heard; /* the request that is being obeyed */
+    /* The map of the newest estimate: epoch << 32 | corrections. */
+    atomic_ullong known;
     ale_explorer_t explorer;
 };
 
@@ -75,8 +77,28 @@ static void hear_request(ale_explore_t *explore)
     }
 }
 
+static uint64_t known_of(uint32_t epoch, uint32_t corrections)
+{
+    return (uint64_t)epoch << 32 | corrections;
+}
+
+/* Corrections that are in the map of the scan that comes next: what lies in the grid moves as it did. */
+static void take_corrections(ale_explore_t *explore, uint64_t known)
+{
+    ale_ring_t *corrections = explore->exchange->grid_corrections;
+    for (uint32_t ready = ale_ring_ready(corrections); ready > 0; ready--) {
+        const ale_correction_t *correction = ale_ring_at(corrections, 0);
+        if (known_of(correction->epoch, correction->number) > known) {
+            return;
+        }
+        ale_explorer_correct(&explore->explorer, correction);
+        ale_ring_release(corrections);
+    }
+}
+
 static void use(ale_explore_t *explore, const seen_t *seen)
 {
+    take_corrections(explore, known_of(seen->estimate.epoch, seen->estimate.corrections));
     const int64_t now_us = ale_clock_now_us(&explore->exchange->clock);
     const ale_velocity_t velocity =
         ale_explorer_step(&explore->explorer, &seen->scan, &seen->estimate, now_us + EFFECT_US);
@@ -90,6 +112,9 @@ static void run(ale_rt_task_t *self, void *user)
     while (!ale_rt_task_stopping(self)) {
         ale_wake_wait(explore->news, IDLE_NS);
         hear_request(explore);
+        if (!ale_explorer_is_at_it(&explore->explorer)) {
+            take_corrections(explore, atomic_load_explicit(&explore->known, memory_order_acquire));
+        }
         for (uint32_t ready = ale_ring_ready(explore->seen); ready > 0; ready--) {
             use(explore, ale_ring_at(explore->seen, 0));
             ale_ring_release(explore->seen);
@@ -163,6 +188,8 @@ bool ale_explore_is_on(ale_explore_t *explore)
 
 void ale_explore_take(ale_explore_t *explore, const ale_scan_t *scan, const ale_estimate_t *estimate)
 {
+    atomic_store_explicit(&explore->known, known_of(estimate->epoch, estimate->corrections),
+                          memory_order_release);
     if (!ale_explore_is_on(explore)) {
         return;
     }

@@ -2,8 +2,8 @@
  * doing.
  *
  *   telemetry ── scans, on or off ──► exploration ── wish (newest) ──► drive
- *        ▲                                │
- *        └──────── in words (newest) ─────┘
+ *        ▲                                │   ▲
+ *        └──────── in words (newest) ─────┘   └── corrections ── mapper
  *
  * Ordinary, and never in the estimate task's way: it hears of scans from the telemetry thread. Its wishes
  * last for three scans; the drive thread decides whether they are fulfilled. */

@@ -26,14 +26,21 @@ static void tell(ale_mapper_thread_t *thread, int64_t spent_ns)
     }
 }
 
-/* Without room in the ring the correction is kept, and grows, until the next keyframe. */
+/* Without room in the rings the correction is kept, and grows, until the next keyframe. Exploration hears of
+ * it first: it waits for the estimate that knows it. */
 static void hand_out(ale_mapper_thread_t *thread)
 {
-    ale_ring_t *corrections = thread->exchange->corrections;
-    ale_correction_t *slot = ale_ring_reserve(corrections);
-    if (slot && ale_mapper_correction(thread->mapper, slot)) {
-        ale_ring_commit(corrections);
+    ale_exchange_t *exchange = thread->exchange;
+    ale_correction_t *slot = ale_ring_reserve(exchange->corrections);
+    ale_correction_t *copy = exchange->explore ? ale_ring_reserve(exchange->grid_corrections) : NULL;
+    if (!slot || (exchange->explore && !copy) || !ale_mapper_correction(thread->mapper, slot)) {
+        return;
     }
+    if (copy) {
+        *copy = *slot;
+        ale_ring_commit(exchange->grid_corrections);
+    }
+    ale_ring_commit(exchange->corrections);
 }
 
 static void work_off(ale_mapper_thread_t *thread)

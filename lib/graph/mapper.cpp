@@ -51,8 +51,10 @@ namespace
 // Where the tracker sees the keyframe, moved by the corrections that it had not heard of.
 Pose where_it_is(ale_mapper &mapper, const ale_keyframe_t &keyframe)
 {
-    for (; mapper.heard < keyframe.corrections && !mapper.last_shift.empty(); mapper.heard++) {
-        mapper.last_shift.pop_front();
+    for (; mapper.heard < keyframe.corrections; mapper.heard++) {
+        if (!mapper.last_shift.empty()) {
+            mapper.last_shift.pop_front();
+        }
     }
     Pose pose = ale::from_core(keyframe.map);
     for (const Pose &shift : mapper.last_shift) {
@@ -133,6 +135,7 @@ bool ale_mapper_correction(ale_mapper_t *mapper, ale_correction_t *out)
     }
     mapper->last_shift.push_back(shift_of(nodes.back().tracked, now.back()));
     mapper->closer.told();
+    out->number = mapper->heard + static_cast<uint32_t>(mapper->last_shift.size());
     return true;
 }
 

@@ -40,12 +40,16 @@ void ale_explorer_init(ale_explorer_t *explorer, const ale_explorer_config_t *co
     explorer->state = ALE_EXPLORER_OFF;
 }
 
+bool ale_explorer_is_at_it(const ale_explorer_t *explorer)
+{
+    return explorer->state != ALE_EXPLORER_OFF && explorer->state != ALE_EXPLORER_FINISHED;
+}
+
 void ale_explorer_request(ale_explorer_t *explorer, bool on)
 {
-    const bool at_it = explorer->state != ALE_EXPLORER_OFF && explorer->state != ALE_EXPLORER_FINISHED;
     if (!on) {
         explorer->state = ALE_EXPLORER_OFF;
-    } else if (!at_it) {
+    } else if (!ale_explorer_is_at_it(explorer)) {
         explorer->state = ALE_EXPLORER_EXPLORING;
         explorer->begun = false;
     }
@@ -57,8 +61,9 @@ static void got_on(ale_explorer_t *explorer)
     explorer->steps_at_anchor = 0;
 }
 
-static void begin(ale_explorer_t *explorer, ale_pose_t pose)
+static void begin(ale_explorer_t *explorer, const ale_estimate_t *estimate)
 {
+    const ale_pose_t pose = estimate->map;
     const ale_robot_shape_t *shape = &explorer->config.follower.shape;
     const int32_t radius_um = shape->width_um / 2;
     const int32_t body_cm =
@@ -70,6 +75,10 @@ static void begin(ale_explorer_t *explorer, ale_pose_t pose)
                                           .see_cm = centimetres(radius_um)};
     ale_grid_init(&explorer->grid, (ale_point_t){pose.x_um, pose.y_um});
     ale_planner_init(&explorer->planner, &planner);
+    ale_kept_scans_clear(&explorer->kept);
+    explorer->state = ALE_EXPLORER_EXPLORING;
+    explorer->epoch = estimate->epoch;
+    explorer->home_scan = estimate->scan;
     explorer->home = pose;
     explorer->pose = pose;
     explorer->route.count = 0;
@@ -80,6 +89,31 @@ static void begin(ale_explorer_t *explorer, ale_pose_t pose)
     explorer->steps_back = 0;
     explorer->begun = true;
     got_on(explorer);
+}
+
+/* What was all seen may have gaps now that the pieces lie where they belong. */
+static void draw_again(ale_explorer_t *explorer)
+{
+    const ale_follower_t *follower = &explorer->config.follower;
+    ale_kept_scans_draw(&explorer->kept, follower->sensor, follower->shape.width_um / 2, &explorer->grid,
+                        &explorer->straightened);
+    explorer->state = ALE_EXPLORER_EXPLORING;
+    explorer->goal = ALE_GRID_NONE;
+    explorer->route.count = 0;
+    explorer->plans_without_goal = 0;
+    explorer->steps_since_plan = PLAN_EVERY;
+}
+
+/* A building that lies to one side of the start: the square moves to where what has been seen is. */
+static void make_room(ale_explorer_t *explorer)
+{
+    ale_point_t middle;
+    if (ale_grid_is_cramped(&explorer->grid, &middle)) {
+        const ale_point_t corner = explorer->grid.corner;
+        ale_grid_init(&explorer->grid, middle);
+        ale_planner_move(&explorer->planner, &explorer->grid, corner);
+        draw_again(explorer);
+    }
 }
 
 static void velocity_per_tick(const ale_estimate_t *estimate, int32_t out[ALE_AXES])
@@ -96,14 +130,17 @@ static void add_scan(ale_explorer_t *explorer, const ale_scan_t *scan, const ale
     int32_t sensor_velocity[ALE_AXES];
     velocity_per_tick(estimate, robot_velocity);
     ale_sensor_velocity(robot_velocity, follower->sensor, sensor_velocity);
-    explorer->scan = *scan;
-    if (!ale_deskew(&explorer->scan, sensor_velocity, explorer->bearing_bam)) {
+    ale_straight_scan_t *straight = &explorer->straightened;
+    straight->scan = *scan;
+    if (!ale_deskew(&straight->scan, sensor_velocity, straight->bearing_bam)) {
         for (int32_t k = 0; k < scan->beams; k++) {
-            explorer->bearing_bam[k] = ale_scan_bearing(scan, k);
+            straight->bearing_bam[k] = ale_scan_bearing(scan, k);
         }
     }
     const ale_pose_t sensor = ale_pose_compose(estimate->map, follower->sensor);
-    ale_grid_add_scan(&explorer->grid, &explorer->scan, explorer->bearing_bam, sensor);
+    ale_grid_add_scan(&explorer->grid, &straight->scan, straight->bearing_bam, sensor);
+    ale_kept_scans_offer(&explorer->kept, estimate->scan, &straight->scan, straight->bearing_bam,
+                         estimate->map);
     ale_grid_add_disc(&explorer->grid, (ale_point_t){estimate->map.x_um, estimate->map.y_um},
                       follower->shape.width_um / 2);
 }
@@ -183,7 +220,7 @@ static void watch_progress(ale_explorer_t *explorer)
     } else if (explorer->steps_at_anchor > STALL_STEPS) {
         const bool exploring = explorer->state == ALE_EXPLORER_EXPLORING;
         const bool given_up = exploring && explorer->goal != ALE_GRID_NONE &&
-                              ale_planner_refuse(&explorer->planner, explorer->goal);
+                              ale_planner_refuse(&explorer->planner, explorer->goal, explorer->scan);
         explorer->state =
             given_up ? ALE_EXPLORER_EXPLORING : (exploring ? ALE_EXPLORER_RETURNING : ALE_EXPLORER_BLOCKED);
         explorer->goal = ALE_GRID_NONE;
@@ -251,18 +288,35 @@ static ale_velocity_t drive(ale_explorer_t *explorer, const ale_scan_t *scan)
     return standing;
 }
 
+void ale_explorer_correct(ale_explorer_t *explorer, const ale_correction_t *correction)
+{
+    if (!ale_explorer_is_at_it(explorer) || !explorer->begun || correction->epoch != explorer->epoch) {
+        return;
+    }
+    const ale_pose_t shift = ale_correction_at(correction, explorer->scan);
+    explorer->home = ale_pose_compose(ale_correction_at(correction, explorer->home_scan), explorer->home);
+    explorer->anchor = ale_pose_apply(shift, explorer->anchor);
+    explorer->pose = ale_pose_compose(shift, explorer->pose);
+    ale_planner_correct(&explorer->planner, &explorer->grid, correction);
+    if (ale_kept_scans_correct(&explorer->kept, correction)) {
+        ale_grid_clear(&explorer->grid);
+        draw_again(explorer);
+    }
+}
+
 ale_velocity_t ale_explorer_step(ale_explorer_t *explorer, const ale_scan_t *scan,
                                  const ale_estimate_t *estimate, int64_t now_us)
 {
-    const bool idle = explorer->state == ALE_EXPLORER_OFF || explorer->state == ALE_EXPLORER_FINISHED;
-    if (idle || estimate->state == ALE_STATE_LOST) {
+    if (!ale_explorer_is_at_it(explorer) || estimate->state == ALE_STATE_LOST) {
         return standing;
     }
-    if (!explorer->begun) {
-        begin(explorer, estimate->map);
+    if (!explorer->begun || estimate->epoch != explorer->epoch) {
+        begin(explorer, estimate);
     }
+    explorer->scan = estimate->scan;
     if (!estimate->predicted) {
         add_scan(explorer, scan, estimate);
+        make_room(explorer);
     }
     predict_pose(explorer, estimate, now_us);
     explorer->steps_since_plan++;

@@ -6,16 +6,18 @@
  *
  *   OFF -- on --> EXPLORING -- nothing left to see --> RETURNING -- at the start --> TURNING --> FINISHED
  *                   any of them -- off --> OFF;  a way home that stays closed --> BLOCKED, until it opens
+ *                   any of them but OFF and FINISHED -- the past has moved --> EXPLORING
  *
- * The grid begins anew with every "on". While the pose is lost the robot stands. Goals that it cannot get to
- * are given up and counted. One owner thread, never the estimate task: a step in which ways are planned takes
- * some 10 ms of a PC, and the structure 20 MB. No allocation, no clock, every loop bounded by the grid's
- * capacity. */
+ * The grid begins anew with every "on" and with every new map; when loops have moved the map, it is drawn
+ * again from the scans kept. While the pose is lost the robot stands. Goals that it cannot get to are given
+ * up and counted. One owner thread, never the estimate task: a step in which ways are planned takes some 10
+ * ms of a PC, and the structure 31 MB. No allocation, no clock, every loop bounded by the grid's capacity. */
 #ifndef ALE_PLAN_EXPLORER_H
 #define ALE_PLAN_EXPLORER_H
 
 #include "plan/follower.h"
 #include "plan/grid.h"
+#include "plan/kept_scans.h"
 #include "plan/planner.h"
 #include "track/pipeline.h"
 
@@ -38,9 +40,12 @@ typedef enum {
 typedef struct {
     ale_explorer_config_t config;
     ale_explorer_state_t state;
-    bool begun;      /* home is known, the grid is about it */
-    ale_pose_t home; /* where it was switched on, map frame */
-    ale_pose_t pose; /* where the robot is now */
+    bool begun;         /* home is known, the grid is about it */
+    uint32_t epoch;     /* of the map that it explores */
+    uint32_t home_scan; /* in which it was switched on */
+    uint32_t scan;      /* the newest one */
+    ale_pose_t home;    /* where it was switched on, map frame */
+    ale_pose_t pose;    /* where the robot is now */
     uint32_t steps_since_plan;
     uint32_t plans_without_goal;
     ale_route_t route;
@@ -51,14 +56,22 @@ typedef struct {
     uint32_t steps_back;  /* still to be driven backwards */
     ale_grid_t grid;
     ale_planner_t planner;
-    ale_scan_t scan; /* straightened */
-    uint32_t bearing_bam[ALE_MAX_BEAMS];
+    ale_kept_scans_t kept;
+    ale_straight_scan_t straightened;
 } ale_explorer_t;
 
 void ale_explorer_init(ale_explorer_t *explorer, const ale_explorer_config_t *config);
 
+/* Neither off nor finished. */
+bool ale_explorer_is_at_it(const ale_explorer_t *explorer);
+
 /* On: begins anew, unless it is at it; off: stops. */
 void ale_explorer_request(ale_explorer_t *explorer, bool on);
+
+/* Loops have moved the map, and the next estimate is of the map as it is now: grid, home and all that it
+ * remembers move with it. Each correction once, in order; one made for another map is ignored, and so are all
+ * while it is off or finished. */
+void ale_explorer_correct(ale_explorer_t *explorer, const ale_correction_t *correction);
 
 /* One scan (blind sectors masked) with its estimate; now_us, of the same clock, is when the velocity will be
  * in force. Returns what to drive; all zero when there is nothing to do. */

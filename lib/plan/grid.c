@@ -5,7 +5,7 @@
 #include "base/fixed.h"
 
 enum { MOST_OCCUPIED = 30, MOST_FREE = -20 };
-enum { AGREEING_BEAMS = 5 };
+enum { AGREEING_BEAMS = 5, WORTH_MOVING = 60 };
 #define UNCLEARED_UM 75000 /* before a hit: the wall's own cell and what noise makes of it */
 
 static const ale_grid_part_t nothing = {ALE_GRID_SIDE, -1, ALE_GRID_SIDE, -1};
@@ -17,6 +17,31 @@ void ale_grid_init(ale_grid_t *grid, ale_point_t centre)
     grid->corner = (ale_point_t){centre.x_um - half_um, centre.y_um - half_um};
     grid->extent = nothing;
     grid->changed = nothing;
+}
+
+void ale_grid_clear(ale_grid_t *grid)
+{
+    const ale_grid_part_t seen = grid->extent;
+    const ale_point_t corner = grid->corner;
+    memset(grid, 0, sizeof *grid);
+    grid->corner = corner;
+    grid->extent = seen;
+    grid->changed = seen;
+}
+
+static bool is_lopsided(int32_t first, int32_t last)
+{
+    const int32_t before = first - ALE_GRID_RIM;
+    const int32_t after = ALE_GRID_SIDE - 1 - ALE_GRID_RIM - last;
+    return (before <= 0 && after >= WORTH_MOVING) || (after <= 0 && before >= WORTH_MOVING);
+}
+
+bool ale_grid_is_cramped(const ale_grid_t *grid, ale_point_t *middle)
+{
+    const ale_grid_part_t *seen = &grid->extent;
+    middle->x_um = grid->corner.x_um + (seen->first_x + seen->last_x) / 2 * ALE_GRID_CELL_UM;
+    middle->y_um = grid->corner.y_um + (seen->first_y + seen->last_y) / 2 * ALE_GRID_CELL_UM;
+    return is_lopsided(seen->first_x, seen->last_x) || is_lopsided(seen->first_y, seen->last_y);
 }
 
 /* Column or row, rounded down, also left of the corner. */

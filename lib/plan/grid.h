@@ -54,6 +54,15 @@ typedef struct {
 /* Everything unseen. centre: middle of the square, map frame, |x|, |y| up to 1 km. O(cells). */
 void ale_grid_init(ale_grid_t *grid, ale_point_t centre);
 
+/* Everything unseen again, at the same place: to be drawn anew. What had been seen counts as changed.
+ * O(cells). */
+void ale_grid_clear(ale_grid_t *grid);
+
+/* True: what has been seen comes up to the square's border on one side and leaves 3 m or more on the opposite
+ * one. *middle: what has been seen would have the same room all round in a square about it; whole cells away
+ * from the square's own middle. */
+bool ale_grid_is_cramped(const ale_grid_t *grid, ale_point_t *middle);
+
 /* Adds a scan seen from `sensor` (map frame). bearing_bam[k]: bearing of beam k in the sensor's frame,
  * straightened with its range. Beams without return clear three quarters of the reach, up to the first cell
  * that was hit, where at least five neighbours agree. O(beams * reach / cell). */

@@ -186,13 +186,34 @@ bool ale_planner_go(ale_planner_t *planner, const ale_grid_t *grid, ale_point_t 
     return cell != ALE_GRID_NONE;
 }
 
-bool ale_planner_refuse(ale_planner_t *planner, ale_cell_t goal)
+bool ale_planner_refuse(ale_planner_t *planner, ale_cell_t goal, uint32_t number)
 {
     if (planner->refused_count == ALE_MAX_REFUSED) {
         return false;
     }
+    planner->refused_in[planner->refused_count] = number;
     planner->refused[planner->refused_count++] = goal;
     return true;
+}
+
+void ale_planner_move(ale_planner_t *planner, const ale_grid_t *grid, ale_point_t corner)
+{
+    const int32_t columns = (corner.x_um - grid->corner.x_um) / ALE_GRID_CELL_UM;
+    const int32_t rows = (corner.y_um - grid->corner.y_um) / ALE_GRID_CELL_UM;
+    for (uint32_t k = 0; k < planner->refused_count; k++) {
+        planner->refused[k] = (ale_cell_t)((int32_t)planner->refused[k] + rows * ALE_GRID_SIDE + columns);
+    }
+    ale_clearance_init(&planner->clearance);
+}
+
+void ale_planner_correct(ale_planner_t *planner, const ale_grid_t *grid, const ale_correction_t *correction)
+{
+    for (uint32_t k = 0; k < planner->refused_count; k++) {
+        const ale_pose_t shift = ale_correction_at(correction, planner->refused_in[k]);
+        const ale_point_t place = ale_pose_apply(shift, ale_grid_middle(grid, planner->refused[k]));
+        const ale_cell_t cell = ale_grid_cell(grid, place);
+        planner->refused[k] = cell != ALE_GRID_NONE ? cell : planner->refused[k];
+    }
 }
 
 /* Half a cell at a time. */

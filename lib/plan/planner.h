@@ -16,6 +16,7 @@
 #include "plan/clearance.h"
 #include "plan/grid.h"
 #include "plan/wavefront.h"
+#include "track/correction.h"
 
 enum { ALE_ROUTE_CELLS = 64, ALE_MAX_REFUSED = 64 };
 
@@ -41,6 +42,7 @@ typedef struct {
     ale_wavefront_t front;
     uint32_t refused_count;
     ale_cell_t refused[ALE_MAX_REFUSED];
+    uint32_t refused_in[ALE_MAX_REFUSED]; /* number of the scan */
 } ale_planner_t;
 
 void ale_planner_init(ale_planner_t *planner, const ale_planner_config_t *config);
@@ -57,8 +59,16 @@ bool ale_planner_explore(ale_planner_t *planner, const ale_grid_t *grid, ale_poi
 bool ale_planner_go(ale_planner_t *planner, const ale_grid_t *grid, ale_point_t robot, ale_point_t place,
                     ale_route_t *route);
 
-/* Goals within 30 cm of this one are not taken any more. False: no room, already ALE_MAX_REFUSED. */
-bool ale_planner_refuse(ale_planner_t *planner, ale_cell_t goal);
+/* Goals within 30 cm of this one are not taken any more; number: of the newest scan. False: no room, already
+ * ALE_MAX_REFUSED. */
+bool ale_planner_refuse(ale_planner_t *planner, ale_cell_t goal, uint32_t number);
+
+/* The grid lies elsewhere now and is drawn anew: its first cell was at `corner`. What was refused stays where
+ * it is; other cells must not be used any more. O(cells). */
+void ale_planner_move(ale_planner_t *planner, const ale_grid_t *grid, ale_point_t corner);
+
+/* What was refused moves as the map did. */
+void ale_planner_correct(ale_planner_t *planner, const ale_grid_t *grid, const ale_correction_t *correction);
 
 /* Whether the way leads through less room than body_cm within its first reach_um. route->count > 0. */
 bool ale_planner_is_tight(const ale_planner_t *planner, const ale_route_t *route, int32_t reach_um);

@@ -19,8 +19,9 @@ typedef struct {
 } ale_shift_t;
 
 struct ale_correction {
-    uint32_t epoch; /* of the map it was made for: see ale_keyframe_t */
-    uint32_t due;   /* the scan before which it takes effect; later when it comes too late */
+    uint32_t epoch;  /* of the map it was made for: see ale_keyframe_t */
+    uint32_t number; /* of those of this map, from 1 */
+    uint32_t due;    /* the scan before which it takes effect; later when it comes too late */
     uint32_t count;
     ale_shift_t shift[ALE_CORRECTION_SHIFTS]; /* scans ascending */
 };

@@ -196,6 +196,8 @@ static void answer(ale_pipeline_t *p, int64_t stamp_us, bool predicted, uint32_t
     memset(out, 0, sizeof *out);
     out->stamp_us = stamp_us;
     out->scan = p->scans++;
+    out->epoch = p->epoch;
+    out->corrections = p->corrections;
     out->smooth = p->smooth.pose;
     out->map = p->motion.pose;
     ale_map_covariance(&p->motion, p->drift, out->cov);

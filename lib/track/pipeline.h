@@ -48,6 +48,8 @@ typedef enum { ALE_STATE_LOST = 0, ALE_STATE_WEAK = 1, ALE_STATE_GOOD = 2 } ale_
 typedef struct {
     int64_t stamp_us;
     uint32_t scan;           /* number of the scan, from 0, dropped ones counted */
+    uint32_t epoch;          /* of the map: grows when it is begun anew */
+    uint32_t corrections;    /* taken in by the map since then */
     ale_pose_t smooth;       /* continuous: no step exceeds what the robot can do */
     ale_pose_t map;          /* takes corrections and relocations */
     int64_t cov[9];          /* of the map pose, row by row: um^2, um*nrad, nrad^2 */

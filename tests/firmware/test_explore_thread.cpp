@@ -43,6 +43,7 @@ class ExploreThread : public testing::Test
         ale_estimate_t estimate{};
         estimate.stamp_us = ale_clock_now_us(&exchange.clock);
         estimate.state = state;
+        estimate.corrections = corrections;
         room::fill(*scan, 0, 0, estimate.stamp_us);
         ale_explore_take(explore, scan.get(), &estimate);
     }
@@ -72,7 +73,18 @@ class ExploreThread : public testing::Test
         return condition();
     }
 
+    void hand_out_correction(uint32_t number)
+    {
+        auto *slot = static_cast<ale_correction_t *>(ale_ring_reserve(exchange.grid_corrections));
+        ASSERT_NE(slot, nullptr);
+        slot->epoch = 0;
+        slot->number = number;
+        slot->count = 0;
+        ale_ring_commit(exchange.grid_corrections);
+    }
+
     ale_config_t config;
+    uint32_t corrections = 0; /* that the pose given next knows */
     ale_exchange_t exchange;
     ale_explore_t *explore = nullptr;
 };
@@ -107,6 +119,25 @@ TEST_F(ExploreThread, SaysThatItWaitsForThePose)
     ale_explore_request(explore, true);
     ASSERT_TRUE(comes([&] { return words() == "waits: the pose is lost"; }, ALE_STATE_LOST));
     EXPECT_FALSE(wishes_to_move());
+}
+
+TEST_F(ExploreThread, ACorrectionIsTakenWithTheFirstPoseThatKnowsIt)
+{
+    ale_explore_request(explore, true);
+    ASSERT_TRUE(comes([&] { return wishes_to_move(); }));
+    hand_out_correction(1);
+    const int64_t before_us = ale_clock_now_us(&exchange.clock);
+    ASSERT_TRUE(comes([&] { return wish().valid_until_us > before_us + 2 * ALE_EXPLORE_WISH_LIFE_US; }));
+    EXPECT_EQ(ale_ring_ready(exchange.grid_corrections), 1U) << "poses go by that do not know it";
+    corrections = 1;
+    EXPECT_TRUE(comes([&] { return ale_ring_ready(exchange.grid_corrections) == 0; }));
+}
+
+TEST_F(ExploreThread, WhileItIsOffCorrectionsDoNotPileUp)
+{
+    hand_out_correction(1);
+    corrections = 1;
+    EXPECT_TRUE(comes([&] { return ale_ring_ready(exchange.grid_corrections) == 0; }));
 }
 
 TEST_F(ExploreThread, AskedTwiceItGoesOn)

@@ -1,5 +1,6 @@
 // firmware/mapper_thread: keyframes in by one ring, corrections out by another, and a clean end.
 #include <chrono>
+#include <cstring>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -65,8 +66,23 @@ TEST_F(MapperThread, ALoopComesBackAsACorrection)
     ASSERT_TRUE(comes_true([&] { return ale_ring_ready(exchange.corrections) > 0; }));
     const auto *correction = static_cast<ale_correction_t *>(ale_ring_at(exchange.corrections, 0));
     EXPECT_EQ(correction->epoch, 1U);
+    EXPECT_EQ(correction->number, 1U);
     EXPECT_GT(correction->count, 100U);
     EXPECT_EQ(correction->shift[0].scan, 0U);
+}
+
+TEST_F(MapperThread, ExplorationHearsOfTheSameCorrection)
+{
+    exchange.explore = reinterpret_cast<struct ale_explore *>(&exchange); // there is one; nobody asks it anything
+    const auto keyframes = drifting_keyframes::walk(1.2, 0.0008, 1);
+    for (const auto &keyframe : keyframes) {
+        hand_over(*keyframe);
+    }
+    ASSERT_TRUE(comes_true([&] { return ale_ring_ready(exchange.corrections) > 0; }));
+    ASSERT_GT(ale_ring_ready(exchange.grid_corrections), 0U);
+    EXPECT_EQ(std::memcmp(ale_ring_at(exchange.corrections, 0), ale_ring_at(exchange.grid_corrections, 0),
+                          sizeof(ale_correction_t)),
+              0);
 }
 
 TEST_F(MapperThread, ItEndsWhileKeyframesAreWaiting)

@@ -91,7 +91,9 @@ void ClosedLoop::take_turn(const sim::Turn &turn, const Watcher &each_scan)
 {
     const ale_scan_t scan = scan_of(turn, source_.scanner());
     ale_estimate_t estimate;
-    loops_.before_scan(pipeline_.get());
+    loops_.before_scan(pipeline_.get(), [this](const ale_correction_t &correction) {
+        ale_explorer_correct(explorer_.get(), &correction);
+    });
     ale_pipeline_scan(pipeline_.get(), &scan, &estimate);
     loops_.after_scan(pipeline_.get(), estimate);
     const int64_t effect_us = now_us_ + latency_us;

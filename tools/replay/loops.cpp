@@ -51,9 +51,12 @@ Loops::Loops()
     }
 }
 
-void Loops::before_scan(ale_pipeline_t *pipeline)
+void Loops::before_scan(ale_pipeline_t *pipeline, const Taken &taken)
 {
     while (!due_.empty() && ale_pipeline_correct(pipeline, due_.front().get())) {
+        if (taken) {
+            taken(*due_.front());
+        }
         due_.pop_front();
     }
 }

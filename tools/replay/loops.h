@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -21,8 +22,11 @@ class Loops
   public:
     Loops();
 
-    /* Before a scan is handed to the pipeline: corrections that are due take effect. */
-    void before_scan(ale_pipeline_t *pipeline);
+    using Taken = std::function<void(const ale_correction_t &)>;
+
+    /* Before a scan is handed to the pipeline: corrections that are due take effect, and `taken` hears of
+     * each. */
+    void before_scan(ale_pipeline_t *pipeline, const Taken &taken = {});
 
     /* After the pipeline has answered it. */
     void after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate);

@@ -33,6 +33,8 @@ class Explorer : public ::testing::Test
         estimate.stamp_us = scan.stamp_us;
         estimate.map = convert::pose(pose_);
         estimate.state = state;
+        estimate.scan = static_cast<uint32_t>(steps_);
+        estimate.epoch = epoch_;
         estimate.predicted = predicted;
         const ale_velocity_t velocity = ale_explorer_step(explorer_.get(), &scan, &estimate, scan.stamp_us);
         pose_ = reference::compose(pose_, {velocity.speed_um_s * 1e-7, 0, velocity.turn_urad_s * 1e-7});
@@ -50,6 +52,7 @@ class Explorer : public ::testing::Test
     reference::Pose pose_{0.5, -0.5, 0.3};
     std::mt19937 rng_{1};
     int steps_ = 0;
+    uint32_t epoch_ = 0;
 };
 
 } // namespace
@@ -109,6 +112,47 @@ TEST_F(Explorer, PredictedScansAddNothing)
     EXPECT_EQ(explorer_->grid.seen, 0u);
     step(ALE_STATE_WEAK, false);
     EXPECT_GT(explorer_->grid.seen, 1000u);
+}
+
+TEST_F(Explorer, WhenLoopsMoveTheMapHomeAndGridMoveWithIt)
+{
+    ale_explorer_request(explorer_.get(), true);
+    const reference::Pose start = pose_;
+    while (steps_ < 60) {
+        step();
+    }
+    auto correction = std::make_unique<ale_correction_t>();
+    correction->count = 1;
+    correction->epoch = 7;
+    correction->shift[0].shift = {300000, -200000, convert::bam(0.2)};
+    ale_explorer_correct(explorer_.get(), correction.get());
+    EXPECT_EQ(explorer_->home.x_um, convert::pose(start).x_um) << "that was another map";
+    correction->epoch = explorer_->epoch;
+    ale_explorer_correct(explorer_.get(), correction.get());
+    const ale_point_t home =
+        ale_pose_apply(correction->shift[0].shift, {convert::um(start[0]), convert::um(start[1])});
+    EXPECT_NEAR(explorer_->home.x_um, home.x_um, 2);
+    EXPECT_NEAR(explorer_->home.y_um, home.y_um, 2);
+    uint32_t hit = 0;
+    uint32_t seen = 0;
+    for (double x = -1; x < 5; x += 0.1, seen++) { // the long wall below, where it lies now
+        const ale_point_t p = ale_pose_apply(correction->shift[0].shift, {convert::um(x), convert::um(-2)});
+        hit += ale_grid_is_occupied(&explorer_->grid, ale_grid_cell(&explorer_->grid, p));
+    }
+    EXPECT_GT(hit * 10, seen * 6);
+}
+
+TEST_F(Explorer, ANewMapIsExploredFromWhereTheRobotStands)
+{
+    ale_explorer_request(explorer_.get(), true);
+    while (steps_ < 60) {
+        step();
+    }
+    epoch_ = 1;
+    const reference::Pose here = pose_;
+    step();
+    EXPECT_EQ(explorer_->home.x_um, convert::pose(here).x_um);
+    EXPECT_EQ(explorer_->kept.count, 1u);
 }
 
 TEST_F(Explorer, AGoalThatCannotBeReachedIsGivenUpAndTheRobotGoesHome)

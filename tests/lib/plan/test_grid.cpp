@@ -237,3 +237,41 @@ TEST(Grid, NothingIsSeenBeyondItsRim)
     EXPECT_LT(grid->extent.last_x, ALE_GRID_SIDE - ALE_GRID_RIM);
     EXPECT_LT(grid->extent.last_y, ALE_GRID_SIDE - ALE_GRID_RIM);
 }
+
+TEST(Grid, ASquareThatIsFullOnOneSideMovesToTheMiddleOfWhatWasSeen)
+{
+    const auto grid = empty_grid();
+    std::mt19937 rng(2);
+    const room::Sensor sensor;
+    ale_point_t middle;
+    const ale_scan_t scan = room::scan_at(
+        room::l_shape(), sensor, [](double) { return reference::Pose(0, 0, 0); }, 0, rng);
+    add(*grid, scan, {0, 0, 0});
+    EXPECT_FALSE(ale_grid_is_cramped(grid.get(), &middle));
+    add(*grid, scan, {23.5, 0, 0});
+    ASSERT_TRUE(ale_grid_is_cramped(grid.get(), &middle));
+    EXPECT_NEAR(middle.x_um, 12200000, 300000) << "between -1 m and the border";
+    EXPECT_EQ(middle.x_um % ALE_GRID_CELL_UM, 0) << "cells stay where they are";
+    ale_grid_init(grid.get(), middle);
+    add(*grid, scan, {0, 0, 0});
+    add(*grid, scan, {23.5, 0, 0});
+    EXPECT_FALSE(ale_grid_is_cramped(grid.get(), &middle));
+    EXPECT_LT(evidence_at(*grid, 0.2, 0.1), 0);
+    EXPECT_LT(evidence_at(*grid, 26.5, 0.1), 0) << "beyond the border that there was";
+}
+
+TEST(Grid, ClearedItHasSeenNothingAndSaysSoOfAllThatItHadSeen)
+{
+    const auto grid = empty_grid();
+    std::mt19937 rng(2);
+    const ale_scan_t scan = room::scan_at(
+        room::l_shape(), room::Sensor{}, [](double) { return reference::Pose(0, 0, 0); }, 0, rng);
+    add(*grid, scan, {1, 0.5, 0});
+    const ale_grid_part_t seen = grid->extent;
+    ale_grid_take_changed(grid.get());
+    ale_grid_clear(grid.get());
+    EXPECT_EQ(grid->seen, 0u);
+    EXPECT_EQ(evidence_at(*grid, 1.1, 0.5), 0);
+    const ale_grid_part_t changed = ale_grid_take_changed(grid.get());
+    EXPECT_EQ(std::memcmp(&seen, &changed, sizeof seen), 0);
+}

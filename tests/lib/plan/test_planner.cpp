@@ -161,7 +161,7 @@ TEST(Planner, TheNearerOfTwoOpenEndsIsTakenAndTheLastOneIsKept)
     ASSERT_TRUE(floor.explore('A'));
     const ale_cell_t near = floor.route.goal;
     EXPECT_LT(ale_grid_middle(floor.grid.get(), near).x_um, floor.at('A').x_um);
-    ASSERT_TRUE(ale_planner_refuse(floor.planner.get(), near));
+    ASSERT_TRUE(ale_planner_refuse(floor.planner.get(), near, 0));
     ASSERT_TRUE(floor.explore('A'));
     EXPECT_NE(floor.route.goal, near);
 }
@@ -222,4 +222,23 @@ TEST(Planner, OutsideTheGridThereIsNoWay)
     EXPECT_FALSE(
         ale_planner_explore(floor.planner.get(), floor.grid.get(), far, ALE_GRID_NONE, &floor.route));
     EXPECT_FALSE(ale_planner_go(floor.planner.get(), floor.grid.get(), floor.at('A'), far, &floor.route));
+}
+
+TEST(Planner, WhatWasRefusedStaysWhereItIsWhenTheSquareMovesAndGoesWhereTheMapGoes)
+{
+    const std::vector<std::string> open = {"............................"};
+    Floor floor(open);
+    const ale_point_t place = {400000, 300000};
+    ASSERT_TRUE(ale_planner_refuse(floor.planner.get(), ale_grid_cell(floor.grid.get(), place), 5));
+    const ale_point_t corner = floor.grid->corner;
+    ale_grid_init(floor.grid.get(), {corner.x_um + 30000000, corner.y_um + 20000000});
+    ale_planner_move(floor.planner.get(), floor.grid.get(), corner);
+    EXPECT_EQ(floor.planner->refused[0], ale_grid_cell(floor.grid.get(), place));
+    auto correction = std::make_unique<ale_correction_t>();
+    correction->count = 2;
+    correction->shift[0] = {0, {0, 0, 0}};
+    correction->shift[1] = {5, {250000, -150000, 0}};
+    ale_planner_correct(floor.planner.get(), floor.grid.get(), correction.get());
+    EXPECT_EQ(floor.planner->refused[0],
+              ale_grid_cell(floor.grid.get(), {place.x_um + 250000, place.y_um - 150000}));
 }
