@@ -23,5 +23,5 @@ $(EMULATED_FIRMWARE): $(call objects,$(filter-out firmware/realtime/rt_%.c,$(FIR
 	$(archive)
 $(BUILD)/rtai/ale-slamd: $(OBJ)/firmware/main.c.o $(EMULATED_ARCHIVES)
 	$(call link)
-$(BUILD)/tests/rtai/%: $(OBJ)/tests/rtai/%.cpp.o $(EMULATED_ARCHIVES)
+$(BUILD)/tests/rtai/%: $(TEST_OBJ)/tests/rtai/%.cpp.o $(EMULATED_ARCHIVES)
 	$(call link,-lgtest_main -lgtest)

@@ -10,7 +10,7 @@ $(BENCH_PROGRAMS): $(BUILD)/bench/%: $(OBJ)/tools/bench/%.cpp.o $(call objects,$
 
 # Tests of the benchmark, and of the calibration, which use its worlds.
 BENCH_TESTS = $(patsubst %.cpp,$(BUILD)/%,$(wildcard tests/tools/bench/test_*.cpp tests/tools/calibrate/test_*.cpp))
-$(BENCH_TESTS): $(call objects,$(BENCH_PARTS))
+$(BENCH_TESTS): $(call objects,$(filter-out $(TEST_WORLD_SOURCES),$(BENCH_PARTS)))
 
 .PHONY: bench bench-lines
 bench: bench-lines ## the benchmarks as tables

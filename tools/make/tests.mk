@@ -17,16 +17,51 @@ export ALE_BUILD = $(abspath $(BUILD))
 TOOL_PARTS = $(foreach t,$(TOOL_FOLDERS),$(filter-out %/main.c %/main.cpp,$(wildcard tools/$(t)/*.c tools/$(t)/*.cpp)))
 $(BUILD)/libale_tool_parts.a: $(call objects,$(TOOL_PARTS))
 	$(archive)
+
+# The tests themselves are compiled once, without sanitizers, for every build of the code under test; what they all
+# include, once for all of them. TEST_BUILD names the build whose tests are linked.
+TEST_BUILD ?= $(BUILD)
+TEST_OBJ = $(TEST_BUILD)/test-objects
+test_objects = $(patsubst %,$(TEST_OBJ)/%.o,$(1))
+TEST_FLAGS = -std=c++17 -fno-strict-aliasing -g1 $(WARNINGS) -MMD -MP $(CXXFLAGS) $(TEST_INCLUDES)
+# The twins of the core do the most work of all tests.
+TWIN_FLAGS = $(TEST_FLAGS) -O1
+PRELUDE = $(TEST_OBJ)/prelude.hpp
+# ccache must be told that a precompiled header is known by its contents.
+export CCACHE_SLOPPINESS = pch_defines,time_macros
+
+$(PRELUDE).gch: tests/prelude.hpp
+	$(call say,c++,$<)
+	@mkdir -p $(@D)
+	$(Q)cp $< $(PRELUDE)
+	$(Q)$(CXX) $(TEST_FLAGS) -O0 -x c++-header $(PRELUDE) -o $@
+# Message types are system headers, which no .d file names.
+$(TEST_OBJ)/%.cpp.o: %.cpp $(LCM_FILES) $(PRELUDE).gch | $(LCM_STAMP)
+	$(call say,c++,$<)
+	@mkdir -p $(@D)
+	$(Q)$(CXX) -include $(PRELUDE) $(TEST_FLAGS) -O0 -c $< -o $@
+define twin
+	$(call say,c++,$<)
+	@mkdir -p $(@D)
+	$(Q)$(CXX) $(TWIN_FLAGS) -c $< -o $@
+endef
+$(TEST_OBJ)/tests/reference/%.cpp.o: tests/reference/%.cpp | $(LCM_STAMP)
+	$(twin)
+$(TEST_OBJ)/tools/%.cpp.o: tools/%.cpp | $(LCM_STAMP)
+	$(twin)
+-include $(shell find $(TEST_OBJ) -name '*.d' 2>/dev/null)
+
 # Tests of the core use the benchmark's worlds and its simulated scanner.
 TEST_WORLD_SOURCES = tools/bench/world.cpp tools/bench/simulate.cpp tools/bench/truth.cpp
-$(BUILD)/libale_test_shared.a: $(call objects,$(TEST_SHARED_SOURCES) $(TEST_WORLD_SOURCES))
+TEST_SHARED = $(TEST_BUILD)/libale_test_shared.a
+$(TEST_SHARED): $(call test_objects,$(TEST_SHARED_SOURCES) $(TEST_WORLD_SOURCES))
 	$(archive)
 
 include tests/rtai/rtai.mk
-TEST_ARCHIVES = $(if $(TEST_SHARED_SOURCES),$(BUILD)/libale_test_shared.a) $(FIRMWARE_ARCHIVES)
-$(BUILD)/tests/tools/%: $(OBJ)/tests/tools/%.cpp.o $(BUILD)/libale_tool_parts.a $(BUILD)/libale_tools.a $(TEST_ARCHIVES)
+TEST_ARCHIVES = $(TEST_SHARED) $(FIRMWARE_ARCHIVES)
+$(BUILD)/tests/tools/%: $(TEST_OBJ)/tests/tools/%.cpp.o $(BUILD)/libale_tool_parts.a $(BUILD)/libale_tools.a $(TEST_ARCHIVES)
 	$(call link,-lgtest_main -lgtest)
-$(BUILD)/tests/%: $(OBJ)/tests/%.cpp.o $(TEST_ARCHIVES)
+$(BUILD)/tests/%: $(TEST_OBJ)/tests/%.cpp.o $(TEST_ARCHIVES)
 	$(call link,-lgtest_main -lgtest)
 
 .PHONY: unit unit-programs system system-rtai venv
@@ -102,10 +137,10 @@ lint: ## clang-format and cppcheck of everything, clang-tidy of what runs on the
 # The whole of it, as continuous integration runs it. Each part counts its tests; the sum is the last line.
 SHORT_FUZZ_SECONDS ?= 5
 export ALE_RESULTS ?= $(ALE_BUILD)/test-results.txt
-SUB = $(MAKE) --no-print-directory -s
-CHECKED = $(SUB) BUILD=$(BUILD)/asan SANITIZE=address,undefined OPT=-O1
+SUB = $(MAKE) --no-print-directory -s DEBUG=-g1
+CHECKED = $(SUB) BUILD=$(BUILD)/asan TEST_BUILD=$(BUILD) SANITIZE=address,undefined OPT=-O1
 ROBOT_TESTS = tests/lib tests/drivers tests/firmware
-THREADED = $(SUB) BUILD=$(BUILD)/tsan SANITIZE=thread OPT=-O1 T=tests/firmware
+THREADED = $(SUB) BUILD=$(BUILD)/tsan TEST_BUILD=$(BUILD) SANITIZE=thread OPT=-O1 T=tests/firmware
 RTAI_SYSTEM_TESTS = tests/system/test_daemon.py tests/system/test_latency.py
 RTAI_BUILD = BUILD=$(BUILD)/rtai-build RT=rtai RTAI_CONFIG=$(RTAI_EMULATION_CONFIG)
 .PHONY: test test-all
@@ -151,4 +186,7 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	-@$(SUB) system-rtai
 	@echo "== the robot explores at a click in the browser"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=console_explores
+	@echo "== explorations in a closed loop with the simulator, more of them"
+	@$(SUB) T=tools/explore/test_exploration unit-programs
+	-@ALE_LONG_TESTS=1 $(SUB) T=tools/explore/test_exploration unit
 	@$(PYTHON) tools/make/run_tests.py sum

@@ -1,5 +1,6 @@
 // Whole explorations in a closed loop with the simulator, scored by geometry alone. One run again:
 // build/bin/ale-explore --world tools/worlds/NAME.world --seed N --map map.png
+#include <cstdlib>
 #include <tuple>
 
 #include <gtest/gtest.h>
@@ -38,8 +39,14 @@ TEST_P(Exploration, maps_all_that_can_be_reached_hits_nothing_and_comes_back)
     EXPECT_LE(off, explore::farthest_off);
 }
 
+// One drive a world, three of them with ALE_LONG_TESTS=1 (make test-all).
+int drives()
+{
+    return std::getenv("ALE_LONG_TESTS") ? 3 : 1;
+}
+
 INSTANTIATE_TEST_SUITE_P(Worlds, Exploration,
                          ::testing::Combine(::testing::Values("apartment", "office", "arena"),
-                                            ::testing::Values(1, 2, 3)));
+                                            ::testing::Range(1, 1 + drives())));
 
 } // namespace
