@@ -82,6 +82,7 @@ $(OBJ)/drivers/%.o: INCLUDES = $(DRIVER_INCLUDES)
 $(OBJ)/firmware/%.o: INCLUDES = $(FIRMWARE_INCLUDES)
 $(OBJ)/tools/%.o: INCLUDES = $(TOOL_INCLUDES)
 $(OBJ)/tests/%.o: INCLUDES = $(TEST_INCLUDES)
+
 # System headers are in no .d file: changed message types are a reason to compile again.
 $(OBJ)/%.c.o: %.c $(LCM_STAMP)
 	$(call say,cc,$<)
