@@ -79,6 +79,11 @@ int64_t ale_mul_shift(int64_t a, int64_t b, unsigned shift)
 
 int64_t ale_mul_nano(int64_t a, int64_t b)
 {
+    const int64_t billion = 1000000000;
+    const int64_t whole = a / billion;
+    if (ale_abs64(whole) < (int64_t)1 << 30) {
+        return whole * b + ale_round_div(a % billion * b, billion);
+    }
     return ale_mul_shift(a, ale_round_div(b * 1099511628, 1000000), 40); /* 2^40 / 10^9 */
 }
 

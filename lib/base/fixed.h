@@ -63,8 +63,8 @@ uint32_t ale_isqrt(uint64_t v);
  * shift 0..126. Made of 32-bit limbs: __int128 does not exist on 32-bit targets. */
 int64_t ale_mul_shift(int64_t a, int64_t b, unsigned shift);
 
-/* a * b / 10^9 rounded, saturated to int64; |b| <= 2^32. b / 10^9 is taken to 2^-41 and 2^-31 of itself: what
- * a variance needs, at a quarter of the cost of ale_mul_div. */
+/* a * b / 10^9 rounded, saturated to int64; |b| <= 2^32. From |a| = 2^30 10^9 on b / 10^9 is taken to
+ * 2^-41 and 2^-31 of itself: what a variance needs. */
 int64_t ale_mul_nano(int64_t a, int64_t b);
 
 /* a * b / c with a 128-bit product, rounded half away from zero, saturated to int64. c != 0.

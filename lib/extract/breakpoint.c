@@ -5,12 +5,10 @@
 #include "extract/moments.h"
 
 enum {
-    UNRULY_REACH =
-        2, /* times the points accepted that an unruly scan is tried for before the first refusal */
+    COSTLY_REACH = 2, /* times the points accepted that a costly scan is tried for before the first refusal */
     SHARED_SHARE = 2, /* shared variances that a point may add in the mean, */
     SHARED_PEAK = 6,  /* and those that are in error together on top of it */
     GRID = 12,        /* places at which a run is tried for a break */
-    MIN_SPLIT_POINTS = 16,
     SUSPICIOUS_Q8 = 236, /* a run that has no more than its noise is not tried */
     PROMISING_Q8 = 100   /* part of the gain wanted that a place of the grid must show */
 };
@@ -49,22 +47,23 @@ static bool acceptable(const ale_extractor_t *e, const ale_run_fit_t *fit, const
 }
 
 /* The fit, unless its residuals are beyond every bound: most refusals in an unruly scan need no more. */
-static bool fit_unless_gross(const ale_extractor_t *e, int32_t a, int32_t b, ale_run_fit_t *fit)
+static bool fit_unless_gross(ale_extractor_t *e, int32_t a, int32_t b, ale_run_fit_t *fit)
 {
     const int32_t first = a <= b ? a : b;
     const int32_t last = a <= b ? b : a;
     const int32_t n = last + 1 - first;
-    if (e->unruly) {
+    e->search_fits++;
+    if (ale_costly(e)) {
         return ale_moments_fit_unless_gross(e, first, last, e->chi_high_q8[n], shared_times(e, n), fit);
     }
     *fit = ale_moments_fit(e, first, last);
     return true;
 }
 
-int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to, ale_run_fit_t *accepted)
+int32_t ale_break_search(ale_extractor_t *e, int32_t from, int32_t to, ale_run_fit_t *accepted)
 {
     const int32_t direction = to >= from ? 1 : -1;
-    int32_t low = ALE_MIN_RUN - 1;
+    int32_t low = (ale_costly(e) ? ALE_COSTLY_RUN : ALE_MIN_RUN) - 1;
     int32_t high = (to - from) * direction + 1;
     if (low >= high) {
         return from;
@@ -73,10 +72,10 @@ int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to, ale
         accepted->sse_q8 > allowed_q8(e, accepted, accepted->n, e->chi_high_q8[accepted->n])) {
         return from;
     }
-    bool bracketed = !e->unruly;
+    bool bracketed = !ale_costly(e);
     while (high - low > 1) {
         const int32_t half = (low + high) / 2;
-        const int32_t p = bracketed ? half : (int32_t)ale_min64(half, UNRULY_REACH * low);
+        const int32_t p = bracketed ? half : (int32_t)ale_min64(half, COSTLY_REACH * low);
         ale_run_fit_t fit;
         if (fit_unless_gross(e, from, from + direction * p, &fit) && acceptable(e, &fit, accepted)) {
             low = p;
@@ -177,10 +176,14 @@ static parting_t part_at(const ale_extractor_t *e, const ale_run_t *run, int32_t
     return p;
 }
 
+bool ale_break_suspicious(const ale_run_fit_t *one)
+{
+    return ale_fit_chi_q8(one) >= (one->n - 2) * SUSPICIOUS_Q8;
+}
+
 int32_t ale_break_find(const ale_extractor_t *e, ale_run_t *run, int32_t direction)
 {
-    const ale_run_fit_t *one = ale_fit_of_run(e, run);
-    if (one->n < MIN_SPLIT_POINTS || ale_fit_chi_q8(one) < (one->n - 2) * SUSPICIOUS_Q8) {
+    if (!ale_break_suspicious(ale_fit_of_run(e, run))) {
         return -1;
     }
     const ale_segment_t both = {run->first, run->last};

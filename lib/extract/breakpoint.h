@@ -7,7 +7,7 @@
 /* Binary search, from point `from` towards `to` (either direction), for the last point of the line that
  * begins at `from`. Returns it and its fit, or from when not even the shortest run is a line. O(log n) fits.
  */
-int32_t ale_break_search(const ale_extractor_t *e, int32_t from, int32_t to, ale_run_fit_t *accepted);
+int32_t ale_break_search(ale_extractor_t *e, int32_t from, int32_t to, ale_run_fit_t *accepted);
 
 /* First step where a break is known from a search alone, and where it was placed before. */
 enum { ALE_BREAK_WIDE_STEP = 8, ALE_BREAK_FINE_STEP = 2 };
@@ -27,6 +27,9 @@ typedef struct {
  * power of two. */
 int32_t ale_break_place(const ale_extractor_t *e, ale_segment_t both, int64_t var_a_q8, int64_t var_b_q8,
                         const ale_break_range_t *range);
+
+/* Whether a run has more than its noise: else it need not be tried for a break. */
+bool ale_break_suspicious(const ale_run_fit_t *one);
 
 /* The break that splits a run in two lines which explain it better than one by more than noise would
  * (merge.h), or -1. The same break in both directions. O(log n) fits. */

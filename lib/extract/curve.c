@@ -9,7 +9,8 @@
 enum {
     MIN_POINTS = 6,
     MAX_GAP_POINTS = 6,
-    SINGLE_Q8 = 3 * 256, /* deviations of the bulge from which one run is suspect */
+    SINGLE_Q8 = 3 * 256, /* deviations of the bulge from which one run is suspect, */
+    MOST_SUSPECTS = 12,  /* and of so many suspects the strongest are tried */
     CHAIN_STEP_Q8 = 128, /* deviations that every run of a chain must bring, */
     CHAIN_SUM_Q8 = 256,  /* and the chain beyond that */
     CHAIN_ALLOWANCE_Q8 =
@@ -96,7 +97,29 @@ static bool chain_is_curve(ale_extractor_t *e, int32_t first, int32_t last)
 static bool run_is_curve(ale_extractor_t *e, int32_t k)
 {
     const int64_t circle = circle_excess_q8(e, k, k);
-    return circle < 0 && circle < ale_break_gain_q8(e, &e->run[k]);
+    e->run[k].no_arc = circle >= 0 || circle >= ale_break_gain_q8(e, &e->run[k]);
+    return !e->run[k].no_arc;
+}
+
+static bool is_suspect(const ale_run_t *run, const shape_t *shape, int64_t limit_q8)
+{
+    return !run->curved && !run->no_arc && ale_abs64(shape->bulge_q8) > limit_q8;
+}
+
+/* The bulge beyond which single runs are tried. */
+static int64_t suspect_bulge_q8(const ale_extractor_t *e, const shape_t *shape)
+{
+    const int32_t most = ale_costly(e) ? MOST_SUSPECTS / 3 : MOST_SUSPECTS;
+    int64_t limit_q8 = SINGLE_Q8;
+    int32_t suspects;
+    do {
+        suspects = 0;
+        for (int32_t k = 0; k < e->run_count; k++) {
+            suspects += is_suspect(&e->run[k], &shape[k], limit_q8);
+        }
+        limit_q8 *= suspects > most ? 2 : 1;
+    } while (suspects > most);
+    return limit_q8;
 }
 
 /* The stretch of the chain first..last, turning by sign, whose bulges together say most. */
@@ -145,7 +168,7 @@ static void join_marked(ale_extractor_t *e, const uint8_t *curve_of)
         const uint8_t id = curve_of[k];
         while (id != 0 && k + 1 < e->run_count && curve_of[k + 1] == id) {
             run.last = e->run[++k].last;
-            run.fit.n = 0;
+            ale_run_changed(&run);
         }
         run.curved = run.curved || id != 0;
         e->run[kept++] = run;
@@ -161,7 +184,10 @@ void ale_curve_find(ale_extractor_t *e)
     for (int32_t k = 0; k < e->run_count; k++) {
         const bool enough = e->run[k].last - e->run[k].first + 1 >= MIN_POINTS;
         shape[k] = enough ? shape_of(e, &e->run[k]) : (shape_t){0};
-        if (!e->run[k].curved && ale_abs64(shape[k].bulge_q8) > SINGLE_Q8 && run_is_curve(e, k)) {
+    }
+    const int64_t limit_q8 = suspect_bulge_q8(e, shape);
+    for (int32_t k = 0; k < e->run_count; k++) {
+        if (is_suspect(&e->run[k], &shape[k], limit_q8) && run_is_curve(e, k)) {
             curve_of[k] = ++curves;
         }
     }

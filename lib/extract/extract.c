@@ -20,7 +20,6 @@ enum {
     HIGH_Z = 4,
     LOW_Z = 3,
     CLUTTER_LONGER = 4, /* thirds of the fewest points of a line, where there is clutter */
-    MANY_RUNS = 24,     /* rooms have up to 22: more is clutter */
     ROUGH_OWN_Q2 = 5,   /* own variances that a line may have beyond its bound: the measured noise errs too */
     ROUGH_SHARED = 12,  /* shared variances that a long wall may be wavy by, */
     ROUGH_REACHES = 4   /* and the reaches of the shared error from which on it is a long one */
@@ -206,11 +205,16 @@ static void smooth_points(ale_extractor_t *e)
     ale_points_place_smoothed(e);
 }
 
+static bool is_clutter(const ale_extractor_t *e)
+{
+    return e->run_count > (ale_costly(e) ? ALE_MANY_RUNS / 3 : ALE_MANY_RUNS);
+}
+
 static void search_runs(ale_extractor_t *e, const ale_scan_t *scan)
 {
     ale_runs_search(e);
     if (ale_scan_noise_measure_shared(e, scan)) {
-        if (e->run_count > MANY_RUNS) {
+        if (ale_costly(e)) {
             ale_runs_forget_fits(e);
         } else {
             ale_runs_search(e);
@@ -224,7 +228,7 @@ static void search_runs(ale_extractor_t *e, const ale_scan_t *scan)
  * bounded. */
 static void improve_runs(ale_extractor_t *e)
 {
-    if (e->run_count > MANY_RUNS) {
+    if (is_clutter(e)) {
         ale_runs_drop_short(e, e->config.min_points * CLUTTER_LONGER / 3);
         ale_merge_runs(e);
         return;

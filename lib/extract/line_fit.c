@@ -76,7 +76,7 @@ static int64_t end_var_um2(const ale_extractor_t *e, int32_t i, bool at_break, i
 {
     const int64_t range_um = e->range_um[i];
     const int64_t across_um = ale_mul_nano(range_um, e->step_nrad);
-    const int64_t along_um = ale_mul_div(across_um, range_um, ale_max64(rho_um, 1));
+    const int64_t along_um = ale_round_div(across_um * range_um, ale_max64(rho_um, 1));
     const int64_t spacing_um = ale_min64(along_um, range_um);
     const int64_t spacing2_um2 = spacing_um * spacing_um;
     return at_break ? spacing2_um2 / 2 + var_um2 : spacing2_um2 / 3;

@@ -35,7 +35,7 @@ static int64_t ratio_at(ale_extractor_t *e, int32_t k)
 static void join_with_next(ale_extractor_t *e, int32_t k)
 {
     e->run[k].last = e->run[k + 1].last;
-    e->run[k].fit.n = 0;
+    ale_run_changed(&e->run[k]);
     for (int32_t i = k + 1; i + 1 < e->run_count; i++) {
         e->run[i] = e->run[i + 1];
     }

@@ -11,8 +11,9 @@ enum {
     MEAN_SHIFT = 2,      /* of a mean's mm */
     DIRECTION_SHIFT = 8, /* of the scatter, so that its product with two means fits int64 */
     SCATTER_BITS = 32,   /* centred moments are scaled to this many bits: their products fit int64 */
-    ROUND = 64,          /* a run is round when its width is more than this part of its length, squared */
-    VAR_FLOOR_Q8 = 16    /* (0.25 mm)^2: no range is known better than its quantum of 1 mm */
+    ROUND = 8,           /* a run is round when its width is more than this part of its length, squared */
+    STEPS_OF_ROUND = 4,
+    VAR_FLOOR_Q8 = 16 /* (0.25 mm)^2: no range is known better than its quantum of 1 mm */
 };
 
 void ale_moments_build(ale_extractor_t *e)
@@ -59,19 +60,18 @@ static inline ale_moments_t sums_of(const ale_extractor_t *e, int32_t first, int
     return s;
 }
 
-/* Two steps of lambda = det / (trace - lambda) where the run is long, the root of the discriminant where it
- * is nearly as wide as long: there the steps would make it up to a third too small. */
+/* Newton's steps towards the smaller root of lambda^2 - trace lambda + det from below: one where the run is
+ * long, which leaves less than (width / length)^8, and more where it is nearly as wide as long. */
 static inline int64_t small_eigenvalue(int64_t a, int64_t b, int64_t c)
 {
     const int64_t trace = ale_max64(a + c, 1);
     const int64_t det = ale_max64(a * c - b * b, 0);
-    const int64_t first = det / trace;
-    if (first * ROUND <= trace) {
-        return det / (trace - first);
+    int64_t lambda = det / trace;
+    const int32_t steps = lambda * ROUND <= trace ? 1 : STEPS_OF_ROUND;
+    for (int32_t k = 0; k < steps; k++) {
+        lambda = (det - lambda * lambda) / ale_max64(trace - 2 * lambda, 1);
     }
-    const uint64_t difference = (uint64_t)ale_abs64(a - c);
-    const uint64_t twice_b = (uint64_t)ale_abs64(2 * b);
-    return (trace - (int64_t)ale_isqrt(difference * difference + twice_b * twice_b)) / 2;
+    return lambda;
 }
 
 /* Inlined together with the sums: they are the innermost step of every decision. */

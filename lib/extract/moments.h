@@ -17,8 +17,14 @@ ale_run_fit_t ale_moments_fit(const ale_extractor_t *e, int32_t first, int32_t l
 bool ale_moments_fit_unless_gross(const ale_extractor_t *e, int32_t first, int32_t last, int64_t own_q8,
                                   int64_t shared_times, ale_run_fit_t *fit);
 
-/* The fit of a run, computed when it is asked for the first time: who moves an end of the run or changes the
- * noise sets fit.n to 0. */
+/* An end of the run has moved, or the noise has changed: what is known of it holds no longer. */
+static inline void ale_run_changed(ale_run_t *run)
+{
+    run->fit.n = 0;
+    run->no_arc = false;
+}
+
+/* The fit of a run, computed when it is asked for the first time. */
 static inline const ale_run_fit_t *ale_fit_of_run(const ale_extractor_t *e, ale_run_t *run)
 {
     if (run->fit.n == 0) {

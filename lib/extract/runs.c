@@ -1,10 +1,16 @@
 #include "extract/runs.h"
 
+#include "base/fixed.h"
 #include "extract/breakpoint.h"
 #include "extract/moments.h"
 #include "extract/segment.h"
 
-enum { MAX_GAP_POINTS = 8 };
+enum {
+    MAX_GAP_POINTS = 8,
+    COSTLY_STEP = 4, /* to the next try, where a costly scan has no line */
+    MIN_SPLIT_POINTS = 16,
+    MOST_TRIED = 12 /* runs that are tried for a break: of polygons seldom more are suspicious */
+};
 
 static void add_run(ale_extractor_t *e, int32_t a, int32_t b, const ale_run_fit_t *fit)
 {
@@ -16,6 +22,7 @@ static void add_run(ale_extractor_t *e, int32_t a, int32_t b, const ale_run_fit_
     run->first = (uint16_t)(a < b ? a : b);
     run->last = (uint16_t)(a < b ? b : a);
     run->curved = false;
+    run->no_arc = false;
     run->fit = *fit;
 }
 
@@ -48,11 +55,11 @@ static void search_segment(ale_extractor_t *e, int32_t first, int32_t last)
     const int32_t direction = reading_direction(e, first, last);
     const int32_t stop = direction > 0 ? last : first;
     const int32_t first_run = e->run_count;
-    const int32_t beyond_no_line = e->unruly ? 2 : 1;
     int32_t from = direction > 0 ? first : last;
     while ((stop - from) * direction + 1 >= ALE_MIN_RUN) {
         ale_run_fit_t fit;
         const int32_t to = ale_break_search(e, from, stop, &fit);
+        const int32_t beyond_no_line = ale_costly(e) ? COSTLY_STEP : 1;
         if (to != from) {
             add_run(e, from, to, &fit);
         }
@@ -88,11 +95,11 @@ static void move_break(ale_run_t *a, ale_run_t *b, int32_t split)
 {
     if (a->last != split) {
         a->last = (uint16_t)split;
-        a->fit.n = 0;
+        ale_run_changed(a);
     }
     if (b->first != split + 1) {
         b->first = (uint16_t)(split + 1);
-        b->fit.n = 0;
+        ale_run_changed(b);
     }
 }
 
@@ -122,13 +129,38 @@ static void insert_run(ale_extractor_t *e, int32_t k, int32_t split)
     e->run_count++;
 }
 
+static int32_t suspicious_runs(ale_extractor_t *e, int32_t fewest)
+{
+    int32_t count = 0;
+    for (int32_t k = 0; k < e->run_count; k++) {
+        const ale_run_t *run = &e->run[k];
+        count += !run->curved && run->last + 1 - run->first >= fewest &&
+                 ale_break_suspicious(ale_fit_of_run(e, &e->run[k]));
+    }
+    return count;
+}
+
+/* Fewest points of the runs that are tried for a break: of many only the longest. */
+static int32_t fewest_to_split(ale_extractor_t *e)
+{
+    const int32_t most = ale_costly(e) ? MOST_TRIED / 3 : MOST_TRIED;
+    const int32_t room = (int32_t)ale_min64(most, ALE_MANY_RUNS - e->run_count);
+    int32_t fewest = MIN_SPLIT_POINTS;
+    while (fewest <= e->count && suspicious_runs(e, fewest) > room) {
+        fewest += fewest / 4;
+    }
+    return fewest;
+}
+
 void ale_runs_split(ale_extractor_t *e)
 {
+    const int32_t fewest = fewest_to_split(e);
     int32_t k = 0;
     while (k < e->run_count && e->run_count < ALE_MAX_RUNS) {
         ale_run_t *run = &e->run[k];
-        const int32_t split =
-            run->curved ? -1 : ale_break_find(e, run, reading_direction(e, run->first, run->last));
+        const int32_t split = run->curved || run->last + 1 - run->first < fewest
+                                  ? -1
+                                  : ale_break_find(e, run, reading_direction(e, run->first, run->last));
         if (split >= 0) {
             insert_run(e, k, split);
             k++;
@@ -140,6 +172,7 @@ void ale_runs_split(ale_extractor_t *e)
 void ale_runs_search(ale_extractor_t *e)
 {
     e->run_count = 0;
+    e->search_fits = 0;
     for (int32_t k = 0; k < e->segment_count; k++) {
         search_segment(e, e->segment[k].first, e->segment[k].last);
     }
@@ -148,7 +181,7 @@ void ale_runs_search(ale_extractor_t *e)
 void ale_runs_forget_fits(ale_extractor_t *e)
 {
     for (int32_t k = 0; k < e->run_count; k++) {
-        e->run[k].fit.n = 0;
+        ale_run_changed(&e->run[k]);
     }
 }
 

@@ -8,7 +8,7 @@
 enum {
     NOISE_FACTOR = 7,  /* deviations of one beam's own error: 5 of the difference of two */
     SHARED_FACTOR = 5, /* the same of the constant part of the shared error */
-    UNRULY_PERCENT = 40,
+    UNRULY_PERCENT = 45,
     SUSPECT_HALVES = 7 /* half deviations that a suspicious change exceeds: less than a spike or a jump has */
 };
 
@@ -31,12 +31,13 @@ static jump_limit_t jump_limit(const ale_extractor_t *e, const ale_scan_t *scan)
 }
 
 /* Change of range a beam, from point i to the next; 0 beyond the ends. */
-static int64_t slope_um(const ale_extractor_t *e, int32_t i)
+static inline int64_t slope_um(const ale_extractor_t *e, int32_t i)
 {
     if (i < 0 || i + 1 >= e->count) {
         return 0;
     }
-    return ale_abs64((int64_t)e->range_um[i + 1] - e->range_um[i]) / (e->beam[i + 1] - e->beam[i]);
+    const int32_t change_um = e->range_um[i + 1] - e->range_um[i];
+    return (change_um < 0 ? -change_um : change_um) / (e->beam[i + 1] - e->beam[i]);
 }
 
 /* A change of range that noise and 45 degrees of incidence do not explain is a jump, unless both

@@ -22,7 +22,15 @@
 
 /* Fewest points that ALE fits a line to while it searches; shorter runs say nothing about a line. */
 #define ALE_MIN_RUN 5
+#define ALE_COSTLY_RUN 12 /* the same in a costly scan */
 #define ALE_MAX_RUNS (ALE_MAX_BEAMS / ALE_MIN_RUN)
+
+/* Rooms have up to 22 runs: more is clutter, of which only the most needed is made, for the time is bounded.
+ * In a costly scan a third of them is. */
+#define ALE_MANY_RUNS 24
+
+/* The search of a room takes fewer fits. */
+#define ALE_MANY_SEARCH_FITS 144
 
 /* Beams without a value that one surface may have. */
 #define ALE_MAX_GAP_BEAMS 8
@@ -63,6 +71,7 @@ typedef struct {
     uint16_t first;
     uint16_t last;
     bool curved;
+    bool no_arc;       /* looked at: lines explain it better than a circle */
     ale_run_fit_t fit; /* see ale_fit_of_run */
 } ale_run_t;
 
@@ -124,9 +133,17 @@ struct ale_extractor {
     int32_t chi_low_q8[ALE_MAX_BEAMS + 1];
     int32_t chi_high_q8[ALE_MAX_BEAMS + 1];
 
+    int32_t search_fits; /* of the last search */
     uint16_t run_count;
     ale_run_t run[ALE_MAX_RUNS];
     uint16_t refused[ALE_REFUSALS];
 };
+
+/* Whether the scan costs more than one of surfaces does: the range changes everywhere, or lines are hard to
+ * find. What is done for it is bounded more narrowly. */
+static inline bool ale_costly(const ale_extractor_t *e)
+{
+    return e->unruly || e->search_fits > ALE_MANY_SEARCH_FITS || e->run_count > ALE_MANY_RUNS;
+}
 
 #endif

@@ -14,6 +14,7 @@ namespace
 constexpr int least_points = 6;
 constexpr int widest_gap = 6; // points between runs of a chain
 constexpr double suspect_bulge = 3;
+constexpr size_t most_suspects = 12;
 constexpr double bulge_of_each = 0.5; // deviations that every run of a chain must bring,
 constexpr double bulge_of_all = 1;    // and the chain beyond that
 constexpr double chi_of_a_line = 20;  // that a circle may lose for each line beyond two it replaces
@@ -96,6 +97,25 @@ bool is_arc(const ScanPoints &points, const NoiseOfScan &noise, const std::vecto
     const CoarseBreak two = coarse_break(points, runs[k], 1, ignored);
     const RunFit one = fit_run(points, noise, runs[k].first, runs[k].last);
     return decisions.below(excess, two.split < 0 ? 0 : (two.sse - one.sse) / one.var);
+}
+
+// Of many suspects only the strongest are tried.
+double least_suspect_bulge(const NoiseOfScan &noise, const std::vector<Run> &runs,
+                           const std::vector<Shape> &shape)
+{
+    const size_t most = noise.costly ? most_suspects / 3 : most_suspects;
+    const auto suspects = [&](double limit) {
+        size_t count = 0;
+        for (size_t k = 0; k < runs.size(); k++) {
+            count += !runs[k].curved && std::fabs(shape[k].bulge) > limit ? 1 : 0;
+        }
+        return count;
+    };
+    double limit = suspect_bulge;
+    while (suspects(limit) > most) {
+        limit *= 2;
+    }
+    return limit;
 }
 
 // +1 or -1 for a turn of 3 to 50 degrees (tangents 1/19 and 6/5), 0 for any other.
@@ -201,9 +221,12 @@ std::vector<Run> with_curves(const ScanPoints &points, const NoiseOfScan &noise,
     std::vector<Shape> shape;
     std::vector<int> curve_of(runs.size(), 0);
     int curves = 0;
+    for (const Run &run : runs) {
+        shape.push_back(shape_of(points, noise, run));
+    }
+    const double least_bulge = least_suspect_bulge(noise, runs, shape);
     for (size_t k = 0; k < runs.size(); k++) {
-        shape.push_back(shape_of(points, noise, runs[k]));
-        if (!runs[k].curved && !decisions.below(std::fabs(shape[k].bulge), suspect_bulge) &&
+        if (!runs[k].curved && !decisions.below(std::fabs(shape[k].bulge), least_bulge) &&
             is_arc(points, noise, runs, k, decisions)) {
             curve_of[k] = ++curves;
         }

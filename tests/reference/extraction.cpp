@@ -21,7 +21,6 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double rough_own = 1.25;  // the measured noise errs too
 constexpr double rough_shared = 12; // shared variances that a long wall may be wavy by,
 constexpr double rough_reaches = 4; // and the reaches of the shared error from which on it is a long one
-constexpr size_t many_runs = 24;    // rooms have fewer
 constexpr double most_sigma_alpha = 6 * pi / 180;
 constexpr int corner_gap = 5;        // beams
 constexpr double corner_reach = 150; // mm
@@ -61,14 +60,16 @@ Prepared prepare(const ScanPoints &valid, const ExtractionSettings &settings, De
     return p;
 }
 
-std::vector<Run> search(const Prepared &p, Decisions &decisions)
+std::vector<Run> search(Prepared &p, Decisions &decisions)
 {
-    std::vector<Run> runs;
-    for (const Run &segment : p.segments) {
-        const std::vector<Run> found = search_segment(p.points, p.noise, segment, decisions);
-        runs.insert(runs.end(), found.begin(), found.end());
-    }
-    return runs;
+    const Search search = search_segments(p.points, p.noise, p.segments, decisions);
+    p.noise.costly = search.costly(p.noise);
+    return search.runs;
+}
+
+bool is_clutter(const Prepared &p, const std::vector<Run> &runs)
+{
+    return runs.size() > (p.noise.costly ? many_runs / 3 : many_runs);
 }
 
 std::vector<Run> searched_runs(Prepared &p, const ExtractionSettings &settings, Decisions &decisions)
@@ -79,7 +80,7 @@ std::vector<Run> searched_runs(Prepared &p, const ExtractionSettings &settings, 
     p.noise.shared_relative *= shared.scale;
     p.noise.shared_absent = shared.absent;
     if (shared.scale > 1) {
-        return runs.size() > many_runs ? runs : search(p, decisions);
+        return p.noise.costly ? runs : search(p, decisions);
     }
     p.noise.own_scale = own_scale(p.points, p.noise, runs, decisions);
     return runs;
@@ -101,7 +102,7 @@ std::vector<Run> improved_clutter(const Prepared &p, const std::vector<Run> &run
 std::vector<Run> improved_runs(const Prepared &p, const ExtractionSettings &settings, std::vector<Run> runs,
                                Decisions &decisions)
 {
-    if (runs.size() > many_runs) {
+    if (is_clutter(p, runs)) {
         return improved_clutter(p, runs, settings.least_points * 4 / 3, decisions);
     }
     for (const bool split : {false, true}) {

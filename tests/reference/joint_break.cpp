@@ -1,5 +1,7 @@
 #include "reference/joint_break.h"
 
+#include <algorithm>
+
 #include "reference/line_search.h"
 #include "reference/run_fit.h"
 #include "reference/run_merge.h"
@@ -13,6 +15,7 @@ namespace
 constexpr int widest_gap = 8; // points between runs that meet
 constexpr int grid = 12;
 constexpr int least_to_split = 16;
+constexpr size_t most_tried = 12;          // runs that are tried for a break
 constexpr double suspicious = 236.0 / 256; // of the chi square that noise alone makes
 constexpr double promising = 100.0 / 256;
 
@@ -26,6 +29,30 @@ bool meet(const std::vector<Run> &segments, Run a, Run b)
 {
     return b.first - a.last <= widest_gap && !a.curved && !b.curved &&
            on_one_surface(segments, a.last, b.first);
+}
+
+bool is_suspicious(const ScanPoints &points, const NoiseOfScan &noise, Run run, Decisions &decisions)
+{
+    const RunFit one = fit_run(points, noise, run.first, run.last);
+    return !run.curved && !decisions.below(one.chi(), suspicious * (run.points() - 2));
+}
+
+// Of many suspicious runs only the longest are tried: the fewest points that they have.
+int least_points_to_try(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &runs)
+{
+    const size_t room = many_runs - std::min(runs.size(), many_runs);
+    const size_t most = std::min(noise.costly ? most_tried / 3 : most_tried, room);
+    const auto tried = [&](int least) {
+        Decisions ignored;
+        return static_cast<size_t>(std::count_if(runs.begin(), runs.end(), [&](const Run &run) {
+            return run.points() >= least && is_suspicious(points, noise, run, ignored);
+        }));
+    };
+    int least = least_to_split;
+    while (least <= static_cast<int>(points.size()) && tried(least) > most) {
+        least += least / 4;
+    }
+    return least;
 }
 
 } // namespace
@@ -127,10 +154,6 @@ CoarseBreak coarse_break(const ScanPoints &points, Run run, int direction, Decis
 int found_break(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &segments, Run run,
                 Decisions &decisions)
 {
-    const RunFit one = fit_run(points, noise, run.first, run.last);
-    if (run.points() < least_to_split || decisions.below(one.chi(), suspicious * (run.points() - 2))) {
-        return -1;
-    }
     const int direction = reading_direction(points, run.first, run.last);
     const auto ratio_at = [&](int split) {
         return merge_ratio(points, noise, segments, {run.first, split}, {split + 1, run.last});
@@ -151,8 +174,10 @@ std::vector<Run> split_runs(const ScanPoints &points, const NoiseOfScan &noise,
                             Decisions &decisions)
 {
     std::vector<Run> split_runs;
+    const int least = least_points_to_try(points, noise, runs);
     for (const Run &run : runs) {
-        const int split = run.curved ? -1 : found_break(points, noise, segments, run, decisions);
+        const bool tried = run.points() >= least && is_suspicious(points, noise, run, decisions);
+        const int split = tried ? found_break(points, noise, segments, run, decisions) : -1;
         if (split < 0) {
             split_runs.push_back(run);
         } else {

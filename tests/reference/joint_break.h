@@ -51,7 +51,7 @@ CoarseBreak coarse_break(const ScanPoints &points, Run run, int direction, Decis
 int found_break(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &segments, Run run,
                 Decisions &decisions);
 
-// Splits runs until none has such a break.
+// Splits the runs that have such a break; of many that may only the longest.
 std::vector<Run> split_runs(const ScanPoints &points, const NoiseOfScan &noise,
                             const std::vector<Run> &segments, const std::vector<Run> &runs,
                             Decisions &decisions);

@@ -1,5 +1,7 @@
 #include "reference/line_search.h"
 
+#include <algorithm>
+
 #include "reference/run_fit.h"
 
 namespace reference
@@ -10,7 +12,10 @@ namespace
 constexpr double shared_share = 2; // shared variances that a point adds in the mean,
 constexpr double shared_peak = 6;  // and those by which points that err together may be off besides
 constexpr double floating_factor = 1.5;
-constexpr int unruly_reach = 2; // times the points accepted that an unruly scan is tried for before a refusal
+constexpr int costly_reach = 2; // times the points accepted that a costly scan is tried for before a refusal
+constexpr int costly_run = 12;
+constexpr int costly_step = 4; // to the next try where there is no line
+constexpr int many_fits = 144;
 
 // Squared residuals that n points of a true line may have.
 double allowed(const NoiseOfScan &noise, const RunFit &fit, int n, double chi)
@@ -37,14 +42,21 @@ bool acceptable(const NoiseOfScan &noise, const RunFit &fit, const RunFit &accep
 
 } // namespace
 
-int end_of_line(const ScanPoints &points, const NoiseOfScan &noise, int from, int to, Decisions &decisions)
+bool Search::costly(const NoiseOfScan &noise) const
+{
+    return noise.unruly || fits > many_fits || runs.size() > many_runs;
+}
+
+int end_of_line(const ScanPoints &points, const NoiseOfScan &noise, int from, int to, Search &search,
+                Decisions &decisions)
 {
     const int direction = to >= from ? 1 : -1;
     const auto fit_to = [&](int count) {
         const int end = from + direction * (count - 1);
+        search.fits++;
         return fit_run(points, noise, std::min(from, end), std::max(from, end));
     };
-    int good = least_run;
+    int good = search.costly(noise) ? costly_run : least_run;
     int bad = std::abs(to - from) + 2;
     if (good >= bad) {
         return from;
@@ -53,10 +65,10 @@ int end_of_line(const ScanPoints &points, const NoiseOfScan &noise, int from, in
     if (!decisions.below(accepted.sse, allowed(noise, accepted, good, chi_limit(good, chi_high_z)))) {
         return from;
     }
-    bool bracketed = !noise.unruly;
+    bool bracketed = !search.costly(noise);
     while (bad - good > 1) {
         const int half = (good - 1 + bad - 1) / 2; // beyond the first point
-        const int count = (bracketed ? half : std::min(half, unruly_reach * (good - 1))) + 1;
+        const int count = (bracketed ? half : std::min(half, costly_reach * (good - 1))) + 1;
         const RunFit fit = fit_to(count);
         if (acceptable(noise, fit, accepted, decisions)) {
             good = count;
@@ -81,24 +93,28 @@ int reading_direction(const ScanPoints &points, int first, int last)
     return 1;
 }
 
-std::vector<Run> search_segment(const ScanPoints &points, const NoiseOfScan &noise, Run segment,
-                                Decisions &decisions)
+Search search_segments(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &segments,
+                       Decisions &decisions)
 {
-    const int direction = reading_direction(points, segment.first, segment.last);
-    const int stop = direction > 0 ? segment.last : segment.first;
-    int from = direction > 0 ? segment.first : segment.last;
-    std::vector<Run> runs;
-    while (std::abs(stop - from) + 1 >= least_run && (stop - from) * direction >= 0) {
-        const int end = end_of_line(points, noise, from, stop, decisions);
-        if (end != from) {
-            runs.push_back({std::min(from, end), std::max(from, end)});
+    Search search;
+    for (const Run &segment : segments) {
+        const int direction = reading_direction(points, segment.first, segment.last);
+        const int stop = direction > 0 ? segment.last : segment.first;
+        const auto before = static_cast<std::ptrdiff_t>(search.runs.size());
+        int from = direction > 0 ? segment.first : segment.last;
+        while ((stop - from) * direction + 1 >= least_run) {
+            const int end = end_of_line(points, noise, from, stop, search, decisions);
+            if (end != from) {
+                search.runs.push_back({std::min(from, end), std::max(from, end)});
+            }
+            from =
+                end != from ? end + direction : from + direction * (search.costly(noise) ? costly_step : 1);
         }
-        from = end != from ? end + direction : from + direction * (noise.unruly ? 2 : 1);
+        if (direction < 0) {
+            std::reverse(search.runs.begin() + before, search.runs.end());
+        }
     }
-    if (direction < 0) {
-        std::reverse(runs.begin(), runs.end());
-    }
-    return runs;
+    return search;
 }
 
 } // namespace reference

@@ -45,6 +45,7 @@ struct NoiseOfScan {
     double bearing_variance = 0;
     bool shared_absent = false; // measured, and there is none
     bool unruly = false;        // more changes of the range are suspicious than surfaces make
+    bool costly = false;        // unruly, or hard to search: less is tried
 
     double own(double range) const
     {

@@ -10,7 +10,7 @@ constexpr int widest = 7; // beams from the second neighbour on one side to that
 constexpr int stray_points = 4;
 constexpr double suspect_deviations = 3.5;
 constexpr int widest_gap = 8; // beams
-constexpr double unruly_share = 0.4;
+constexpr double unruly_share = 0.45;
 
 } // namespace
 

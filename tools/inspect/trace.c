@@ -45,7 +45,7 @@ static int32_t reading_direction(const ale_extractor_t *e, int32_t first, int32_
     return e->range_um[first] <= e->range_um[last] ? 1 : -1;
 }
 
-static void search_again(const ale_extractor_t *e, int32_t first, int32_t last, inspect_trace_t *trace)
+static void search_again(ale_extractor_t *e, int32_t first, int32_t last, inspect_trace_t *trace)
 {
     const int32_t direction = reading_direction(e, first, last);
     const int32_t stop = direction > 0 ? last : first;
@@ -59,7 +59,7 @@ static void search_again(const ale_extractor_t *e, int32_t first, int32_t last, 
     }
 }
 
-static void search_longest_segment(const ale_extractor_t *e, inspect_trace_t *trace)
+static void search_longest_segment(ale_extractor_t *e, inspect_trace_t *trace)
 {
     int32_t best_first = 0;
     int32_t best_last = -1;
@@ -74,6 +74,7 @@ static void search_longest_segment(const ale_extractor_t *e, inspect_trace_t *tr
         }
     }
     if (best_last >= best_first) {
+        e->search_fits = 0;
         search_again(e, best_first, best_last, trace);
     }
 }

@@ -57,7 +57,8 @@ inline reference::NoiseOfScan noise_of(const ale_extractor_t &e)
             static_cast<double>(e.config.noise.shared_beams),
             static_cast<double>(e.noise.bearing_rad2_q36) * q36,
             e.shared_absent,
-            e.unruly};
+            e.unruly,
+            ale_costly(&e)};
 }
 
 inline reference::NoiseOfScan noise_of(const ale_noise_t &n)

@@ -61,12 +61,7 @@ TEST(Runs, TheSearchFindsThoseOfTheTwin)
 {
     const auto nothing = [](ale_extractor_t *) {};
     const auto twin = [](const Given &g, Decisions &decisions) {
-        Runs runs;
-        for (const reference::Run &segment : g.segments) {
-            const Runs found = reference::search_segment(g.points, g.noise, segment, decisions);
-            runs.insert(runs.end(), found.begin(), found.end());
-        }
-        return runs;
+        return reference::search_segments(g.points, g.noise, g.segments, decisions).runs;
     };
     compare_runs(11, 0.02, nothing, ale_runs_search, twin);
 }
@@ -174,7 +169,7 @@ TEST(Runs, OfVeryFewPointsAreThoseOfTheTwin)
         Decisions decisions;
         Runs expected;
         if (!g.points.empty()) {
-            expected = reference::search_segment(g.points, g.noise, g.segments[0], decisions);
+            expected = reference::search_segments(g.points, g.noise, g.segments, decisions).runs;
         }
         EXPECT_EQ(scene::runs_of(*e), expected) << points;
     }
