@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "realtime/memory.h"
+
 enum { OPENING_BYTES = 16384 };
 
 struct ale_flight_ring {
@@ -20,13 +22,13 @@ struct ale_flight_ring {
 ale_flight_ring_t *ale_flight_ring_create(uint32_t bytes)
 {
     ale_flight_ring_t *ring = calloc(1, sizeof *ring);
-    uint8_t *memory = malloc(bytes);
+    uint8_t *memory = calloc(1, bytes);
     if (!ring || !memory) {
         free(ring);
         free(memory);
         return NULL;
     }
-    memset(memory, 0, bytes);
+    ale_rt_touch(memory, bytes);
     ring->memory = memory;
     ring->size = bytes;
     return ring;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "graph/mapper.h"
+#include "realtime/memory.h"
 #include "wake.h"
 
 #define LOOK_NS 20000000
@@ -58,6 +59,10 @@ static void work_off(ale_mapper_thread_t *thread)
 static void run(ale_rt_task_t *self, void *user)
 {
     ale_mapper_thread_t *thread = user;
+    if (!ale_rt_grow_heap(ALE_MAPPER_HEAP_BYTES)) {
+        fprintf(stderr, "ale-slamd: no %d MiB for the mapper at once: it takes them as it needs them\n",
+                ALE_MAPPER_HEAP_BYTES >> 20);
+    }
     while (!ale_rt_task_stopping(self)) {
         work_off(thread);
         ale_wake_wait(thread->wanted, LOOK_NS);

@@ -3,6 +3,8 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
+#include "realtime/memory.h"
+
 enum { FRESH = 4, INDEX = 3 };
 
 /* back belongs to the writer, front to the reader; they trade theirs for the middle one. */
@@ -25,6 +27,7 @@ ale_snapshot_t *ale_snapshot_create(uint32_t bytes)
             ale_snapshot_destroy(snapshot);
             return NULL;
         }
+        ale_rt_touch(snapshot->buffer[k], bytes);
     }
     snapshot->back = 0;
     snapshot->front = 1;

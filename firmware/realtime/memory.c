@@ -1,13 +1,16 @@
 #include "realtime/memory.h"
 
+#include <limits.h>
 #include <linux/capability.h>
+#include <malloc.h>
 #include <pthread.h>
+#include <stdlib.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
-enum { LIBRARY_STACK_BYTES = 1024 * 1024 };
+enum { LIBRARY_STACK_BYTES = 1024 * 1024, PAGE_BYTES = 4096 };
 
 static bool may_lock_all_memory(void)
 {
@@ -31,4 +34,29 @@ void ale_rt_limit_default_stack(void)
     pthread_attr_setstacksize(&attributes, LIBRARY_STACK_BYTES);
     pthread_setattr_default_np(&attributes);
     pthread_attr_destroy(&attributes);
+}
+
+void ale_rt_keep_heap(void)
+{
+    mallopt(M_MMAP_MAX, 0);
+    mallopt(M_TRIM_THRESHOLD, INT_MAX);
+}
+
+void ale_rt_touch(void *memory, size_t bytes)
+{
+    volatile char *byte = memory;
+    for (size_t k = 0; k < bytes; k += PAGE_BYTES) {
+        byte[k] = byte[k];
+    }
+}
+
+bool ale_rt_grow_heap(size_t bytes)
+{
+    void *memory = calloc(1, bytes);
+    if (!memory) {
+        return false;
+    }
+    ale_rt_touch(memory, bytes);
+    free(memory);
+    return true;
 }

@@ -53,6 +53,7 @@ int ale_rt_start(const ale_rt_config_t *config, ale_rt_report_t *report)
     memset(&state, 0, sizeof state);
     state.config = *config;
     ale_rt_limit_default_stack();
+    ale_rt_keep_heap();
     state.memory_locked = config->lock_memory && ale_rt_lock_memory();
     ale_rt_report(report);
     return 0;

@@ -238,6 +238,7 @@ int ale_rt_start(const ale_rt_config_t *config, ale_rt_report_t *report)
     }
     sched_getaffinity(0, sizeof state.cpus, &state.cpus);
     ale_rt_limit_default_stack();
+    ale_rt_keep_heap();
     rt_allow_nonroot_hrt();
     state.memory_locked = config->lock_memory && ale_rt_lock_memory();
     state.main_task =

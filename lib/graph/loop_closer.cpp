@@ -86,7 +86,8 @@ bool near(const Pose &guess, const LoopMatch &match, double overlap)
 
 LoopCloser::LoopCloser(size_t capacity) : capacity_(std::max(capacity, least_capacity))
 {
-    nodes_.reserve(capacity_);
+    nodes_.resize(capacity_); // touched
+    nodes_.clear();
     graph_.reserve(capacity_, capacity_ * (1 + loop_candidates));
 }
 

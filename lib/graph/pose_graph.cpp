@@ -147,8 +147,9 @@ GraphEdge composed(const GraphEdge &first, const GraphEdge &second, bool robust)
 
 void PoseGraph::reserve(size_t poses, size_t edges)
 {
-    poses_.reserve(poses);
-    edges_.reserve(edges);
+    poses_.resize(poses);
+    edges_.resize(edges);
+    clear();
 }
 
 void PoseGraph::clear()
@@ -207,14 +208,20 @@ void PoseGraph::renumber_above(int k)
     }
 }
 
+// The edges of pose k, which are taken out.
+std::vector<GraphEdge> PoseGraph::cut_loose(int k)
+{
+    const auto others_end = std::stable_partition(
+        edges_.begin(), edges_.end(), [k](const GraphEdge &edge) { return edge.from != k && edge.to != k; });
+    std::vector<GraphEdge> loose(others_end, edges_.end());
+    edges_.erase(others_end, edges_.end());
+    return loose;
+}
+
 void PoseGraph::take_out(int k, int max_robust)
 {
-    const auto touches = [k](const GraphEdge &edge) { return edge.from == k || edge.to == k; };
-    const auto kept_end = std::stable_partition(edges_.begin(), edges_.end(),
-                                                [&](const GraphEdge &edge) { return !touches(edge); });
-    const std::vector<GraphEdge> loose(kept_end, edges_.end());
-    edges_.erase(kept_end, edges_.end());
-    const auto on_the_way = [&](int from) {
+    const std::vector<GraphEdge> loose = cut_loose(k);
+    const auto on_the_way = [&loose](int from) {
         return *std::find_if(loose.begin(), loose.end(),
                              [from](const GraphEdge &edge) { return !edge.robust && edge.from == from; });
     };
@@ -222,11 +229,9 @@ void PoseGraph::take_out(int k, int max_robust)
     const GraphEdge after = on_the_way(k);
     edges_.push_back(composed(before, after, false));
     for (const GraphEdge &edge : loose) {
-        if (edge.robust) {
-            const GraphEdge moved = edge.to == k ? composed(edge, after, true) : composed(before, edge, true);
-            if (has_room(moved, max_robust)) {
-                edges_.push_back(moved);
-            }
+        const GraphEdge moved = edge.to == k ? composed(edge, after, true) : composed(before, edge, true);
+        if (edge.robust && has_room(moved, max_robust)) {
+            edges_.push_back(moved);
         }
     }
     poses_.erase(poses_.begin() + k);

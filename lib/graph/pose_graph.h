@@ -50,7 +50,7 @@ struct GraphReport {
 class PoseGraph
 {
   public:
-    // Memory for so many, so that adding them allocates nothing.
+    // Memory for so many, touched, so that adding them takes none.
     void reserve(size_t poses, size_t edges);
     void clear(); // keeps that memory
     int add_pose(const Pose &pose);
@@ -82,6 +82,7 @@ class PoseGraph
 
   private:
     bool has_room(const GraphEdge &edge, int max_robust) const;
+    std::vector<GraphEdge> cut_loose(int k);
     void renumber_above(int k);
 
     std::vector<Pose> poses_;
