@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <sys/eventfd.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,8 @@
 #include <vector>
 
 #include "drivers/command/signed_command.hpp"
+#include "files.hpp"
+#include "surroundings.hpp"
 
 extern "C" {
 #include "command/operator.h"
@@ -29,24 +30,16 @@ using signed_command::Operator;
 namespace
 {
 
-class Commands : public testing::Test
+class Commands : public surroundings::WithExchange
 {
   protected:
     void SetUp() override
     {
-        folder = testing::TempDir() + "ale-commands-XXXXXX";
-        ASSERT_NE(mkdtemp(folder.data()), nullptr);
         config = ale_config_default();
-        std::snprintf(config.map_folder, sizeof config.map_folder, "%s/maps", folder.c_str());
-        ale_rt_report_t report;
-        const ale_rt_config_t realtime = {0, -1, false};
-        ASSERT_EQ(ale_rt_start(&realtime, &report), 0);
-        ASSERT_EQ(ale_exchange_open(&exchange, ale_clock_start(ALE_CLOCK_REAL)), 0);
+        std::snprintf(config.map_folder, sizeof config.map_folder, "%s/maps", folder.path().c_str());
         keeper = ale_map_keeper_start(&config, &exchange);
         ASSERT_NE(keeper, nullptr);
-        ale_keys_t keys{};
-        keys.operator_key[keys.count++] = alice.known;
-        keys.operator_key[keys.count++] = bob.known;
+        const ale_keys_t keys = signed_command::keys_of({alice, bob});
         commands = ale_commands_create(&config, &keys, boot, &exchange, keeper);
         ASSERT_NE(commands, nullptr);
         map->line_count = 3;
@@ -56,9 +49,6 @@ class Commands : public testing::Test
     {
         ale_map_keeper_stop(keeper);
         ale_commands_destroy(commands);
-        ale_exchange_close(&exchange);
-        ale_rt_stop();
-        std::filesystem::remove_all(folder);
     }
 
     /* The answer, "+" before it when the command was obeyed. */
@@ -126,9 +116,8 @@ class Commands : public testing::Test
 
     const Operator alice{"alice"};
     const Operator bob{"bob"};
-    std::string folder;
+    const files::TemporaryFolder folder;
     ale_config_t config{};
-    ale_exchange_t exchange{};
     ale_map_keeper_t *keeper = nullptr;
     ale_commands_t *commands = nullptr;
     int64_t counter = 1;
@@ -302,13 +291,13 @@ TEST_F(Commands, ExplorationIsSwitchedOnAndOffAndEndedByAStop)
 TEST_F(Commands, AFlightRecordingIsWrittenWhereThereIsARecorder)
 {
     EXPECT_EQ(ask(alice, {"record"}), "-this robot records no flights");
-    std::snprintf(config.recorder_folder, sizeof config.recorder_folder, "%s", folder.c_str());
+    std::snprintf(config.recorder_folder, sizeof config.recorder_folder, "%s", folder.path().c_str());
     exchange.recorder = ale_recorder_start(&config);
     ASSERT_NE(exchange.recorder, nullptr);
     EXPECT_EQ(ask(alice, {"record"}), "+a flight recording is being written");
     ale_recorder_stop(exchange.recorder); /* writes what was asked for */
     int recordings = 0;
-    for (const auto &entry : std::filesystem::directory_iterator(folder)) {
+    for (const auto &entry : std::filesystem::directory_iterator(folder.path())) {
         recordings += entry.path().extension() == ".scip";
     }
     EXPECT_EQ(recordings, 1);

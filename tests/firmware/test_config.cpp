@@ -7,6 +7,8 @@
 #include <random>
 #include <string>
 
+#include "files.hpp"
+
 extern "C" {
 #include "base/trig.h"
 #include "config.h"
@@ -223,13 +225,13 @@ TEST(Config, AMissingFileIsNamed)
 
 TEST(Config, AFileReadsLikeItsText)
 {
-    const std::string path = testing::TempDir() + "ale_test_config.ini";
+    const files::TemporaryFolder folder;
+    const std::string path = folder / "robot.ini";
     std::ofstream(path) << "[robot]\nmax_speed = 0.4\n";
     ale_config_t config = ale_config_default();
     ale_config_error_t error{};
     EXPECT_EQ(ale_config_load(path.c_str(), &config, &error), 0) << error.message;
     EXPECT_EQ(config.pipeline.max_speed_mm_s, 400);
-    std::remove(path.c_str());
 }
 
 } // namespace

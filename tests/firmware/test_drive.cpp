@@ -1,7 +1,6 @@
 /* What the motors are told, as a pure choice and as the thread publishes it. */
 #include <gtest/gtest.h>
 #include <lcm/lcm.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <functional>
@@ -10,7 +9,9 @@
 #include <vector>
 
 #include "ale/drive_t.hpp"
+#include "drivers/lcm/own_port.hpp"
 #include "room.hpp"
+#include "surroundings.hpp"
 
 extern "C" {
 #include "drive.h"
@@ -128,18 +129,13 @@ TEST_F(DriveChoice, WithoutAFreshScanNothingMoves)
 }
 
 /* The thread, with snapshots that the test fills. Skipped without a multicast route. */
-class DriveThread : public testing::Test
+class DriveThread : public surroundings::WithExchange
 {
   protected:
     void SetUp() override
     {
         config = ale_config_default();
-        const std::string url = "udpm://239.255.76.67:" + std::to_string(20000 + getpid() % 30000) + "?ttl=0";
-        std::snprintf(config.lcm_url, sizeof config.lcm_url, "%s", url.c_str());
-        ale_rt_report_t report;
-        const ale_rt_config_t realtime = {0, -1, false};
-        ASSERT_EQ(ale_rt_start(&realtime, &report), 0);
-        ASSERT_EQ(ale_exchange_open(&exchange, ale_clock_start(ALE_CLOCK_REAL)), 0);
+        std::snprintf(config.lcm_url, sizeof config.lcm_url, "%s", own_lcm_url().c_str());
         char error[ALE_BUS_ERROR] = "";
         ale_bus_t *probe = ale_bus_open(config.lcm_url, error);
         if (!probe) {
@@ -157,8 +153,6 @@ class DriveThread : public testing::Test
         if (lcm) {
             lcm_destroy(lcm);
         }
-        ale_exchange_close(&exchange);
-        ale_rt_stop();
     }
     static void take(const lcm_recv_buf_t *buffer, const char *, void *user)
     {
@@ -183,7 +177,6 @@ class DriveThread : public testing::Test
     }
 
     ale_config_t config{};
-    ale_exchange_t exchange{};
     lcm_t *lcm = nullptr;
     ale_drive_t *drive = nullptr;
     std::vector<ale::drive_t> heard;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "room.hpp"
+#include "surroundings.hpp"
 
 extern "C" {
 #include "estimate.h"
@@ -16,24 +17,18 @@ namespace
 
 constexpr int64_t kPeriod = 100000;
 
-class Estimate : public testing::Test
+class Estimate : public surroundings::WithExchange
 {
   protected:
     void SetUp() override
     {
-        const ale_rt_config_t realtime = {0, -1, false};
-        ale_rt_report_t report;
-        ASSERT_EQ(ale_rt_start(&realtime, &report), 0);
         config = ale_config_default();
-        ASSERT_EQ(ale_exchange_open(&exchange, ale_clock_start(ALE_CLOCK_REAL)), 0);
         estimator = ale_estimator_create(&config, &exchange);
         ASSERT_NE(estimator, nullptr);
     }
     void TearDown() override
     {
         ale_estimator_destroy(estimator);
-        ale_exchange_close(&exchange);
-        ale_rt_stop();
     }
 
     bool push(int64_t stamp_us, bool lost = false, double x = 0)
@@ -83,7 +78,6 @@ class Estimate : public testing::Test
     }
 
     ale_config_t config{};
-    ale_exchange_t exchange{};
     ale_estimator_t *estimator = nullptr;
 };
 

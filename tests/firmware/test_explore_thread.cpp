@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "room.hpp"
+#include "surroundings.hpp"
 
 extern "C" {
 #include "drive_desk.h"
@@ -17,24 +18,18 @@ extern "C" {
 namespace
 {
 
-class ExploreThread : public testing::Test
+class ExploreThread : public surroundings::WithExchange
 {
   protected:
     void SetUp() override
     {
         config = ale_config_default();
-        ale_rt_report_t report;
-        const ale_rt_config_t realtime = {0, -1, false};
-        ASSERT_EQ(ale_rt_start(&realtime, &report), 0);
-        ASSERT_EQ(ale_exchange_open(&exchange, ale_clock_start(ALE_CLOCK_REAL)), 0);
         explore = ale_explore_start(&config, &exchange);
         ASSERT_NE(explore, nullptr);
     }
     void TearDown() override
     {
         ale_explore_stop(explore);
-        ale_exchange_close(&exchange);
-        ale_rt_stop();
     }
 
     void give_scan(uint8_t state = ALE_STATE_GOOD)
@@ -85,7 +80,6 @@ class ExploreThread : public testing::Test
 
     ale_config_t config;
     uint32_t corrections = 0; /* that the pose given next knows */
-    ale_exchange_t exchange;
     ale_explore_t *explore = nullptr;
 };
 

@@ -6,18 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "drivers/store/chunks.hpp"
+
 extern "C" {
 #include "flight_ring.h"
 }
 
 namespace
 {
-
-struct Chunk {
-    ale_chunk_kind_t kind;
-    int64_t stamp_us;
-    std::string payload;
-};
 
 class FlightRing : public testing::Test
 {
@@ -43,13 +39,9 @@ class FlightRing : public testing::Test
         EXPECT_EQ(ale_recording_begin(&recording, open_memstream(&bytes, &count)), 0);
         ale_flight_ring_write(ring, &recording);
         EXPECT_EQ(ale_recording_close(&recording), 0);
-        std::vector<Chunk> chunks;
-        ale_chunk_reader_t reader = ale_chunk_reader(reinterpret_cast<const uint8_t *>(bytes), count);
-        for (ale_chunk_t chunk; ale_chunk_next(&reader, &chunk);) {
-            chunks.push_back({chunk.kind, chunk.stamp_us,
-                              std::string(reinterpret_cast<const char *>(chunk.payload), chunk.length)});
-        }
-        EXPECT_EQ(reader.bad_chunks, 0u);
+        uint64_t bad = 0;
+        std::vector<Chunk> chunks = chunks_of(std::string(bytes, count), &bad);
+        EXPECT_EQ(bad, 0u);
         std::free(bytes);
         return chunks;
     }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "lib/graph/drifting_keyframes.hpp"
+#include "surroundings.hpp"
 
 extern "C" {
 #include "mapper_thread.h"
@@ -25,23 +26,17 @@ template <class Condition> bool comes_true(Condition condition)
     return condition();
 }
 
-class MapperThread : public testing::Test
+class MapperThread : public surroundings::WithExchange
 {
   protected:
     void SetUp() override
     {
-        const ale_rt_config_t realtime = {0, -1, false};
-        ale_rt_report_t report;
-        ASSERT_EQ(ale_rt_start(&realtime, &report), 0);
-        ASSERT_EQ(ale_exchange_open(&exchange, ale_clock_start(ALE_CLOCK_REAL)), 0);
         thread = ale_mapper_thread_start(&exchange);
         ASSERT_NE(thread, nullptr);
     }
     void TearDown() override
     {
         ale_mapper_thread_stop(thread);
-        ale_exchange_close(&exchange);
-        ale_rt_stop();
     }
 
     void hand_over(const ale_keyframe_t &keyframe)
@@ -52,7 +47,6 @@ class MapperThread : public testing::Test
         ale_ring_commit(exchange.keyframes);
     }
 
-    ale_exchange_t exchange{};
     ale_mapper_thread_t *thread = nullptr;
 };
 

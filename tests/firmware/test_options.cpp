@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include "files.hpp"
 
 extern "C" {
 #include "clock.h"
@@ -53,12 +56,10 @@ TEST(Options, NoneMeansTheDefaultsInRealTime)
 
 TEST(Options, TheCommandLineGoesOverTheFile)
 {
-    const std::string path = testing::TempDir() + "ale_test_options.ini";
-    FILE *file = fopen(path.c_str(), "w");
-    fputs("[sensor]\nport = /dev/a\n[lcm]\nurl = memq://\n", file);
-    fclose(file);
+    const files::TemporaryFolder folder;
+    const std::string path = folder / "robot.ini";
+    std::ofstream(path) << "[sensor]\nport = /dev/a\n[lcm]\nurl = memq://\n";
     const Answer answer = read({"--config", path, "--port=/dev/b", "--map", "m.txt", "--time-scale", "2.5"});
-    remove(path.c_str());
     EXPECT_EQ(answer.result, ALE_OPTIONS_RUN) << answer.err;
     EXPECT_STREQ(answer.options->config.port, "/dev/b");
     EXPECT_STREQ(answer.options->config.lcm_url, "memq://");

@@ -1,15 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "drivers/store/chunks.hpp"
+#include "files.hpp"
+#include "surroundings.hpp"
 
 extern "C" {
 #include "recorder.h"
@@ -23,33 +24,22 @@ namespace fs = std::filesystem;
 /* Chunks of a recording as letters: b bytes, o odometry, d decision, s stages, c command, k correction. */
 std::string letters(const fs::path &path)
 {
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream content;
-    content << file.rdbuf();
-    const std::string bytes = content.str();
     std::string text;
-    ale_chunk_reader_t reader =
-        ale_chunk_reader(reinterpret_cast<const uint8_t *>(bytes.data()), bytes.size());
-    for (ale_chunk_t chunk; ale_chunk_next(&reader, &chunk);) {
+    uint64_t bad = 0;
+    for (const Chunk &chunk : chunks_of(files::content(path), &bad)) {
         text += "?bbockCds"[chunk.kind];
     }
-    EXPECT_EQ(reader.bad_chunks, 0u);
+    EXPECT_EQ(bad, 0u);
     return text;
 }
 
-class Recorder : public testing::Test
+class Recorder : public surroundings::WithPort
 {
   protected:
     void SetUp() override
     {
-        std::string name = (fs::temp_directory_path() / "ale-recorder-XXXXXX").string();
-        ASSERT_NE(mkdtemp(name.data()), nullptr);
-        folder = name;
-        const ale_rt_config_t realtime = {0, -1, false};
-        ale_rt_report_t report;
-        ASSERT_EQ(ale_rt_start(&realtime, &report), 0);
         config = ale_config_default();
-        std::strncpy(config.recorder_folder, name.c_str(), sizeof config.recorder_folder - 1);
+        std::strncpy(config.recorder_folder, folder.path().c_str(), sizeof config.recorder_folder - 1);
         config.recorder_megabytes = 1;
         recorder = ale_recorder_start(&config);
         ASSERT_NE(recorder, nullptr);
@@ -57,8 +47,6 @@ class Recorder : public testing::Test
     void TearDown() override
     {
         ale_recorder_stop(recorder);
-        ale_rt_stop();
-        fs::remove_all(folder);
     }
 
     void bytes(const std::string &text)
@@ -78,10 +66,10 @@ class Recorder : public testing::Test
         made->odometry_taken = odometry_taken;
         ale_recorder_result(recorder, made.get());
     }
-    std::vector<fs::path> files() const
+    std::vector<fs::path> written() const
     {
         std::vector<fs::path> found;
-        for (const auto &entry : fs::directory_iterator(folder)) {
+        for (const auto &entry : fs::directory_iterator(folder.path())) {
             if (entry.path().extension() == ".scip") {
                 found.push_back(entry.path());
             }
@@ -97,11 +85,11 @@ class Recorder : public testing::Test
         while (ale_recorder_written(recorder) == before && std::chrono::steady_clock::now() < end) {
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
-        EXPECT_EQ(files().size(), 1u);
-        return letters(files().at(0));
+        EXPECT_EQ(written().size(), 1u);
+        return letters(written().at(0));
     }
 
-    fs::path folder;
+    const files::TemporaryFolder folder;
     ale_config_t config{};
     ale_recorder_t *recorder = nullptr;
 };

@@ -18,6 +18,8 @@
 #include "ale/status_t.hpp"
 #include "bot_core/planar_lidar_t.hpp"
 #include "bot_core/pose_t.hpp"
+#include "drivers/lcm/own_port.hpp"
+#include "surroundings.hpp"
 
 extern "C" {
 #include "telemetry.h"
@@ -50,14 +52,12 @@ template <class Message> struct Channel {
 };
 
 /* The thread between rings of the test and an LCM port of this process. Skipped without a multicast route. */
-class Telemetry : public testing::Test
+class Telemetry : public surroundings::WithExchange
 {
   protected:
     void SetUp() override
     {
-        const std::string url = "udpm://239.255.76.67:" + std::to_string(20000 + getpid() % 30000) + "?ttl=0";
-        const ale_rt_config_t realtime = {0, -1, false};
-        ASSERT_EQ(ale_rt_start(&realtime, &report), 0);
+        const std::string url = own_lcm_url();
         char error[ALE_BUS_ERROR] = "";
         bus = ale_bus_open(url.c_str(), error);
         if (!bus) {
@@ -72,22 +72,19 @@ class Telemetry : public testing::Test
         lidars.subscribe(lcm, "LASER");
         bot_poses.subscribe(lcm, "POSE");
         config = ale_config_default();
-        ASSERT_EQ(ale_exchange_open(&exchange, ale_clock_start(ALE_CLOCK_REAL)), 0);
     }
     void TearDown() override
     {
         ale_telemetry_stop(telemetry);
-        if (bus) {
-            ale_exchange_close(&exchange);
+        if (lcm) {
             lcm_destroy(lcm);
         }
         ale_bus_close(bus);
-        ale_rt_stop();
     }
     const ale_keys_t keys{}; /* nobody's */
     void start()
     {
-        telemetry = ale_telemetry_start(&config, &keys, &exchange, bus, &report);
+        telemetry = ale_telemetry_start(&config, &keys, &exchange, bus, &port_report);
         ASSERT_NE(telemetry, nullptr);
     }
     void stop()
@@ -122,8 +119,6 @@ class Telemetry : public testing::Test
     }
 
     ale_config_t config{};
-    ale_exchange_t exchange{};
-    ale_rt_report_t report{};
     ale_bus_t *bus = nullptr;
     lcm_t *lcm = nullptr;
     ale_telemetry_t *telemetry = nullptr;
@@ -187,7 +182,7 @@ TEST_F(Telemetry, TheStatusComesOnceASecondAndCountsWhatWasLostAndWhy)
     health->scans_lost = 2;
     std::strcpy(health->status, "/dev/ttyACM0: no such device");
     ale_snapshot_publish(exchange.health);
-    std::strcpy(report.text, "nothing at all");
+    std::strcpy(port_report.text, "nothing at all");
     push_result(0, true);
     const int64_t begin = ale_rt_now_ns();
     start();

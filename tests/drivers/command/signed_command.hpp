@@ -27,6 +27,16 @@ struct Operator {
     }
 };
 
+/* A robot's list of those whom it obeys. */
+inline ale_keys_t keys_of(const std::vector<Operator> &operators)
+{
+    ale_keys_t keys{};
+    for (const Operator &one : operators) {
+        keys.operator_key[keys.count++] = one.known;
+    }
+    return keys;
+}
+
 inline ale_command_t drive(int64_t counter)
 {
     ale_command_t command{};

@@ -4,9 +4,9 @@
 #include <fstream>
 #include <string>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "drivers/command/signed_command.hpp"
+#include "files.hpp"
 
 using signed_command::Operator;
 
@@ -16,19 +16,6 @@ namespace
 class Keys : public testing::Test
 {
   protected:
-    void SetUp() override
-    {
-        folder = testing::TempDir() + "ale-keys-XXXXXX";
-        ASSERT_NE(mkdtemp(folder.data()), nullptr);
-        robot = folder + "/robot.keys";
-        own = folder + "/alice.key";
-    }
-    void TearDown() override
-    {
-        unlink(robot.c_str());
-        unlink(own.c_str());
-        rmdir(folder.c_str());
-    }
     void write_robot(const std::string &text)
     {
         std::ofstream(robot) << text;
@@ -43,7 +30,9 @@ class Keys : public testing::Test
         return ale_keys_load(robot.c_str(), &keys, error) < 0 ? error : "";
     }
 
-    std::string folder, robot, own;
+    const files::TemporaryFolder folder;
+    const std::string robot = folder / "robot.keys";
+    const std::string own = folder / "alice.key";
     ale_keys_t keys{};
     char error[ALE_KEYS_ERROR] = "";
     const Operator alice{"alice"};

@@ -21,8 +21,7 @@ class OperatorEnd : public testing::Test
   protected:
     void SetUp() override
     {
-        ale_keys_t keys{};
-        keys.operator_key[keys.count++] = alice.known;
+        const ale_keys_t keys = signed_command::keys_of({alice});
         ale_verifier_init(&verifier, &keys, "rover", boot);
         end.key = alice.secret;
     }

@@ -27,9 +27,7 @@ class Verify : public testing::Test
   protected:
     void SetUp() override
     {
-        ale_keys_t keys{};
-        keys.operator_key[keys.count++] = bob.known;
-        keys.operator_key[keys.count++] = alice.known;
+        const ale_keys_t keys = signed_command::keys_of({bob, alice});
         ale_verifier_init(&verifier, &keys, "rover", boot);
     }
     ale_verdict_t verdict(const std::vector<uint8_t> &bytes, int64_t now = now_utime)

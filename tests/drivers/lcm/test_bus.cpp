@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <unistd.h>
 
 #include <memory>
 #include <string>
@@ -17,6 +16,7 @@
 #include "ale/status_t.hpp"
 #include "bot_core/planar_lidar_t.hpp"
 #include "bot_core/pose_t.hpp"
+#include "drivers/lcm/own_port.hpp"
 
 extern "C" {
 #include "lcm/bus.h"
@@ -115,7 +115,7 @@ class Wire : public testing::Test
   protected:
     void SetUp() override
     {
-        const std::string url = "udpm://239.255.76.67:" + std::to_string(20000 + getpid() % 30000) + "?ttl=0";
+        const std::string url = own_lcm_url();
         char error[ALE_BUS_ERROR] = "";
         bus = ale_bus_open(url.c_str(), error);
         if (!bus) {

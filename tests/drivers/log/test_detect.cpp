@@ -1,10 +1,9 @@
-#include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "files.hpp"
 #include "log_text.hpp"
 
 using ale_test::error_of;
@@ -20,16 +19,6 @@ const std::string scan_line = "FLASER 3 1 2 3 0 0 0 0 0 0 1 h 1\n";
 class LogFile : public testing::Test
 {
   protected:
-    void SetUp() override
-    {
-        const auto *test = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = std::filesystem::path(testing::TempDir()) / (std::string("ale-log-") + test->name());
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override
-    {
-        std::filesystem::remove_all(folder_);
-    }
     std::string path(const std::string &name) const
     {
         return folder_ / name;
@@ -40,7 +29,7 @@ class LogFile : public testing::Test
         return path(name);
     }
 
-    std::filesystem::path folder_;
+    const files::TemporaryFolder folder_;
 };
 
 TEST_F(LogFile, PlainAndGzipGiveTheSame)
@@ -99,7 +88,7 @@ TEST_F(LogFile, WhatIsNoLogIsRefusedWithTheReason)
               std::string::npos);
     EXPECT_NE(error_of("\x1f\x8b nonsense").find("is empty"), std::string::npos);
     try {
-        read_file(folder_);
+        read_file(folder_.path());
         FAIL() << "a directory was opened";
     } catch (const std::runtime_error &error) {
         EXPECT_NE(std::string(error.what()).find("is a directory"), std::string::npos) << error.what();

@@ -1,13 +1,10 @@
 /* The container is written by liblcm itself; messages by the project's own encoder. */
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 #include <gtest/gtest.h>
 #include <lcm/eventlog.h>
 
+#include "files.hpp"
 #include "log_text.hpp"
 
 extern "C" {
@@ -25,13 +22,7 @@ class EventLog
   public:
     EventLog()
     {
-        const auto *test = testing::UnitTest::GetInstance()->current_test_info();
-        path_ = std::filesystem::path(testing::TempDir()) / (std::string("ale-events-") + test->name());
         log_ = lcm_eventlog_create(path_.c_str(), "w");
-    }
-    ~EventLog()
-    {
-        std::filesystem::remove(path_);
     }
     void put(const std::string &channel, const std::string &data, int64_t received_us = 5)
     {
@@ -48,12 +39,12 @@ class EventLog
     std::string bytes()
     {
         lcm_eventlog_destroy(log_);
-        std::ifstream file(path_, std::ios::binary);
-        return {std::istreambuf_iterator<char>(file), {}};
+        return files::content(path_);
     }
 
   private:
-    std::filesystem::path path_;
+    const files::TemporaryFolder folder_;
+    const std::string path_ = folder_ / "events";
     lcm_eventlog_t *log_;
 };
 

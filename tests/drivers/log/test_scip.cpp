@@ -1,11 +1,10 @@
 /* Recordings made chunk by chunk from replies as the protocol lays them out. */
 #include <cstring>
-#include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include <gtest/gtest.h>
 
+#include "files.hpp"
 #include "log_text.hpp"
 
 extern "C" {
@@ -26,13 +25,7 @@ class Recording
   public:
     Recording()
     {
-        const auto *test = testing::UnitTest::GetInstance()->current_test_info();
-        path_ = std::filesystem::path(testing::TempDir()) / (std::string("ale-scip-") + test->name());
         EXPECT_EQ(ale_recording_create(&recording_, path_.c_str()), 0);
-    }
-    ~Recording()
-    {
-        std::filesystem::remove(path_);
     }
     void put(ale_chunk_kind_t kind, int64_t stamp_us, const std::string &bytes)
     {
@@ -47,12 +40,12 @@ class Recording
     std::string bytes()
     {
         EXPECT_EQ(ale_recording_close(&recording_), 0);
-        std::ifstream file(path_, std::ios::binary);
-        return {std::istreambuf_iterator<char>(file), {}};
+        return files::content(path_);
     }
 
   private:
-    std::filesystem::path path_;
+    const files::TemporaryFolder folder_;
+    const std::string path_ = folder_ / "recording";
     ale_recording_t recording_{};
 };
 

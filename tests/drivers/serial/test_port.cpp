@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
-#include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
 #include <memory>
@@ -12,6 +11,8 @@
 #include <thread>
 #include <unistd.h>
 
+#include "files.hpp"
+
 extern "C" {
 #include "serial/port.h"
 #include "serial/port_candidates.h"
@@ -21,30 +22,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-
-// A folder of the test's own.
-class TemporaryFolder
-{
-  public:
-    TemporaryFolder()
-    {
-        std::string name = (fs::temp_directory_path() / "ale-port-XXXXXX").string();
-        path_ = mkdtemp(name.data());
-    }
-    ~TemporaryFolder()
-    {
-        fs::remove_all(path_);
-    }
-    TemporaryFolder(const TemporaryFolder &) = delete;
-    TemporaryFolder &operator=(const TemporaryFolder &) = delete;
-    const fs::path &path() const
-    {
-        return path_;
-    }
-
-  private:
-    fs::path path_;
-};
 
 // A pseudo terminal: the test holds the far end.
 class Port : public testing::Test
@@ -130,7 +107,7 @@ TEST_F(Port, reading_does_not_wait_and_waiting_ends)
 
 TEST_F(Port, link_to_the_device_is_followed)
 {
-    const TemporaryFolder folder;
+    const files::TemporaryFolder folder;
     const fs::path link = folder.path() / "urg";
     fs::create_symlink(name, link);
     ASSERT_EQ(ale_port_open(&port, link.c_str(), 19200), ALE_PORT_OK);
@@ -199,7 +176,7 @@ TEST_F(Port, signals_do_not_end_a_wait)
 
 TEST(PortOpen, what_is_no_serial_device_is_named)
 {
-    const TemporaryFolder folder;
+    const files::TemporaryFolder folder;
     ale_port_t *port = nullptr;
     EXPECT_EQ(ale_port_open(&port, (folder.path() / "nothing").c_str(), 115200), ALE_PORT_ABSENT);
     EXPECT_EQ(ale_port_open(&port, folder.path().c_str(), 115200), ALE_PORT_ABSENT);
@@ -230,7 +207,7 @@ TEST(PortOpen, terminal_that_the_kernel_lists_is_opened_by_libserialport)
 
 TEST(PortCandidates, stable_names_come_first_and_no_device_twice)
 {
-    const TemporaryFolder dev;
+    const files::TemporaryFolder dev;
     char paths[ALE_PORT_CANDIDATES][ALE_PORT_PATH];
     EXPECT_EQ(ale_port_candidates(dev.path().c_str(), paths), 0U);
     fs::create_directories(dev.path() / "serial/by-id");

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "files.hpp"
+
 extern "C" {
 #include "store/map_file.h"
 }
@@ -17,17 +19,6 @@ namespace
 class MapFile : public testing::Test
 {
   protected:
-    void SetUp() override
-    {
-        folder_ = std::filesystem::path(testing::TempDir()) /
-                  (std::string("ale-map-") + testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::create_directories(folder_);
-        path_ = folder_ / "map.ale";
-    }
-    void TearDown() override
-    {
-        std::filesystem::remove_all(folder_);
-    }
     std::string load_error(const std::string &bytes)
     {
         std::ofstream(path_, std::ios::binary) << bytes;
@@ -37,12 +28,11 @@ class MapFile : public testing::Test
     std::string saved(const ale_map_t &map)
     {
         EXPECT_EQ(ale_map_file_save(path_.c_str(), &map, error_), 0) << error_;
-        std::ifstream file(path_, std::ios::binary);
-        return {std::istreambuf_iterator<char>(file), {}};
+        return files::content(path_);
     }
 
-    std::filesystem::path folder_;
-    std::filesystem::path path_;
+    const files::TemporaryFolder folder_;
+    const std::filesystem::path path_ = folder_ / "map.ale";
     char error_[ALE_MAP_FILE_ERROR] = "";
     std::unique_ptr<ale_map_t> loaded_ = std::make_unique<ale_map_t>();
 };
@@ -160,7 +150,7 @@ TEST_F(MapFile, AFailedSaveLeavesTheOldFileAndNothingElse)
     EXPECT_EQ(ale_map_file_save((folder_ / "no/such/map").c_str(), loaded_.get(), error_), -1);
     std::filesystem::create_directory(folder_ / "folder");
     EXPECT_EQ(ale_map_file_save((folder_ / "folder").c_str(), loaded_.get(), error_), -1);
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 2);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 2);
     EXPECT_EQ(load_error(before), "");
 }
 

@@ -1,7 +1,4 @@
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <string>
 #include <vector>
@@ -9,24 +6,16 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-extern "C" {
-#include "store/recording.h"
-}
+#include "drivers/store/chunks.hpp"
+#include "files.hpp"
 
 namespace
 {
 
-struct Chunk {
-    ale_chunk_kind_t kind;
-    int64_t stamp_us;
-    std::string payload;
-};
-
 std::string file_of(const std::vector<Chunk> &chunks)
 {
-    const auto path =
-        std::filesystem::path(testing::TempDir()) /
-        (std::string("ale-recording-") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    const files::TemporaryFolder folder;
+    const std::string path = folder / "recording";
     ale_recording_t recording;
     EXPECT_EQ(ale_recording_create(&recording, path.c_str()), 0);
     for (const Chunk &c : chunks) {
@@ -35,24 +24,7 @@ std::string file_of(const std::vector<Chunk> &chunks)
                   0);
     }
     EXPECT_EQ(ale_recording_close(&recording), 0);
-    std::ifstream file(path, std::ios::binary);
-    std::string bytes(std::istreambuf_iterator<char>(file), {});
-    std::filesystem::remove(path);
-    return bytes;
-}
-
-std::vector<Chunk> chunks_of(const std::string &bytes, uint64_t *bad)
-{
-    ale_chunk_reader_t reader =
-        ale_chunk_reader(reinterpret_cast<const uint8_t *>(bytes.data()), bytes.size());
-    std::vector<Chunk> out;
-    ale_chunk_t chunk;
-    while (ale_chunk_next(&reader, &chunk)) {
-        out.push_back({chunk.kind, chunk.stamp_us,
-                       std::string(reinterpret_cast<const char *>(chunk.payload), chunk.length)});
-    }
-    *bad = reader.bad_chunks;
-    return out;
+    return files::content(path);
 }
 
 std::vector<Chunk> some_chunks()

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <string>
 
-#include <unistd.h>
+#include "files.hpp"
 
 extern "C" {
 #include "realtime/machine.h"
@@ -18,16 +18,6 @@ namespace fs = std::filesystem;
 class Machine : public testing::Test
 {
   protected:
-    void SetUp() override
-    {
-        std::string name = (fs::temp_directory_path() / "ale-machine-XXXXXX").string();
-        ASSERT_NE(mkdtemp(name.data()), nullptr);
-        root = name;
-    }
-    void TearDown() override
-    {
-        fs::remove_all(root);
-    }
     void write(const std::string &path, const std::string &text) const
     {
         fs::create_directories((root / path).parent_path());
@@ -55,7 +45,8 @@ class Machine : public testing::Test
         return report;
     }
 
-    fs::path root;
+    const files::TemporaryFolder folder;
+    const fs::path root = folder.path();
 };
 
 TEST_F(Machine, OnlyAKernelThatSaysSoIsPreemptRt)

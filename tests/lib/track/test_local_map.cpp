@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "room.h"
+#include "walls.h"
 
 extern "C" {
 #include "track/local_map.h"
@@ -13,21 +14,6 @@ extern "C" {
 
 namespace
 {
-ale_wall_t make_wall(double x, double y, double normal, double half)
-{
-    ale_view_t v = {};
-    v.centre = {convert::um(x), convert::um(y)};
-    v.normal_bam = convert::bam(normal);
-    v.start_um = convert::um(-half);
-    v.end_um = convert::um(half);
-    v.var_offset_um2 = 4000000;
-    v.var_angle_urad2 = 4000000;
-    ale_wall_t w;
-    ale_wall_from_view(&w, &v);
-    w.seen = 5;
-    return w;
-}
-
 struct Map : testing::Test {
     std::unique_ptr<ale_local_map_t> map = std::make_unique<ale_local_map_t>();
     void SetUp() override
@@ -36,8 +22,7 @@ struct Map : testing::Test {
     }
     uint16_t add(double x, double y, double normal, double half, uint32_t seen = 5)
     {
-        ale_wall_t w = make_wall(x, y, normal, half);
-        w.seen = seen;
+        ale_wall_t w = make_wall(x, y, normal, half, seen);
         w.last_scan = map->count;
         return ale_local_map_add(map.get(), &w);
     }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "convert.h"
+#include "walls.h"
 
 extern "C" {
 #include "track/hypothesis.h"
@@ -13,21 +14,6 @@ extern "C" {
 
 namespace
 {
-ale_wall_t make_wall(double x, double y, double normal, double half)
-{
-    ale_view_t v = {};
-    v.centre = {convert::um(x), convert::um(y)};
-    v.normal_bam = convert::bam(normal);
-    v.start_um = convert::um(-half);
-    v.end_um = convert::um(half);
-    v.var_offset_um2 = 4000000;
-    v.var_angle_urad2 = 4000000;
-    ale_wall_t w;
-    ale_wall_from_view(&w, &v);
-    w.seen = 10;
-    return w;
-}
-
 // A room of four walls and a niche about the origin, and what a robot at a pose sees of it.
 struct Scene {
     std::unique_ptr<ale_local_map_t> map = std::make_unique<ale_local_map_t>();
@@ -43,7 +29,7 @@ struct Scene {
                                     {0, -2, reference::pi / 2, 3},
                                     {2, 1.2, -2.4, 0.5}};
         for (const auto &w : walls) {
-            const ale_wall_t wall = make_wall(w[0], w[1], w[2], w[3]);
+            const ale_wall_t wall = make_wall(w[0], w[1], w[2], w[3], 10);
             ale_local_map_add(map.get(), &wall);
         }
     }
@@ -184,7 +170,7 @@ TEST(Wall, IsSharpenedAsByTheKalmanFilterInDouble)
     std::mt19937 rng(8);
     std::normal_distribution<double> normal;
     for (int n = 0; n < 200; n++) {
-        ale_wall_t w = make_wall(1, 2, 0.7, 1.5);
+        ale_wall_t w = make_wall(1, 2, 0.7, 1.5, 10);
         Eigen::Matrix2d p = Eigen::Vector2d(4e6, 4e6).asDiagonal();
         for (int k = 0; k < 5; k++) {
             const ale_wall_error_t e = {std::llround(2000 * normal(rng)), std::llround(2000 * normal(rng)),

@@ -3,11 +3,10 @@
 
 #include <cmath>
 #include <fstream>
-#include <sstream>
-#include <unistd.h>
 
 #include "bench/simulate.hpp"
 #include "calibrate/calibration.h"
+#include "files.hpp"
 
 extern "C" {
 #include "config.h"
@@ -169,11 +168,6 @@ INSTANTIATE_TEST_SUITE_P(Noise, RecoveredParameters,
                                          Truth{{3000, 2500, 3000, 3000, 8, 9000, 1500000}, 0.15},
                                          Truth{{4000, 5000, 0, 0, 12, 5000, 2000000}, 0.05}));
 
-std::string temporary(const std::string &name)
-{
-    return testing::TempDir() + name + std::to_string(::getpid());
-}
-
 std::string message_of(const std::string &path)
 {
     try {
@@ -197,10 +191,10 @@ TEST(Calibration, the_bias_of_surfaces_is_found_where_walls_are_seen_under_wide_
 
 TEST(Calibration, a_log_file_gives_what_the_table_gave)
 {
-    const std::string path = temporary("rest.log");
+    const files::TemporaryFolder folder;
+    const std::string path = folder / "rest.log";
     write_log(simulation(usual), 60, 0, path);
     const calibrate::Recording recording = calibrate::read_recording(path);
-    std::remove(path.c_str());
     EXPECT_EQ(recording.scans(), 60);
     EXPECT_EQ(recording.beams(), bench::urg_beams);
     EXPECT_NEAR(recording.step, bench::urg_step, 1e-8);
@@ -225,30 +219,29 @@ TEST(Calibration, the_fragment_is_a_configuration_that_the_firmware_reads)
 
 TEST(Calibration, the_plot_is_a_picture_with_three_panels)
 {
-    const std::string path = temporary("fit.svg");
+    const files::TemporaryFolder folder;
+    const std::string path = folder / "fit.svg";
     calibrate::plot(calibrate::calibrate(recording_of(simulation(usual), 60)), "rest.log", path);
-    std::stringstream text;
-    text << std::ifstream(path).rdbuf();
-    std::remove(path.c_str());
+    const std::string text = files::content(path);
     for (const char *title : {"range, m", "beams apart", "slope |dr/dphi|, m/rad", "</svg>"}) {
-        EXPECT_NE(text.str().find(title), std::string::npos) << title;
+        EXPECT_NE(text.find(title), std::string::npos) << title;
     }
 }
 
 TEST(Calibration, a_moving_scanner_is_refused)
 {
-    const std::string path = temporary("moving.log");
+    const files::TemporaryFolder folder;
+    const std::string path = folder / "moving.log";
     write_log(simulation(usual), 60, 0.01, path);
     EXPECT_NE(message_of(path).find("the scanner moves"), std::string::npos);
-    std::remove(path.c_str());
 }
 
 TEST(Calibration, too_few_scans_are_refused_with_their_number)
 {
-    const std::string path = temporary("short.log");
+    const files::TemporaryFolder folder;
+    const std::string path = folder / "short.log";
     write_log(simulation(usual), 7, 0, path);
     EXPECT_NE(message_of(path).find("7 scans, at least 20"), std::string::npos);
-    std::remove(path.c_str());
 }
 
 TEST(Calibration, a_recording_without_any_surface_is_refused)

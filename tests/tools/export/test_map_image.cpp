@@ -1,5 +1,4 @@
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,6 +11,7 @@
 #include <png.h>
 
 #include "export/map_image.h"
+#include "files.hpp"
 
 extern "C" {
 #include "base/trig.h"
@@ -21,14 +21,9 @@ namespace
 {
 
 using namespace ale;
+using files::content;
 
 constexpr int32_t metre = 1000000;
-
-std::string content(const std::filesystem::path &path)
-{
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 struct Picture {
     png_uint_32 width = 0;
@@ -62,9 +57,6 @@ class MapImage : public testing::Test
   protected:
     void SetUp() override
     {
-        folder_ = std::filesystem::path(testing::TempDir()) /
-                  (std::string("ale-image-") + testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::create_directories(folder_);
         const ale_point_t corner[4] = {
             {-metre, -metre}, {3 * metre, -metre}, {3 * metre, metre}, {-metre, metre}};
         for (int i = 0; i < 4; i++) {
@@ -77,17 +69,13 @@ class MapImage : public testing::Test
         scene_.map = map_.get();
         scene_.trajectory = {{0, {0, 0, 0}}, {100000, {metre, 0, 0}}, {200000, {2 * metre, 500000, 0}}};
     }
-    void TearDown() override
-    {
-        std::filesystem::remove_all(folder_);
-    }
     std::filesystem::path write(const std::string &name)
     {
         write_map_image(folder_ / name, scene_);
         return folder_ / name;
     }
 
-    std::filesystem::path folder_;
+    const files::TemporaryFolder folder_;
     std::unique_ptr<ale_map_t> map_ = std::make_unique<ale_map_t>();
     MapScene scene_;
 };

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "files.hpp"
 #include "sim/log_source.h"
 
 namespace
@@ -13,21 +14,13 @@ namespace
 class Played : public ::testing::Test
 {
   protected:
-    void SetUp() override
-    {
-        path = ::testing::TempDir() + "ale_sim_" +
-               ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".log";
-    }
-    void TearDown() override
-    {
-        std::remove(path.c_str());
-    }
     void write(const std::string &text) const
     {
         std::ofstream(path) << text;
     }
 
-    std::string path;
+    const files::TemporaryFolder folder;
+    const std::string path = folder / "played.log";
 };
 
 /* Three beams straight ahead of a scanner with the URG's steps: steps 383 to 385. */

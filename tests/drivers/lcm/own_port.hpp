@@ -1,0 +1,14 @@
+/* LCM on a port of this process, so that tests run side by side; it stays on this machine. */
+#ifndef TESTS_DRIVERS_LCM_OWN_PORT_HPP
+#define TESTS_DRIVERS_LCM_OWN_PORT_HPP
+
+#include <string>
+
+#include <unistd.h>
+
+inline std::string own_lcm_url()
+{
+    return "udpm://239.255.76.67:" + std::to_string(20000 + getpid() % 30000) + "?ttl=0";
+}
+
+#endif
