@@ -3,10 +3,11 @@
 #include <atomic>
 #include <cstring>
 #include <deque>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <thread>
+
+#include "comes_true.hpp"
 
 extern "C" {
 #include "acquire.h"
@@ -100,12 +101,6 @@ class Acquire : public testing::Test
         const std::lock_guard<std::mutex> guard(script.lock);
         script.events.insert(script.events.end(), events);
     }
-    void wait_for(const std::function<bool()> &condition)
-    {
-        while (!condition()) {
-            std::this_thread::yield();
-        }
-    }
     const ale_scan_record_t &record(uint32_t k)
     {
         return *static_cast<const ale_scan_record_t *>(ale_ring_at(exchange.scans, k));
@@ -119,7 +114,7 @@ TEST_F(Acquire, EveryScanAndEveryLostScanIsHandedOverInOrder)
     ale_acquire_t *acquire = ale_acquire_start(&config, &exchange);
     ASSERT_NE(acquire, nullptr);
     play({ALE_URG_CHANGED, ALE_URG_SCAN, ALE_URG_SCAN_LOST, ALE_URG_SCAN});
-    wait_for([&] { return ale_ring_ready(exchange.scans) == 3; });
+    ASSERT_TRUE(comes_true([&] { return ale_ring_ready(exchange.scans) == 3; }));
     EXPECT_EQ(record(0).scan.stamp_us, 1000);
     EXPECT_EQ(record(0).scan.beams, 682);
     EXPECT_FALSE(record(0).lost);
@@ -145,10 +140,10 @@ TEST_F(Acquire, AFullRingIsCountedAndTheThreadGoesOn)
     for (int k = 0; k < ALE_SCAN_SLOTS + 3; k++) {
         play({ALE_URG_SCAN});
     }
-    wait_for([&] { return ale_ring_refused(exchange.scans) == 3; });
+    ASSERT_TRUE(comes_true([&] { return ale_ring_refused(exchange.scans) == 3; }));
     ale_ring_release(exchange.scans);
     play({ALE_URG_SCAN});
-    wait_for([&] { return ale_ring_committed(exchange.scans) == ALE_SCAN_SLOTS + 1; });
+    ASSERT_TRUE(comes_true([&] { return ale_ring_committed(exchange.scans) == ALE_SCAN_SLOTS + 1; }));
     ale_acquire_stop(acquire);
 }
 

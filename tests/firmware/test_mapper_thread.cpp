@@ -1,10 +1,9 @@
 // firmware/mapper_thread: keyframes in by one ring, corrections out by another, and a clean end.
-#include <chrono>
 #include <cstring>
-#include <thread>
 
 #include <gtest/gtest.h>
 
+#include "comes_true.hpp"
 #include "lib/graph/drifting_keyframes.hpp"
 #include "surroundings.hpp"
 
@@ -14,17 +13,6 @@ extern "C" {
 
 namespace
 {
-
-constexpr auto patience = std::chrono::seconds(30);
-
-template <class Condition> bool comes_true(Condition condition)
-{
-    const auto end = std::chrono::steady_clock::now() + patience;
-    while (!condition() && std::chrono::steady_clock::now() < end) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return condition();
-}
 
 class MapperThread : public surroundings::WithExchange
 {

@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "comes_true.hpp"
 #include "drivers/store/chunks.hpp"
 #include "files.hpp"
 #include "surroundings.hpp"
@@ -81,10 +82,7 @@ class Recorder : public surroundings::WithPort
     {
         const uint32_t before = ale_recorder_written(recorder);
         ale_recorder_trigger(recorder, ALE_RECORD_COMMAND);
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-        while (ale_recorder_written(recorder) == before && std::chrono::steady_clock::now() < end) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        }
+        EXPECT_TRUE(comes_true([&] { return ale_recorder_written(recorder) != before; }));
         EXPECT_EQ(written().size(), 1u);
         return letters(written().at(0));
     }

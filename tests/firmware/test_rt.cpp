@@ -9,6 +9,9 @@
 #include <string>
 #include <thread>
 
+#include "realtime/release.hpp"
+#include "surroundings.hpp"
+
 extern "C" {
 #include "realtime/rt.h"
 }
@@ -16,33 +19,14 @@ extern "C" {
 namespace
 {
 
-/* Starts the port as an ordinary program would: nothing asked for. */
-class Rt : public testing::Test
+class Rt : public surroundings::WithPort
 {
-  protected:
-    void SetUp() override
-    {
-        const ale_rt_config_t config = {0, -1, false};
-        ASSERT_EQ(ale_rt_start(&config, &report), 0);
-    }
-    void TearDown() override
-    {
-        ale_rt_stop();
-    }
-    ale_rt_report_t report{};
 };
-
-using Release = std::unique_ptr<ale_rt_release_t, decltype(&ale_rt_release_destroy)>;
-
-Release make_release()
-{
-    return {ale_rt_release_create(), ale_rt_release_destroy};
-}
 
 TEST_F(Rt, TheReportNamesWhatIsMissing)
 {
-    EXPECT_FALSE(report.realtime);
-    const std::string text = report.text;
+    EXPECT_FALSE(port_report.realtime);
+    const std::string text = port_report.text;
     EXPECT_NE(text.find("missing: priority (none asked for), locked memory"), std::string::npos) << text;
     EXPECT_EQ(text.find('\n'), std::string::npos);
 }
@@ -51,7 +35,7 @@ TEST_F(Rt, APriorityThatIsRefusedOrGrantedIsReportedAsSuch)
 {
     ale_rt_stop();
     const ale_rt_config_t config = {50, -1, false};
-    ASSERT_EQ(ale_rt_start(&config, &report), 0);
+    ASSERT_EQ(ale_rt_start(&config, &port_report), 0);
     struct Policy {
         std::atomic<int> policy{-1};
         static void read(ale_rt_task_t *, void *user)
@@ -64,8 +48,8 @@ TEST_F(Rt, APriorityThatIsRefusedOrGrantedIsReportedAsSuch)
     } seen;
     const ale_rt_task_config_t task = {"policy", ALE_RT_HARD, Policy::read, &seen};
     ale_rt_task_join(ale_rt_task_start(&task));
-    ale_rt_report(&report);
-    const std::string text = report.text;
+    ale_rt_report(&port_report);
+    const std::string text = port_report.text;
     const bool granted = text.find("SCHED_FIFO 50") < text.find("missing");
     EXPECT_EQ(seen.policy, granted ? SCHED_FIFO : SCHED_OTHER) << text;
 }

@@ -13,6 +13,8 @@
 #include <string>
 #include <thread>
 
+#include "firmware/realtime/release.hpp"
+
 extern "C" {
 #include "realtime/rt.h"
 #include "rtai/emulation.h"
@@ -63,13 +65,6 @@ class RtRtai : public testing::Test
     }
     ale_rt_report_t report{};
 };
-
-using Release = std::unique_ptr<ale_rt_release_t, decltype(&ale_rt_release_destroy)>;
-
-Release make_release()
-{
-    return {ale_rt_release_create(), ale_rt_release_destroy};
-}
 
 template <typename Work> struct Job {
     Work work;
