@@ -206,7 +206,8 @@ static void area_words(const doing_t *doing, const char *what, char text[ALE_ANS
 {
     const uint32_t m2 = doing->cells / CELLS_PER_M2;
     if (doing->refused > 0) {
-        snprintf(text, ALE_ANSWER_BYTES, "%s: %u m2 seen, %u places given up", what, m2, doing->refused);
+        snprintf(text, ALE_ANSWER_BYTES, "%s: %u m2 seen, %u place%s given up", what, m2, doing->refused,
+                 doing->refused == 1 ? "" : "s");
     } else {
         snprintf(text, ALE_ANSWER_BYTES, "%s: %u m2 seen", what, m2);
     }

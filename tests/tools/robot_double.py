@@ -52,6 +52,7 @@ class RobotDouble:
         self.boot = boot
         self.scan = 0
         self.state = 2
+        self.driver = "streaming"
         self.who_drives = ""
         self.answer = ("", 0, "")  # operator, counter and result of the last command
 
@@ -158,7 +159,7 @@ class RobotDouble:
         status.latency_p50_us, status.latency_p99_us, status.latency_worst_us = 1400, 2300, 4100
         status.realtime_detail = "SCHED_FIFO 60, memory locked"
         status.realtime = True
-        status.driver_state = "streaming"
+        status.driver_state = self.driver
         status.device = "URG-04LX H0000001"
         status.scan_rate_hz = 10.0
         status.counter_name = ["bad_checksum", "scans_lost", "odometry", "resets"]

@@ -98,6 +98,19 @@ def test_weak_and_lost_cannot_be_missed(page, robot, pulse, state, name):
     assert page.run("return getComputedStyle(document.querySelector('main'), '::after').borderTopWidth") != "0px"
 
 
+def test_what_the_scanner_reports_stands_over_the_map_in_plain_words(page, robot, pulse):
+    page.wait_for(f"{STATE} === 'good'")
+    assert page.run("return document.getElementById('advice').hidden")
+    robot.driver, robot.state = "asking who is there: hardware fault of the sensor: status 50", 0
+    page.wait_for("document.getElementById('advice').textContent.includes('(status 50). Switch it off and on')")
+    page.wait_for(f"{ALARM} === 'lost'")
+    alarm, advice = (page.run("const b = document.getElementById(arguments[0]).getBoundingClientRect(); "
+                              "return [b.left, b.top, b.right, b.bottom]", name) for name in ("alarm", "advice"))
+    assert alarm[3] < advice[1] and advice[0] > 60, "neither over the other nor over the tools"
+    robot.driver = "streaming"
+    page.wait_for("document.getElementById('advice').hidden")
+
+
 def test_a_lost_link_shows_within_a_second(page, pulse):
     page.wait_for(f"{LINK} === 'up'")
     pulse.stop()
@@ -302,10 +315,16 @@ def test_numbers_and_codes_are_put_in_words(page):
           small: w.metres(-0.0001), nothing: w.metres(null), heading: [w.heading(-0.0001), w.heading(4), w.heading(-4)],
           times: [w.duration(12.4), w.duration(1234), w.duration(99949), w.duration(2.5e6), w.duration(null)],
           codes: [w.codesInWords([]), w.codesInWords([[0, 3], [0x81, 4], [2, 1]]), w.codesInWords([[18, 2], [11, 1]])],
+          advice: [["streaming", null], ["streaming", [23, 0.7]], ["silent", null], ["no scanner: /dev/ttyACM0: No such file", null]]
+            .map(([driver, stain]) => w.adviceOnScanner(driver, stain)),
           drops: w.countDrops([{name: "scans_lost", value: 2}, {name: "odometry", value: 90}, {name: "overloaded", value: 1}]),
         }));""")
     assert words["small"] == "0.000 m" and words["nothing"] == "–"
     assert words["heading"] == ["0.0°", "-130.8°", "130.8°"]
     assert words["times"] == ["12 µs", "1.23 ms", "99.9 ms", "2.5 s", "–"]
     assert words["codes"] == ["none", "7 nothing in reach, 1 too weak", "2 dazzled by something shiny, 1 disturbed"]
+    assert words["advice"][0] is None
+    assert words["advice"][1].startswith("The scanner's window may be dirty: 23 beams 40° to the left give no range")
+    assert "cable" in words["advice"][2]
+    assert words["advice"][3].startswith("No scanner (/dev/ttyACM0: No such file). Look at its cable")
     assert words["drops"] == 3

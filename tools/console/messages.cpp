@@ -134,7 +134,7 @@ std::string features_message(const ale::features_t &features)
                     {"corners", corners_of(features.corners)}});
 }
 
-std::string scan_message(const ale::scan_t &scan)
+std::string scan_message(const ale::scan_t &scan, const std::optional<Stain> &stain)
 {
     json ranges = json::array();
     std::map<int, int> codes;
@@ -159,7 +159,8 @@ std::string scan_message(const ale::scan_t &scan)
                     {"range_max", number(scan.range_max)},
                     {"sensor", pose_of(scan.sensor_x, scan.sensor_y, scan.sensor_theta)},
                     {"ranges_mm", ranges},
-                    {"codes", counts}});
+                    {"codes", counts},
+                    {"stain", stain ? json::array({stain->beams, stain->bearing}) : json(nullptr)}});
 }
 
 std::string map_message(const ale::map_t &map)

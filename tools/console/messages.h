@@ -15,6 +15,7 @@
 #include "ale/status_t.hpp"
 #include "console/board.h"
 #include "console/commander.h"
+#include "console/window_watch.h"
 
 namespace console
 {
@@ -23,7 +24,7 @@ namespace console
 std::string hello_message(const std::string &operator_name);
 std::string pose_message(const ale::pose_t &pose);
 std::string features_message(const ale::features_t &features);
-std::string scan_message(const ale::scan_t &scan);
+std::string scan_message(const ale::scan_t &scan, const std::optional<Stain> &stain = {});
 std::string map_message(const ale::map_t &map);
 std::string status_message(const ale::status_t &status);
 std::string trail_message(const TrailPiece &piece);

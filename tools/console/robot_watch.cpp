@@ -35,6 +35,7 @@ void RobotWatch::restarted()
 {
     board_.clear();
     map_parts_ = MapParts();
+    window_ = WindowWatch();
     last_pose_.reset();
     restart_known_ = true;
 }
@@ -72,7 +73,10 @@ void RobotWatch::features(const ale::features_t &features)
 void RobotWatch::scan(const ale::scan_t &scan)
 {
     check(scan);
-    board_.pin(Topic::scan, scan_message(scan));
+    if (last_pose_) {
+        window_.scan(scan, static_cast<double>(last_pose_->theta));
+    }
+    board_.pin(Topic::scan, scan_message(scan, window_.stain()));
 }
 
 void RobotWatch::map(const ale::map_t &part)

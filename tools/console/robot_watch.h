@@ -14,6 +14,7 @@
 #include "console/commander.h"
 #include "console/lcm_feed.h"
 #include "console/map_parts.h"
+#include "console/window_watch.h"
 
 namespace console
 {
@@ -41,6 +42,7 @@ class RobotWatch
     Board &board_;
     Commander &commander_;
     MapParts map_parts_;
+    WindowWatch window_;
     std::optional<ale::pose_t> last_pose_;
     std::optional<int64_t> boot_;
     bool restart_known_ = false; /* the scan numbers told before the next status does */

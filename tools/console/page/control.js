@@ -186,7 +186,7 @@ export class Control {
     if (obstacle) this.#release();
     element("operator").textContent = this.operator ?? "nobody";
     element("who-drives").textContent = this.status?.who_drives || "nobody";
-    element("exploration").textContent = this.status?.exploration || "off";
+    element("exploration").textContent = (this.status?.exploration || "off").replace(/ m2\b/, " m²");
     element("explore").setAttribute("aria-pressed", String(this.exploring));
     element("freeze").setAttribute("aria-pressed", String(Boolean(this.status?.map_frozen)));
   }

@@ -1,5 +1,5 @@
 // The health strip and panel: everything that is not the map.
-import { codesInWords, counterInWords, countDrops, degrees, duration, heading, isTraffic, metres, millimetres, STATES } from "./words.js";
+import { adviceOnScanner, codesInWords, counterInWords, countDrops, degrees, duration, heading, isTraffic, metres, millimetres, STATES } from "./words.js";
 
 const STAGES = ["deskew", "smooth", "extract", "match", "map", "total"];
 const STAGE_COLOURS = ["#7c8cff", "#38bdf8", "#22d3b6", "#ffb84d", "#f472b6"];
@@ -39,11 +39,12 @@ export class Health {
     document.body.dataset.link = state;
     document.body.dataset.state = state === "up" || state === "lost" ? (scene.pose?.state ?? "none") : "none";
     const age = link.poseAgeMs;
-    show("age", Number.isFinite(age) ? duration(Math.round(age / 10) * 1e4) : "–", state === "up" ? "fine" : "bad");
+    show("age", Number.isFinite(age) ? ageInWords(age) : "–", state === "up" ? "fine" : "bad");
     const [word, text] = stateInWords(state, scene, age);
     show("state-word", word);
     show("state-text", text);
     showAlarm(state, scene, word, text);
+    showAdvice(state === "up" || state === "lost" ? adviceOnScanner(scene.status?.driver, scene.scan?.stain) : null);
   }
 
   frame() {
@@ -152,6 +153,14 @@ function showAlarm(link, scene, word, text) {
     show("alarm-word", word);
     show("alarm-text", text);
   }
+}
+
+// To ten milliseconds: finer ones only flicker.
+const ageInWords = (ms) => (ms < 1000 ? `${Math.round(ms / 10) * 10} ms` : duration(ms * 1e3));
+
+function showAdvice(advice) {
+  document.getElementById("advice").hidden = !advice;
+  if (advice) show("advice", advice);
 }
 
 function show(id, text, mood) {

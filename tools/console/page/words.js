@@ -57,6 +57,29 @@ export const isTraffic = (name) => TRAFFIC.includes(name);
 export const countDrops = (counters) =>
   counters.filter((counter) => DROPS.includes(counter.name)).reduce((sum, counter) => sum + counter.value, 0);
 
+// What an operator can do about the scanner, for what it or its driver says; null when there is nothing.
+const ADVICE = [
+  [/hardware fault of the sensor: status (\w+)/, "The scanner reports a fault of its hardware (status $1). Switch it off and on; if it comes back, it needs service."],
+  [/Trouble/, "The scanner says that it is broken. Switch it off and on; if it comes back, it needs service."],
+  [/checks itself/, "The scanner checks itself; this takes some seconds."],
+  [/^silent/, "The scanner has fallen silent. Look at its cable and its power."],
+  [/^no scanner: (.*)/, "No scanner ($1). Look at its cable and its power; it is tried again until it is there."],
+];
+
+export function adviceOnScanner(driver, stain) {
+  for (const [words, advice] of ADVICE) {
+    const said = driver?.match(words);
+    if (said) return advice.replace("$1", said[1]);
+  }
+  return stain ? adviceOnWindow(...stain) : null;
+}
+
+function adviceOnWindow(beams, bearing) {
+  const side = Math.round((Math.abs(bearing) * 180) / Math.PI);
+  const where = side < 5 ? "straight ahead" : `${side}° to the ${bearing > 0 ? "left" : "right"}`;
+  return `The scanner's window may be dirty: ${beams} beams ${where} give no range, wherever the robot turns. Wipe it with a soft, dry cloth.`;
+}
+
 export const STATES = {
   good: ["good", ""],
   weak: ["weak", "position uncertain"],
