@@ -322,11 +322,8 @@ static void state_mounting(ale_log_t *log)
 
 static bool next(ale_log_t *log, ale_log_record_t *record)
 {
-    ale_span_t line;
-    while (ale_text_line(&log->text, &line)) {
-        if (take_line(log, line, record)) {
-            return true;
-        }
+    if (ale_log_next_line(log, record, take_line)) {
+        return true;
     }
     state_mounting(log);
     return false;

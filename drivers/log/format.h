@@ -55,6 +55,10 @@ struct ale_log {
 /* Which format the bytes are; NULL and *reason in plain words when none. */
 const ale_log_format_t *ale_log_detect(ale_log_t *log, const char **reason);
 
+/* Text formats: takes lines until one is a record. False at the end. */
+bool ale_log_next_line(ale_log_t *log, ale_log_record_t *record,
+                       bool (*take_line)(ale_log_t *log, ale_span_t line, ale_log_record_t *record));
+
 /* Counts the line last taken as bad and remembers why. */
 void ale_log_bad_line(ale_log_t *log, const char *what);
 

@@ -15,6 +15,18 @@ static int fail(ale_log_error_t *error, const char *path, const char *reason)
     return -1;
 }
 
+bool ale_log_next_line(ale_log_t *log, ale_log_record_t *record,
+                       bool (*take_line)(ale_log_t *log, ale_span_t line, ale_log_record_t *record))
+{
+    ale_span_t line;
+    while (ale_text_line(&log->text, &line)) {
+        if (take_line(log, line, record)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void ale_log_bad_line(ale_log_t *log, const char *what)
 {
     snprintf(log->last_error, sizeof log->last_error, "%s: line %llu: %s", log->path,

@@ -97,13 +97,7 @@ static bool take_line(ale_log_t *log, ale_span_t line, ale_log_record_t *record)
 
 static bool next(ale_log_t *log, ale_log_record_t *record)
 {
-    ale_span_t line;
-    while (ale_text_line(&log->text, &line)) {
-        if (take_line(log, line, record)) {
-            return true;
-        }
-    }
-    return false;
+    return ale_log_next_line(log, record, take_line);
 }
 
 const ale_log_format_t ale_log_pairs = {

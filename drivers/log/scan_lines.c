@@ -40,21 +40,22 @@ static bool take_scan(ale_span_t line, ale_log_event_t *event)
     return true;
 }
 
-static bool next(ale_log_t *log, ale_log_record_t *record)
+static bool take_line(ale_log_t *log, ale_span_t line, ale_log_record_t *record)
 {
-    ale_span_t line;
-    while (ale_text_line(&log->text, &line)) {
-        const uint32_t words = ale_text_count_words(line, WORDS + 1);
-        if (words == WORDS && take_scan(line, &record->event)) {
-            record->with_odometry = false;
-            return true;
-        }
-        if (words > 0) {
-            ale_log_bad_line(log,
-                             words == WORDS ? "a word that is not a number" : "not a time and 726 ranges");
-        }
+    const uint32_t words = ale_text_count_words(line, WORDS + 1);
+    if (words == WORDS && take_scan(line, &record->event)) {
+        record->with_odometry = false;
+        return true;
+    }
+    if (words > 0) {
+        ale_log_bad_line(log, words == WORDS ? "a word that is not a number" : "not a time and 726 ranges");
     }
     return false;
+}
+
+static bool next(ale_log_t *log, ale_log_record_t *record)
+{
+    return ale_log_next_line(log, record, take_line);
 }
 
 const ale_log_format_t ale_log_scan_lines = {

@@ -1,18 +1,15 @@
 """ale-mounting as its users meet it: drives of the simulator with known mounting, and a real one."""
-import os
-import pathlib
 import re
 import subprocess
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-BIN = pathlib.Path(os.environ.get("ALE_BUILD", ROOT / "build")).resolve() / "bin"
-SHARED = pathlib.Path(os.environ.get("ALE_SHARED") or "/nonexistent")
+from at_hand import BINARIES, WORLDS, shared
+
 
 
 def run(program, *words, code=0):
-    done = subprocess.run([BIN / program, *map(str, words)], check=False, capture_output=True, text=True, timeout=60)
+    done = subprocess.run([BINARIES / program, *map(str, words)], check=False, capture_output=True, text=True, timeout=60)
     assert done.returncode == code, done.stderr
     return done
 
@@ -26,7 +23,7 @@ def found(text):
 @pytest.fixture(name="drive", scope="module")
 def _drive(tmp_path_factory):
     log = tmp_path_factory.mktemp("drive") / "home.log"
-    run("ale-sim", "--world", ROOT / "tools/worlds/home.world", "--write-log", log, "--sensor", "0.12,-0.05,0.2",
+    run("ale-sim", "--world", WORLDS / "home.world", "--write-log", log, "--sensor", "0.12,-0.05,0.2",
         "--wheels", "0.96,1.03,0.02", "--odometry-lag", "0.08")
     return log
 
@@ -57,10 +54,7 @@ def test_what_is_found_goes_into_the_tracker(drive, tmp_path):
 
 
 def test_a_real_rover_is_found_near_what_its_makers_wrote():
-    log = SHARED / "data/urg04lx/exp1.dat"
-    if not log.exists():
-        pytest.skip("the recording is not here")
-    values = found(run("ale-mounting", log).stdout)
+    values = found(run("ale-mounting", shared("data/urg04lx/exp1.dat")).stdout)
     assert 0.07 < values["x"][0] < 0.18  # 0.145
     assert abs(values["theta"][0]) < 0.05
     assert 140000 < values["lag_us"][0] < 170000  # 0.15 to 0.16 s

@@ -123,31 +123,28 @@ std::vector<Point> stepped_side(Random &random, double x0, double x1, double y, 
     return chain;
 }
 
-World corridor(Random &random)
+World with_stepped_sides(Random &random, const Room &room, const std::function<double()> &step)
 {
     World world;
-    const Room room{random.uniform(6, 12) / 2, random.uniform(1.2, 2.4) / 2};
-    const auto recess = [&] { return random.uniform(0.08, 0.25); };
-    add_chain(world, stepped_side(random, -room.hx, room.hx, -room.hy, -1, recess));
-    add_chain(world, stepped_side(random, room.hx, -room.hx, room.hy, 1, recess));
-    add_chain(world, {{room.hx, -room.hy}, {room.hx, room.hy}});
-    add_chain(world, {{-room.hx, room.hy}, {-room.hx, -room.hy}});
-    put_sensor(world, random, room);
-    return world;
-}
-
-// Walls that step back or forth by 20 to 100 mm.
-World stepped_room(Random &random)
-{
-    World world;
-    const Room room = random_room(random, 3, 5.5);
-    const auto step = [&] { return random.sign() * random.uniform(0.02, 0.1); };
     add_chain(world, stepped_side(random, -room.hx, room.hx, -room.hy, -1, step));
     add_chain(world, stepped_side(random, room.hx, -room.hx, room.hy, 1, step));
     add_chain(world, {{room.hx, -room.hy}, {room.hx, room.hy}});
     add_chain(world, {{-room.hx, room.hy}, {-room.hx, -room.hy}});
     put_sensor(world, random, room);
     return world;
+}
+
+World corridor(Random &random)
+{
+    const Room room{random.uniform(6, 12) / 2, random.uniform(1.2, 2.4) / 2};
+    return with_stepped_sides(random, room, [&] { return random.uniform(0.08, 0.25); });
+}
+
+// Walls that step back or forth by 20 to 100 mm.
+World stepped_room(Random &random)
+{
+    const Room room = random_room(random, 3, 5.5);
+    return with_stepped_sides(random, room, [&] { return random.sign() * random.uniform(0.02, 0.1); });
 }
 
 // Long walls bent by 5 to 30 degrees: each side of the room bulges at one or two places.
