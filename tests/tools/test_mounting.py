@@ -7,7 +7,6 @@ import pytest
 from at_hand import BINARIES, WORLDS, shared
 
 
-
 def run(program, *words, code=0):
     done = subprocess.run([BINARIES / program, *map(str, words)], check=False, capture_output=True, text=True, timeout=60)
     assert done.returncode == code, done.stderr
