@@ -7,20 +7,18 @@ kind of scan, and every scan found is counted.
 """
 import argparse
 import json
+import os
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
 
+from callgrind import instructions
+
 
 def instructions_a_scan(build, log, scans):
-    with tempfile.TemporaryDirectory() as folder:
-        done = subprocess.run(
-            ["valgrind", "--tool=callgrind", "--toggle-collect=ale_extract_scan",
-             f"--callgrind-out-file={folder}/out", build / "bin/ale-replay", log, "--lines-only",
-             "--features", f"{folder}/features"], check=True, capture_output=True, text=True)
-    return int(re.search(r"Collected : (\d+)", done.stderr).group(1)) / scans
+    collected, _ = instructions("ale_extract_scan", [build / "bin/ale-replay", log, "--lines-only", "--features", os.devnull])
+    return collected / scans
 
 
 def main():

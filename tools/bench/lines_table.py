@@ -11,10 +11,10 @@ import argparse
 import json
 import os
 import pathlib
-import re
 import subprocess
 import sys
-import tempfile
+
+from callgrind import instructions
 
 NOISES = ("urg", "dirty", "3mm", "10mm", "20mm", "real")
 BUNDLED_RECORDING = "data/urg04lx/obstacle_demo_front.scan.gz"
@@ -32,13 +32,8 @@ def progress(text):
 
 def instructions_a_scan(program, extractor, function, scans):
     """Mean over the urg suite, counted inside the function alone."""
-    with tempfile.TemporaryDirectory() as folder:
-        done = subprocess.run(
-            ["valgrind", "--tool=callgrind", f"--toggle-collect={function}", f"--callgrind-out-file={folder}/out",
-             program, "run", "--extractor", extractor, "--scans", str(scans)],
-            check=True, capture_output=True, text=True)
-    collected = int(re.search(r"Collected : (\d+)", done.stderr).group(1))
-    return collected / json.loads(done.stdout)["scans"]
+    collected, printed = instructions(function, [program, "run", "--extractor", extractor, "--scans", str(scans)])
+    return collected / json.loads(printed)["scans"]
 
 
 def table(head, rows):

@@ -1,11 +1,8 @@
 /* ale-sim: wiring of the simulator. */
-#include <cerrno>
 #include <cinttypes>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -14,6 +11,7 @@
 #include "sim/describe.h"
 #include "sim/log_source.h"
 #include "sim/options.h"
+#include "sim/out_file.h"
 #include "sim/simulator.h"
 #include "sim/units.h"
 #include "sim/world_source.h"
@@ -21,47 +19,6 @@
 
 namespace
 {
-
-class OutFile
-{
-  public:
-    explicit OutFile(const std::string &path) : path_(path), file_(path.empty() ? nullptr : open())
-    {
-    }
-    ~OutFile()
-    {
-        if (file_) {
-            std::fclose(file_);
-        }
-    }
-    OutFile(const OutFile &) = delete;
-    OutFile &operator=(const OutFile &) = delete;
-
-    std::FILE *get() const
-    {
-        return file_;
-    }
-    void finish()
-    {
-        const bool bad = file_ && (std::ferror(file_) != 0 || std::fflush(file_) != 0);
-        if (bad) {
-            throw std::runtime_error(path_ + ": cannot be written: " + std::strerror(errno));
-        }
-    }
-
-  private:
-    std::FILE *open()
-    {
-        std::FILE *file = std::fopen(path_.c_str(), "w");
-        if (!file) {
-            throw std::runtime_error(path_ + ": " + std::strerror(errno));
-        }
-        return file;
-    }
-
-    std::string path_;
-    std::FILE *file_;
-};
 
 sim::World world_of(const sim::Options &options)
 {
@@ -97,8 +54,8 @@ void describe(const sim::Options &options)
 
 void write_drive(const sim::Options &options)
 {
-    OutFile log(options.write_log);
-    OutFile truth(options.truth);
+    sim::OutFile log(options.write_log);
+    sim::OutFile truth(options.truth);
     sim::WorldSource source(world_of(options), options.world_source);
     const uint32_t scans = sim::write_log(source, log.get(), truth.get());
     log.finish();
@@ -124,7 +81,7 @@ std::unique_ptr<sim::WorldSource> driven_world(sim::Options options, const sim::
 
 void play(const sim::Options &options)
 {
-    OutFile truth(options.truth);
+    sim::OutFile truth(options.truth);
     std::unique_ptr<sim::DriveIn> drive;
     std::unique_ptr<sim::Source> source;
     const sim::WorldSource *driven = nullptr;
