@@ -16,6 +16,7 @@ namespace
 
 constexpr int numbers_columns = 37;
 constexpr int label_columns = 13;
+constexpr int most_rows = 4;      /* of one thing said */
 constexpr double silence_s = 0.7; /* a URG gives ten scans a second */
 constexpr double degrees = 180 / M_PI;
 
@@ -63,10 +64,17 @@ Row banner(const RobotState &state, double age_s, int columns)
 class Numbers
 {
   public:
-    void say(const char *label, const std::string &text, Mood mood = Mood::plain)
+    /* What is too long for a row goes on in the next ones, broken at spaces. */
+    void say(const char *label, std::string text, Mood mood = Mood::plain)
     {
-        rows_.push_back({{fit(ale::formatted(" %s", label), label_columns), Mood::dim},
-                         {fit(text, numbers_columns - label_columns), mood}});
+        constexpr size_t room = numbers_columns - label_columns - 1;
+        for (int row = 0; row < most_rows && (row == 0 || !text.empty()); row++) {
+            const size_t space = text.size() > room ? text.rfind(' ', room) : std::string::npos;
+            const size_t end = space == std::string::npos || space == 0 ? room : space;
+            rows_.push_back({{fit(ale::formatted(" %s", row == 0 ? label : ""), label_columns), Mood::dim},
+                             {fit(text.substr(0, end), numbers_columns - label_columns), mood}});
+            text.erase(0, end + (end == space));
+        }
     }
 
     void blank()

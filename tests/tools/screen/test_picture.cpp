@@ -116,3 +116,20 @@ TEST(Picture, WhatIsNoTextDoesNotReachTheTerminal)
     EXPECT_EQ(text.find('\x07'), std::string::npos);
     EXPECT_NE(text.find("rover"), std::string::npos);
 }
+
+TEST(Picture, WhatIsTooLongForARowGoesOnInTheNext)
+{
+    const auto now = Clock::now();
+    RobotState state = driving(now);
+    state.status.emplace();
+    state.status->driver_state = "asking who is there: hardware fault of the sensor: status 50";
+    const std::string text = text_of(picture(state, now, {}, 80, 24));
+    const size_t first = text.find("asking who is there:");
+    ASSERT_NE(first, std::string::npos) << text;
+    EXPECT_NE(text.find("hardware fault of the", first), std::string::npos) << text;
+    EXPECT_NE(text.find("sensor: status 50", first), std::string::npos) << text;
+    state.status->driver_state = std::string(5000, 'x');
+    for (const Row &row : picture(state, now, {}, 80, 24)) {
+        EXPECT_EQ(cells(text_of(row)), 80);
+    }
+}
