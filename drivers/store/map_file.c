@@ -239,8 +239,9 @@ int ale_map_file_load_with_pose(const char *path, ale_map_t *map, ale_pose_t *po
     ale_bytes_t bytes;
     const char *wrong = ale_bytes_read_file(&bytes, path);
     content_t *loaded = wrong ? NULL : calloc(1, sizeof *loaded);
-    uint64_t line_number = 1;
+    uint64_t line_number = 0;
     if (loaded) {
+        line_number = 1;
         wrong = parse_map(&bytes, loaded, &line_number);
     } else if (!wrong) {
         wrong = "not enough memory";
@@ -255,9 +256,10 @@ int ale_map_file_load_with_pose(const char *path, ale_map_t *map, ale_pose_t *po
     }
     free(loaded);
     ale_bytes_free(&bytes);
-    if (wrong) {
+    if (wrong && line_number > 0) {
         snprintf(error, ALE_MAP_FILE_ERROR, "%s: line %" PRIu64 ": %s", path, line_number, wrong);
-        return -1;
+    } else if (wrong) {
+        snprintf(error, ALE_MAP_FILE_ERROR, "%s: %s", path, wrong);
     }
-    return 0;
+    return wrong ? -1 : 0;
 }

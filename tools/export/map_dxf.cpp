@@ -68,6 +68,23 @@ void put_line(DxfFile &dxf, const char *layer, const ale_point_t &from, const al
     dxf.put(0, "LINE").put(8, layer).put_point(10, from).put_point(11, to);
 }
 
+/* One polyline: a thousand short lines are of no use to who draws on. A robot that stands adds nothing. */
+void put_trajectory(DxfFile &dxf, const Trajectory &trajectory)
+{
+    if (trajectory.size() < 2) {
+        return;
+    }
+    dxf.put(0, "POLYLINE").put(8, "TRAJECTORY").put(66, "1").put_point(10, {0, 0}).put(70, "0");
+    for (size_t i = 0; i < trajectory.size(); i++) {
+        const ale_pose_t &pose = trajectory[i].pose;
+        const ale_pose_t &before = trajectory[i > 0 ? i - 1 : 0].pose;
+        if (i == 0 || i == trajectory.size() - 1 || pose.x_um != before.x_um || pose.y_um != before.y_um) {
+            dxf.put(0, "VERTEX").put(8, "TRAJECTORY").put_point(10, {pose.x_um, pose.y_um});
+        }
+    }
+    dxf.put(0, "SEQEND").put(8, "TRAJECTORY");
+}
+
 void put_entities(DxfFile &dxf, const MapScene &scene)
 {
     dxf.put(0, "SECTION").put(2, "ENTITIES");
@@ -77,13 +94,7 @@ void put_entities(DxfFile &dxf, const MapScene &scene)
     for (int i = 0; i < scene.map->corner_count; i++) {
         dxf.put(0, "POINT").put(8, "CORNERS").put_point(10, scene.map->corner[i].p);
     }
-    for (size_t i = 1; i < scene.trajectory.size(); i++) {
-        const ale_pose_t &from = scene.trajectory[i - 1].pose;
-        const ale_pose_t &to = scene.trajectory[i].pose;
-        if (from.x_um != to.x_um || from.y_um != to.y_um) {
-            put_line(dxf, "TRAJECTORY", {from.x_um, from.y_um}, {to.x_um, to.y_um});
-        }
-    }
+    put_trajectory(dxf, scene.trajectory);
     dxf.put(0, "ENDSEC").put(0, "EOF");
 }
 

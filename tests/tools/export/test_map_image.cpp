@@ -152,6 +152,8 @@ TEST_F(MapImage, TheDxfIsPairsOfLinesWithOneLineAWall)
     std::vector<std::string> names;
     int walls = 0;
     int points = 0;
+    int ways = 0;
+    int places = 0;
     int sections = 0;
     std::string last_entity;
     std::vector<std::string> first_wall;
@@ -164,12 +166,16 @@ TEST_F(MapImage, TheDxfIsPairsOfLinesWithOneLineAWall)
         }
         walls += code == "8" && value == "WALLS" && last_entity == "LINE";
         points += code == "8" && value == "CORNERS" && last_entity == "POINT";
+        ways += code == "0" && value == "POLYLINE";
+        places += code == "8" && value == "TRAJECTORY" && last_entity == "VERTEX";
         if (last_entity == "LINE" && walls == 1 && code.size() == 2) {
             first_wall.push_back(value);
         }
     }
     EXPECT_EQ(walls, 4);
     EXPECT_EQ(points, 4);
+    EXPECT_EQ(ways, 1) << "the way is one polyline";
+    EXPECT_EQ(places, 3);
     EXPECT_EQ(sections, 0) << "every section ends";
     EXPECT_EQ(value, "EOF");
     EXPECT_EQ(first_wall, (std::vector<std::string>{"-1", "-1", "0", "3", "-1", "0"}));
