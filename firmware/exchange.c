@@ -32,10 +32,11 @@ int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock)
         .under_way = ale_wake_open(),
     };
     const bool complete = exchange->scans && exchange->odometry && exchange->results && exchange->keyframes &&
-                          exchange->corrections && exchange->grid_corrections && exchange->map && exchange->health && exchange->requests &&
-                          exchange->loaded_map && exchange->drive_orders && exchange->drive_scan &&
-                          exchange->exploration && exchange->drive_again >= 0 && exchange->arrived &&
-                          exchange->pulse && exchange->under_way >= 0;
+                          exchange->corrections && exchange->grid_corrections && exchange->map &&
+                          exchange->health && exchange->requests && exchange->loaded_map &&
+                          exchange->drive_orders && exchange->drive_scan && exchange->exploration &&
+                          exchange->drive_again >= 0 && exchange->arrived && exchange->pulse &&
+                          exchange->under_way >= 0;
     if (!complete) {
         ale_exchange_close(exchange);
     }

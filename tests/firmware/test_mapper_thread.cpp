@@ -55,7 +55,8 @@ TEST_F(MapperThread, ALoopComesBackAsACorrection)
 
 TEST_F(MapperThread, ExplorationHearsOfTheSameCorrection)
 {
-    exchange.explore = reinterpret_cast<struct ale_explore *>(&exchange); // there is one; nobody asks it anything
+    exchange.explore =
+        reinterpret_cast<struct ale_explore *>(&exchange); // there is one; nobody asks it anything
     const auto keyframes = drifting_keyframes::walk(1.2, 0.0008, 1);
     for (const auto &keyframe : keyframes) {
         hand_over(*keyframe);
