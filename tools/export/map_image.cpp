@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 
@@ -44,6 +45,40 @@ void include(Extent &extent, const ale_point_t &p)
     extent.top_um = std::max(extent.top_um, p.y_um);
 }
 
+Extent extent_without_points(const MapScene &scene)
+{
+    Extent extent = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
+    for (int i = 0; i < scene.map->line_count; i++) {
+        include(extent, scene.map->line[i].start);
+        include(extent, scene.map->line[i].end);
+    }
+    for (const StampedPose &stamped : scene.trajectory) {
+        include(extent, {stamped.pose.x_um, stamped.pose.y_um});
+    }
+    return extent;
+}
+
+Extent or_a_metre(const Extent &extent)
+{
+    return extent.left_um > extent.right_um ? Extent{-500000, -500000, 500000, 500000} : extent;
+}
+
+/* All points but the outermost of each side; left and right, bottom and top by themselves. */
+void include_most(Extent &extent, const std::vector<ale_point_t> &points)
+{
+    const size_t left_out = points.size() / 200;
+    std::vector<int32_t> x;
+    std::vector<int32_t> y;
+    for (const ale_point_t &p : points) {
+        x.push_back(p.x_um);
+        y.push_back(p.y_um);
+    }
+    std::sort(x.begin(), x.end());
+    std::sort(y.begin(), y.end());
+    include(extent, {x[left_out], y[left_out]});
+    include(extent, {x[x.size() - 1 - left_out], y[y.size() - 1 - left_out]});
+}
+
 } // namespace
 
 bool is_map_image_name(const std::string &path)
@@ -66,23 +101,33 @@ void write_map_image(const std::string &path, const MapScene &scene)
 
 Extent extent_of(const MapScene &scene)
 {
-    Extent extent = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
-    for (int i = 0; i < scene.map->line_count; i++) {
-        include(extent, scene.map->line[i].start);
-        include(extent, scene.map->line[i].end);
-    }
-    for (const StampedPose &stamped : scene.trajectory) {
-        include(extent, {stamped.pose.x_um, stamped.pose.y_um});
-    }
+    Extent extent = extent_without_points(scene);
     if (scene.draw_points && scene.cloud) {
         for (const ale_point_t &p : scene.cloud->points()) {
             include(extent, p);
         }
     }
-    if (extent.left_um > extent.right_um) {
-        extent = {-500000, -500000, 500000, 500000};
+    return or_a_metre(extent);
+}
+
+Extent picture_of(const MapScene &scene)
+{
+    Extent extent = extent_without_points(scene);
+    if (scene.draw_points && scene.cloud && !scene.cloud->points().empty()) {
+        include_most(extent, scene.cloud->points());
     }
-    return extent;
+    return or_a_metre(extent);
+}
+
+std::vector<ale_point_t> points_in(const Extent &extent, const ScanCloud &cloud)
+{
+    std::vector<ale_point_t> inside;
+    std::copy_if(cloud.points().begin(), cloud.points().end(), std::back_inserter(inside),
+                 [&](const ale_point_t &p) {
+                     return p.x_um >= extent.left_um && p.x_um <= extent.right_um &&
+                            p.y_um >= extent.bottom_um && p.y_um <= extent.top_um;
+                 });
+    return inside;
 }
 
 Scale scale_of(const Extent &extent)

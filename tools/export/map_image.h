@@ -47,6 +47,13 @@ struct Extent {
 };
 Extent extent_of(const MapScene &scene);
 
+/* The same for pictures: the last half per cent of the points on each side, glimpses far away, widens
+ * nothing. */
+Extent picture_of(const MapScene &scene);
+
+/* The points of the cloud that lie in it, border included. */
+std::vector<ale_point_t> points_in(const Extent &extent, const ScanCloud &cloud);
+
 /* Length of the grid's mesh and of the scale bar that suit a map of this size. */
 struct Scale {
     int32_t mesh_um;

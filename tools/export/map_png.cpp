@@ -160,12 +160,13 @@ void draw_scale_bar(Canvas &canvas, const Sheet &sheet, int32_t bar_um)
 
 void write_png(const std::string &path, const MapScene &scene)
 {
-    const Sheet sheet(extent_of(scene));
+    const Extent extent = picture_of(scene);
+    const Sheet sheet(extent);
     const Scale scale = scale_of(sheet.extent());
     Canvas canvas(sheet.width(), sheet.height());
     draw_grid(canvas, sheet, scale.mesh_um);
     if (scene.draw_points && scene.cloud) {
-        draw_points(canvas, sheet, scene.cloud->points());
+        draw_points(canvas, sheet, points_in(extent, *scene.cloud));
     }
     draw_path(canvas, sheet, scene.trajectory);
     draw_walls(canvas, sheet, *scene.map);

@@ -168,13 +168,13 @@ void put_scale_bar(SvgFile &svg, const Extent &e, const Style &style)
 
 void write_svg(const std::string &path, const MapScene &scene)
 {
-    const Extent extent = extent_of(scene);
+    const Extent extent = picture_of(scene);
     const Style style = style_of(extent);
     SvgFile svg(path);
     put_head(svg, extent, style);
     put_grid(svg, extent, style);
     if (scene.draw_points && scene.cloud) {
-        put_points(svg, scene.cloud->points(), style);
+        put_points(svg, points_in(extent, *scene.cloud), style);
     }
     put_path(svg, scene.trajectory, style);
     put_walls(svg, *scene.map, style);

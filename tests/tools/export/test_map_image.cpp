@@ -272,6 +272,25 @@ TEST_F(MapImage, PointsAreDrawnWhenAskedForAndWidenThePicture)
     EXPECT_NE(content(write("with.svg")).find("id=\"points\""), std::string::npos);
 }
 
+TEST_F(MapImage, AGlimpseFarAwayDoesNotWidenThePicture)
+{
+    ScanCloud cloud;
+    ScanCloud with_glimpse;
+    const ScanPose pose = {0, {10 * metre, 0, 0}, 0, 0, 0, true};
+    ale_scan_t room = scan_of_room(0, 0);
+    cloud.add(room, pose, {});
+    ASSERT_GT(cloud.points().size(), 200U);
+    ale_scan_set_range(&room, 0, 25 * metre);
+    with_glimpse.add(room, pose, {});
+    scene_.draw_points = true;
+    scene_.cloud = &cloud;
+    const Picture without = read_png(write("without.png"));
+    scene_.cloud = &with_glimpse;
+    const Picture with = read_png(write("with.png"));
+    EXPECT_EQ(with.height, without.height);
+    EXPECT_EQ(with.width, without.width);
+}
+
 TEST_F(MapImage, BeamsOfAMovingScannerAreLaidOutAtTheirOwnTime)
 {
     ale_scan_t scan{};
