@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Redraws the paper's figures from own data and prints what was measured for them, as Markdown.
 
-    figures.py --data build/figures/figure_data --bench build/bench/lines --out build/figures
+    figures.py --build build --world tools/worlds/home.world [--recorded exp1.dat] --out build/figures
 """
 import argparse
 import json
@@ -15,6 +15,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 import criteria  # noqa: E402
+import mapping  # noqa: E402
 
 plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.color": "0.9", "axes.axisbelow": True,
                      "legend.frameon": False, "savefig.dpi": 80, "savefig.bbox": "tight"})
@@ -275,14 +276,32 @@ def figure_thresholds(folder, bench):
     print()
 
 
+# Scans after which the map is taken that a later scan is laid on: half of the house; the hall after a loop.
+OWN_REFERENCE, RECORDED_REFERENCE, LAST = 300, 500, 700
+
+
+def figures_8_and_10(options):
+    """A drive through an own world, and a recording where one is given."""
+    corner, own = options.build / "figures/corner_data", options.out / "own.log"
+    subprocess.run([options.build / "bin/ale-sim", "--world", options.world, "--write-log", own], check=True,
+                   stdout=subprocess.DEVNULL)
+    cases = [("own world", mapping.corner_of(corner, own, OWN_REFERENCE, LAST))]
+    if options.recorded:
+        name = f"recording {options.recorded.stem}"
+        cases.append((name, mapping.corner_of(corner, options.recorded, RECORDED_REFERENCE, LAST)))
+    mapping.figure_8(options.out, save, cases)
+    mapping.figure_10(options.out, save, options.build / "bin/ale-replay", own, options.world, options.recorded)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", required=True)
-    parser.add_argument("--bench", required=True)
+    parser.add_argument("--build", required=True, type=pathlib.Path, help="where programs are")
+    parser.add_argument("--world", required=True, type=pathlib.Path, help="own world of figures 8 and 10")
+    parser.add_argument("--recorded", type=pathlib.Path, help="recording of figures 8 and 10")
     parser.add_argument("--out", required=True, type=pathlib.Path)
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
-    data = json.loads(subprocess.run([options.data], check=True, stdout=subprocess.PIPE, text=True).stdout)
+    data = json.loads(subprocess.run([options.build / "figures/figure_data"], check=True, stdout=subprocess.PIPE, text=True).stdout)
     figure_1(options.out, data["smoothing"])
     figure_2(options.out, data)
     figure_3(options.out)
@@ -292,7 +311,8 @@ def main():
     figure_5(options.out, data)
     figure_6(options.out, data)
     figure_7(options.out, data)
-    figure_thresholds(options.out, options.bench)
+    figures_8_and_10(options)
+    figure_thresholds(options.out, options.build / "bench/lines")
     print(f"Pictures: {options.out}/")
 
 
