@@ -135,7 +135,7 @@ void plot(const Calibration &c, const std::string &source, const std::string &pa
     const ale_noise_t &n = c.noise;
     char words[240];
     std::snprintf(words, sizeof words,
-                  "own %.2f mm + %.3f %%   shared %.2f mm + %.3f %% over %d beams   bearing %.4f deg   "
+                  "own %.2f mm + %.3f %%, shared %.2f mm + %.3f %% over %d beams, bearing %.4f deg, "
                   "surface %.1f mm%s",
                   n.own_um * 1e-3, n.own_ppm * 1e-4, n.shared_um * 1e-3, n.shared_ppm * 1e-4, n.shared_beams,
                   n.bearing_nrad * 1e-9 * 57.29578, n.surface_um * 1e-3, c.surface_known ? "" : " (default)");

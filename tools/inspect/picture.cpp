@@ -205,7 +205,8 @@ double write_summary(SvgDrawing &drawing, const inspect_trace_t &trace, double l
     put(std::to_string(f.corner_count) + " corners (filled: convex, ring: concave)", corner_colour);
     put(std::to_string(f.curve_count) + " curves", curve_colour);
     put(std::to_string(f.outliers) + " stray points set aside; rings without a dot", "#888");
-    put("points used, one colour a segment", segment_colours[0]);
+    put(trace.smoothed ? "points used, smoothed, one colour a segment" : "points used, one colour a segment",
+        segment_colours[0]);
     put("candidates refused:", refused_colour);
     for (size_t k = 0; k < refusal_names.size(); k++) {
         if (f.refused[k] > 0) {

@@ -3,18 +3,28 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/pose.h"
 #include "extract/breakpoint.h"
+#include "extract/points.h"
 #include "extract/workspace.h"
 
 enum { UM_PER_Q4_NUMERATOR = 1000, Q4 = 16 };
 
-static void copy_points(const ale_extractor_t *e, inspect_trace_t *trace)
+static int32_t um(int32_t q4)
 {
+    return (int32_t)((int64_t)q4 * UM_PER_Q4_NUMERATOR / Q4);
+}
+
+/* The extractor works in a frame that looks along the middle of its points. */
+static void copy_points(const ale_extractor_t *e, const ale_scan_t *scan, inspect_trace_t *trace)
+{
+    const ale_direction_t frame = ale_direction(ale_points_frame_bam(e, scan));
     trace->points = e->count;
     for (int32_t i = 0; i < e->count; i++) {
         trace->beam[i] = e->beam[i];
-        trace->x_um[i] = (int32_t)((int64_t)e->x_q4[i] * UM_PER_Q4_NUMERATOR / Q4);
-        trace->y_um[i] = (int32_t)((int64_t)e->y_q4[i] * UM_PER_Q4_NUMERATOR / Q4);
+        const ale_point_t p = ale_turn((ale_point_t){um(e->x_q4[i]), um(e->y_q4[i])}, frame);
+        trace->x_um[i] = p.x_um;
+        trace->y_um[i] = p.y_um;
         trace->segment_ends[i] = e->jump_after[i];
     }
     trace->runs = e->run_count;
@@ -24,7 +34,6 @@ static void copy_points(const ale_extractor_t *e, inspect_trace_t *trace)
     }
 }
 
-/* A bisection's steps follow from where it ended: it accepted exactly the guesses up to there. */
 /* A bisection's steps follow from where it ended: it accepted exactly the guesses up to there. */
 static void add_steps(inspect_trace_t *trace, int32_t from, int32_t direction, int32_t size, int32_t found)
 {
@@ -88,8 +97,12 @@ int inspect_trace(const ale_scan_t *scan, const ale_extract_config_t *config, in
     }
     memset(trace, 0, sizeof *trace);
     ale_extract_scan(e, scan, NULL, &trace->features);
-    copy_points(e, trace);
     search_longest_segment(e, trace);
+    trace->smoothed = config->smooth_span > 1;
+    if (trace->smoothed) {
+        ale_points_place_smoothed(e);
+    }
+    copy_points(e, scan, trace);
     free(e);
     return 0;
 }

@@ -24,7 +24,8 @@ typedef struct {
     ale_features_t features;
     uint16_t points; /* beams that have a value and are not stray, in beam order */
     uint16_t beam[ALE_MAX_BEAMS];
-    int32_t x_um[ALE_MAX_BEAMS]; /* where the decisions saw the point */
+    bool smoothed;               /* the configuration asks for it; the points then are smoothed ones */
+    int32_t x_um[ALE_MAX_BEAMS]; /* where the decisions saw the point; sensor's frame */
     int32_t y_um[ALE_MAX_BEAMS];
     bool segment_ends[ALE_MAX_BEAMS];
     uint16_t runs; /* what the search, the merging and the placing of the breaks left, before the tests */
