@@ -254,6 +254,5 @@ int main(int argc, char **argv)
                                      static_cast<double>(search.pool().front().cost) / mean}}
                          .dump()
                   << std::endl;
-        return 0;
     });
 }

@@ -253,6 +253,5 @@ int main(int argc, char **argv)
             throw cli::WrongUse("rest wants a LOG, write a folder, the others neither");
         }
         command(options);
-        return 0;
     });
 }

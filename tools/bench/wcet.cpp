@@ -288,6 +288,5 @@ int main(int argc, char **argv)
             throw cli::WrongUse("needs callgrind, --counts BASE and a log: make wcet");
         }
         run(counts, tries, logs);
-        return 0;
     });
 }

@@ -48,8 +48,5 @@ int main(int argc, char **argv)
     line.argument("LOG", options.log);
     line.text("out", options.out);
     line.text("plot", options.plot);
-    return line.run(argc, argv, [&] {
-        run(options);
-        return 0;
-    });
+    return line.run(argc, argv, [&] { run(options); });
 }

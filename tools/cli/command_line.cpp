@@ -126,7 +126,7 @@ void CommandLine::read_arguments(int argc, char **argv)
     }
 }
 
-int CommandLine::run(int argc, char **argv, const std::function<int()> &work)
+int CommandLine::answer(int argc, char **argv, const std::function<int()> &work)
 {
     try {
         read_options(argc, argv);

@@ -21,6 +21,7 @@
 
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "cli/words.h"
@@ -60,8 +61,18 @@ class CommandLine
     /* All from the first word on that is no option, options too: "-0.3" behind a verb is a speed. */
     void rest(std::vector<std::string> &words);
 
-    /* Reads the words, then lets the program do its work; the exit code. */
-    int run(int argc, char **argv, const std::function<int()> &work);
+    /* Reads the words, then lets the program do its work; the exit code, which work may return. */
+    template <class Work> int run(int argc, char **argv, Work work)
+    {
+        if constexpr (std::is_void_v<decltype(work())>) {
+            return answer(argc, argv, [&] {
+                work();
+                return 0;
+            });
+        } else {
+            return answer(argc, argv, work);
+        }
+    }
 
   private:
     struct Option {
@@ -77,6 +88,7 @@ class CommandLine
     struct Answered {
     };
 
+    int answer(int argc, char **argv, const std::function<int()> &work);
     void read_options(int argc, char **argv);
     void take_option(int choice, char **argv);
     void read_arguments(int argc, char **argv);

@@ -155,6 +155,5 @@ int main(int argc, char **argv)
         std::signal(SIGPIPE, SIG_IGN);
         limit_memory();
         run(options, endings);
-        return 0;
     });
 }

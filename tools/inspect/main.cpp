@@ -78,8 +78,5 @@ int main(int argc, char **argv)
     });
     line.text("out", options.out);
     line.text("config", options.config);
-    return line.run(argc, argv, [&] {
-        run(options);
-        return 0;
-    });
+    return line.run(argc, argv, [&] { run(options); });
 }

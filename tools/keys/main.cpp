@@ -115,8 +115,5 @@ int main(int argc, char **argv)
     line.text("robot", options.robot);
     line.text("list", options.list);
     line.possible_argument("NAME", options.name);
-    return line.run(argc, argv, [&] {
-        run(options);
-        return 0;
-    });
+    return line.run(argc, argv, [&] { run(options); });
 }

@@ -118,6 +118,5 @@ int main(int argc, char **argv)
         check(options);
         cli::catch_interrupts();
         run(options);
-        return 0;
     });
 }

@@ -67,6 +67,5 @@ int main(int argc, char **argv)
         record::Recorder recorder(options);
         recorder.run(cli::interrupted);
         recorder.finish();
-        return 0;
     });
 }

@@ -127,6 +127,5 @@ int main(int argc, char **argv)
     return line.run(argc, argv, [&] {
         cli::catch_interrupts();
         run(options);
-        return 0;
     });
 }

@@ -89,6 +89,15 @@ TEST(CommandLine, what_is_not_said_stays_and_the_work_gives_the_exit_code)
     EXPECT_EQ(v.other, "");
 }
 
+TEST(CommandLine, work_without_an_exit_code_of_its_own_is_fine_when_it_returns)
+{
+    bool worked = false;
+    char name[] = "ale-test";
+    char *argv[] = {name, nullptr};
+    EXPECT_EQ(cli::CommandLine("ale-test", "").run(1, argv, [&] { worked = true; }), 0);
+    EXPECT_TRUE(worked);
+}
+
 TEST(CommandLine, help_and_version_are_answered_without_work)
 {
     Values v;
