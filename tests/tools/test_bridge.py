@@ -192,9 +192,16 @@ def test_an_operator_who_comes_back_is_taken_up_again(sides, ends):
         again.communicate()
 
 
+def test_a_host_that_cannot_be_found_is_a_failure_and_no_wrong_use():
+    done = subprocess.run([BINARIES / "ale-bridge", "--connect", "no-such-host.invalid:7700"], capture_output=True, text=True,
+                          timeout=30, check=False)
+    assert done.returncode == 1
+    assert done.stderr.startswith("ale-bridge: no-such-host.invalid:7700: ") and done.stderr.count("\n") == 1
+
+
 @pytest.mark.parametrize("words, part", [
     ([], "--listen"), (["--listen", "1", "--connect", "a:1"], "--listen"), (["--connect", "7700"], "HOST:PORT"),
-    (["--listen", "127.0.0.1:none"], "no such address"), (["--listen", "0", "--send", "A:0"], "rate"),
+    (["--listen", "127.0.0.1:none"], "no such address"), (["--listen", "99999"], "no such address: 99999"), (["--listen", "0", "--send", "A:0"], "rate"),
     (["--listen", "0", "--send", "ALE_COMMAND"], "round for ever"), (["word"], "word"),
 ])
 def test_wrong_use_is_told_in_one_line_and_ends_with_2(words, part):

@@ -1,6 +1,8 @@
 #include "bridge/udp_link.h"
 
 #include <cerrno>
+#include <charconv>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <stdexcept>
@@ -21,6 +23,15 @@ constexpr size_t most_datagram = 65536;
 
 using AddressList = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
 
+/* The C library takes a port modulo 65536. */
+bool is_port(const std::string &text)
+{
+    uint16_t port = 0;
+    const char *end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, port);
+    return error == std::errc() && stop == end;
+}
+
 /* "HOST:PORT" or, to listen on all addresses, "PORT"; IPv6 in brackets. */
 AddressList resolve(const std::string &address, bool listen)
 {
@@ -33,10 +44,13 @@ AddressList resolve(const std::string &address, bool listen)
     addrinfo hints{};
     hints.ai_socktype = SOCK_DGRAM;
     hints.ai_flags = AI_NUMERICSERV | (listen ? AI_PASSIVE : 0);
+    if (!is_port(port) || (!listen && host.empty())) {
+        throw cli::WrongUse("no such address: " + address + (listen ? " ([ADDR:]PORT)" : " (HOST:PORT)"));
+    }
     addrinfo *found = nullptr;
-    const bool complete = listen || !host.empty();
-    if (!complete || getaddrinfo(host.empty() ? nullptr : host.c_str(), port.c_str(), &hints, &found) != 0) {
-        throw cli::WrongUse("no such address: " + address + (listen ? " (ADDR:PORT)" : " (HOST:PORT)"));
+    const int error = getaddrinfo(host.empty() ? nullptr : host.c_str(), port.c_str(), &hints, &found);
+    if (error != 0) {
+        throw std::runtime_error(address + ": " + gai_strerror(error));
     }
     return {found, freeaddrinfo};
 }
