@@ -1,5 +1,7 @@
 #include "plan/kept_scans.h"
 
+#include <stddef.h>
+
 #include "base/fixed.h"
 #include "base/trig.h"
 
@@ -27,7 +29,7 @@ static void make_room(ale_kept_scans_t *kept)
     if (kept->count < ALE_KEPT_SCANS) {
         return;
     }
-    for (uint32_t k = 0; k < ALE_KEPT_SCANS / 2; k++) {
+    for (size_t k = 0; k < ALE_KEPT_SCANS / 2; k++) {
         kept->scan[k] = kept->scan[2 * k];
     }
     kept->count = ALE_KEPT_SCANS / 2;
