@@ -121,7 +121,7 @@ fuzz: deps-test ## long run of the fuzzers (FUZZ_SECONDS=600 each)
 
 # The same bytes from every compiler and level: ale-replay built again, and its results compared with one another
 # and with the digests in tests/digest.
-.PHONY: same-bytes digest lint lint-tidy
+.PHONY: same-bytes digest lint lint-format lint-cppcheck lint-tidy
 SAME_BYTES_BUILDS ?= gcc:-O0 clang:-O3
 same-bytes: programs
 	@$(PYTHON) tools/make/digest.py --build $(BUILD) check $(SAME_BYTES_HOW) $(SAME_BYTES_BUILDS)
@@ -129,9 +129,12 @@ digest: programs ## after a wanted change of features or trajectories: their new
 	@$(PYTHON) tools/make/digest.py --build $(BUILD) update
 
 C_FAMILY = $(shell git ls-files --cached --others --exclude-standard '*.c' '*.h' '*.cpp' '*.hpp')
-lint: ## clang-format and cppcheck of everything, clang-tidy of what runs on the robot
+lint: lint-format lint-cppcheck lint-tidy ## clang-format and cppcheck of everything, clang-tidy of what runs on the robot
+lint-format:
 	@$(PYTHON) tools/make/run_tests.py command clang-format clang-format --dry-run -Werror $(C_FAMILY)
+lint-cppcheck:
 	@$(PYTHON) tools/make/run_tests.py command cppcheck tools/make/cppcheck.sh $(BUILD)
+lint-tidy: $(LCM_STAMP)
 	@$(PYTHON) tools/make/run_tests.py command clang-tidy tools/make/tidy.sh $(BUILD) $(LIB_SOURCES) $(DRIVER_SOURCES) $(FIRMWARE_SOURCES) $(wildcard firmware/main.c)
 
 # The whole of it, as continuous integration runs it. Each part counts its tests; the sum is the last line.
@@ -172,7 +175,7 @@ test: deps-test ## all tests on this machine; the last line counts them
 test-all: ## make test, lint, and the same bytes from every compiler, level and emulated machine
 	$(if $(AFTER_TEST),,@$(SUB) test)
 	@echo "== lint"
-	-@$(SUB) lint
+	-@$(SUB) --keep-going lint
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, -O0" $(SUB) same-bytes SAME_BYTES_HOW=--quick SAME_BYTES_BUILDS="gcc:-O0 clang:-O0"
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, every recording" $(SUB) same-bytes SAME_BYTES_BUILDS="gcc:-O3 clang:-O3"
 	@echo "== the Debian package"

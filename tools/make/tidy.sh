@@ -11,4 +11,7 @@ tidy() {
         case $file in *."$extension") echo "$file" ;; esac
     done | xargs -r -P 2 -n 4 sh -c 'clang-tidy --quiet "$@" -- '"-std=$standard $flags"' 2>/dev/null' tidy
 }
-tidy c c11 "$@" && tidy cpp c++17 "$@"
+status=0
+tidy c c11 "$@" || status=1
+tidy cpp c++17 "$@" || status=1
+exit $status
