@@ -28,6 +28,7 @@ enum {
 
 /* Distance of the axle's middle for one count of one wheel: half of 2 pi 77 mm / 2000, in picometres. */
 static const int64_t FORWARD_PM_PER_COUNT = 120951317;
+static const int64_t PM_PER_UM = 1000000;
 
 typedef struct {
     const char *name;
@@ -87,6 +88,12 @@ static uint32_t heading(const rover_t *rover)
     return (uint32_t)ale_round_div(turned * 7 * ((int64_t)1 << 27), 1875);
 }
 
+/* No farther than a pose can tell: damaged counts may leap millions of metres. */
+static int64_t moved_pm(int64_t from_pm, int64_t by_pm)
+{
+    return ale_clamp64(from_pm + by_pm, INT32_MIN * PM_PER_UM, INT32_MAX * PM_PER_UM);
+}
+
 /* Follows the wheels to new counts: straight along the mean heading. */
 static void follow_wheels(rover_t *rover, int32_t left, int32_t right)
 {
@@ -102,17 +109,15 @@ static void follow_wheels(rover_t *rover, int32_t left, int32_t right)
     rover->theta_bam = heading(rover);
     const int64_t forward_pm = counts * FORWARD_PM_PER_COUNT;
     const uint32_t mean_bam = before_bam + (uint32_t)(ale_bam_diff(rover->theta_bam, before_bam) / 2);
-    rover->x_pm += ale_mul_shift(forward_pm, ale_cos_q30(mean_bam), 30);
-    rover->y_pm += ale_mul_shift(forward_pm, ale_sin_q30(mean_bam), 30);
+    rover->x_pm = moved_pm(rover->x_pm, ale_mul_shift(forward_pm, ale_cos_q30(mean_bam), 30));
+    rover->y_pm = moved_pm(rover->y_pm, ale_mul_shift(forward_pm, ale_sin_q30(mean_bam), 30));
 }
 
 static ale_pose_t wheel_pose(const rover_t *rover)
 {
-    const int64_t pm_per_um = 1000000;
-    return (ale_pose_t){
-        .x_um = (int32_t)ale_clamp64(ale_round_div(rover->x_pm, pm_per_um), INT32_MIN, INT32_MAX),
-        .y_um = (int32_t)ale_clamp64(ale_round_div(rover->y_pm, pm_per_um), INT32_MIN, INT32_MAX),
-        .theta_bam = rover->theta_bam};
+    return (ale_pose_t){.x_um = (int32_t)ale_round_div(rover->x_pm, PM_PER_UM),
+                        .y_um = (int32_t)ale_round_div(rover->y_pm, PM_PER_UM),
+                        .theta_bam = rover->theta_bam};
 }
 
 /* The columns before the ranges. */

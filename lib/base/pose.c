@@ -38,7 +38,8 @@ ale_pose_t ale_pose_inverse(ale_pose_t a)
 
 ale_pose_t ale_pose_between(ale_pose_t a, ale_pose_t b)
 {
-    const ale_point_t d = {b.x_um - a.x_um, b.y_um - a.y_um};
+    const ale_point_t d = {(int32_t)ale_clamp64((int64_t)b.x_um - a.x_um, INT32_MIN, INT32_MAX),
+                           (int32_t)ale_clamp64((int64_t)b.y_um - a.y_um, INT32_MIN, INT32_MAX)};
     const ale_point_t p = ale_rotate(d, 0u - a.theta_bam);
     return (ale_pose_t){p.x_um, p.y_um, b.theta_bam - a.theta_bam};
 }

@@ -60,6 +60,13 @@ TEST(Carmen, OdometryComesFromColumnsFourToSixAndBeforeItsScan)
     EXPECT_FALSE(log.info.has_sensor) << "poses that do not move together are no mounting";
 }
 
+TEST(Carmen, PosesOfLaserAndRobotFarApartAreNoMountingAndDisturbNothing)
+{
+    const auto log = read_bytes(flaser(3, "112 -2132 5 -2132 112 3 7 h 1") + flaser(3, "1 2 0 1 2 0 8 h 1"));
+    EXPECT_EQ(log.scans().size(), 2U);
+    EXPECT_FALSE(log.info.has_sensor);
+}
+
 TEST(Carmen, ColumnsThatNeverChangeAreNoOdometry)
 {
     const auto log = read_bytes(flaser(3, "0 0 0 0 0 0 1 h 1") + flaser(3, "0 0 0 0 0 0 2 h 1"));

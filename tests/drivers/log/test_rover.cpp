@@ -117,4 +117,21 @@ TEST(Rover, ALineCutShortIsCountedAndNamed)
     EXPECT_EQ(log.last_error, "memory: line 3: 5 numbers instead of 707");
 }
 
+// Counts that leap as far as 32 bits go: forward, half a turn, back, half a turn, so that it adds up.
+TEST(Rover, DamagedCountsTakeItNoFartherThanAPoseCanTell)
+{
+    const int half_turn = 4286; // counts between the wheels
+    const int high = INT32_MAX - half_turn;
+    const int low = INT32_MIN;
+    std::string text;
+    for (int k = 0; k < 10; k++) {
+        text += line(400000L * k, low, low, wall) + line(400000L * k + 100000, high, high, wall) +
+                line(400000L * k + 200000, high, high + half_turn, wall) +
+                line(400000L * k + 300000, low, low + half_turn, wall);
+    }
+    const auto odometry = read_bytes(text).odometry();
+    ASSERT_EQ(odometry.size(), 40U);
+    EXPECT_EQ(odometry.back().pose.x_um, INT32_MAX);
+}
+
 } // namespace

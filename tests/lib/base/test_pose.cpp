@@ -90,4 +90,13 @@ TEST(Pose, APoseAfterItsInverseIsTheOrigin)
     }
 }
 
+TEST(Pose, PosesFartherApartThanCanBeToldAreAsFarApartAsCanBe)
+{
+    const ale_pose_t far = ale_pose_between({-2132000000, 359, 0}, {112000000, 359, 5});
+    EXPECT_EQ(far.x_um, INT32_MAX);
+    EXPECT_EQ(far.y_um, 0);
+    EXPECT_EQ(far.theta_bam, 5u);
+    EXPECT_EQ(ale_pose_between({INT32_MAX, 0, 0}, {INT32_MIN, 0, 0}).x_um, INT32_MIN);
+}
+
 } // namespace
