@@ -5,6 +5,7 @@
     run_tests.py system PYTHON [ARG...]   pytest over tests/, two a processor: they mostly wait
     run_tests.py fuzz --seconds N PROGRAM...   one a processor
     run_tests.py command NAME CMD...      one command that passes or fails
+    run_tests.py phase NAME               a heading, and how long it is since `run_tests.py begin`
     run_tests.py sum                      the closing line over all that ran since `run_tests.py begin`
 
 Every kind appends its counts to one file ($ALE_RESULTS, else build/test-results.txt); `sum` prints `N passed, N failed, N skipped`
@@ -22,6 +23,9 @@ import xml.etree.ElementTree as ElementTree
 
 BUILD = pathlib.Path(os.environ.get("ALE_BUILD", "build"))
 RESULTS = pathlib.Path(os.environ.get("ALE_RESULTS", BUILD / "test-results.txt"))
+
+
+BEGUN = RESULTS.with_suffix(".begun")
 
 
 def record(kind, passed, failed, skipped):
@@ -123,6 +127,19 @@ def command(name, words):
     return record(name.replace(" ", "-"), int(done.returncode == 0), int(done.returncode != 0), 0)
 
 
+def begin():
+    RESULTS.parent.mkdir(parents=True, exist_ok=True)
+    RESULTS.write_text("", encoding="utf-8")
+    BEGUN.touch()
+    return 0
+
+
+def phase(name):
+    seconds = int(time.time() - BEGUN.stat().st_mtime) if BEGUN.exists() else 0
+    print(f"== {seconds // 60}:{seconds % 60:02} {name}", flush=True)
+    return 0
+
+
 def summary():
     total = [0, 0, 0]
     for line in RESULTS.read_text(encoding="utf-8").splitlines():
@@ -136,6 +153,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     kinds = parser.add_subparsers(dest="kind", required=True)
     kinds.add_parser("begin")
+    kinds.add_parser("phase").add_argument("name")
     kinds.add_parser("sum")
     kinds.add_parser("unit").add_argument("programs", nargs="+")
     one = kinds.add_parser("system")
@@ -149,8 +167,9 @@ def main():
     one.add_argument("words", nargs=argparse.REMAINDER)
     args = parser.parse_args()
     if args.kind == "begin":
-        RESULTS.unlink(missing_ok=True)
-        return 0
+        return begin()
+    if args.kind == "phase":
+        return phase(args.name)
     if args.kind == "sum":
         return summary()
     if args.kind == "unit":

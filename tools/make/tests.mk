@@ -140,6 +140,7 @@ lint-tidy: $(LCM_STAMP)
 # The whole of it, as continuous integration runs it. Each part counts its tests; the sum is the last line.
 SHORT_FUZZ_SECONDS ?= 5
 export ALE_RESULTS ?= $(ALE_BUILD)/test-results.txt
+PHASE = $(PYTHON) tools/make/run_tests.py phase
 SUB = $(MAKE) --no-print-directory -s DEBUG=-g1
 CHECKED = $(SUB) BUILD=$(BUILD)/asan TEST_BUILD=$(BUILD) SANITIZE=address,undefined OPT=-O1
 ROBOT_TESTS = tests/lib tests/drivers tests/firmware
@@ -149,47 +150,49 @@ RTAI_BUILD = BUILD=$(BUILD)/rtai-build RT=rtai RTAI_CONFIG=$(RTAI_EMULATION_CONF
 .PHONY: test test-all
 test: deps-test ## all tests on this machine; the last line counts them
 	@$(PYTHON) tools/make/run_tests.py begin
-	@echo "== build"
+	@$(PHASE) "build"
 	@$(SUB) -j2 all venv
-	@echo "== unit and property tests: what runs on the robot, address and undefined-behaviour sanitizers"
+	@$(PHASE) "unit and property tests: what runs on the robot, address and undefined-behaviour sanitizers"
 	@$(CHECKED) -j2 T="$(ROBOT_TESTS)" unit-programs
 	-@$(CHECKED) T="$(ROBOT_TESTS)" unit
-	@echo "== unit tests of the tools"
+	@$(PHASE) "unit tests of the tools"
 	@$(SUB) -j2 T="tests/tools tests/rtai" unit-programs
 	-@$(SUB) T="tests/tools tests/rtai" unit
-	@echo "== thread sanitizer"
+	@$(PHASE) "thread sanitizer"
 	@$(THREADED) -j2 unit-programs
 	-@$(THREADED) unit
-	@echo "== the real programs over pseudo terminals and LCM"
+	@$(PHASE) "the real programs over pseudo terminals and LCM"
 	-@$(SUB) system
-	@echo "== the firmware as an RTAI program, on an emulated RTAI"
+	@$(PHASE) "the firmware as an RTAI program, on an emulated RTAI"
 	-@$(SUB) T="$(RTAI_SYSTEM_TESTS)" system-rtai
-	@echo "== fuzzers"
+	@$(PHASE) "fuzzers"
 	@$(SUB) -j2 fuzz-programs
 	-@$(PYTHON) tools/make/run_tests.py fuzz --seconds $(SHORT_FUZZ_SECONDS) $(FUZZ_PROGRAMS)
-	@echo "== the same bytes from another compiler and level"
+	@$(PHASE) "the same bytes from another compiler and level"
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes" $(SUB) same-bytes SAME_BYTES_HOW=--quick
+	@$(PHASE) "all of it"
 	@$(PYTHON) tools/make/run_tests.py sum
 
 # After `make test` in the same build folder (AFTER_TEST=1) only the rest runs, and the sum is of both.
 test-all: ## make test, lint, and the same bytes from every compiler, level and emulated machine
 	$(if $(AFTER_TEST),,@$(SUB) test)
-	@echo "== lint"
+	@$(PHASE) "lint"
 	-@$(SUB) --keep-going lint
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, -O0" $(SUB) same-bytes SAME_BYTES_HOW=--quick SAME_BYTES_BUILDS="gcc:-O0 clang:-O0"
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, every recording" $(SUB) same-bytes SAME_BYTES_BUILDS="gcc:-O3 clang:-O3"
-	@echo "== the Debian package"
+	@$(PHASE) "the Debian package"
 	-@$(PYTHON) tools/make/run_tests.py command "install, remove, purge" $(SUB) test-deb
-	@echo "== the same bytes on other machines, emulated"
+	@$(PHASE) "the same bytes on other machines, emulated"
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, aarch64 armhf s390x" $(SUB) cross
-	@echo "== the firmware on a virtual robot PC"
+	@$(PHASE) "the firmware on a virtual robot PC"
 	-@$(SUB) hil-vm
-	@echo "== the firmware as an RTAI program, on an emulated RTAI"
+	@$(PHASE) "the firmware as an RTAI program, on an emulated RTAI"
 	-@$(PYTHON) tools/make/run_tests.py command "make RT=rtai" $(SUB) $(RTAI_BUILD) -j2 programs
 	-@$(SUB) system-rtai
-	@echo "== the robot explores at a click in the browser"
+	@$(PHASE) "the robot explores at a click in the browser"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=console_explores
-	@echo "== explorations in a closed loop with the simulator, more of them"
+	@$(PHASE) "explorations in a closed loop with the simulator, more of them"
 	@$(SUB) T=tools/explore/test_exploration unit-programs
 	-@ALE_LONG_TESTS=1 $(SUB) T=tools/explore/test_exploration unit
+	@$(PHASE) "all of it"
 	@$(PYTHON) tools/make/run_tests.py sum
