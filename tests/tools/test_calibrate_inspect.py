@@ -78,12 +78,6 @@ def test_a_configuration_changes_what_is_decided(log, tmp_path):
     assert "too few points" in done.stdout
 
 
-@pytest.mark.parametrize("program", ["ale-calibrate", "ale-inspect"])
-def test_help_and_version(program):
-    assert "usage: " + program in run(program, "--help").stdout
-    assert re.match(program + r" \d+\.\d+", run(program, "--version").stdout)
-
-
 @pytest.mark.parametrize("words", [["ale-calibrate"], ["ale-calibrate", "a", "b"], ["ale-calibrate", "--colour"],
                                    ["ale-calibrate", "a", "--out"], ["ale-inspect", "a"], ["ale-inspect", "a", "x"],
                                    ["ale-inspect", "a", "-1"], ["ale-inspect", "a", "1", "2"]])

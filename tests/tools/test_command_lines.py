@@ -54,6 +54,15 @@ def test_an_option_that_it_does_not_have_is_named_in_one_line(name):
     assert "--no-such-option" in refused.stderr and refused.stderr.count("\n") == 1
 
 
+@pytest.mark.parametrize("name", MISSING_FILE)
+def test_every_option_of_its_help_is_one_of_its_own(name):
+    told = run(name, "--help").stdout
+    for option in re.findall(r"^  (--[a-z-]+)", told, re.M):
+        refused = run(name, f"{option}=", "--no-such-option")
+        assert refused.returncode == 2 and refused.stderr.count("\n") == 1
+        assert not re.search(f"(unknown|unrecognized) option '?{option}", refused.stderr), refused.stderr
+
+
 @pytest.mark.parametrize("name", [name for name, (words, _) in MISSING_FILE.items() if words])
 def test_a_file_that_is_not_there_is_named_in_one_line(name, tmp_path):
     words, code = MISSING_FILE[name]

@@ -28,11 +28,6 @@ def one_line(text):
     return len(text.strip().splitlines()) == 1
 
 
-def test_it_says_what_it_is():
-    assert "--lcm-url" in run_console("--help").stdout
-    assert run_console("--version").stdout.startswith("ale-console ")
-
-
 @pytest.mark.parametrize("arguments", [["--http", "nonsense"], ["--http", "127.0.0.1:70000"], ["--http", "127.0.0.1:8x"],
                                        ["--http", ":8080"], ["--token", "short"], ["--token", "with blanks in it"], ["--http", "no.such.host.invalid:80"], ["--unknown"], ["word"]])
 def test_wrong_use_is_told_in_one_line_and_ends_with_2(arguments):

@@ -163,9 +163,3 @@ def test_wrong_use_is_told_in_a_line(words):
     done = subprocess.run([BINARIES / "ale-record", *words], capture_output=True, text=True, timeout=10, check=False)
     assert done.returncode == 2
     assert done.stderr.startswith(("ale-record: ", str(BINARIES))) and done.stderr.count("\n") == 1
-
-
-def test_help_and_version_go_to_stdout():
-    for word, start in (("--help", "usage: ale-record"), ("--version", "ale-record ")):
-        done = subprocess.run([BINARIES / "ale-record", word], capture_output=True, text=True, timeout=10, check=False)
-        assert done.returncode == 0 and done.stdout.startswith(start) and done.stderr == ""

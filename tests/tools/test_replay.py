@@ -59,11 +59,6 @@ def read_tum(path):
     return [[float(word) for word in line.split()] for line in path.read_text().splitlines()]
 
 
-def test_it_says_what_it_is():
-    assert "--features" in replay("--help").stdout
-    assert replay("--version").stdout.startswith("ale-replay ")
-
-
 @pytest.mark.parametrize("arguments", [[], ["a.log", "b.log"], ["a.log", "--unknown"], ["a.log", "--frame", "sensor"],
                                        ["a.log", "--odometry", "maybe"], ["a.log", "--sensor", "1,2"],
                                        ["a.log", "--sensor", "1,2,7"], ["a.log", "--map", "map.jpeg"],

@@ -15,12 +15,6 @@ def run(*arguments, **more):
     return subprocess.run([BINARIES / "ale-screen", *arguments], capture_output=True, text=True, timeout=20, check=False, **more)
 
 
-def test_it_says_what_it_is_and_what_it_is_not_asked():
-    assert "--once" in run("--help").stdout
-    assert run("--version").stdout.startswith("ale-screen ")
-    assert run("--unknown").returncode == 2 and run("word").returncode == 2
-
-
 def test_without_a_terminal_it_says_so(lcm_url):
     done = run("--lcm-url", lcm_url, stdin=subprocess.DEVNULL)
     assert done.returncode == 1 and "no terminal" in done.stderr

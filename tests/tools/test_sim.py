@@ -409,10 +409,3 @@ def test_a_stale_link_is_replaced_and_the_own_one_removed(tmp_path, start):
     assert not other.is_symlink()
     simulator.stop()
     assert not simulator.link.is_symlink()
-
-
-def test_help_and_version(tmp_path):
-    for word in ("--help", "--version"):
-        done = subprocess.run([SIM, word], capture_output=True, text=True, cwd=tmp_path, check=True)
-        assert "ale-sim" in done.stdout
-        assert done.stderr == ""

@@ -41,11 +41,6 @@ def drive(robot, scans=SCANS):
         robot.step()
 
 
-def test_it_says_what_it_is():
-    assert "--until-silent" in run_watch("--help").stdout
-    assert run_watch("--version").stdout.startswith("ale-watch ")
-
-
 @pytest.mark.parametrize("arguments", [["--map", "picture.jpeg"], ["--seconds", "soon"], ["--seconds", "-1"],
                                        ["--until-silent", "0"], ["--seconds", "nan"], ["--unknown"], ["word"]])
 def test_wrong_use_is_told_in_one_line_and_ends_with_2(arguments):
