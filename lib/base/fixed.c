@@ -58,7 +58,7 @@ uint32_t ale_isqrt(uint64_t v)
     return (uint32_t)(root >> (shift / 2));
 }
 
-int64_t ale_mul_shift(int64_t a, int64_t b, unsigned shift)
+int64_t ale_wide_mul_shift(int64_t a, int64_t b, unsigned shift)
 {
     const bool negative = (a < 0) != (b < 0);
     wide_t p = wide_multiply(magnitude(a), magnitude(b));

@@ -76,12 +76,13 @@ bool ale_pose_of_pair(const ale_view_t *a, const ale_view_t *b, const ale_wall_t
 ale_hypothesis_t ale_hypothesis_at(const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
                                    ale_pose_t pose, const ale_gate_t *gate)
 {
+    const ale_stand_t stand = ale_stand(pose);
     ale_hypothesis_t h = {.pose = pose};
     for (uint32_t i = 0; i < count; i++) {
         if (view[i].kind != ALE_VIEW_WALL) {
             continue;
         }
-        const ale_match_t match = ale_match_view(map, &view[i], pose, NULL, gate);
+        const ale_match_t match = ale_match_view(map, &view[i], &stand, NULL, gate);
         h.shown_um += length_of(&view[i]);
         if (match.wall != ALE_NO_WALL) {
             h.score_um += ale_min64(match.error.overlap_um, length_of(&view[i]));
@@ -94,7 +95,8 @@ ale_hypothesis_t ale_hypothesis_at(const ale_local_map_t *map, const ale_view_t 
 /* Whether the view, seen from the pose, covers a part of the wall that is worth the name. */
 static bool lies_on(const ale_wall_t *wall, const ale_view_t *view, ale_pose_t pose)
 {
-    const ale_view_t placed = ale_view_from(view, pose);
+    const ale_stand_t stand = ale_stand(pose);
+    const ale_view_t placed = ale_view_from(view, &stand);
     return ale_wall_error(wall, &placed).overlap_um * 100 >= length_of(view) * SHARED_PERCENT;
 }
 

@@ -10,6 +10,9 @@ void ale_information_add(ale_information_t *sum, const int64_t row_q14[ALE_STATE
     const int64_t weight_q38 = ((int64_t)1 << WEIGHT_BITS) / ale_max64(var, ALE_ROW_VAR_MIN_UM2);
     for (int i = 0; i < ALE_STATES; i++) {
         const int64_t w = weight_q38 * row_q14[i];
+        if (w == 0) {
+            continue;
+        }
         sum->gradient[i] -= ale_mul_shift(w, error, WEIGHT_BITS + ALE_ROW_BITS - ALE_GRADIENT_BITS);
         for (int j = 0; j <= i; j++) {
             sum->matrix.m[i][j] +=

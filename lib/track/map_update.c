@@ -32,7 +32,8 @@ static void begin(ale_local_map_t *map, const ale_view_t *view, const ale_fit_t 
     ale_view_rows_t rows;
     int64_t offset_um = 0;
     int64_t angle_urad = 0;
-    const ale_view_t moved = ale_view_from(view, fit->motion.pose);
+    const ale_stand_t stand = ale_stand(fit->motion.pose);
+    const ale_view_t moved = ale_view_from(view, &stand);
     ale_wall_from_view(&wall, &moved);
     ale_view_rows(view, fit->motion.pose.theta_bam, wall.normal_bam, &rows);
     for (int i = 0; i < 3; i++) {
@@ -85,6 +86,7 @@ static void tidy(ale_local_map_t *map, uint32_t count, const ale_fit_t *fit)
 void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t count, const ale_fit_t *fit,
                     ale_drift_t here, uint32_t scan, bool grow)
 {
+    const ale_stand_t stand = ale_stand(fit->motion.pose);
     const ale_gate_t conflict = {CONFLICT_OFFSET_UM, CONFLICT_ANGLE_URAD, CONFLICT_SIGMAS, 0};
     for (uint32_t i = 0; i < count; i++) {
         const ale_match_t *match = &fit->match[i];
@@ -101,7 +103,7 @@ void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t coun
             sharpen(&map->wall[match->wall], &view[i], fit, match, scan);
             continue;
         }
-        if (grow && ale_match_view(map, &view[i], fit->motion.pose, NULL, &conflict).wall == ALE_NO_WALL) {
+        if (grow && ale_match_view(map, &view[i], &stand, NULL, &conflict).wall == ALE_NO_WALL) {
             begin(map, &view[i], fit, here, scan);
         }
     }

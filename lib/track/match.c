@@ -7,14 +7,16 @@ enum { OVERLAP_PERCENT = 40, OVERLAP_LEAST_UM = 60000, NEVER_TOO_FAR_UM = 30000,
 
 int64_t ale_view_offset_var(const ale_view_t *view, const ale_matrix_t *cov)
 {
-    const int64_t n[3] = {
-        ale_round_shift(ale_cos_q30(view->normal_bam), 10),
-        ale_round_shift(ale_sin_q30(view->normal_bam), 10),
-        ale_round_div(ale_along(view->centre, ale_tangent_bam(view->normal_bam)) * (1 << 20), 1000000)};
+    const ale_direction_t normal = ale_direction(view->normal_bam);
+    const int64_t lever_um = ale_round_shift(
+        (int64_t)view->centre.x_um * normal.sin_q30 - (int64_t)view->centre.y_um * normal.cos_q30, 30);
+    const int64_t n_q14[3] = {ale_round_shift(normal.cos_q30, 16), ale_round_shift(normal.sin_q30, 16),
+                              ale_round_div(lever_um * (1 << 14), 1000000)};
     int64_t var = 0;
     for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
-            var += ale_mul_shift(n[i] * n[j], cov->m[i][j], 40);
+        var += ale_mul_shift(n_q14[i] * n_q14[i], cov->m[i][i], 28);
+        for (int j = 0; j < i; j++) {
+            var += 2 * ale_mul_shift(n_q14[i] * n_q14[j], cov->m[i][j], 28);
         }
     }
     return ale_max64(var, 0);
@@ -55,13 +57,13 @@ static int64_t distance_q8(const ale_wall_t *wall, const ale_view_t *view, const
     return (offset2 << 8) / var_offset + (angle2 << 8) / var_angle;
 }
 
-ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, ale_pose_t pose,
+ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
                            const ale_matrix_t *cov, const ale_gate_t *gate)
 {
     ale_match_t best = {.wall = ALE_NO_WALL, .mark = ALE_NO_MARK};
     int64_t least = INT64_MAX;
     const int64_t pose_var[2] = {cov ? ale_view_offset_var(view, cov) : 0, cov ? ale_view_angle_var(cov) : 0};
-    const ale_view_t moved = ale_view_from(view, pose);
+    const ale_view_t moved = ale_view_from(view, stand);
     const int32_t bucket = ale_local_map_bucket(moved.normal_bam);
     const int32_t reach = ale_local_map_buckets(gate->angle_urad);
     for (int32_t b = bucket - reach; b <= bucket + reach; b++) {
@@ -70,6 +72,9 @@ ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, a
         ale_local_map_facing(map, b, &first, &last);
         for (uint16_t k = first; k < last; k++) {
             const ale_wall_t *wall = &map->wall[map->near[k]];
+            if (ale_abs64(ale_wall_offset(wall, moved.centre)) > gate->offset_um) {
+                continue;
+            }
             const ale_wall_error_t e = ale_wall_error(wall, &moved);
             const int64_t d = distance_q8(wall, view, &e, pose_var, gate);
             if (d < least) {
@@ -85,16 +90,18 @@ ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, a
 static ale_wall_error_t mark_error(const ale_mark_t *mark, ale_point_t p)
 {
     const ale_point_t d = ale_minus(p, mark->p);
-    return (ale_wall_error_t){.offset_um = ale_along(d, mark->normal_bam),
-                              .t_um = ale_along(d, ale_tangent_bam(mark->normal_bam))};
+    const ale_direction_t n = ale_direction(mark->normal_bam);
+    return (ale_wall_error_t){
+        .offset_um = ale_round_shift((int64_t)d.x_um * n.cos_q30 + (int64_t)d.y_um * n.sin_q30, 30),
+        .t_um = ale_round_shift((int64_t)d.x_um * n.sin_q30 - (int64_t)d.y_um * n.cos_q30, 30)};
 }
 
-ale_match_t ale_match_mark(const ale_local_map_t *map, const ale_view_t *view, ale_pose_t pose,
+ale_match_t ale_match_mark(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
                            int32_t reach_um)
 {
     ale_match_t found = {.wall = ALE_NO_WALL};
-    const ale_point_t p = ale_pose_apply(pose, view->centre);
-    found.mark = ale_marks_find(&map->marks, p, view->normal_bam + pose.theta_bam,
+    const ale_point_t p = ale_point_from(view->centre, stand);
+    found.mark = ale_marks_find(&map->marks, p, view->normal_bam + stand->pose.theta_bam,
                                 view->kind == ALE_VIEW_SPOT, reach_um);
     if (found.mark != ALE_NO_MARK) {
         found.error = mark_error(&map->marks.mark[found.mark], p);
@@ -102,12 +109,13 @@ ale_match_t ale_match_mark(const ale_local_map_t *map, const ale_view_t *view, a
     return found;
 }
 
-void ale_match_renew(const ale_local_map_t *map, const ale_view_t *view, ale_pose_t pose, ale_match_t *match)
+void ale_match_renew(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
+                     ale_match_t *match)
 {
     if (match->wall != ALE_NO_WALL) {
-        const ale_view_t moved = ale_view_from(view, pose);
+        const ale_view_t moved = ale_view_from(view, stand);
         match->error = ale_wall_error(&map->wall[match->wall], &moved);
     } else if (match->mark != ALE_NO_MARK) {
-        match->error = mark_error(&map->marks.mark[match->mark], ale_pose_apply(pose, view->centre));
+        match->error = mark_error(&map->marks.mark[match->mark], ale_point_from(view->centre, stand));
     }
 }

@@ -30,14 +30,15 @@ int64_t ale_view_angle_var(const ale_matrix_t *cov);
 
 /* The mark that a piece or spot shows, seen from a pose; error.offset_um along the mark's normal, error.t_um
  * across it. */
-ale_match_t ale_match_mark(const ale_local_map_t *map, const ale_view_t *view, ale_pose_t pose,
+ale_match_t ale_match_mark(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
                            int32_t reach_um);
 
 /* The errors of a match that is kept, with the robot at another pose. */
-void ale_match_renew(const ale_local_map_t *map, const ale_view_t *view, ale_pose_t pose, ale_match_t *match);
+void ale_match_renew(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
+                     ale_match_t *match);
 
 /* The wall that fits a view seen from a pose with covariance `cov` (NULL: known exactly). */
-ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, ale_pose_t pose,
+ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
                            const ale_matrix_t *cov, const ale_gate_t *gate);
 
 #endif

@@ -19,22 +19,12 @@ enum {
 
 typedef struct {
     const ale_scan_t *scan;
-    const uint32_t *bearing_bam;
     ale_pose_t sensor;
     const ale_noise_t *noise;
+    const ale_point_t *point; /* of every beam that is in no line, sensor frame */
     ale_view_t *out;
     uint32_t count;
 } pieces_t;
-
-static uint32_t bearing_of(const pieces_t *p, int32_t beam)
-{
-    return p->bearing_bam ? p->bearing_bam[beam] : ale_scan_bearing(p->scan, beam);
-}
-
-static ale_point_t point_of(const pieces_t *p, int32_t beam)
-{
-    return ale_polar(p->scan->range_um[beam], bearing_of(p, beam));
-}
 
 static int64_t spacing_um(const ale_scan_t *scan, int32_t beam)
 {
@@ -63,13 +53,13 @@ static cloud_t cloud_of(const pieces_t *p, int32_t first, int32_t last)
     int64_t y = 0;
     const int32_t n = last - first + 1;
     for (int32_t k = first; k <= last; k++) {
-        const ale_point_t q = point_of(p, k);
+        const ale_point_t q = p->point[k];
         x += q.x_um;
         y += q.y_um;
     }
     c.mean = (ale_point_t){(int32_t)ale_round_div(x, n), (int32_t)ale_round_div(y, n)};
     for (int32_t k = first; k <= last; k++) {
-        const ale_point_t q = ale_minus(point_of(p, k), c.mean);
+        const ale_point_t q = ale_minus(p->point[k], c.mean);
         c.xx += ale_round_shift((int64_t)q.x_um * q.x_um, 10);
         c.yy += ale_round_shift((int64_t)q.y_um * q.y_um, 10);
         c.xy += ale_round_shift((int64_t)q.x_um * q.y_um, 10);
@@ -100,7 +90,7 @@ static void add(pieces_t *p, int32_t first, int32_t last, bool spot)
     const int32_t n = last - first + 1;
     const int32_t middle = (first + last) / 2;
     const uint32_t facing_bam = ale_atan2_bam(-c.mean.y_um, -c.mean.x_um);
-    const int64_t length_um = ale_isqrt((uint64_t)distance2(point_of(p, first), point_of(p, last)));
+    const int64_t length_um = ale_isqrt((uint64_t)distance2(p->point[first], p->point[last]));
     const int64_t half_um = length_um / 2 + spacing_um(p->scan, middle) / 2;
     uint32_t direction_bam;
     const bool straight = !spot && n >= 3 && length_um > STRAIGHT_UM && direction_of(&c, &direction_bam);
@@ -144,7 +134,7 @@ static void cut(pieces_t *p, int32_t first, int32_t last)
     if (n < 2) {
         return;
     }
-    const bool small = distance2(point_of(p, first), point_of(p, last)) < (int64_t)SPOT_UM * SPOT_UM;
+    const bool small = distance2(p->point[first], p->point[last]) < (int64_t)SPOT_UM * SPOT_UM;
     if (small && is_clear(p, first - 1, p->scan->range_um[first]) &&
         is_clear(p, last + 1, p->scan->range_um[last])) {
         add(p, first, last, true);
@@ -160,13 +150,13 @@ static void cut(pieces_t *p, int32_t first, int32_t last)
 static bool continues(const pieces_t *p, int32_t k)
 {
     const int64_t gap_um = ale_max64(GAP_FLOOR_UM, GAP_SPACINGS * spacing_um(p->scan, k));
-    return distance2(point_of(p, k - 1), point_of(p, k)) < gap_um * gap_um;
+    return distance2(p->point[k - 1], p->point[k]) < gap_um * gap_um;
 }
 
 uint32_t ale_pieces_of(const ale_features_t *features, const ale_scan_t *scan, const uint32_t *bearing_bam,
-                       ale_pose_t sensor, const ale_noise_t *noise, ale_view_t out[])
+                       ale_pose_t sensor, const ale_noise_t *noise, ale_point_t point[], ale_view_t out[])
 {
-    pieces_t p = {scan, bearing_bam, sensor, noise, out, 0};
+    pieces_t p = {scan, sensor, noise, point, out, 0};
     int32_t begun = -1;
     uint32_t line = 0;
     for (int32_t k = 0; k < scan->beams; k++) {
@@ -175,6 +165,9 @@ uint32_t ale_pieces_of(const ale_features_t *features, const ale_scan_t *scan, c
         }
         const bool in_line = line < features->line_count && features->line[line].first <= k;
         const bool loose = scan->flag[k] == ALE_BEAM_VALID && !in_line;
+        if (loose) {
+            point[k] = ale_polar(scan->range_um[k], bearing_bam ? bearing_bam[k] : ale_scan_bearing(scan, k));
+        }
         if (begun >= 0 && (!loose || !continues(&p, k))) {
             cut(&p, begun, k - 1);
             begun = -1;

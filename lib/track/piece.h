@@ -14,9 +14,9 @@
 
 enum { ALE_MAX_PIECES = 120 };
 
-/* Pieces of a straightened scan (bearing_bam as for ale_extract_scan) in the robot's frame. Returns their
- * number, ALE_MAX_PIECES at most; further ones are left out. */
+/* Pieces of a straightened scan (bearing_bam as for ale_extract_scan) in the robot's frame. point: working
+ * memory for every beam. Returns their number, ALE_MAX_PIECES at most; further ones are left out. */
 uint32_t ale_pieces_of(const ale_features_t *features, const ale_scan_t *scan, const uint32_t *bearing_bam,
-                       ale_pose_t sensor, const ale_noise_t *noise, ale_view_t out[]);
+                       ale_pose_t sensor, const ale_noise_t *noise, ale_point_t point[], ale_view_t out[]);
 
 #endif

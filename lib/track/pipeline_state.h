@@ -47,9 +47,11 @@ struct ale_pipeline {
     /* the scan at hand */
     ale_scan_t scan;
     uint32_t bearing_bam[ALE_MAX_BEAMS];
+    ale_point_t point[ALE_MAX_BEAMS]; /* working memory of the pieces */
     ale_features_t features;
     ale_view_t view[ALE_MAX_VIEWS];
     ale_fit_t fit;
+    ale_fit_t other; /* of the same scan, from another pose */
     uint32_t view_count;
     uint16_t matched_corners;
     bool straightened; /* bearing_bam holds */

@@ -135,11 +135,10 @@ static void anchor(ale_pipeline_t *p)
     }
 }
 
-/* The map explains too little of the scan. Wide gates may have caught the wrong walls: once more with narrow
- * ones; then from where the last scan says that the robot is. What only little speaks for is not believed. */
-static void match_again(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted)
+/* Where the last scan says that the robot is, to be fitted from there. */
+static bool register_scan(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted,
+                          ale_pose_t *from)
 {
-    const ale_scene_t scene = {&p->map, p->view, p->view_count};
     const ale_matrix_t *cov = &predicted->cov;
     const int64_t reach_um = REGISTER_UM + 5 * ale_max64(sigma_of(cov, 0), sigma_of(cov, 1));
     const int64_t reach_urad = REGISTER_URAD + 5 * sigma_of(cov, 2);
@@ -147,15 +146,25 @@ static void match_again(ale_pipeline_t *p, const ale_motion_t *before, const ale
     const ale_pose_t guess =
         ale_pose_compose(p->smooth.pose, ale_pose_between(before->pose, predicted->pose));
     ale_pose_t way = ale_pose_between(p->witness.robot, guess);
-    ale_refine_again(predicted, predicted->pose, &scene, &narrow_gate, &p->fit);
-    if (ale_tracker_doubts(&p->fit) &&
-        ale_register(&p->registration, (ale_views_t){p->witness.view, p->witness.view_count},
-                     (ale_views_t){p->view, p->view_count}, (int32_t)ale_min64(reach_um, REGISTER_MOST_UM),
-                     (int32_t)ale_min64(reach_urad, REGISTER_MOST_URAD), &way)) {
-        const ale_pose_t there = ale_pose_compose(p->witness.robot, way);
-        const ale_pose_t from = ale_pose_compose(before->pose, ale_pose_between(p->smooth.pose, there));
-        ale_refine_again(predicted, from, &scene, &register_gate, &p->fit);
+    if (!ale_register(&p->registration, (ale_views_t){p->witness.view, p->witness.view_count},
+                      (ale_views_t){p->view, p->view_count}, (int32_t)ale_min64(reach_um, REGISTER_MOST_UM),
+                      (int32_t)ale_min64(reach_urad, REGISTER_MOST_URAD), &way)) {
+        return false;
     }
+    const ale_pose_t there = ale_pose_compose(p->witness.robot, way);
+    *from = ale_pose_compose(before->pose, ale_pose_between(p->smooth.pose, there));
+    return true;
+}
+
+/* The map explains too little of the scan: once more from where the last scan says that the robot is, or,
+ * since wide gates may have caught the wrong walls, with narrow ones. What only little speaks for is not
+ * believed. */
+static void match_again(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted)
+{
+    const ale_scene_t scene = {&p->map, p->view, p->view_count};
+    ale_pose_t from = predicted->pose;
+    const bool registered = register_scan(p, before, predicted, &from);
+    ale_refine_again(predicted, from, &scene, registered ? &register_gate : &narrow_gate, &p->other, &p->fit);
     if (p->fit.matched_um * REJECT_PARTS < p->fit.shown_um) {
         ale_refine_reject(predicted, &scene, &p->fit);
     }

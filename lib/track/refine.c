@@ -40,8 +40,9 @@ void ale_view_rows(const ale_view_t *view, uint32_t pose_theta_bam, uint32_t wal
                    ale_view_rows_t *out)
 {
     const uint32_t normal_bam = wall_normal_bam - pose_theta_bam;
-    const int64_t nx = ale_round_shift(ale_cos_q30(normal_bam), 16);
-    const int64_t ny = ale_round_shift(ale_sin_q30(normal_bam), 16);
+    const ale_direction_t normal = ale_direction(normal_bam);
+    const int64_t nx = ale_round_shift(normal.cos_q30, 16);
+    const int64_t ny = ale_round_shift(normal.sin_q30, 16);
     const int64_t lever =
         ale_round_div((int64_t)view->centre.x_um * ny - (int64_t)view->centre.y_um * nx, 1000000);
     int64_t time;
@@ -61,6 +62,9 @@ void ale_view_rows(const ale_view_t *view, uint32_t pose_theta_bam, uint32_t wal
 static void correct_for_velocity(const ale_view_rows_t *rows, const int64_t change[3], ale_wall_error_t *e)
 {
     for (int i = 0; i < 3; i++) {
+        if (change[i] == 0) {
+            continue;
+        }
         e->offset_um += ale_mul_shift(rows->offset_row_q14[i + 3], change[i], ALE_ROW_BITS);
         e->angle_urad += ale_mul_shift(rows->angle_row_q14[i + 3], change[i], ALE_ROW_BITS);
     }
@@ -122,21 +126,20 @@ static void add_wall_rows(const ale_view_t *view, const ale_wall_t *wall, ale_fi
     add_rows(view, wall, &rows, &match->error, &fit->information);
 }
 
-static ale_match_t find(const ale_scene_t *scene, const ale_view_t *view, const ale_fit_t *fit,
+static ale_match_t find(const ale_scene_t *scene, const ale_view_t *view, const ale_stand_t *stand,
                         const ale_matrix_t *cov, const ale_gate_t *gate)
 {
     if (view->kind == ALE_VIEW_WALL) {
-        const ale_match_t wall = ale_match_view(scene->map, view, fit->motion.pose, cov, gate);
+        const ale_match_t wall = ale_match_view(scene->map, view, stand, cov, gate);
         const bool found =
             wall.wall != ALE_NO_WALL || (int64_t)view->end_um - view->start_um >= ALE_WALL_LENGTH_UM;
-        return found ? wall : ale_match_mark(scene->map, view, fit->motion.pose, gate->piece_um);
+        return found ? wall : ale_match_mark(scene->map, view, stand, gate->piece_um);
     }
     const ale_gate_t loose = {gate->piece_um, PIECE_ANGLE_URAD, gate->sigmas, 0};
     const ale_match_t match = view->kind == ALE_VIEW_PIECE
-                                  ? ale_match_view(scene->map, view, fit->motion.pose, cov, &loose)
+                                  ? ale_match_view(scene->map, view, stand, cov, &loose)
                                   : (ale_match_t){.wall = ALE_NO_WALL};
-    return match.wall != ALE_NO_WALL ? match
-                                     : ale_match_mark(scene->map, view, fit->motion.pose, gate->piece_um);
+    return match.wall != ALE_NO_WALL ? match : ale_match_mark(scene->map, view, stand, gate->piece_um);
 }
 
 static void clear_sums(ale_fit_t *fit)
@@ -151,15 +154,16 @@ static void clear_sums(ale_fit_t *fit)
 /* gate NULL: the matches are kept and only their errors renewed. */
 static void gather(const ale_scene_t *scene, const ale_matrix_t *cov, const ale_gate_t *gate, ale_fit_t *fit)
 {
+    const ale_stand_t stand = ale_stand(fit->motion.pose);
     clear_sums(fit);
     for (uint32_t i = 0; i < scene->view_count; i++) {
         const ale_view_t *view = &scene->view[i];
         ale_match_t *match = &fit->match[i];
         const int64_t length_um = (int64_t)view->end_um - view->start_um;
         if (gate) {
-            *match = find(scene, view, fit, cov, gate);
+            *match = find(scene, view, &stand, cov, gate);
         } else {
-            ale_match_renew(scene->map, view, fit->motion.pose, match);
+            ale_match_renew(scene->map, view, &stand, match);
         }
         fit->shown_um += length_um;
         if (match->wall != ALE_NO_WALL) {
@@ -245,24 +249,19 @@ void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const a
 {
     const ale_gate_t second = {(gate->offset_um + LATER_OFFSET_UM) / 3, gate->angle_urad, LATER_SIGMAS,
                                gate->piece_um};
-    const ale_gate_t *const wide[ALE_REFINE_ITERATIONS] = {gate, &second, &later, NULL, NULL};
+    const ale_gate_t *const wide[ALE_REFINE_ITERATIONS] = {gate, &second, &later};
     start(predicted, out);
     fit_from(predicted, scene, wide, out);
 }
 
 void ale_refine_again(const ale_motion_t *predicted, ale_pose_t from, const ale_scene_t *scene,
-                      const ale_gate_t *gate, ale_fit_t *fit)
+                      const ale_gate_t *gate, ale_fit_t *other, ale_fit_t *fit)
 {
-    const ale_gate_t *const gates[ALE_REFINE_ITERATIONS] = {gate, &later, &later, NULL, NULL};
-    const ale_motion_t found = fit->motion;
-    const int64_t change[3] = {fit->velocity_change[0], fit->velocity_change[1], fit->velocity_change[2]};
-    const int64_t matched_um = fit->matched_um;
-    start(predicted, fit);
-    fit->motion.pose = from;
-    fit_from(predicted, scene, gates, fit);
-    if (fit->matched_um < matched_um) {
-        fit->motion = found;
-        memcpy(fit->velocity_change, change, sizeof change);
-        gather(scene, &found.cov, &later, fit);
+    const ale_gate_t *const gates[ALE_REFINE_ITERATIONS] = {gate, &later, &later};
+    start(predicted, other);
+    other->motion.pose = from;
+    fit_from(predicted, scene, gates, other);
+    if (other->matched_um >= fit->matched_um) {
+        *fit = *other;
     }
 }

@@ -20,7 +20,7 @@
 #include "track/piece.h"
 #include "track/view.h"
 
-enum { ALE_REFINE_ITERATIONS = 5, ALE_MAX_VIEWS = ALE_MAX_LINES + ALE_MAX_PIECES };
+enum { ALE_REFINE_ITERATIONS = 3, ALE_MAX_VIEWS = ALE_MAX_LINES + ALE_MAX_PIECES };
 
 typedef struct {
     const ale_local_map_t *map; /* near list prepared */
@@ -53,9 +53,9 @@ void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const a
                 ale_fit_t *out);
 
 /* Fits once more, from another pose and with another gate to begin with, and keeps what explains more. The
- * prediction weighs as before. */
+ * prediction weighs as before. other: working memory. */
 void ale_refine_again(const ale_motion_t *predicted, ale_pose_t from, const ale_scene_t *scene,
-                      const ale_gate_t *gate, ale_fit_t *fit);
+                      const ale_gate_t *gate, ale_fit_t *other, ale_fit_t *fit);
 
 /* Makes a fit of a scan that is not to be believed: the prediction stands, nothing is matched. */
 void ale_refine_reject(const ale_motion_t *predicted, const ale_scene_t *scene, ale_fit_t *fit);

@@ -70,11 +70,23 @@ static void vote_line(ale_registration_t *r, const pair_t *pair, uint16_t voter,
     }
     const int64_t from = ale_round_div(ale_max64(along_um - pair->along_um, -half_um), cell_um);
     const int64_t to = ale_round_div(ale_min64(along_um + pair->along_um, half_um), cell_um);
+    /* in cells, Q14, from the grid's corner */
+    const int64_t distance_q14 = ale_round_div(distance_um * (1 << 14), cell_um);
+    int64_t x_q14 = MIDDLE * (1 << 14) + ale_round_shift(distance_q14 * nx, 14) + from * ny;
+    int64_t y_q14 = MIDDLE * (1 << 14) + ale_round_shift(distance_q14 * ny, 14) - from * nx;
     for (int64_t t = from; t <= to; t++) {
-        const int64_t x_um = ale_round_shift(distance_um * nx + t * cell_um * ny, 14);
-        const int64_t y_um = ale_round_shift(distance_um * ny - t * cell_um * nx, 14);
-        vote_cell(r, MIDDLE + ale_round_div(x_um, cell_um), MIDDLE + ale_round_div(y_um, cell_um), voter,
-                  pair->weight_mm);
+        vote_cell(r, ale_round_shift(x_q14, 14), ale_round_shift(y_q14, 14), voter, pair->weight_mm);
+        x_q14 += ny;
+        y_q14 -= nx;
+    }
+}
+
+static void note_normals(ale_registration_t *r, ale_views_t before, uint32_t count)
+{
+    for (uint32_t k = 0; k < count; k++) {
+        const ale_direction_t d = ale_direction(before.view[r->before[k]].normal_bam);
+        r->normal_q14[k] =
+            (ale_point_t){(int32_t)ale_round_shift(d.cos_q30, 16), (int32_t)ale_round_shift(d.sin_q30, 16)};
     }
 }
 
@@ -95,9 +107,7 @@ static void vote_view(ale_registration_t *r, ale_views_t before, uint32_t count,
             continue;
         }
         const int64_t apart_um = ((int64_t)length_mm(moved) + length_mm(other)) * 500;
-        const pair_t pair = {{(int32_t)ale_round_shift(ale_cos_q30(other->normal_bam), 16),
-                              (int32_t)ale_round_shift(ale_sin_q30(other->normal_bam), 16)},
-                             ale_minus(other->centre, moved->centre),
+        const pair_t pair = {r->normal_q14[k], ale_minus(other->centre, moved->centre),
                              (int32_t)ale_max64(apart_um / 2, cell_um / 2),
                              (int32_t)ale_min64(length_mm(moved), length_mm(other))};
         vote_line(r, &pair, voter, cell_um);
@@ -141,14 +151,16 @@ bool ale_register(ale_registration_t *memory, ale_views_t before, ale_views_t no
     const ale_pose_t first = *guess;
     int64_t most = LEAST_VOTES_MM;
     bool found = false;
+    note_normals(memory, before, before_count);
     for (int32_t h = -ALE_REGISTRATION_HEADINGS / 2; h <= ALE_REGISTRATION_HEADINGS / 2; h++) {
         const int64_t turn_nrad = (int64_t)reach_urad * 1000 * h / (ALE_REGISTRATION_HEADINGS / 2);
         ale_pose_t pose = first;
         pose.theta_bam += (uint32_t)ale_nrad_to_bam(turn_nrad);
+        const ale_stand_t stand = ale_stand(pose);
         memset(memory->votes_mm, 0, sizeof memory->votes_mm);
         memset(memory->voter, 0xff, sizeof memory->voter);
         for (uint32_t i = 0; i < now_count; i++) {
-            const ale_view_t moved = ale_view_from(&now.view[memory->now[i]], pose);
+            const ale_view_t moved = ale_view_from(&now.view[memory->now[i]], &stand);
             vote_view(memory, before, before_count, &moved, (uint16_t)i, cell_um);
         }
         int32_t column = MIDDLE;

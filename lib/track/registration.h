@@ -29,6 +29,7 @@ typedef struct {
 typedef struct {
     uint16_t before[ALE_REGISTRATION_VIEWS];
     uint16_t now[ALE_REGISTRATION_VIEWS];
+    ale_point_t normal_q14[ALE_REGISTRATION_VIEWS]; /* of the views before: unit vectors */
     int32_t votes_mm[ALE_REGISTRATION_CELLS][ALE_REGISTRATION_CELLS];
     uint16_t voter[ALE_REGISTRATION_CELLS][ALE_REGISTRATION_CELLS];
 } ale_registration_t;

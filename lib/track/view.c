@@ -8,21 +8,27 @@ enum { OFFSET_FLOOR_UM2 = 250000, ANGLE_FLOOR_URAD2 = 40000, NRAD_PER_RAD = 1000
 
 ale_point_t ale_polar(int64_t length_um, uint32_t direction_bam)
 {
-    return (ale_point_t){(int32_t)ale_round_shift(length_um * ale_cos_q30(direction_bam), 30),
-                         (int32_t)ale_round_shift(length_um * ale_sin_q30(direction_bam), 30)};
+    const ale_direction_t d = ale_direction(direction_bam);
+    return (ale_point_t){(int32_t)ale_round_shift(length_um * d.cos_q30, 30),
+                         (int32_t)ale_round_shift(length_um * d.sin_q30, 30)};
 }
 
 int64_t ale_along(ale_point_t v, uint32_t direction_bam)
 {
-    return ale_round_shift(
-        (int64_t)v.x_um * ale_cos_q30(direction_bam) + (int64_t)v.y_um * ale_sin_q30(direction_bam), 30);
+    const ale_direction_t d = ale_direction(direction_bam);
+    return ale_round_shift((int64_t)v.x_um * d.cos_q30 + (int64_t)v.y_um * d.sin_q30, 30);
 }
 
-ale_view_t ale_view_from(const ale_view_t *view, ale_pose_t pose)
+ale_point_t ale_point_from(ale_point_t p, const ale_stand_t *stand)
+{
+    return ale_plus(ale_turn(p, stand->turn), (ale_point_t){stand->pose.x_um, stand->pose.y_um});
+}
+
+ale_view_t ale_view_from(const ale_view_t *view, const ale_stand_t *stand)
 {
     ale_view_t moved = *view;
-    moved.centre = ale_pose_apply(pose, view->centre);
-    moved.normal_bam = view->normal_bam + pose.theta_bam;
+    moved.centre = ale_point_from(view->centre, stand);
+    moved.normal_bam = view->normal_bam + stand->pose.theta_bam;
     return moved;
 }
 

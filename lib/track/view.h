@@ -44,8 +44,20 @@ typedef struct {
 uint32_t ale_views_of(const ale_features_t *features, const ale_scan_t *scan, ale_pose_t sensor,
                       int32_t systematic_um, ale_view_t out[]);
 
-/* The view as it lies in the frame of a pose that is given in it. */
-ale_view_t ale_view_from(const ale_view_t *view, ale_pose_t pose);
+/* Where views are seen from: a pose, with the direction that turns them, for many of them. */
+typedef struct {
+    ale_pose_t pose;
+    ale_direction_t turn;
+} ale_stand_t;
+
+static inline ale_stand_t ale_stand(ale_pose_t pose)
+{
+    return (ale_stand_t){pose, ale_direction(pose.theta_bam)};
+}
+
+/* A point of the view's frame, and the view, as they lie in the frame that the pose is given in. */
+ale_point_t ale_point_from(ale_point_t p, const ale_stand_t *stand);
+ale_view_t ale_view_from(const ale_view_t *view, const ale_stand_t *stand);
 
 /* The tangent that belongs to a normal (a quarter turn clockwise), as a direction. */
 static inline uint32_t ale_tangent_bam(uint32_t normal_bam)

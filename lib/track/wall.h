@@ -10,6 +10,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/fixed.h"
 #include "base/pose.h"
 #include "track/view.h"
 
@@ -53,6 +54,14 @@ void ale_wall_from_view(ale_wall_t *wall, const ale_view_t *view);
 void ale_wall_set_normal(ale_wall_t *wall, uint32_t normal_bam);
 
 ale_wall_error_t ale_wall_error(const ale_wall_t *wall, const ale_view_t *view);
+
+/* The offset alone, of a point: how far it lies off the wall's line, on the side that the wall faces. */
+static inline int64_t ale_wall_offset(const ale_wall_t *wall, ale_point_t p)
+{
+    return ale_round_shift(((int64_t)p.x_um - wall->anchor.x_um) * wall->normal_x_q30 +
+                               ((int64_t)p.y_um - wall->anchor.y_um) * wall->normal_y_q30,
+                           30);
+}
 
 /* Variance of the wall's offset at t along it, and its covariance with the angle there. */
 int64_t ale_wall_offset_var(const ale_wall_t *wall, int64_t t_um);

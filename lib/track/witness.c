@@ -30,11 +30,12 @@ void ale_witness_keep(ale_witness_t *witness, const ale_seen_t *seen)
 /* What a scan says of the surfaces of another one. Spots have no side from which they are seen. */
 static void ask(const ale_seen_t *of, const ale_seen_t *asked, ale_slack_t slack, ale_testimony_t *sum)
 {
+    const ale_stand_t stand = ale_stand(of->robot);
     for (uint32_t i = 0; i < of->view_count; i++) {
         if (of->view[i].kind == ALE_VIEW_SPOT) {
             continue;
         }
-        const ale_view_t moved = ale_view_from(&of->view[i], of->robot);
+        const ale_view_t moved = ale_view_from(&of->view[i], &stand);
         const int64_t length_um = (int64_t)moved.end_um - moved.start_um;
         ale_wall_t surface;
         ale_wall_from_view(&surface, &moved);
