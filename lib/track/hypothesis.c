@@ -12,7 +12,8 @@ enum {
     SCORE_OFFSET_UM = 120000,
     SCORE_ANGLE_URAD = 120000,
     SCORE_SIGMAS = 1000,
-    SHARED_PERCENT = 70 /* of either view of the pair must lie on its wall */
+    SHARED_PERCENT = 70, /* of either view of the pair must lie on its wall */
+    LOOKS_OF_A_VIEW = 16 /* what moving a view costs, in looks */
 };
 
 static int32_t enclosed(uint32_t a_bam, uint32_t b_bam)
@@ -74,15 +75,16 @@ bool ale_pose_of_pair(const ale_view_t *a, const ale_view_t *b, const ale_wall_t
 }
 
 ale_hypothesis_t ale_hypothesis_at(const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
-                                   ale_pose_t pose, const ale_gate_t *gate)
+                                   ale_pose_t pose, const ale_gate_t *gate, int32_t *looks)
 {
     const ale_stand_t stand = ale_stand(pose);
     ale_hypothesis_t h = {.pose = pose};
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i<count && * looks> 0; i++) {
         if (view[i].kind != ALE_VIEW_WALL) {
             continue;
         }
-        const ale_match_t match = ale_match_view(map, &view[i], &stand, NULL, gate);
+        *looks -= LOOKS_OF_A_VIEW;
+        const ale_match_t match = ale_match_view(map, &view[i], &stand, NULL, gate, looks);
         h.shown_um += length_of(&view[i]);
         if (match.wall != ALE_NO_WALL) {
             h.score_um += ale_min64(match.error.overlap_um, length_of(&view[i]));
@@ -100,13 +102,24 @@ static bool lies_on(const ale_wall_t *wall, const ale_view_t *view, ale_pose_t p
     return ale_wall_error(wall, &placed).overlap_um * 100 >= length_of(view) * SHARED_PERCENT;
 }
 
+/* No pose can lay as much of the view on the wall as lies_on asks for. */
+static bool is_too_short(const ale_wall_t *wall, const ale_view_t *view)
+{
+    return ((int64_t)wall->end_um - wall->start_um) * 100 < length_of(view) * SHARED_PERCENT;
+}
+
+static void next_first(ale_search_t *s, uint16_t count)
+{
+    s->second = 0;
+    s->first = (uint16_t)(s->first + 1 < count ? s->first + 1 : 0);
+    s->rounds += s->first == 0;
+}
+
 static void next_pair(ale_search_t *s, uint16_t count)
 {
     s->second++;
     if (s->second >= count) {
-        s->second = 0;
-        s->first = (uint16_t)(s->first + 1 < count ? s->first + 1 : 0);
-        s->rounds += s->first == 0;
+        next_first(s, count);
     }
 }
 
@@ -123,23 +136,29 @@ uint32_t ale_search(ale_search_t *search, const ale_local_map_t *map, const ale_
     const int32_t angle_bam = enclosed(a->normal_bam, b->normal_bam);
     search->first = search->first < map->count ? search->first : 0;
     search->second = search->second < map->count ? search->second : 0;
-    const uint32_t affordable = 1 + ALE_SEARCH_MATCHES / (count * map->count);
-    const uint32_t most = affordable < ALE_MAX_HYPOTHESES ? affordable : ALE_MAX_HYPOTHESES;
+    int32_t looks = ALE_SEARCH_LOOKS;
     uint32_t scored = 0;
     uint32_t placed = 0;
-    for (uint32_t n = 0; n < ALE_HYPOTHESIS_PAIRS && placed < ALE_HYPOTHESIS_POSES && scored < most; n++) {
+    for (uint32_t n = 0; n < ALE_HYPOTHESIS_PAIRS && placed < ALE_HYPOTHESIS_POSES &&
+                         scored < ALE_MAX_HYPOTHESES && looks > 0;
+         n++) {
         const ale_wall_t *wall_a = &map->wall[search->first];
         const ale_wall_t *wall_b = &map->wall[search->second];
+        if (is_too_short(wall_a, a)) {
+            next_first(search, map->count);
+            continue;
+        }
         const int32_t in_map_bam = enclosed(wall_a->normal_bam, wall_b->normal_bam);
         ale_pose_t pose;
         next_pair(search, map->count);
-        if (ale_abs64(ale_bam_diff((uint32_t)in_map_bam, (uint32_t)angle_bam)) >= PAIR_ANGLE_BAM) {
+        if (ale_abs64(ale_bam_diff((uint32_t)in_map_bam, (uint32_t)angle_bam)) >= PAIR_ANGLE_BAM ||
+            is_too_short(wall_b, b)) {
             continue;
         }
         placed++;
         if (ale_pose_of_pair(a, b, wall_a, wall_b, &pose) && lies_on(wall_a, a, pose) &&
             lies_on(wall_b, b, pose)) {
-            out[scored++] = ale_hypothesis_at(map, view, count, pose, &gate);
+            out[scored++] = ale_hypothesis_at(map, view, count, pose, &gate, &looks);
         }
     }
     return scored;

@@ -16,8 +16,8 @@
 
 enum {
     ALE_MAX_HYPOTHESES = 24,    /* scored in one scan, */
-    ALE_SEARCH_MATCHES = 32768, /* or fewer: views times walls that scoring may look at, the last one whole */
-    ALE_HYPOTHESIS_POSES = 512, /* computed in one scan */
+    ALE_SEARCH_LOOKS = 12288,   /* or fewer: walls that scoring may look at; the last one is scored in part */
+    ALE_HYPOTHESIS_POSES = 256, /* computed in one scan */
     ALE_HYPOTHESIS_PAIRS = 4096 /* pairs of walls looked at in one scan */
 };
 
@@ -39,9 +39,9 @@ typedef struct {
 bool ale_pose_of_pair(const ale_view_t *a, const ale_view_t *b, const ale_wall_t *wall_a,
                       const ale_wall_t *wall_b, ale_pose_t *out);
 
-/* How well a pose explains the lines of a scan. */
+/* How well a pose explains the lines of a scan, as far as *looks suffices (as for ale_match_view). */
 ale_hypothesis_t ale_hypothesis_at(const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
-                                   ale_pose_t pose, const ale_gate_t *gate);
+                                   ale_pose_t pose, const ale_gate_t *gate, int32_t *looks);
 
 /* Goes on with the search for the views of this scan; returns how many hypotheses it made. The near list of
  * the map must hold all walls. */

@@ -7,9 +7,10 @@
 #include "track/motion.h"
 
 enum {
-    GAP_US = 350000,     /* headings farther apart than this are not interpolated */
-    INTERVAL_US = 80000, /* shortest interval of the wheels that is compared */
-    FORGET_SHIFT = 10,   /* a memory of about a thousand intervals */
+    GAP_US = 350000,      /* headings farther apart than this are not interpolated */
+    INTERVALS_A_SCAN = 8, /* what is left over waits for the next scan */
+    INTERVAL_US = 80000,  /* shortest interval of the wheels that is compared */
+    FORGET_SHIFT = 10,    /* a memory of about a thousand intervals */
     LAST_US = ALE_LAG_FIRST_US + (ALE_LAG_CANDIDATES - 1) * ALE_LAG_STEP_US,
     TELLING_URAD = 15000,        /* the candidates must differ by this, or the interval says nothing */
     NOISE_FLOOR_URAD2 = 9000000, /* (3 mrad)^2: no turn of an interval is known better */
@@ -155,7 +156,7 @@ void ale_lag_update(ale_lag_t *lag, const ale_wheels_t *wheels)
 {
     const int64_t until_us = lag->count > 0 ? heading_at(lag, lag->count - 1)->stamp_us - LAST_US : INT64_MIN;
     const ale_odometry_t *a = ale_wheels_sample_from(wheels, lag->done_us);
-    for (uint32_t n = 0; a != NULL && n < ALE_WHEELS_SAMPLES; n++) {
+    for (uint32_t n = 0; a != NULL && n < INTERVALS_A_SCAN; n++) {
         const ale_odometry_t *b = ale_wheels_sample_from(wheels, a->stamp_us + INTERVAL_US);
         if (b == NULL || b->stamp_us > until_us) {
             break;

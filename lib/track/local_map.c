@@ -10,7 +10,8 @@ enum {
     BUCKET_URAD = 98175,
     MERGE_ANGLE_URAD = 35000,
     MERGE_OFFSET_UM = 25000,
-    MERGE_GATE = 9 /* squared sigmas */
+    APART_UM = 60000, /* farther off, over the whole length */
+    MERGE_GATE = 9    /* squared sigmas */
 };
 
 void ale_local_map_clear(ale_local_map_t *map)
@@ -153,6 +154,15 @@ static bool is_same(const ale_wall_t *wall, const ale_wall_t *other, const ale_w
            e->angle_urad * e->angle_urad < MERGE_GATE * var_angle;
 }
 
+/* Neither end of one wall is within reach of the other's line, both ends on one side of it: they cannot be
+ * the same, however long they are. */
+static bool are_apart(const ale_wall_t *a, const ale_wall_t *b)
+{
+    const int64_t start_um = ale_wall_offset(a, ale_wall_point(b, b->start_um));
+    const int64_t end_um = ale_wall_offset(a, ale_wall_point(b, b->end_um));
+    return ale_min64(start_um, end_um) > APART_UM || ale_max64(start_um, end_um) < -APART_UM;
+}
+
 static void join(ale_wall_t *keep, const ale_wall_t *other, const ale_wall_error_t *e)
 {
     ale_wall_observe(keep, e, other->var_offset_um2, other->var_angle_urad2);
@@ -162,20 +172,25 @@ static void join(ale_wall_t *keep, const ale_wall_t *other, const ale_wall_error
     keep->missed = (uint16_t)ale_min64(keep->missed, other->missed);
 }
 
-bool ale_local_map_merge_at(ale_local_map_t *map, uint16_t index)
+bool ale_local_map_merge_at(ale_local_map_t *map, uint16_t index, int32_t *looks)
 {
     const int32_t bucket = ale_local_map_bucket(map->wall[index].normal_bam);
     for (int32_t b = bucket - 1; b <= bucket + 1; b++) {
         uint16_t first;
         uint16_t last;
         ale_local_map_facing(map, b, &first, &last);
+        last = (uint16_t)ale_min64(last, first + ale_max64(*looks, 0));
+        *looks -= last - first;
         for (uint16_t k = first; k < last; k++) {
             const uint16_t other = map->near[k];
+            if (other == index || are_apart(&map->wall[index], &map->wall[other])) {
+                continue;
+            }
             const bool older = map->wall[other].id < map->wall[index].id;
             const uint16_t keep = older ? other : index;
             const uint16_t gone = older ? index : other;
             const ale_wall_error_t e = between_walls(&map->wall[keep], &map->wall[gone]);
-            if (other != index && is_same(&map->wall[keep], &map->wall[gone], &e)) {
+            if (is_same(&map->wall[keep], &map->wall[gone], &e)) {
                 join(&map->wall[keep], &map->wall[gone], &e);
                 ale_local_map_remove(map, gone);
                 return true;

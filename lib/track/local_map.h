@@ -56,7 +56,8 @@ uint16_t ale_local_map_add(ale_local_map_t *map, const ale_wall_t *wall);
 /* Removes a wall: the last one takes its place. */
 void ale_local_map_remove(ale_local_map_t *map, uint16_t index);
 
-/* Joins a near wall with another one that continues or repeats it, if there is one. True when it did. */
-bool ale_local_map_merge_at(ale_local_map_t *map, uint16_t index);
+/* Joins a near wall with another one that continues or repeats it, if there is one. True when it did. looks:
+ * as for ale_match_view. */
+bool ale_local_map_merge_at(ale_local_map_t *map, uint16_t index, int32_t *looks);
 
 #endif

@@ -9,7 +9,8 @@ enum {
     CONFLICT_OFFSET_UM = 50000, /* a wall this near may be the same: better none than two of it */
     CONFLICT_ANGLE_URAD = 120000,
     CONFLICT_SIGMAS = 1000,
-    NEW_MARK_UM = 60000 /* marks lie no closer than this */
+    NEW_MARK_UM = 60000, /* marks lie no closer than this */
+    REPLACED = 4         /* new walls a scan that may take the place of old ones in a full map */
 };
 
 static void sharpen(ale_wall_t *wall, const ale_view_t *view, const ale_fit_t *fit, const ale_match_t *match,
@@ -74,10 +75,10 @@ static void update_mark(ale_marks_t *marks, const ale_view_t *view, const ale_fi
 }
 
 /* Joins walls that have turned out to be one: one join a scan, tried at the walls in view. */
-static void tidy(ale_local_map_t *map, uint32_t count, const ale_fit_t *fit)
+static void tidy(ale_local_map_t *map, uint32_t count, const ale_fit_t *fit, int32_t *looks)
 {
     for (uint32_t i = 0; i < count; i++) {
-        if (fit->match[i].wall != ALE_NO_WALL && ale_local_map_merge_at(map, fit->match[i].wall)) {
+        if (fit->match[i].wall != ALE_NO_WALL && ale_local_map_merge_at(map, fit->match[i].wall, looks)) {
             return;
         }
     }
@@ -86,6 +87,8 @@ static void tidy(ale_local_map_t *map, uint32_t count, const ale_fit_t *fit)
 void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t count, const ale_fit_t *fit,
                     ale_drift_t here, uint32_t scan, bool grow)
 {
+    int32_t looks = ALE_LOOKS;
+    int room = REPLACED;
     const ale_stand_t stand = ale_stand(fit->motion.pose);
     const ale_gate_t conflict = {CONFLICT_OFFSET_UM, CONFLICT_ANGLE_URAD, CONFLICT_SIGMAS, 0};
     for (uint32_t i = 0; i < count; i++) {
@@ -103,10 +106,12 @@ void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t coun
             sharpen(&map->wall[match->wall], &view[i], fit, match, scan);
             continue;
         }
-        if (grow && ale_match_view(map, &view[i], &stand, NULL, &conflict).wall == ALE_NO_WALL) {
+        const bool full = map->count == ALE_MAP_MAX_LINES;
+        if (grow && (!full || room-- > 0) &&
+            ale_match_view(map, &view[i], &stand, NULL, &conflict, &looks).wall == ALE_NO_WALL) {
             begin(map, &view[i], fit, here, scan);
         }
     }
     map->version++;
-    tidy(map, count, fit);
+    tidy(map, count, fit, &looks);
 }

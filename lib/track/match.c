@@ -58,7 +58,7 @@ static int64_t distance_q8(const ale_wall_t *wall, const ale_view_t *view, const
 }
 
 ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
-                           const ale_matrix_t *cov, const ale_gate_t *gate)
+                           const ale_matrix_t *cov, const ale_gate_t *gate, int32_t *looks)
 {
     ale_match_t best = {.wall = ALE_NO_WALL, .mark = ALE_NO_MARK};
     int64_t least = INT64_MAX;
@@ -70,6 +70,8 @@ ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, c
         uint16_t first;
         uint16_t last;
         ale_local_map_facing(map, b, &first, &last);
+        last = (uint16_t)ale_min64(last, first + ale_max64(*looks, 0));
+        *looks -= last - first;
         for (uint16_t k = first; k < last; k++) {
             const ale_wall_t *wall = &map->wall[map->near[k]];
             if (ale_abs64(ale_wall_offset(wall, moved.centre)) > gate->offset_um) {

@@ -1,7 +1,7 @@
 /* Which wall of the map a view shows: the paper's "corresponding" features, for lines.
  *
  * Among the near walls that face as the view does, overlap it and lie no farther than the gate, the one
- * with the least squared distance in sigmas. Bounded by the near walls of five buckets a view. */
+ * with the least squared distance in sigmas. Bounded by ALE_LOOKS a pass over all views. */
 #ifndef ALE_TRACK_MATCH_H
 #define ALE_TRACK_MATCH_H
 
@@ -37,8 +37,13 @@ ale_match_t ale_match_mark(const ale_local_map_t *map, const ale_view_t *view, c
 void ale_match_renew(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
                      ale_match_t *match);
 
-/* The wall that fits a view seen from a pose with covariance `cov` (NULL: known exactly). */
+/* Walls that one pass over the views of a scan may look at: several times what the richest building asks for.
+ * It bounds the work on a map that is crowded beyond reason. */
+enum { ALE_LOOKS = 8192 };
+
+/* The wall that fits a view seen from a pose with covariance `cov` (NULL: known exactly). Every wall that is
+ * looked at is taken from *looks; with none left nothing more is found. */
 ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
-                           const ale_matrix_t *cov, const ale_gate_t *gate);
+                           const ale_matrix_t *cov, const ale_gate_t *gate, int32_t *looks);
 
 #endif

@@ -24,31 +24,34 @@ static void settle(ale_pipeline_t *p)
     ale_tracker_found(&p->tracker);
 }
 
-/* Where the robot is said to be is looked at first, for a few scans. */
+/* Where the robot is said to be is looked at in every other scan, for a while. */
+static bool is_claim_due(ale_pipeline_t *p)
+{
+    p->claims = (uint16_t)(p->claims > 0 ? p->claims - 1 : 0);
+    return p->claims % 2 == 1;
+}
+
 static bool is_where_claimed(ale_pipeline_t *p)
 {
-    if (p->claims == 0) {
-        return false;
-    }
-    p->claims--;
     try_at(p, p->motion.pose);
     return ale_tracker_expected(&p->fit);
+}
+
+static bool is_found(ale_pipeline_t *p)
+{
+    const ale_point_t anywhere = {0, 0};
+    ale_local_map_approach(&p->map, anywhere, WHOLE_MAP_UM);
+    const ale_scene_t scene = {&p->map, p->view, p->view_count};
+    const ale_eye_t eye = {&p->scan, ale_pipeline_bearings(p), p->config.sensor};
+    return ale_relocate(&p->relocation, &scene, &eye, &p->motion, &p->fit) && ale_tracker_believes(&p->fit);
 }
 
 void ale_pipeline_search(ale_pipeline_t *p, ale_pose_t way)
 {
     p->broken = true;
-    if (is_where_claimed(p)) {
-        settle(p);
-        ale_stage_end(&p->hook, ALE_STAGE_MATCH);
-        return;
-    }
-    const ale_point_t anywhere = {0, 0};
-    ale_local_map_approach(&p->map, anywhere, WHOLE_MAP_UM);
-    const ale_scene_t scene = {&p->map, p->view, p->view_count};
-    const ale_eye_t eye = {&p->scan, ale_pipeline_bearings(p), p->config.sensor};
-    if (ale_relocate(&p->relocation, &scene, &eye, &p->motion, way, &p->fit) &&
-        ale_tracker_believes(&p->fit)) {
+    ale_relocation_follow(&p->relocation, way);
+    const bool found = is_claim_due(p) ? is_where_claimed(p) : is_found(p);
+    if (found) {
         settle(p);
     }
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);

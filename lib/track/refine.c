@@ -127,17 +127,17 @@ static void add_wall_rows(const ale_view_t *view, const ale_wall_t *wall, ale_fi
 }
 
 static ale_match_t find(const ale_scene_t *scene, const ale_view_t *view, const ale_stand_t *stand,
-                        const ale_matrix_t *cov, const ale_gate_t *gate)
+                        const ale_matrix_t *cov, const ale_gate_t *gate, int32_t *looks)
 {
     if (view->kind == ALE_VIEW_WALL) {
-        const ale_match_t wall = ale_match_view(scene->map, view, stand, cov, gate);
+        const ale_match_t wall = ale_match_view(scene->map, view, stand, cov, gate, looks);
         const bool found =
             wall.wall != ALE_NO_WALL || (int64_t)view->end_um - view->start_um >= ALE_WALL_LENGTH_UM;
         return found ? wall : ale_match_mark(scene->map, view, stand, gate->piece_um);
     }
     const ale_gate_t loose = {gate->piece_um, PIECE_ANGLE_URAD, gate->sigmas, 0};
     const ale_match_t match = view->kind == ALE_VIEW_PIECE
-                                  ? ale_match_view(scene->map, view, stand, cov, &loose)
+                                  ? ale_match_view(scene->map, view, stand, cov, &loose, looks)
                                   : (ale_match_t){.wall = ALE_NO_WALL};
     return match.wall != ALE_NO_WALL ? match : ale_match_mark(scene->map, view, stand, gate->piece_um);
 }
@@ -155,13 +155,14 @@ static void clear_sums(ale_fit_t *fit)
 static void gather(const ale_scene_t *scene, const ale_matrix_t *cov, const ale_gate_t *gate, ale_fit_t *fit)
 {
     const ale_stand_t stand = ale_stand(fit->motion.pose);
+    int32_t looks = ALE_LOOKS;
     clear_sums(fit);
     for (uint32_t i = 0; i < scene->view_count; i++) {
         const ale_view_t *view = &scene->view[i];
         ale_match_t *match = &fit->match[i];
         const int64_t length_um = (int64_t)view->end_um - view->start_um;
         if (gate) {
-            *match = find(scene, view, &stand, cov, gate);
+            *match = find(scene, view, &stand, cov, gate, &looks);
         } else {
             ale_match_renew(scene->map, view, &stand, match);
         }

@@ -15,7 +15,7 @@
 #include "track/view.h"
 
 enum {
-    ALE_REGISTRATION_VIEWS = 32,
+    ALE_REGISTRATION_VIEWS = 20,
     ALE_REGISTRATION_HEADINGS = 15, /* odd: the guess and as many to either side */
     ALE_REGISTRATION_CELLS = 17     /* a side, the guess in the middle */
 };

@@ -21,9 +21,8 @@ enum {
     FIT_OFFSET_UM = 400000, /* how far a place may be off when it is fitted */
     FIT_ANGLE_URAD = 200000,
     FIT_SIGMAS = 4,
-    FIT_PASSES = ALE_REFINE_ITERATIONS + 1,
-    FIT_LOOKS =
-        131072, /* views times walls times passes that fits may look at in a scan, the last one whole */
+    FIT_VIEWS = 96,    /* views that are fitted in a scan: one fit of a rich scan, several of a plain one */
+    SIGHT_WALLS = 384, /* of the map that are asked in one fit, in turn */
     FIT_SIGMA_UM = 100000,
     FIT_SIGMA_URAD = 50000,
     HOLD_OFFSET_UM = 60000, /* a line lies on a wall when it is no farther from it */
@@ -77,18 +76,33 @@ static void propose(ale_relocation_t *r, const ale_scene_t *scene)
     }
 }
 
-/* Length of the walls that should be seen from the place and are seen through. */
-static int64_t seen_through(const ale_local_map_t *map, const ale_eye_t *eye, ale_pose_t place)
+/* Out of the scanner's reach from there. */
+static bool is_far(const ale_wall_t *wall, ale_pose_t sensor, int64_t reach_um)
+{
+    const int64_t far_um = reach_um + wall->end_um - wall->start_um;
+    return ale_abs64((int64_t)wall->anchor.x_um - sensor.x_um) > far_um ||
+           ale_abs64((int64_t)wall->anchor.y_um - sensor.y_um) > far_um;
+}
+
+/* Length of the walls that should be seen from the place and are seen through. On a map of more than
+ * SIGHT_WALLS a part of them is asked, another one each time, and counts for all. */
+static int64_t seen_through(const ale_local_map_t *map, const ale_eye_t *eye, ale_pose_t place,
+                            uint16_t *next)
 {
     const ale_pose_t sensor = ale_pose_compose(place, eye->sensor);
+    const uint16_t asked = (uint16_t)ale_min64(map->count, SIGHT_WALLS);
     int64_t through_um = 0;
-    for (uint32_t i = 0; i < map->count; i++) {
-        const ale_wall_t *wall = &map->wall[i];
+    for (uint32_t i = 0; i < asked; i++) {
+        *next = (uint16_t)(*next + 1 < map->count ? *next + 1 : 0);
+        const ale_wall_t *wall = &map->wall[*next];
+        if (is_far(wall, sensor, eye->scan->range_max_um)) {
+            continue;
+        }
         if (ale_wall_sight(wall, eye->scan, eye->bearing_bam, sensor) == ALE_SIGHT_THROUGH) {
             through_um += ale_min64((int64_t)wall->end_um - wall->start_um, THROUGH_MOST_UM);
         }
     }
-    return through_um;
+    return asked > 0 ? through_um * map->count / asked : 0;
 }
 
 static void learn(ale_place_t *place, int32_t held_q8)
@@ -101,8 +115,9 @@ static void learn(ale_place_t *place, int32_t held_q8)
 
 /* Fits the place to the scan and notes how much of the scan, and of the walls in view, it explains. */
 static void fit_place(ale_place_t *place, const ale_scene_t *scene, const ale_eye_t *eye,
-                      const ale_motion_t *predicted, ale_fit_t *fit)
+                      const ale_motion_t *predicted, uint16_t *next_wall, ale_fit_t *fit)
 {
+    int32_t looks = ALE_LOOKS;
     const ale_gate_t gate = {FIT_OFFSET_UM, FIT_ANGLE_URAD, FIT_SIGMAS, 0};
     const ale_gate_t hold = {HOLD_OFFSET_UM, HOLD_ANGLE_URAD, FIT_SIGMAS, 0};
     ale_motion_t there = *predicted;
@@ -111,9 +126,9 @@ static void fit_place(ale_place_t *place, const ale_scene_t *scene, const ale_ey
     ale_refine(&there, scene, &gate, fit);
     place->pose = fit->motion.pose;
     const ale_hypothesis_t h =
-        ale_hypothesis_at(scene->map, scene->view, scene->view_count, place->pose, &hold);
+        ale_hypothesis_at(scene->map, scene->view, scene->view_count, place->pose, &hold, &looks);
     if (h.shown_um > 0) {
-        const int64_t all_um = h.shown_um + seen_through(scene->map, eye, place->pose);
+        const int64_t all_um = h.shown_um + seen_through(scene->map, eye, place->pose, next_wall);
         learn(place, (int32_t)(h.score_um * 256 / all_um));
     }
 }
@@ -132,13 +147,11 @@ static bool is_double(const ale_relocation_t *r, uint32_t index)
 static void fit_some(ale_relocation_t *r, const ale_scene_t *scene, const ale_eye_t *eye,
                      const ale_motion_t *predicted, ale_fit_t *fit)
 {
-    /* a fit looks at all walls that face as a view does, six times at most */
-    const uint32_t looks = 1 + FIT_PASSES * scene->view_count * scene->map->count;
-    const int64_t fits = ale_min64(1 + FIT_LOOKS / looks, ALE_PLACES_FITTED);
+    const int64_t fits = ale_clamp64(FIT_VIEWS / (scene->view_count + 1), 1, ALE_PLACES_FITTED);
     for (uint32_t n = 0; n < fits && n < r->count; n++) {
         r->next = r->next < r->count ? r->next : 0;
         ale_place_t *place = &r->place[r->next];
-        fit_place(place, scene, eye, predicted, fit);
+        fit_place(place, scene, eye, predicted, &r->next_wall, fit);
         const bool worthless = place->scans >= PROBATION && place->held_q8 < HELD_LEAST_Q8;
         if (worthless || is_double(r, r->next)) {
             drop(r, r->next);
@@ -170,17 +183,22 @@ static ale_place_t *answer(ale_relocation_t *r)
     return best;
 }
 
-bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const ale_eye_t *eye,
-                  const ale_motion_t *predicted, ale_pose_t way, ale_fit_t *fit)
+void ale_relocation_follow(ale_relocation_t *relocation, ale_pose_t way)
 {
     for (uint32_t i = 0; i < relocation->count; i++) {
         relocation->place[i].pose = ale_pose_compose(relocation->place[i].pose, way);
     }
-    propose(relocation, scene);
-    fit_some(relocation, scene, eye, predicted, fit);
+}
+
+bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const ale_eye_t *eye,
+                  const ale_motion_t *predicted, ale_fit_t *fit)
+{
     ale_place_t *place = answer(relocation);
-    if (place) {
-        fit_place(place, scene, eye, predicted, fit);
+    if (!place) {
+        propose(relocation, scene);
+        fit_some(relocation, scene, eye, predicted, fit);
+        return false;
     }
-    return place && place->held_q8 >= ANSWER_Q8;
+    fit_place(place, scene, eye, predicted, &relocation->next_wall, fit);
+    return place->held_q8 >= ANSWER_Q8;
 }

@@ -4,9 +4,8 @@
  * does; a few are fitted to the scan in turn, and each remembers how much of what scans showed lay on walls
  * there. A place is the answer when it has held for a while, explains nearly all, all pairs of walls have
  * been tried, and no other place explains nearly as much: in a building of equal rooms that takes a drive
- * into the next one. Work a scan is bounded by ALE_PLACES_FITTED fits, fewer on a large map, and one turn of
- * the search. One owner.
- */
+ * into the next one. Work a scan is bounded by ALE_PLACES_FITTED fits, fewer of a rich scan, and one turn of
+ * the search; a scan that is asked for the answer does neither. One owner. */
 #ifndef ALE_TRACK_RELOCATION_H
 #define ALE_TRACK_RELOCATION_H
 
@@ -29,7 +28,8 @@ typedef struct {
     ale_search_t search;
     ale_place_t place[ALE_PLACES];
     uint16_t count;
-    uint16_t next; /* to be fitted */
+    uint16_t next;      /* to be fitted */
+    uint16_t next_wall; /* to be asked whether it is seen through */
 } ale_relocation_t;
 
 /* A straightened scan, and the mounting of what took it. bearing_bam as for ale_extract_scan. */
@@ -42,10 +42,12 @@ typedef struct {
 /* Lost anew. */
 void ale_relocation_clear(ale_relocation_t *relocation);
 
-/* One scan more. `predicted`: the motion, of which only the velocity is believed; `way`: how the robot went
- * since the scan before, in its own frame; `fit`: working memory. The near list of the map must hold all
- * walls. True: fit->motion is where the robot is. */
+/* The robot has gone a way in its own frame, and with it every place that is kept. */
+void ale_relocation_follow(ale_relocation_t *relocation, ale_pose_t way);
+
+/* One scan more. `predicted`: the motion, of which only the velocity is believed; `fit`: working memory. The
+ * near list of the map must hold all walls. True: fit->motion is where the robot is. */
 bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const ale_eye_t *eye,
-                  const ale_motion_t *predicted, ale_pose_t way, ale_fit_t *fit);
+                  const ale_motion_t *predicted, ale_fit_t *fit);
 
 #endif

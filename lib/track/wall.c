@@ -95,5 +95,6 @@ void ale_wall_extend(ale_wall_t *wall, int64_t from_um, int64_t to_um)
 
 ale_point_t ale_wall_point(const ale_wall_t *wall, int64_t t_um)
 {
-    return ale_plus(wall->anchor, ale_polar(t_um, ale_tangent_bam(wall->normal_bam)));
+    return (ale_point_t){wall->anchor.x_um + (int32_t)ale_round_shift(t_um * wall->normal_y_q30, 30),
+                         wall->anchor.y_um - (int32_t)ale_round_shift(t_um * wall->normal_x_q30, 30)};
 }

@@ -8,6 +8,7 @@
 
 extern "C" {
 #include "track/local_map.h"
+#include "track/match.h"
 #include "track/tracker.h"
 #include "track/visibility.h"
 }
@@ -50,7 +51,8 @@ TEST_F(Map, JoinsTwoPiecesOfOneWallAndKeepsTheOlder)
     const uint32_t id = map->wall[add(0, 2, -reference::pi / 2, 1)].id;
     add(1.5, 2.002, -reference::pi / 2 + 0.001, 1);
     ale_local_map_approach(map.get(), {0, 0}, 5000000);
-    EXPECT_TRUE(ale_local_map_merge_at(map.get(), 1));
+    int32_t looks = ALE_LOOKS;
+    EXPECT_TRUE(ale_local_map_merge_at(map.get(), 1, &looks));
     ASSERT_EQ(map->count, 1);
     EXPECT_EQ(map->wall[0].id, id);
     EXPECT_NEAR(map->wall[0].end_um - map->wall[0].start_um, 3500000, 5000);
@@ -65,7 +67,8 @@ TEST_F(Map, NeverJoinsTheTwoSidesOfAPanelOrWallsApart)
     add(3, 2, reference::pi / 2, 1);
     ale_local_map_approach(map.get(), {0, 0}, 8000000);
     for (uint16_t i = 0; i < 4; i++) {
-        EXPECT_FALSE(ale_local_map_merge_at(map.get(), i)) << i;
+        int32_t looks = ALE_LOOKS;
+        EXPECT_FALSE(ale_local_map_merge_at(map.get(), i, &looks)) << i;
     }
 }
 

@@ -137,7 +137,8 @@ TEST(Match, TheWallThatAViewShowsIsThatOfTheTwin)
             const int twin = reference::wall_shown(scene.walls, Scene::in_double(view), convert::pose(pose),
                                                    exact, {0.25, 0.12, 3}, decisions);
             const ale_stand_t stand = ale_stand(pose);
-            const ale_match_t match = ale_match_view(scene.map.get(), &view, &stand, &cov, &gate);
+            int32_t looks = ALE_LOOKS;
+            const ale_match_t match = ale_match_view(scene.map.get(), &view, &stand, &cov, &gate, &looks);
             const int wall = match.wall == ALE_NO_WALL ? -1 : match.wall;
             EXPECT_TRUE(wall == twin || decisions.nearest_miss() < 0.01)
                 << "seed " << seed << ", wall " << k << ": " << wall << ", twin " << twin;
