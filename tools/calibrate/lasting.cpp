@@ -8,6 +8,7 @@
 #include <Eigen/QR>
 #include <stdexcept>
 
+#include "calibrate/bend.h"
 #include "calibrate/statistics.h"
 
 extern "C" {
@@ -152,6 +153,38 @@ void adjust(Wall &wall, WallFit &fit, const Recording &recording, const MatrixXd
                          MatrixXd::Identity(fit.jacobian.rows(), 3));
 }
 
+struct FittedWall {
+    Wall wall;
+    WallFit fit;
+};
+
+/* The walls that the extractor finds, cut where they bend. */
+std::vector<FittedWall> fitted_walls(const Recording &recording, const std::vector<Beam> &beams)
+{
+    std::vector<FittedWall> fitted;
+    std::vector<Wall> waiting = find_walls(recording, beams);
+    while (!waiting.empty()) {
+        Wall wall = waiting.back();
+        waiting.pop_back();
+        WallFit fit = points_of(wall, recording, beams);
+        const auto count = static_cast<Index>(fit.beams.size());
+        if (count < least_wall_beams) {
+            continue;
+        }
+        const Wall found = wall;
+        adjust(wall, fit, recording, MatrixXd::Identity(count, count));
+        if (const auto bend = bend_of(fit.jacobian, fit.residual, least_wall_beams / 2)) {
+            const int corner = fit.beams[static_cast<size_t>(*bend)];
+            waiting.insert(waiting.end(), 2, found);
+            waiting.end()[-2].last = corner - end_margin;
+            waiting.end()[-1].first = corner + end_margin;
+        } else {
+            fitted.push_back({wall, std::move(fit)});
+        }
+    }
+    return fitted;
+}
+
 /* P S P for the projector P = 1 - Q Q'. */
 MatrixXd projected(const MatrixXd &s, const MatrixXd &q)
 {
@@ -263,12 +296,7 @@ LastingFit fit_lasting(const Recording &recording, const std::vector<Beam> &beam
     LastingFit lasting;
     std::vector<WallFit> fits;
     std::vector<VectorXd> known;
-    for (Wall &wall : find_walls(recording, beams)) {
-        WallFit fit = points_of(wall, recording, beams);
-        if (static_cast<int>(fit.beams.size()) < least_wall_beams) {
-            continue;
-        }
-        adjust(wall, fit, recording, MatrixXd::Identity(fit.mean.size(), fit.mean.size()));
+    for (auto &[wall, fit] : fitted_walls(recording, beams)) {
         known.push_back(by_lag(
             projected(covariance_of_mean(fit, beams, temporal, recording.scans()), fit.basis), fit.beams));
         fits.push_back(std::move(fit));
