@@ -2,6 +2,7 @@
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import socket
@@ -90,7 +91,7 @@ def test_a_console_without_a_key_sends_nothing(console, robot):
 @pytest.mark.parametrize("options", [["--token", "abcdefghijkl1"], []], ids=["given", "its own, because it can be reached"])
 def test_with_a_token_page_and_web_socket_are_for_those_who_have_it(lcm_url, options):
     running = Console(lcm_url, "127.0.0.1:0" if options else "0.0.0.0:0", *options)
-    address, token = running.url.replace("0.0.0.0", "127.0.0.1").split("?token=")
+    address, token = re.sub("//[^:]+:", "//127.0.0.1:", running.url).split("?token=")
     assert len(token) >= 12
     for wrong in ("", "?token=", "?token=" + token[:-1], "?token=" + token + "x", "?token=" + "x" * len(token)):
         with pytest.raises(urllib.error.HTTPError) as refused:

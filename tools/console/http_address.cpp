@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <net/if.h>
 #include <netdb.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -67,6 +69,25 @@ bool is_ip_address(const std::string &name)
 std::string HttpAddress::url() const
 {
     return "http://" + (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(port) + "/";
+}
+
+HttpAddress reachable(const HttpAddress &address)
+{
+    ifaddrs *first = nullptr;
+    if ((address.host != "0.0.0.0" && address.host != "::") || getifaddrs(&first) != 0) {
+        return address;
+    }
+    const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> all(first, freeifaddrs);
+    for (const ifaddrs *one = first; one != nullptr; one = one->ifa_next) {
+        const bool usable = one->ifa_addr != nullptr && one->ifa_addr->sa_family == AF_INET &&
+                            (one->ifa_flags & IFF_LOOPBACK) == 0 && (one->ifa_flags & IFF_UP) != 0;
+        char text[NI_MAXHOST] = "";
+        if (usable && getnameinfo(one->ifa_addr, sizeof(sockaddr_in), text, sizeof text, nullptr, 0,
+                                  NI_NUMERICHOST) == 0) {
+            return {text, address.port, false};
+        }
+    }
+    return address;
 }
 
 bool is_loopback(const HttpAddress &address)

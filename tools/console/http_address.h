@@ -17,6 +17,10 @@ struct HttpAddress {
     std::string url() const;
 };
 
+/* What others can type for an address that stands for all of this machine's: the first that is not the
+ * loopback. Other addresses, and those of a machine without a network, as they are. */
+HttpAddress reachable(const HttpAddress &address);
+
 /* Whether only this machine reaches it. */
 bool is_loopback(const HttpAddress &address);
 

@@ -247,7 +247,7 @@ void WebServer::wake()
 
 std::string WebServer::url() const
 {
-    return address_.url() + (token_.empty() ? "" : "?token=" + token_);
+    return reachable(address_).url() + (token_.empty() ? "" : "?token=" + token_);
 }
 
 bool WebServer::has_token(lws *connection) const

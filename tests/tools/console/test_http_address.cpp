@@ -2,7 +2,13 @@
 #include "cli/wrong_use.h"
 #include "console/http_address.h"
 
+#include <set>
 #include <stdexcept>
+#include <string>
+
+#include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <net/if.h>
 
 #include <gtest/gtest.h>
 
@@ -78,4 +84,28 @@ TEST(HttpAddress, LoopbackIsWhatOnlyThisMachineReaches)
     for (const char *text : {"0.0.0.0:1", "192.168.1.2:1", "[::]:1"}) {
         EXPECT_FALSE(console::is_loopback(console::parse_http_address(text))) << text;
     }
+}
+
+TEST(HttpAddress, WhatStandsForAllAddressesIsToldAsOneThatOthersCanType)
+{
+    for (const char *text : {"127.0.0.1:80", "192.168.1.2:81", "[::1]:82"}) {
+        const console::HttpAddress address = console::parse_http_address(text);
+        EXPECT_EQ(console::reachable(address).url(), address.url());
+    }
+    ifaddrs *first = nullptr;
+    ASSERT_EQ(getifaddrs(&first), 0);
+    std::set<std::string> own; // of this machine, for others
+    for (const ifaddrs *one = first; one != nullptr; one = one->ifa_next) {
+        if (one->ifa_addr != nullptr && one->ifa_addr->sa_family == AF_INET &&
+            (one->ifa_flags & IFF_LOOPBACK) == 0 && (one->ifa_flags & IFF_UP) != 0) {
+            char text[INET_ADDRSTRLEN] = "";
+            inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in *>(one->ifa_addr)->sin_addr, text,
+                      sizeof text);
+            own.insert(text);
+        }
+    }
+    freeifaddrs(first);
+    const console::HttpAddress told = console::reachable(console::parse_http_address("0.0.0.0:83"));
+    EXPECT_EQ(told.port, 83);
+    EXPECT_TRUE(own.empty() ? told.host == "0.0.0.0" : own.count(told.host) == 1) << told.host;
 }
