@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "graph/mapper.h"
-#include "realtime/memory.h"
 #include "wake.h"
 
 #define LOOK_NS 20000000
@@ -59,10 +58,6 @@ static void work_off(ale_mapper_thread_t *thread)
 static void run(ale_rt_task_t *self, void *user)
 {
     ale_mapper_thread_t *thread = user;
-    if (!ale_rt_grow_heap(ALE_MAPPER_HEAP_BYTES)) {
-        fprintf(stderr, "ale-slamd: no %d MiB for the mapper at once: it takes them as it needs them\n",
-                ALE_MAPPER_HEAP_BYTES >> 20);
-    }
     while (!ale_rt_task_stopping(self)) {
         work_off(thread);
         ale_wake_wait(thread->wanted, LOOK_NS);
@@ -79,8 +74,11 @@ ale_mapper_thread_t *ale_mapper_thread_start(ale_exchange_t *exchange)
     thread->mapper = ale_mapper_create(ALE_MAPPER_KEYFRAMES);
     thread->wanted = ale_wake_open();
     if (thread->mapper && thread->wanted >= 0) {
-        thread->task = ale_rt_task_start(&(ale_rt_task_config_t){
-            .name = "ale-mapper", .kind = ALE_RT_BACKGROUND, .body = run, .user = thread});
+        thread->task = ale_rt_task_start(&(ale_rt_task_config_t){.name = "ale-mapper",
+                                                                 .kind = ALE_RT_BACKGROUND,
+                                                                 .body = run,
+                                                                 .user = thread,
+                                                                 .heap_bytes = ALE_MAPPER_HEAP_BYTES});
     }
     if (!thread->task) {
         ale_mapper_thread_stop(thread);

@@ -46,17 +46,16 @@ void ale_rt_touch(void *memory, size_t bytes)
 {
     volatile char *byte = memory;
     for (size_t k = 0; k < bytes; k += PAGE_BYTES) {
-        byte[k] = byte[k];
+        const char what_is_in_it = byte[k];
+        byte[k] = what_is_in_it;
     }
 }
 
-bool ale_rt_grow_heap(size_t bytes)
+void ale_rt_grow_heap(size_t bytes)
 {
     void *memory = calloc(1, bytes);
-    if (!memory) {
-        return false;
+    if (memory) {
+        ale_rt_touch(memory, bytes);
+        free(memory);
     }
-    ale_rt_touch(memory, bytes);
-    free(memory);
-    return true;
 }

@@ -20,8 +20,8 @@ void ale_rt_keep_heap(void);
 /* Writes to every page, so that all are there from now on; what is in them stays. */
 void ale_rt_touch(void *memory, size_t bytes);
 
-/* Grows the heap of the calling thread by so many bytes, touched. False: the system has not so much; nothing
- * has changed then. */
-bool ale_rt_grow_heap(size_t bytes);
+/* Grows the heap of the calling thread by so many bytes, touched; not at all where the system has not so
+ * much. */
+void ale_rt_grow_heap(size_t bytes);
 
 #endif

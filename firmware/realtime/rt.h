@@ -52,11 +52,13 @@ typedef struct {
     ale_rt_kind_t kind;
     void (*body)(ale_rt_task_t *self, void *user);
     void *user;
+    uint32_t heap_bytes; /* what an ordinary or background task needs beyond ALE_RT_HEAP_BYTES */
 } ale_rt_task_config_t;
 
-/* Starts a task with its stack (ALE_RT_STACK_BYTES) touched; all signals are blocked in it. Without the right
- * to a priority it starts without one. NULL: the system has no more threads. */
-enum { ALE_RT_STACK_BYTES = 1024 * 1024 };
+/* Starts a task with its stack (ALE_RT_STACK_BYTES) touched; all signals are blocked in it. Ordinary and
+ * background tasks begin with a heap of their own, touched, and it never shrinks: as far as the system has so
+ * much. Without the right to a priority it starts without one. NULL: the system has no more threads. */
+enum { ALE_RT_STACK_BYTES = 1024 * 1024, ALE_RT_HEAP_BYTES = 512 * 1024 };
 ale_rt_task_t *ale_rt_task_start(const ale_rt_task_config_t *config);
 void ale_rt_task_stop(ale_rt_task_t *task); /* asks; any thread */
 bool ale_rt_task_stopping(const ale_rt_task_t *self);

@@ -89,6 +89,9 @@ void ale_rt_report(ale_rt_report_t *report)
 static void *run_task(void *user)
 {
     ale_rt_task_t *task = user;
+    if (task->config.kind == ALE_RT_ORDINARY || task->config.kind == ALE_RT_BACKGROUND) {
+        ale_rt_grow_heap(ALE_RT_HEAP_BYTES + (size_t)task->config.heap_bytes);
+    }
     task->config.body(task, task->config.user);
     return NULL;
 }

@@ -320,6 +320,9 @@ static void *run_task(void *user)
     if (!is_of_linux(task) && !lxrt) {
         return NULL;
     }
+    if (is_of_linux(task)) {
+        ale_rt_grow_heap(ALE_RT_HEAP_BYTES + (size_t)task->config.heap_bytes);
+    }
     if (task->config.kind == ALE_RT_HARD && state.config.priority > 0) {
         rt_make_hard_real_time();
     }

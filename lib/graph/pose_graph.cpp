@@ -1,6 +1,7 @@
 #include "graph/pose_graph.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include <Eigen/LU>
 #include <Eigen/Sparse>
@@ -211,10 +212,10 @@ void PoseGraph::renumber_above(int k)
 // The edges of pose k, which are taken out.
 std::vector<GraphEdge> PoseGraph::cut_loose(int k)
 {
-    const auto others_end = std::stable_partition(
-        edges_.begin(), edges_.end(), [k](const GraphEdge &edge) { return edge.from != k && edge.to != k; });
-    std::vector<GraphEdge> loose(others_end, edges_.end());
-    edges_.erase(others_end, edges_.end());
+    const auto touches = [k](const GraphEdge &edge) { return edge.from == k || edge.to == k; };
+    std::vector<GraphEdge> loose;
+    std::copy_if(edges_.begin(), edges_.end(), std::back_inserter(loose), touches);
+    edges_.erase(std::remove_if(edges_.begin(), edges_.end(), touches), edges_.end());
     return loose;
 }
 

@@ -93,6 +93,7 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
     pipeline->fade.next = 0;
     ale_relocation_clear(&pipeline->relocation);
     ale_witness_clear(&pipeline->witness);
+    ale_elders_clear(&pipeline->elders);
     pipeline->started = false;
     pipeline->looked = false;
     pipeline->epoch++;

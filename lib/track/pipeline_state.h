@@ -4,6 +4,7 @@
 
 #include "extract/workspace.h"
 #include "track/drift.h"
+#include "track/elders.h"
 #include "track/fade.h"
 #include "track/lag.h"
 #include "track/local_map.h"
@@ -42,6 +43,7 @@ struct ale_pipeline {
     ale_fade_t fade;
     ale_relocation_t relocation;
     ale_witness_t witness;
+    ale_elders_t elders;
     ale_registration_t registration;
 
     /* the scan at hand */

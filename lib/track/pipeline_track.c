@@ -170,6 +170,16 @@ static void match_again(ale_pipeline_t *p, const ale_motion_t *before, const ale
     }
 }
 
+/* What has come while the robot stood begins no wall. */
+static void leave_out_newcomers(ale_pipeline_t *p, const ale_motion_t *before)
+{
+    const ale_seen_t now = seen(p, before);
+    p->view_count = ale_elders_drop_newcomers(&p->elders, &now, p->view, p->fit.match);
+    if (p->tracker.state == ALE_STATE_GOOD && !p->tracker.jumped) {
+        ale_elders_keep(&p->elders, &now);
+    }
+}
+
 void ale_pipeline_track(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted,
                         const ale_wheel_motion_t *wheels)
 {
@@ -186,6 +196,7 @@ void ale_pipeline_track(ale_pipeline_t *p, const ale_motion_t *before, const ale
     }
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);
     anchor(p);
+    leave_out_newcomers(p, before);
     take_in(p, ale_tracker_may_map(&p->tracker, &p->fit));
     ale_local_map_approach(&p->map, (ale_point_t){p->motion.pose.x_um, p->motion.pose.y_um},
                            p->scan.range_max_um);

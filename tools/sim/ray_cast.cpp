@@ -11,6 +11,25 @@ constexpr double margin = 1.0;
 
 } // namespace
 
+Hit nearer(const Hit &hit, const Pose &beam, const Circle &circle, int surface)
+{
+    const double c = std::cos(beam.theta);
+    const double s = std::sin(beam.theta);
+    const double x = circle.centre.x - beam.x;
+    const double y = circle.centre.y - beam.y;
+    const double ahead = c * x + s * y;
+    const double beside = c * y - s * x;
+    const double depth2 = circle.radius * circle.radius - beside * beside;
+    if (depth2 <= 0) {
+        return hit;
+    }
+    const double range = ahead - std::sqrt(depth2);
+    if (range <= 0 || range >= hit.range) {
+        return hit;
+    }
+    return {range, surface, std::sqrt(depth2) / circle.radius};
+}
+
 Surroundings::Surroundings(const std::vector<Wall> &walls, Point centre, double reach) : reach_(reach)
 {
     for (size_t k = 0; k < walls.size(); k++) {
@@ -39,7 +58,7 @@ Hit Surroundings::cast(const Pose &beam) const
         const double along = (ax * s - ay * c) / cross;
         if (range > 0 && range < hit.range && along >= 0 && along <= 1) {
             hit.range = range;
-            hit.wall = near.index;
+            hit.surface = near.index;
             hit.cos_incidence = std::fabs(cross) / std::hypot(dx, dy);
         }
     }

@@ -1,19 +1,23 @@
-/* What a laser beam meets in a plan of walls. */
+/* What a laser beam meets in a plan of walls, and of legs. */
 #ifndef ALE_SIM_RAY_CAST_H
 #define ALE_SIM_RAY_CAST_H
 
 #include <vector>
 
 #include "sim/geometry.h"
+#include "sim/walker.h"
 
 namespace sim
 {
 
 struct Hit {
     double range = 0;         /* metres */
-    int wall = -1;            /* index in the world; -1: nothing within reach */
+    int surface = -1;         /* wall by its index in the world, then walkers; -1: nothing within reach */
     double cos_incidence = 1; /* 1: the beam meets the wall head on */
 };
+
+/* The hit, or the nearer one on the circle. */
+Hit nearer(const Hit &hit, const Pose &beam, const Circle &circle, int surface);
 
 /* The walls within reach of a place: a scan looks at these only. */
 class Surroundings

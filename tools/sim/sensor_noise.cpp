@@ -31,7 +31,7 @@ constexpr int32_t neighbours_failed = 7;
 constexpr int32_t failures[] = {0, 0, 0, 0, 0, 0, 0, neighbours_failed, 1, 10};
 
 /* Independent streams from one seed: a scan's errors do not depend on which scans were asked for. */
-enum class Stream : uint64_t { walls = 1, bearings = 2, ranges = 3 };
+enum class Stream : uint64_t { surfaces = 1, bearings = 2, ranges = 3 };
 
 Random stream(uint64_t seed, Stream kind, uint32_t scan)
 {
@@ -59,7 +59,8 @@ class Wandering
 
 bool at_edge(const Hit &a, const Hit &b)
 {
-    return a.wall >= 0 && b.wall >= 0 && a.wall != b.wall && std::fabs(a.range - b.range) > depth_edge;
+    return a.surface >= 0 && b.surface >= 0 && a.surface != b.surface &&
+           std::fabs(a.range - b.range) > depth_edge;
 }
 
 double chance_of_failure(const NoiseModel &model, const Hit &hit)
@@ -85,11 +86,11 @@ const NoiseModel &noise_model(const std::string &name)
     return *found;
 }
 
-SensorNoise::SensorNoise(const NoiseModel &model, uint64_t seed, size_t walls) : model_(model), seed_(seed)
+SensorNoise::SensorNoise(const NoiseModel &model, uint64_t seed, size_t surfaces) : model_(model), seed_(seed)
 {
-    Random random = stream(seed, Stream::walls, 0);
-    for (size_t k = 0; k < walls; k++) {
-        wall_bias_.push_back(model.surface * random.normal());
+    Random random = stream(seed, Stream::surfaces, 0);
+    for (size_t k = 0; k < surfaces; k++) {
+        surface_bias_.push_back(model.surface * random.normal());
     }
 }
 
@@ -115,7 +116,7 @@ std::vector<int32_t> SensorNoise::measure(uint32_t scan, const std::vector<Hit> 
         const bool mixed =
             k + 1 < hits.size() && at_edge(hit, hits[k + 1]) && random.chance(model_.mixed_pixel);
         const bool failed = random.chance(chance_of_failure(model_, hit));
-        if (hit.wall < 0) {
+        if (hit.surface < 0) {
             values[k] = nothing_seen;
         } else if (failed) {
             values[k] =
@@ -128,7 +129,7 @@ std::vector<int32_t> SensorNoise::measure(uint32_t scan, const std::vector<Hit> 
             const double shared_sigma =
                 std::hypot(model_.shared_constant, model_.shared_proportional * hit.range);
             values[k] = in_millimetres(hit.range + own_sigma * own + shared_sigma * shared +
-                                       wall_bias_[static_cast<size_t>(hit.wall)]);
+                                       surface_bias_[static_cast<size_t>(hit.surface)]);
         }
     }
     return values;

@@ -38,7 +38,7 @@ const NoiseModel &noise_model(const std::string &name);
 class SensorNoise
 {
   public:
-    SensorNoise(const NoiseModel &model, uint64_t seed, size_t walls);
+    SensorNoise(const NoiseModel &model, uint64_t seed, size_t surfaces);
 
     /* Errors of the bearings of a scan's beams, radians. */
     std::vector<double> bearing_errors(uint32_t scan, size_t beams) const;
@@ -49,7 +49,7 @@ class SensorNoise
   private:
     const NoiseModel &model_;
     uint64_t seed_;
-    std::vector<double> wall_bias_;
+    std::vector<double> surface_bias_;
 };
 
 } // namespace sim

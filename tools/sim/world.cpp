@@ -62,6 +62,26 @@ Pose pose_of(const std::vector<double> &v)
     return {v[0], v[1], v[2]};
 }
 
+Walker read_walker(const std::vector<std::string> &words, const std::string &name, size_t line)
+{
+    const std::string form = "# walker speed rest x1 y1 x2 y2 ..";
+    const size_t points = words.size() < 8 ? 2 : (words.size() - 4) / 2;
+    const auto v = numbers(words, 2, 2 + 2 * points, form, name, line);
+    Walker walker = {v[0], v[1], {}};
+    if (walker.speed_m_s <= 0 || walker.rest_s < 0) {
+        fail(name, line, "a walker's speed is above 0, the rest not below 0");
+    }
+    for (size_t k = 2; k < v.size(); k += 2) {
+        walker.path.push_back({v[k], v[k + 1]});
+    }
+    for (size_t k = 1; k < walker.path.size(); k++) {
+        if (distance(walker.path[k - 1], walker.path[k]) < shortest_wall) {
+            fail(name, line, "two points of the walker's way are the same");
+        }
+    }
+    return walker;
+}
+
 void read_directive(const std::vector<std::string> &words, World &world, const std::string &name, size_t line)
 {
     if (words.size() < 2) {
@@ -74,6 +94,8 @@ void read_directive(const std::vector<std::string> &words, World &world, const s
     } else if (words[1] == "via") {
         const auto v = numbers(words, 2, 2, "# via x y", name, line);
         world.via.push_back({v[0], v[1]});
+    } else if (words[1] == "walker") {
+        world.walkers.push_back(read_walker(words, name, line));
     }
 }
 

@@ -4,6 +4,7 @@
  *   # start x y theta     the robot's first pose, metres and radians (default 0 0 0)
  *   # via x y             the next point of its way; no via: it stands still
  *   # sensor x y theta    mounting of the laser on the robot (default 0 0 0)
+ *   # walker SPEED REST x1 y1 x2 y2 ..  somebody who walks that way and back (m/s), and rests (s) at its ends
  *
  * Every other line that begins with # is a comment. */
 #ifndef ALE_SIM_WORLD_H
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "sim/geometry.h"
+#include "sim/walker.h"
 
 namespace sim
 {
@@ -23,6 +25,7 @@ struct World {
     Pose start;
     Pose sensor;
     std::vector<Point> via;
+    std::vector<Walker> walkers;
 };
 
 /* Throws std::runtime_error whose text names file, line and what is wrong. */

@@ -20,7 +20,7 @@ WorldSource::WorldSource(const World &world, const Options &options)
 
 WorldSource::WorldSource(World world, const Options &options, Pilot pilot)
     : world_(std::move(world)), options_(options), journey_(world_, options.journey, std::move(pilot)),
-      noise_(noise_model(options.noise), options.journey.seed, world_.walls.size())
+      noise_(noise_model(options.noise), options.journey.seed, world_.walls.size() + world_.walkers.size())
 {
 }
 
@@ -48,6 +48,17 @@ Event WorldSource::next()
     return measure(next_turn_++);
 }
 
+/* What is hit when somebody stands in the beam's way. */
+Hit WorldSource::before_walkers(Hit hit, const Pose &beam, int64_t play_us) const
+{
+    for (size_t k = 0; k < world_.walkers.size(); k++) {
+        for (const Circle &leg : legs_of(world_.walkers[k], static_cast<double>(play_us) * 1e-6)) {
+            hit = nearer(hit, beam, leg, static_cast<int>(world_.walls.size() + k));
+        }
+    }
+    return hit;
+}
+
 Turn WorldSource::measure(uint32_t number)
 {
     Turn turn;
@@ -61,9 +72,10 @@ Turn WorldSource::measure(uint32_t number)
     std::vector<Hit> hits;
     for (size_t k = 0; k < beams; k++) {
         const int32_t step = first + static_cast<int32_t>(k);
-        Pose beam = compose(journey_.truth(turn.start_us + scanner_.step_time_us(step)), world_.sensor);
+        const int64_t beam_us = turn.start_us + scanner_.step_time_us(step);
+        Pose beam = compose(journey_.truth(beam_us), world_.sensor);
         beam.theta += scanner_.bearing(step) + errors[k];
-        hits.push_back(near.cast(beam));
+        hits.push_back(before_walkers(near.cast(beam), beam, beam_us));
     }
     const std::vector<int32_t> values = noise_.measure(number, hits);
     turn.value_mm.assign(static_cast<size_t>(scanner_.end_step) + 1, not_a_step);

@@ -52,6 +52,7 @@ class WorldSource : public Source
 
   private:
     Turn measure(uint32_t number);
+    Hit before_walkers(Hit hit, const Pose &beam, int64_t play_us) const;
     int64_t turn_due_us() const;
 
     World world_;

@@ -43,7 +43,7 @@ TEST(RayCast, the_nearest_of_many_walls_is_hit)
             }
         }
         const sim::Hit hit = sim::Surroundings(walls, {0, 0}, reach).cast({0, 0, 0});
-        EXPECT_EQ(hit.wall, expected);
+        EXPECT_EQ(hit.surface, expected);
         EXPECT_NEAR(hit.range, nearest, 1e-12);
     }
 }
@@ -51,7 +51,7 @@ TEST(RayCast, the_nearest_of_many_walls_is_hit)
 TEST(RayCast, behind_parallel_and_out_of_reach_is_nothing)
 {
     const std::vector<sim::Wall> walls = {{{-1, -1}, {-1, 1}}, {{1, 0.5}, {3, 0.5}}, {{5.7, -1}, {5.7, 1}}};
-    EXPECT_EQ(sim::Surroundings(walls, {0, 0}, reach).cast({0, 0, 0}).wall, -1);
+    EXPECT_EQ(sim::Surroundings(walls, {0, 0}, reach).cast({0, 0, 0}).surface, -1);
 }
 
 } // namespace

@@ -25,6 +25,23 @@ std::string error_of(const std::string &text)
     return "";
 }
 
+TEST(World, holds_people_who_walk)
+{
+    const sim::World world = parsed("0 0 1 0\n# walker 0.8 4.5 1 2 3 4 5 6\n");
+    ASSERT_EQ(world.walkers.size(), 1u);
+    EXPECT_EQ(world.walkers[0].speed_m_s, 0.8);
+    EXPECT_EQ(world.walkers[0].rest_s, 4.5);
+    ASSERT_EQ(world.walkers[0].path.size(), 3u);
+    EXPECT_EQ(world.walkers[0].path[2].y, 6);
+    EXPECT_EQ(error_of("0 0 1 0\n# walker 1 0 1 2\n"),
+              "plan:2: expected \"# walker speed rest x1 y1 x2 y2 ..\"");
+    EXPECT_EQ(error_of("0 0 1 0\n# walker 1 0 1 2 3 4 5\n"),
+              "plan:2: expected \"# walker speed rest x1 y1 x2 y2 ..\"");
+    EXPECT_EQ(error_of("# walker 0 0 1 2 3 4\n"),
+              "plan:1: a walker's speed is above 0, the rest not below 0");
+    EXPECT_EQ(error_of("# walker 1 0 1 2 1 2\n"), "plan:1: two points of the walker's way are the same");
+}
+
 TEST(World, holds_walls_start_way_and_mounting)
 {
     const sim::World world =

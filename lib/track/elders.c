@@ -1,0 +1,91 @@
+#include "track/elders.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#include "base/fixed.h"
+#include "base/trig.h"
+#include "track/wall.h"
+
+enum {
+    EVERY_US = 5000000,
+    NEAR_UM = 50000, /* from elsewhere a place may look otherwise */
+    NEAR_BAM = 3 * ALE_BAM_PER_DEGREE,
+    ASKED_MOST = 8,
+    DENIED_LEAST = 2 /* points of a line that were looked through */
+};
+
+void ale_elders_clear(ale_elders_t *elders)
+{
+    elders->kept = 0;
+    for (int i = 0; i < ALE_ELDERS; i++) {
+        elders->elder[i].taken = false;
+    }
+}
+
+/* The n-th takes the place of one that is twice as old for every factor 2 in n: 0 1 0 2 0 1 0 3 .. */
+static uint32_t place_of(uint32_t n)
+{
+    uint32_t place = 0;
+    while (place + 1 < ALE_ELDERS && (n >> place & 1U) == 0) {
+        place++;
+    }
+    return place;
+}
+
+void ale_elders_keep(ale_elders_t *elders, const ale_seen_t *seen)
+{
+    if (elders->kept > 0 && ale_abs64(seen->scan->stamp_us - elders->kept_us) < EVERY_US) {
+        return;
+    }
+    ale_elder_t *elder = &elders->elder[place_of(elders->kept++)];
+    elders->kept_us = seen->scan->stamp_us;
+    elder->taken = true;
+    elder->scan = *seen->scan;
+    elder->straightened = seen->bearing_bam != NULL;
+    if (elder->straightened) {
+        memcpy(elder->bearing_bam, seen->bearing_bam, seen->scan->beams * sizeof elder->bearing_bam[0]);
+    }
+    elder->robot = seen->robot;
+    elder->sensor = seen->sensor;
+}
+
+static bool is_near(ale_pose_t a, ale_pose_t b)
+{
+    const ale_pose_t way = ale_pose_between(a, b);
+    return ale_abs64(way.x_um) < NEAR_UM && ale_abs64(way.y_um) < NEAR_UM &&
+           ale_abs64((int32_t)way.theta_bam) < NEAR_BAM;
+}
+
+static bool has_come(const ale_elders_t *elders, const ale_seen_t *seen, const ale_view_t *view)
+{
+    const ale_view_t placed = ale_view_from(view, seen->robot);
+    ale_wall_t surface;
+    ale_wall_from_view(&surface, &placed);
+    for (int i = 0; i < ALE_ELDERS; i++) {
+        const ale_elder_t *elder = &elders->elder[i];
+        if (elder->taken && is_near(elder->robot, seen->robot) &&
+            ale_wall_points_sight(&surface, &elder->scan, elder->straightened ? elder->bearing_bam : NULL,
+                                  elder->sensor, (ale_slack_t){0, 0})
+                    .through >= DENIED_LEAST) {
+            return true;
+        }
+    }
+    return false;
+}
+
+uint32_t ale_elders_drop_newcomers(const ale_elders_t *elders, const ale_seen_t *seen, ale_view_t view[],
+                                   ale_match_t match[])
+{
+    uint32_t left = 0;
+    int asked = 0;
+    for (uint32_t i = 0; i < seen->view_count; i++) {
+        const bool is_new = view[i].kind == ALE_VIEW_WALL && match[i].wall == ALE_NO_WALL;
+        if (is_new && asked++ < ASKED_MOST && has_come(elders, seen, &view[i])) {
+            continue;
+        }
+        view[left] = view[i];
+        match[left++] = match[i];
+    }
+    return left;
+}

@@ -1,0 +1,46 @@
+/* A few earlier scans from where the robot stands: was what is seen now always there, or has it come since?
+ *
+ * People stop and their legs make a short line, which is a wall as far as one scan can tell. Where one of the
+ * elders, taken from the same place, looked through the place, something has come to stand there: it begins no
+ * wall while the robot stays. Once the robot has gone on, what still stands is mapped as all else. The
+ * elders' ages are 5, 10, 20 .. 640 s, at most twice that: who stops for minutes does not become a wall, and
+ * who stood there when the robot came is known by those that were taken while he was away. */
+#ifndef ALE_TRACK_ELDERS_H
+#define ALE_TRACK_ELDERS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/scan.h"
+#include "track/match.h"
+#include "track/witness.h"
+
+enum { ALE_ELDERS = 8 };
+
+typedef struct {
+    bool taken;
+    bool straightened;
+    ale_scan_t scan;
+    uint32_t bearing_bam[ALE_MAX_BEAMS];
+    ale_pose_t robot; /* on the way that is smooth, as its sensor */
+    ale_pose_t sensor;
+} ale_elder_t;
+
+typedef struct {
+    ale_elder_t elder[ALE_ELDERS];
+    uint32_t kept;
+    int64_t kept_us; /* stamp of the last one */
+} ale_elders_t;
+
+void ale_elders_clear(ale_elders_t *elders);
+
+/* Copies the scan when 5 s have passed since the last one. Only scans whose pose is known. */
+void ale_elders_keep(ale_elders_t *elders, const ale_seen_t *seen);
+
+/* Takes the lines that found no wall and were not always there out of the views, and their matches with them;
+ * seen->view is `view`. Returns how many views are left. At most 8 lines are asked for, the rest are left as
+ * they are: O(8 * ALE_ELDERS). */
+uint32_t ale_elders_drop_newcomers(const ale_elders_t *elders, const ale_seen_t *seen, ale_view_t view[],
+                                   ale_match_t match[]);
+
+#endif

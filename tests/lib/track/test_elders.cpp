@@ -1,0 +1,129 @@
+// lib/track/elders: what has come while the robot stood.
+#include <memory>
+
+#include <gtest/gtest.h>
+
+extern "C" {
+#include "base/trig.h"
+#include "track/elders.h"
+}
+
+namespace
+{
+
+/* All around at the same range. */
+std::unique_ptr<ale_scan_t> round_room(double range_m, double seconds)
+{
+    auto scan = std::make_unique<ale_scan_t>();
+    scan->stamp_us = static_cast<int64_t>(seconds * 1e6);
+    scan->first_bearing_bam = 0u - 90u * ALE_BAM_PER_DEGREE;
+    scan->step_bam = ALE_BAM_PER_DEGREE;
+    scan->range_min_um = 20000;
+    scan->range_max_um = 5600000;
+    scan->beams = 181;
+    for (int k = 0; k < scan->beams; k++) {
+        scan->range_um[k] = static_cast<int32_t>(range_m * 1e6);
+        scan->flag[k] = ALE_BEAM_VALID;
+    }
+    return scan;
+}
+
+/* A line straight ahead, square to the beam. */
+ale_view_t line_ahead(double range_m)
+{
+    ale_view_t view = {};
+    view.centre = {static_cast<int32_t>(range_m * 1e6), 0};
+    view.normal_bam = 0x80000000u;
+    view.start_um = -150000;
+    view.end_um = 150000;
+    view.kind = ALE_VIEW_WALL;
+    return view;
+}
+
+class Elders : public testing::Test
+{
+  protected:
+    void SetUp() override
+    {
+        ale_elders_clear(elders.get());
+    }
+    ale_seen_t seen(const ale_scan_t &scan) const
+    {
+        return {&scan, nullptr, robot, robot, view, views};
+    }
+    void keep(double range_m, double from_s, double to_s)
+    {
+        for (double t = from_s; t < to_s; t += 1) {
+            const auto scan = round_room(range_m, t);
+            const ale_seen_t now = seen(*scan);
+            ale_elders_keep(elders.get(), &now);
+        }
+    }
+    /* Whether a line so far ahead may begin a wall at that time. */
+    bool may_begin(double range_m, double seconds, uint16_t wall = ALE_NO_WALL)
+    {
+        const auto scan = round_room(range_m, seconds);
+        view[0] = line_ahead(range_m);
+        view[1] = line_ahead(4);
+        match[0].wall = wall;
+        match[1].wall = 7;
+        views = 2;
+        const ale_seen_t now = seen(*scan);
+        const uint32_t left = ale_elders_drop_newcomers(elders.get(), &now, view, match);
+        EXPECT_EQ(match[left - 1].wall, 7) << "what has a wall stays, with its match";
+        EXPECT_EQ(view[left - 1].centre.x_um, 4000000);
+        return left == 2;
+    }
+
+    std::unique_ptr<ale_elders_t> elders = std::make_unique<ale_elders_t>();
+    ale_pose_t robot = {0, 0, 0};
+    ale_view_t view[2] = {};
+    ale_match_t match[2] = {};
+    uint32_t views = 0;
+};
+
+TEST_F(Elders, WhatHasComeBeginsNoWall)
+{
+    keep(4, 0, 30);
+    EXPECT_FALSE(may_begin(2, 30));
+    EXPECT_TRUE(may_begin(4, 30)) << "always there";
+    EXPECT_TRUE(may_begin(5, 30)) << "was hidden";
+    EXPECT_TRUE(may_begin(2, 30, 3)) << "is in the map already";
+}
+
+TEST_F(Elders, WithoutAnElderEverythingMayBegin)
+{
+    EXPECT_TRUE(may_begin(2, 0));
+}
+
+TEST_F(Elders, WhoStandsForMinutesIsStillNoWall)
+{
+    keep(4, 0, 400);
+    keep(2, 400, 580);
+    EXPECT_FALSE(may_begin(2, 580));
+}
+
+TEST_F(Elders, WhoStoodThereFirstIsNoWallWhenHeComesBack)
+{
+    keep(2, 0, 20);
+    keep(4, 20, 60);
+    EXPECT_FALSE(may_begin(2, 60));
+}
+
+TEST_F(Elders, WhatStaysForAnHourIsAWall)
+{
+    keep(4, 0, 100);
+    keep(2, 100, 3700);
+    EXPECT_TRUE(may_begin(2, 3700));
+}
+
+TEST_F(Elders, FromAnotherPlaceTheySayNothing)
+{
+    keep(4, 0, 30);
+    robot = {200000, 0, 0};
+    EXPECT_TRUE(may_begin(2, 30));
+    robot = {0, 0, 5 * ALE_BAM_PER_DEGREE};
+    EXPECT_TRUE(may_begin(2, 30));
+}
+
+} // namespace
