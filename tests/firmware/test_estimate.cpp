@@ -264,7 +264,7 @@ TEST_F(Estimate, AConfigurationThatTheCoreRefusesGivesNoEstimator)
 TEST_F(Estimate, AsATaskItAnswersEverythingBeforeItEnds)
 {
     constexpr int kCount = 300;
-    const ale_rt_task_config_t description = {"estimate", ALE_RT_HARD, ale_estimator_run, estimator};
+    const ale_rt_task_config_t description = {"estimate", ALE_RT_HARD, ale_estimator_run, estimator, 0};
     ale_rt_task_t *task = ale_rt_task_start(&description);
     ASSERT_NE(task, nullptr);
     std::atomic<bool> done{false};

@@ -46,7 +46,7 @@ TEST_F(Rt, APriorityThatIsRefusedOrGrantedIsReportedAsSuch)
             static_cast<Policy *>(user)->policy = policy;
         }
     } seen;
-    const ale_rt_task_config_t task = {"policy", ALE_RT_HARD, Policy::read, &seen};
+    const ale_rt_task_config_t task = {"policy", ALE_RT_HARD, Policy::read, &seen, 0};
     ale_rt_task_join(ale_rt_task_start(&task));
     ale_rt_report(&port_report);
     const std::string text = port_report.text;
@@ -117,7 +117,7 @@ TEST_F(Rt, ATaskRunsUntilItIsStoppedWithAllSignalsBlocked)
     const Release release = make_release();
     Loop loop{release.get()};
     for (const ale_rt_kind_t kind : {ALE_RT_HARD, ALE_RT_SOFT, ALE_RT_ORDINARY}) {
-        const ale_rt_task_config_t config = {"loop", kind, Loop::body, &loop};
+        const ale_rt_task_config_t config = {"loop", kind, Loop::body, &loop, 0};
         ale_rt_task_t *task = ale_rt_task_start(&config);
         ASSERT_NE(task, nullptr);
         for (const int before = loop.rounds; loop.rounds == before;) {

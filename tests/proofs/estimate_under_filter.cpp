@@ -78,7 +78,7 @@ int main()
         return 1;
     }
     ale_estimator_t *estimator = ale_estimator_create(&config, &exchange);
-    const ale_rt_task_config_t task = {"filtered", ALE_RT_HARD, run_filtered, estimator};
+    const ale_rt_task_config_t task = {"filtered", ALE_RT_HARD, run_filtered, estimator, 0};
     if (!estimator || !ale_rt_task_start(&task)) {
         return 1;
     }

@@ -77,7 +77,7 @@ template <typename Work> struct Job {
 template <typename Work> void run(ale_rt_kind_t kind, Work work)
 {
     Job<Work> job{work};
-    const ale_rt_task_config_t config = {"job", kind, Job<Work>::body, &job};
+    const ale_rt_task_config_t config = {"job", kind, Job<Work>::body, &job, 0};
     ale_rt_task_t *task = ale_rt_task_start(&config);
     ASSERT_NE(task, nullptr);
     ale_rt_task_join(task);
@@ -162,7 +162,7 @@ TEST_F(RtRtai, APostEndsAWaitThatBlocksAndOneThatComesLater)
             rounds += ale_rt_release_wait(release.get(), ale_rt_now_ns() + 10 * kSecond);
         }
     }};
-    const ale_rt_task_config_t config = {"loop", ALE_RT_HARD, decltype(loop)::body, &loop};
+    const ale_rt_task_config_t config = {"loop", ALE_RT_HARD, decltype(loop)::body, &loop, 0};
     ale_rt_task_t *task = ale_rt_task_start(&config);
     ASSERT_NE(task, nullptr);
     for (int k = 0; k < 1000; k++) {
@@ -193,7 +193,7 @@ TEST_F(RtRtai, AWaitEndsAtItsMomentAndAMomentThatHasPassedDoesNotBlock)
 TEST_F(RtRtai, ATaskThatRtaiRefusesIsNotStarted)
 {
     rtai_emulated_refuse();
-    const ale_rt_task_config_t config = {"refused", ALE_RT_HARD, [](ale_rt_task_t *, void *) {}, nullptr};
+    const ale_rt_task_config_t config = {"refused", ALE_RT_HARD, [](ale_rt_task_t *, void *) {}, nullptr, 0};
     EXPECT_EQ(ale_rt_task_start(&config), nullptr);
 }
 
