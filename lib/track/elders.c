@@ -59,7 +59,8 @@ static bool is_near(ale_pose_t a, ale_pose_t b)
 
 static bool has_come(const ale_elders_t *elders, const ale_seen_t *seen, const ale_view_t *view)
 {
-    const ale_view_t placed = ale_view_from(view, seen->robot);
+    const ale_stand_t stand = ale_stand(seen->robot);
+    const ale_view_t placed = ale_view_from(view, &stand);
     ale_wall_t surface;
     ale_wall_from_view(&surface, &placed);
     for (int i = 0; i < ALE_ELDERS; i++) {
