@@ -75,7 +75,7 @@ int32_t ale_break_search(ale_extractor_t *e, int32_t from, int32_t to, ale_run_f
     bool bracketed = !ale_costly(e);
     while (high - low > 1) {
         const int32_t half = (low + high) / 2;
-        const int32_t p = bracketed ? half : (int32_t)ale_min64(half, COSTLY_REACH * low);
+        const int32_t p = bracketed ? half : (int32_t)ale_min64(half, (int64_t)COSTLY_REACH * low);
         ale_run_fit_t fit;
         if (fit_unless_gross(e, from, from + direction * p, &fit) && acceptable(e, &fit, accepted)) {
             low = p;
@@ -178,7 +178,7 @@ static parting_t part_at(const ale_extractor_t *e, const ale_run_t *run, int32_t
 
 bool ale_break_suspicious(const ale_run_fit_t *one)
 {
-    return ale_fit_chi_q8(one) >= (one->n - 2) * SUSPICIOUS_Q8;
+    return ale_fit_chi_q8(one) >= (int64_t)(one->n - 2) * SUSPICIOUS_Q8;
 }
 
 int32_t ale_break_find(const ale_extractor_t *e, ale_run_t *run, int32_t direction)

@@ -1,5 +1,6 @@
 #!/bin/sh
-# clang-tidy, two files at a time: tidy.sh BUILD FILE...   Generated LCM types are taken as system headers.
+# clang-tidy, two at a time, one file each (of a second one it says that a va_list is uninitialised): tidy.sh BUILD FILE...
+# Generated LCM types are taken as system headers.
 build=$1
 shift
 flags="-Ilib -Idrivers -Ifirmware -Itools -isystem $build/lcmtypes -isystem /usr/include/eigen3 -D_GNU_SOURCE"
@@ -9,7 +10,7 @@ tidy() {
     shift 2
     for file in "$@"; do
         case $file in *."$extension") echo "$file" ;; esac
-    done | xargs -r -P 2 -n 4 sh -c 'clang-tidy --quiet "$@" -- '"-std=$standard $flags"' 2>/dev/null' tidy
+    done | xargs -r -P 2 -n 1 sh -c 'clang-tidy --quiet "$@" -- '"-std=$standard $flags"' 2>/dev/null' tidy
 }
 status=0
 tidy c c11 "$@" || status=1
