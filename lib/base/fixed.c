@@ -105,7 +105,7 @@ static uint64_t quotient_digit(uint64_t *high, uint64_t low, uint64_t divisor)
     return digit;
 }
 
-int64_t ale_mul_div(int64_t a, int64_t b, int64_t c)
+int64_t ale_wide_mul_div(int64_t a, int64_t b, int64_t c)
 {
     const uint64_t divisor = magnitude(c);
     const bool negative = ((a < 0) != (b < 0)) != (c < 0);

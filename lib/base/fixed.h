@@ -77,6 +77,14 @@ int64_t ale_mul_nano(int64_t a, int64_t b);
 
 /* a * b / c with a 128-bit product, rounded half away from zero, saturated to int64. c != 0.
  * Two long-division steps. */
-int64_t ale_mul_div(int64_t a, int64_t b, int64_t c);
+int64_t ale_wide_mul_div(int64_t a, int64_t b, int64_t c);
+
+/* The same, with one plain division where 62 bits hold the product. */
+static inline int64_t ale_mul_div(int64_t a, int64_t b, int64_t c)
+{
+    const unsigned bits =
+        ale_bit_length((uint64_t)(a < 0 ? ~a : a)) + ale_bit_length((uint64_t)(b < 0 ? ~b : b));
+    return bits <= 61 && c > 0 ? ale_round_div(a * b, c) : ale_wide_mul_div(a, b, c);
+}
 
 #endif
