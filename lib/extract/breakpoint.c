@@ -13,6 +13,16 @@ enum {
     PROMISING_Q8 = 100   /* part of the gain wanted that a place of the grid must show */
 };
 
+int32_t ale_reading_direction(const ale_extractor_t *e, int32_t first, int32_t last)
+{
+    for (int32_t a = first, b = last; a < b; a++, b--) {
+        if (e->range_um[a] != e->range_um[b]) {
+            return e->range_um[a] < e->range_um[b] ? 1 : -1;
+        }
+    }
+    return 1;
+}
+
 /* Shared variances that n points of a true line may have, of which they have only one draw for every
  * 2 * shared_beams of them. */
 static int64_t shared_times(const ale_extractor_t *e, int32_t n)
@@ -158,7 +168,8 @@ int64_t ale_break_gain_q8(const ale_extractor_t *e, ale_run_t *run)
 {
     const ale_run_fit_t *one = ale_fit_of_run(e, run);
     int64_t sse_q8;
-    const int32_t split = coarse_break(e, (ale_segment_t){run->first, run->last}, 1, &sse_q8);
+    const ale_segment_t both = {run->first, run->last};
+    const int32_t split = coarse_break(e, both, ale_reading_direction(e, run->first, run->last), &sse_q8);
     return split < 0 ? 0 : (sse_q8 - one->sse_q8) * 256 / one->var_q8;
 }
 

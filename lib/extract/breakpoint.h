@@ -4,6 +4,10 @@
 
 #include "extract/workspace.h"
 
+/* A segment is read from its nearer end, so that both directions of a scan give the same lines: 1 or -1.
+ * O(points) where both halves are alike, else a few steps. */
+int32_t ale_reading_direction(const ale_extractor_t *e, int32_t first, int32_t last);
+
 /* Binary search, from point `from` towards `to` (either direction), for the last point of the line that
  * begins at `from`. Returns it and its fit, or from when not even the shortest run is a line. O(log n) fits.
  */

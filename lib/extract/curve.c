@@ -47,12 +47,13 @@ static shape_t shape_of(const ale_extractor_t *e, ale_run_t *run)
     const ale_run_fit_t *fit = ale_fit_of_run(e, run);
     const int64_t dx = (b.x_q8 - a.x_q8) / 16;
     const int64_t dy = (b.y_q8 - a.y_q8) / 16;
-    const int64_t cross_q12 = dx * (m.y_q8 - a.y_q8) - dy * (m.x_q8 - a.x_q8);
+    /* about the mean of both ends: the same from either side */
+    const int64_t twice_cross_q12 = dx * (2 * m.y_q8 - a.y_q8 - b.y_q8) - dy * (2 * m.x_q8 - a.x_q8 - b.x_q8);
     const int64_t var_q8 = fit->var_q8 / (n - (int64_t)2 * third) + fit->var_q8 / ((int64_t)2 * third) +
                            ((fit->shared_q8 * SHARED_PART_Q8) >> 8);
     const int64_t length2_mm2 = (dx * dx + dy * dy) >> (2 * ALE_POINT_SHIFT);
     const int64_t sigma_length_q4 = ale_max64(ale_isqrt((uint64_t)(ale_max64(var_q8, 1) * length2_mm2)), 1);
-    const shape_t shape = {dx, dy, cross_q12 / sigma_length_q4};
+    const shape_t shape = {dx, dy, twice_cross_q12 / (2 * sigma_length_q4)};
     return shape;
 }
 
@@ -66,7 +67,7 @@ static int32_t turn_between(const shape_t *a, const shape_t *b)
 {
     const int64_t cross = a->x_q4 * b->y_q4 - a->y_q4 * b->x_q4;
     const int64_t dot = a->x_q4 * b->x_q4 + a->y_q4 * b->y_q4;
-    if (ale_abs64(cross) * 5 > dot * 6 || ale_abs64(cross) * 19 < dot) {
+    if (ale_abs64(cross) * 5 > dot * 6 || ale_abs64(cross) * 19 <= dot) {
         return 0;
     }
     return cross > 0 ? 1 : -1;
@@ -122,26 +123,27 @@ static int64_t suspect_bulge_q8(const ale_extractor_t *e, const shape_t *shape)
     return limit_q8;
 }
 
-/* The stretch of the chain first..last, turning by sign, whose bulges together say most. */
-static ale_segment_t strongest_stretch(const shape_t *shape, int32_t first, int32_t last, int32_t sign)
+/* Part of a chain, and how much its bulges say together, in deviations. */
+typedef struct {
+    int32_t first;
+    int32_t last; /* no farther than first: none */
+    int64_t strength_q8;
+} stretch_t;
+
+/* The stretch of two runs or more of the chain first..last, turning by sign, whose bulges say most. */
+static stretch_t strongest_stretch(const shape_t *shape, int32_t first, int32_t last, int32_t sign)
 {
-    ale_segment_t stretch = {1, 0};
-    int64_t best = CHAIN_SUM_Q8;
-    int64_t sum = 0;
-    int32_t from = first;
-    for (int32_t k = first; k <= last; k++) {
-        sum += -sign * shape[k].bulge_q8 - CHAIN_STEP_Q8;
-        if (sum > best && k > from) {
-            best = sum;
-            stretch.first = (uint16_t)from;
-            stretch.last = (uint16_t)k;
-        }
-        if (sum < 0) {
-            sum = 0;
-            from = k + 1;
+    stretch_t best = {first, first, CHAIN_SUM_Q8};
+    for (int32_t from = first; from < last; from++) {
+        int64_t sum = -sign * shape[from].bulge_q8 - CHAIN_STEP_Q8;
+        for (int32_t to = from + 1; to <= last; to++) {
+            sum += -sign * shape[to].bulge_q8 - CHAIN_STEP_Q8;
+            if (sum > best.strength_q8) {
+                best = (stretch_t){from, to, sum};
+            }
         }
     }
-    return stretch;
+    return best;
 }
 
 static int32_t chain_end(const ale_extractor_t *e, const shape_t *shape, int32_t first, int32_t *sign)
@@ -158,6 +160,17 @@ static int32_t chain_end(const ale_extractor_t *e, const shape_t *shape, int32_t
         last++;
     }
     return last;
+}
+
+/* Where two chains share a run it goes to the stronger one, whichever is found first. */
+static void mark_chain(const stretch_t *stretch, uint8_t curve, uint8_t *curve_of, int64_t *strength_q8)
+{
+    for (int32_t k = stretch->first; k <= stretch->last; k++) {
+        if (stretch->strength_q8 > strength_q8[k]) {
+            strength_q8[k] = stretch->strength_q8;
+            curve_of[k] = curve;
+        }
+    }
 }
 
 static void join_marked(ale_extractor_t *e, const uint8_t *curve_of)
@@ -180,6 +193,7 @@ void ale_curve_find(ale_extractor_t *e)
 {
     shape_t shape[ALE_MAX_RUNS];
     uint8_t curve_of[ALE_MAX_RUNS] = {0};
+    int64_t strength_q8[ALE_MAX_RUNS] = {0};
     uint8_t curves = 0;
     for (int32_t k = 0; k < e->run_count; k++) {
         const bool enough = e->run[k].last - e->run[k].first + 1 >= MIN_POINTS;
@@ -194,12 +208,9 @@ void ale_curve_find(ale_extractor_t *e)
     for (int32_t first = 0; first < e->run_count;) {
         int32_t sign;
         const int32_t last = chain_end(e, shape, first, &sign);
-        const ale_segment_t stretch = strongest_stretch(shape, first, last, sign);
+        const stretch_t stretch = strongest_stretch(shape, first, last, sign);
         if (stretch.first < stretch.last && chain_is_curve(e, stretch.first, stretch.last)) {
-            curves++;
-            for (int32_t k = stretch.first; k <= stretch.last; k++) {
-                curve_of[k] = curves;
-            }
+            mark_chain(&stretch, ++curves, curve_of, strength_q8);
         }
         first = last > first ? last : first + 1;
     }

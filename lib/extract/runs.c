@@ -26,17 +26,6 @@ static void add_run(ale_extractor_t *e, int32_t a, int32_t b, const ale_run_fit_
     run->fit = *fit;
 }
 
-/* A segment is read from its nearer end, so that both directions of a scan give the same lines. */
-static int32_t reading_direction(const ale_extractor_t *e, int32_t first, int32_t last)
-{
-    for (int32_t a = first, b = last; a < b; a++, b--) {
-        if (e->range_um[a] != e->range_um[b]) {
-            return e->range_um[a] < e->range_um[b] ? 1 : -1;
-        }
-    }
-    return 1;
-}
-
 static void reverse_runs(ale_extractor_t *e, int32_t from)
 {
     for (int32_t a = from, b = e->run_count - 1; a < b; a++, b--) {
@@ -52,7 +41,7 @@ static void search_segment(ale_extractor_t *e, int32_t first, int32_t last)
         e->refused[ALE_REFUSED_FEW_POINTS]++;
         return;
     }
-    const int32_t direction = reading_direction(e, first, last);
+    const int32_t direction = ale_reading_direction(e, first, last);
     const int32_t stop = direction > 0 ? last : first;
     const int32_t first_run = e->run_count;
     int32_t from = direction > 0 ? first : last;
@@ -79,7 +68,7 @@ static int32_t spare_points(const ale_run_t *run)
 
 static int32_t break_between(const ale_extractor_t *e, ale_run_t *a, ale_run_t *b, int32_t widest_step)
 {
-    const int32_t direction = reading_direction(e, a->first, b->last);
+    const int32_t direction = ale_reading_direction(e, a->first, b->last);
     const ale_break_range_t range = {
         .lowest = a->last - spare_points(a),
         .highest = b->first - 1 + spare_points(b),
@@ -160,7 +149,7 @@ void ale_runs_split(ale_extractor_t *e)
         ale_run_t *run = &e->run[k];
         const int32_t split = run->curved || run->last + 1 - run->first < fewest
                                   ? -1
-                                  : ale_break_find(e, run, reading_direction(e, run->first, run->last));
+                                  : ale_break_find(e, run, ale_reading_direction(e, run->first, run->last));
         if (split >= 0) {
             insert_run(e, k, split);
             k++;

@@ -173,13 +173,20 @@ enum {
     MOST_OWN_SCALE_Q16 = 360 << 8
 };
 
+/* Range in the middle of three blocks of points, the same from either side. */
+static int64_t middle_range_um(const ale_extractor_t *e, int32_t start)
+{
+    const int32_t *middle = &e->range_um[start + THREE_BLOCKS / 2];
+    return ((int64_t)middle[-1] + middle[0]) / 2;
+}
+
 /* Squared second difference of three blocks of points from start on, over what own noise would give; Q8. */
 static int64_t block_ratio_q8(const ale_extractor_t *e, int32_t start, int64_t curvature_q30)
 {
     const int64_t *p = &e->inverse_sum[start];
     const int64_t middle = p[TWO_BLOCKS] - p[BLOCK];
     const int64_t d = p[THREE_BLOCKS] - p[0] - 3 * middle + ale_round_shift(middle * curvature_q30, 30);
-    const int64_t range_um = e->range_um[start + THREE_BLOCKS / 2];
+    const int64_t range_um = middle_range_um(e, start);
     const int64_t d_um = d * range_um / middle;
     const int64_t range_mm = range_um / 1000;
     const int64_t own_q20 = (e->noise.own_mm2_q36 + e->noise.own_relative_q36 * range_mm * range_mm) >> 16;
@@ -192,7 +199,7 @@ static void count_block(const ale_extractor_t *e, int32_t start, int64_t curvatu
     if (e->beam[start + THREE_BLOCKS - 1] - e->beam[start] == THREE_BLOCKS - 1) {
         const uint32_t bin = ale_histogram_bin((uint64_t)block_ratio_q8(e, start, curvature_q30));
         bins[bin]++;
-        *range_mm += e->range_um[start] / 1000;
+        *range_mm += middle_range_um(e, start) / 1000;
         (*samples)++;
     }
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include "reference/joint_break.h"
+#include "reference/line_search.h"
 #include "reference/run_fit.h"
 #include "reference/surface_segments.h"
 
@@ -94,7 +95,8 @@ bool is_arc(const ScanPoints &points, const NoiseOfScan &noise, const std::vecto
         return false;
     }
     Decisions ignored;
-    const CoarseBreak two = coarse_break(points, runs[k], 1, ignored);
+    const CoarseBreak two =
+        coarse_break(points, runs[k], reading_direction(points, runs[k].first, runs[k].last), ignored);
     const RunFit one = fit_run(points, noise, runs[k].first, runs[k].last);
     return decisions.below(excess, two.split < 0 ? 0 : (two.sse - one.sse) / one.var);
 }
@@ -123,7 +125,8 @@ int turn_between(const Shape &a, const Shape &b, Decisions &decisions)
 {
     const double turn = cross(a.along, b.along);
     const double onward = a.along.dot(b.along);
-    if (!decisions.below(std::fabs(turn) * 5, onward * 6) || decisions.below(std::fabs(turn) * 19, onward)) {
+    if (turn == 0 || !decisions.below(std::fabs(turn) * 5, onward * 6) ||
+        decisions.below(std::fabs(turn) * 19, onward)) {
         return 0;
     }
     return turn > 0 ? 1 : -1;
@@ -155,26 +158,29 @@ Chain chain_from(const std::vector<Run> &segments, const std::vector<Run> &runs,
     return chain;
 }
 
-// The part of a chain with the largest sum of bulges to the outside of its turn (largest subarray), of two
-// runs at least. first > last: none.
-Run strongest_stretch(const std::vector<Shape> &shape, size_t first, const Chain &chain, Decisions &decisions)
+struct Stretch {
+    size_t first = 0;
+    size_t last = 0; // no farther than first: none
+    double strength = bulge_of_all;
+};
+
+// The part of a chain, of two runs at least, with the largest sum of bulges to the outside of its turn.
+Stretch strongest_stretch(const std::vector<Shape> &shape, size_t first, const Chain &chain,
+                          Decisions &decisions)
 {
-    Run stretch = {1, 0};
-    double best = bulge_of_all;
-    double sum = 0;
-    size_t from = first;
-    for (size_t k = first; k <= chain.last; k++) {
-        sum += -chain.sign * shape[k].bulge - bulge_of_each;
-        if (k > from && !decisions.below(sum, best)) {
-            best = sum;
-            stretch = {static_cast<int>(from), static_cast<int>(k)};
-        }
-        if (sum < 0) {
-            sum = 0;
-            from = k + 1;
+    Stretch best;
+    for (size_t from = first; from < chain.last; from++) {
+        for (size_t to = from + 1; to <= chain.last; to++) {
+            double sum = 0;
+            for (size_t k = from; k <= to; k++) {
+                sum += -chain.sign * shape[k].bulge - bulge_of_each;
+            }
+            if (!decisions.below(sum, best.strength)) {
+                best = {from, to, sum};
+            }
         }
     }
-    return stretch;
+    return best;
 }
 
 std::vector<Run> joined(const std::vector<Run> &runs, const std::vector<int> &curve_of)
@@ -220,6 +226,7 @@ std::vector<Run> with_curves(const ScanPoints &points, const NoiseOfScan &noise,
 {
     std::vector<Shape> shape;
     std::vector<int> curve_of(runs.size(), 0);
+    std::vector<double> strength(runs.size(), 0); // of the chain that a run belongs to
     int curves = 0;
     for (const Run &run : runs) {
         shape.push_back(shape_of(points, noise, run));
@@ -233,14 +240,16 @@ std::vector<Run> with_curves(const ScanPoints &points, const NoiseOfScan &noise,
     }
     for (size_t first = 0; first < runs.size();) {
         const Chain chain = chain_from(segments, runs, shape, first, decisions);
-        const Run stretch = strongest_stretch(shape, first, chain, decisions);
-        if (stretch.first < stretch.last) {
-            const auto from = static_cast<size_t>(stretch.first);
-            const auto to = static_cast<size_t>(stretch.last);
-            if (decisions.below(circle_excess(points, noise, runs, from, to),
-                                chi_of_a_line * static_cast<double>(to - from - 1))) {
-                curves++;
-                std::fill(curve_of.begin() + stretch.first, curve_of.begin() + stretch.last + 1, curves);
+        const Stretch stretch = strongest_stretch(shape, first, chain, decisions);
+        if (stretch.first < stretch.last &&
+            decisions.below(circle_excess(points, noise, runs, stretch.first, stretch.last),
+                            chi_of_a_line * static_cast<double>(stretch.last - stretch.first - 1))) {
+            curves++;
+            for (size_t k = stretch.first; k <= stretch.last; k++) {
+                if (stretch.strength > strength[k]) {
+                    strength[k] = stretch.strength;
+                    curve_of[k] = curves;
+                }
             }
         }
         first = std::max(chain.last, first + 1);

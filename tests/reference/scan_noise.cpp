@@ -67,6 +67,13 @@ std::map<int, Octave> octaves_of(const ScanPoints &points, double step)
     return octaves;
 }
 
+// Range in the middle of three blocks.
+double middle_range(const ScanPoints &points, size_t start)
+{
+    const size_t middle = start + 3 * block / 2;
+    return (points[middle - 1].range + points[middle].range) / 2;
+}
+
 // Second difference of three neighbouring blocks of 1/range, squared, over what own noise makes of it.
 double block_ratio(const ScanPoints &points, const NoiseOfScan &noise, size_t start, double step)
 {
@@ -75,7 +82,7 @@ double block_ratio(const ScanPoints &points, const NoiseOfScan &noise, size_t st
         sum[i / block] += 1 / points[start + i].range;
     }
     const double d = sum[0] + sum[2] - 2 * sum[1] * std::cos(step * block);
-    const double range = points[start + 3 * block / 2].range;
+    const double range = middle_range(points, start);
     const double difference = d / sum[1] * range;
     return difference * difference / (noise.own(range) * 6 / block);
 }
@@ -152,7 +159,7 @@ SharedNoise shared_noise(const ScanPoints &points, const NoiseOfScan &noise, con
                 const auto from = static_cast<size_t>(start);
                 if (points[from + 3 * block - 1].beam - points[from].beam == 3 * block - 1) {
                     ratio.push_back(256 * block_ratio(points, noise, from, step));
-                    range += points[from].range;
+                    range += middle_range(points, from);
                 }
             }
         }

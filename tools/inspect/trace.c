@@ -48,15 +48,9 @@ static void add_steps(inspect_trace_t *trace, int32_t from, int32_t direction, i
     }
 }
 
-/* The segment's nearer end is where the extractor begins to read it. */
-static int32_t reading_direction(const ale_extractor_t *e, int32_t first, int32_t last)
-{
-    return e->range_um[first] <= e->range_um[last] ? 1 : -1;
-}
-
 static void search_again(ale_extractor_t *e, int32_t first, int32_t last, inspect_trace_t *trace)
 {
-    const int32_t direction = reading_direction(e, first, last);
+    const int32_t direction = ale_reading_direction(e, first, last);
     const int32_t stop = direction > 0 ? last : first;
     int32_t from = direction > 0 ? first : last;
     while ((stop - from) * direction + 1 >= ALE_MIN_RUN) {
