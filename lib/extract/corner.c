@@ -3,7 +3,12 @@
 #include "base/fixed.h"
 #include "base/trig.h"
 
-enum { MAX_GAP_BEAMS = 5, MAX_REACH_UM = 150000 };
+enum {
+    MAX_GAP_BEAMS = 5,
+    MAX_REACH_UM = 150000,
+    OVERSHOOT =
+        2 /* times the deviations of both walls and a beam's width that a wall may go on past the other */
+};
 static const int64_t min_sine_q30 = 277905233; /* sin 15 degrees */
 #define MAX_VAR_UM2 ((int64_t)1 << 40)         /* (1 m)^2: what is not known better has no corner */
 
@@ -67,6 +72,35 @@ static void set_covariance(ale_corner_t *corner, const ale_line_t *a, const ale_
     corner->cov_um2[2] = ale_round_div(yy, det2_q20);
 }
 
+static int64_t cross(ale_point_t a, ale_point_t b)
+{
+    return (int64_t)a.x_um * b.y_um - (int64_t)a.y_um * b.x_um;
+}
+
+static int64_t distance_um(const ale_line_t *line, direction_t n, ale_point_t p)
+{
+    return ale_abs64(ale_round_shift((int64_t)p.x_um * n.c + (int64_t)p.y_um * n.s, 30) - line->rho_um);
+}
+
+/* Whether the walls end where they meet. Seen from the sensor the corner lies between the facing ends; where
+ * it does not, the one wall was seen beyond it, off the other by more than noise: something hides the corner.
+ */
+static bool ends_at_corner(const ale_line_t *a, const ale_line_t *b, direction_t na, direction_t nb,
+                           ale_point_t corner)
+{
+    const int64_t turn = cross(a->end, b->start);
+    const int64_t sense = turn < 0 ? -1 : 1;
+    int64_t off_um = 0;
+    if (sense * cross(a->end, corner) < 0) {
+        off_um = distance_um(b, nb, a->end);
+    } else if (sense * cross(corner, b->start) < 0) {
+        off_um = distance_um(a, na, b->start);
+    }
+    const int64_t range_um = ale_isqrt((uint64_t)squared_distance(a->end, (ale_point_t){0, 0}));
+    const int64_t width_um = sense * turn / ale_max64(range_um * (b->first - a->last), 1);
+    return off_um <= OVERSHOOT * (a->rmse_um + b->rmse_um + width_um);
+}
+
 static bool corner_of(const ale_line_t *a, const ale_line_t *b, direction_t na, direction_t nb,
                       ale_corner_t *corner)
 {
@@ -81,6 +115,9 @@ static bool corner_of(const ale_line_t *a, const ale_line_t *b, direction_t na, 
     corner->p.y_um = (int32_t)ale_clamp64(ale_round_div(y, sign * det), INT32_MIN / 2, INT32_MAX / 2);
     const int64_t reach2 = (int64_t)MAX_REACH_UM * MAX_REACH_UM;
     if (squared_distance(corner->p, a->end) > reach2 || squared_distance(corner->p, b->start) > reach2) {
+        return false;
+    }
+    if (!ends_at_corner(a, b, na, nb, corner->p)) {
         return false;
     }
     set_shape(corner, wall_direction(a, na, corner->p, a->start), wall_direction(b, nb, corner->p, b->end));

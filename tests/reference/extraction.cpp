@@ -24,6 +24,7 @@ constexpr double rough_reaches = 4; // and the reaches of the shared error from 
 constexpr double most_sigma_alpha = 6 * pi / 180;
 constexpr int corner_gap = 5;        // beams
 constexpr double corner_reach = 150; // mm
+constexpr double overshoot = 2;      // deviations of both walls and a beam's width
 const double corner_least_sine = std::sin(15 * pi / 180);
 
 struct Prepared {
@@ -162,6 +163,32 @@ bool is_line(const Prepared &p, const ExtractionSettings &settings, Run run, con
            decisions.below(fit.sse, rough_limit(p.noise, fit));
 }
 
+double cross(const Eigen::Vector2d &a, const Eigen::Vector2d &b)
+{
+    return a.x() * b.y() - a.y() * b.x();
+}
+
+double deviation(const RunFit &fit)
+{
+    return std::sqrt(fit.sse / std::max(fit.n - 2, 1));
+}
+
+// A wall that was seen beyond the corner, off the other one by more than noise, does not end there.
+bool ends_at_corner(const RunFit &a, const RunFit &b, const Eigen::Vector2d &end,
+                    const Eigen::Vector2d &start, int beams, const Eigen::Vector2d &corner,
+                    Decisions &decisions)
+{
+    const auto off = [](const RunFit &fit, const Eigen::Vector2d &p) {
+        return std::fabs(p.x() * std::cos(fit.alpha) + p.y() * std::sin(fit.alpha) - fit.rho);
+    };
+    const double turn = cross(end, start);
+    const double distance = turn * cross(end, corner) < 0     ? off(b, end)
+                            : turn * cross(corner, start) < 0 ? off(a, start)
+                                                              : 0;
+    const double width = std::fabs(turn) / end.norm() / beams;
+    return decisions.below(distance, overshoot * (deviation(a) + deviation(b) + width));
+}
+
 void find_corners(const Prepared &p, Extraction &out)
 {
     for (size_t k = 0; k + 1 < out.lines.size(); k++) {
@@ -171,15 +198,16 @@ void find_corners(const Prepared &p, Extraction &out)
             out.decisions.below(std::fabs(std::sin(b.alpha - a.alpha)), corner_least_sine)) {
             continue;
         }
+        const RunFit fit_a = fit_run(p.points, p.noise, a.run.first, a.run.last);
+        const RunFit fit_b = fit_run(p.points, p.noise, b.run.first, b.run.last);
         const Eigen::Vector2d corner = corner_of_lines({a.alpha, a.rho, Eigen::Matrix2d::Zero()},
                                                        {b.alpha, b.rho, Eigen::Matrix2d::Zero()})
                                            .p;
-        const Eigen::Vector2d end = end_on_line(p.points[static_cast<size_t>(a.run.last)],
-                                                fit_run(p.points, p.noise, a.run.first, a.run.last));
-        const Eigen::Vector2d start = end_on_line(p.points[static_cast<size_t>(b.run.first)],
-                                                  fit_run(p.points, p.noise, b.run.first, b.run.last));
+        const Eigen::Vector2d end = end_on_line(p.points[static_cast<size_t>(a.run.last)], fit_a);
+        const Eigen::Vector2d start = end_on_line(p.points[static_cast<size_t>(b.run.first)], fit_b);
         if (out.decisions.below((corner - end).norm(), corner_reach) &&
-            out.decisions.below((corner - start).norm(), corner_reach)) {
+            out.decisions.below((corner - start).norm(), corner_reach) &&
+            ends_at_corner(fit_a, fit_b, end, start, b.first - a.last, corner, out.decisions)) {
             out.corners.push_back(static_cast<int>(k));
         }
     }
