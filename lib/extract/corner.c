@@ -96,7 +96,7 @@ static bool ends_at_corner(const ale_line_t *a, const ale_line_t *b, direction_t
     } else if (sense * cross(corner, b->start) < 0) {
         off_um = distance_um(a, na, b->start);
     }
-    const int64_t range_um = ale_isqrt((uint64_t)squared_distance(a->end, (ale_point_t){0, 0}));
+    const int64_t range_um = ale_isqrt((uint64_t)squared_distance(corner, (ale_point_t){0, 0}));
     const int64_t width_um = sense * turn / ale_max64(range_um * (b->first - a->last), 1);
     return off_um <= OVERSHOOT * (a->rmse_um + b->rmse_um + width_um);
 }

@@ -185,7 +185,7 @@ bool ends_at_corner(const RunFit &a, const RunFit &b, const Eigen::Vector2d &end
     const double distance = turn * cross(end, corner) < 0     ? off(b, end)
                             : turn * cross(corner, start) < 0 ? off(a, start)
                                                               : 0;
-    const double width = std::fabs(turn) / end.norm() / beams;
+    const double width = std::fabs(turn) / corner.norm() / beams;
     return decisions.below(distance, overshoot * (deviation(a) + deviation(b) + width));
 }
 

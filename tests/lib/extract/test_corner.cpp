@@ -43,6 +43,7 @@ Wall wall(const Eigen::Vector2d &from, const Eigen::Vector2d &to, int64_t var_al
     w.line.rho_um = static_cast<int32_t>(std::lround(n.dot(from)));
     w.line.start = point(from);
     w.line.end = point(to);
+    w.line.rmse_um = 5000;
     w.line.var_alpha_nrad2 = var_alpha;
     w.line.cov_alpha_rho = cov;
     w.line.var_rho_um2 = var_rho;
@@ -114,6 +115,18 @@ TEST(Corner, a_corner_of_a_room_is_concave_and_of_a_box_convex)
     const auto box = found(side.line, front.line);
     ASSERT_EQ(box->corner_count, 1);
     EXPECT_EQ(box->corner[0].kind, ALE_CORNER_CONVEX);
+}
+
+// The first wall is seen 100 mm past the second: a beam is 14 mm wide there, so this is a corner only where
+// walls are 20 mm rough.
+TEST(Corner, a_wall_that_is_seen_past_the_other_ends_at_no_corner)
+{
+    Wall a = wall({1e6, -5e5}, {1e6, 9e5}, 1000000000000, 0, 1000000);
+    Wall b = wall({8.7e5, 8e5}, {-1e6, 8e5}, 1000000000000, 0, 1000000);
+    EXPECT_EQ(found(a.line, b.line)->corner_count, 0);
+    a.line.rmse_um = 20000;
+    b.line.rmse_um = 20000;
+    EXPECT_EQ(found(a.line, b.line)->corner_count, 1);
 }
 
 TEST(Corner, lines_far_apart_or_nearly_parallel_make_none)
