@@ -94,6 +94,8 @@ LoopCloser::LoopCloser(size_t capacity) : capacity_(std::max(capacity, least_cap
 bool LoopCloser::add(Node node, const Pose &motion)
 {
     make_room();
+    refinement_.reset();
+    refined_ = false;
     nodes_.push_back(std::move(node));
     added_++;
     link_to_previous(motion);
@@ -107,7 +109,7 @@ bool LoopCloser::add(Node node, const Pose &motion)
             continue;
         case Sight::known:
             statistics_.known++;
-            graph_.add_edge({loop.from, loop.to, loop.measured, loop.information, true});
+            graph_.add_edge({loop.from, loop.to, loop.measured, loop.information, true, true});
             continue;
         case Sight::displaced:
             break;
@@ -123,6 +125,23 @@ bool LoopCloser::add(Node node, const Pose &motion)
         }
     }
     return straighten() || moved;
+}
+
+bool LoopCloser::refine()
+{
+    if (refined_ || nodes_.size() < 2) {
+        return false;
+    }
+    if (!refinement_) {
+        refinement_.emplace(&nodes_, graph_);
+    }
+    if (refinement_->step()) {
+        return true;
+    }
+    graph_ = refinement_->graph();
+    refinement_.reset();
+    refined_ = true;
+    return false;
 }
 
 // Turns what has drifted back to the directions of the walls. Twice: large drift hides which wall is which.
@@ -177,6 +196,8 @@ void LoopCloser::begin_anew()
     nodes_.clear();
     graph_.clear();
     pending_.clear();
+    refinement_.reset();
+    refined_ = false;
     added_ = straightened_at_ = 0;
     statistics_ = {};
 }
@@ -247,8 +268,11 @@ std::vector<SurfacePoint> LoopCloser::patch_around(int k, int before, int after)
         }
         const Eigen::Matrix2d r = rotation(seen.theta);
         const Eigen::Vector2d t(seen.x, seen.y);
-        for (const SurfacePoint &point : nodes_[static_cast<size_t>(i)].points) {
-            patch.push_back({r * point.p + t, r * point.normal});
+        const Node &node = nodes_[static_cast<size_t>(i)];
+        for (size_t at = 0; at < node.points.size(); at++) {
+            const bool told = at >= node.vague.size() || !node.vague[at];
+            const Eigen::Vector2d normal = told ? node.points[at].normal : Eigen::Vector2d(0, 0);
+            patch.push_back({r * node.points[at].p + t, r * normal});
         }
     }
     return patch;

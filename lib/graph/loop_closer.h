@@ -15,11 +15,13 @@
 #define ALE_GRAPH_LOOP_CLOSER_H
 
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "graph/loop_match.h"
 #include "graph/node.h"
 #include "graph/pose_graph.h"
+#include "graph/refinement.h"
 
 namespace ale
 {
@@ -45,6 +47,10 @@ class LoopCloser
     // `motion` is the node's pose as seen from the node before; of the first one its pose in the map. True
     // when earlier poses moved.
     bool add(Node node, const Pose &motion);
+
+    // Draws all poses tighter by matching neighbours anew, a bounded piece a call; poses() move with the
+    // last. False: nothing is left to do until a node is added.
+    bool refine();
 
     const std::vector<Node> &nodes() const
     {
@@ -91,6 +97,8 @@ class LoopCloser
     std::deque<Loop> pending_;
     size_t added_ = 0;           // nodes, ever
     size_t straightened_at_ = 0; // how many had been added then
+    std::optional<Refinement> refinement_;
+    bool refined_ = false; // nothing was added since
     LoopStatistics statistics_{};
 };
 

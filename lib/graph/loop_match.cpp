@@ -19,17 +19,30 @@ constexpr double window_step_m = 0.10;
 constexpr double window_step_rad = 0.035;
 constexpr double distinct_m = 0.40; // two places farther apart than this are different answers
 constexpr double distinct_rad = 0.26;
-constexpr int refine_passes = 12;
 constexpr size_t refined_hypotheses = 6;
 constexpr double corner_angle_tolerance_rad = 0.30;
 constexpr double inlier_m = 0.06;
-constexpr double facing = 0.5; // least cosine between normals of a pair
-constexpr double surface_sigma_m = 0.01;
 
 struct Hypothesis {
     Pose pose;
     double score;
 };
+
+// Which points make a pair.
+struct Pairing {
+    double facing;  // least cosine between their normals
+    bool known;     // both normals must be
+    double damping; // of a step, as if so many pairs held each direction where it is
+};
+constexpr Pairing loose{0.5, false, 1e-3};
+constexpr Pairing strict{0.8, true, 0.05};
+
+struct Pass {
+    int count;
+    double gate_m;
+};
+constexpr Pass passes_from_afar[] = {{4, 0.25}, {4, 0.12}, {4, 0.06}};
+constexpr Pass passes_from_near[] = {{1, 0.20}, {1, 0.15}, {2, 0.10}, {4, 0.06}};
 
 std::vector<SurfacePoint> thinned(const std::vector<SurfacePoint> &points, size_t count)
 {
@@ -105,7 +118,7 @@ struct Fit {
 
 // One least-squares pass, point to surface along the normal, with pairs nearer than gate_m.
 Fit refine_once(const Pose &pose, const std::vector<SurfacePoint> &points, const SurfaceField &field,
-                double gate_m)
+                double gate_m, const Pairing &pairing)
 {
     Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
@@ -121,7 +134,8 @@ Fit refine_once(const Pose &pose, const std::vector<SurfacePoint> &points, const
             continue;
         }
         const Eigen::Vector2d n = r * point.normal;
-        if (!point.normal.isZero() && n.dot(there->normal) < facing) {
+        const bool unknown = point.normal.isZero();
+        if (unknown ? pairing.known : n.dot(there->normal) < pairing.facing) {
             continue;
         }
         const double residual = there->normal.dot(lever + t - there->p);
@@ -140,23 +154,26 @@ Fit refine_once(const Pose &pose, const std::vector<SurfacePoint> &points, const
             sum2 += residual * residual;
         }
     }
-    Fit fit{pose, h / (surface_sigma_m * surface_sigma_m), 0, 0};
+    Fit fit{pose, h / (match_sigma_m * match_sigma_m), 0, 0};
     fit.overlap = points.empty() ? 0 : static_cast<double>(inliers) / static_cast<double>(points.size());
     fit.rms_m = inliers ? std::sqrt(sum2 / static_cast<double>(inliers)) : 0;
     if (pairs >= 10) {
-        const Eigen::Matrix3d damped = h + Eigen::Vector3d(1e-3, 1e-3, 1e-3).asDiagonal().toDenseMatrix();
+        const Eigen::Matrix3d damped = h + pairing.damping * Eigen::Matrix3d::Identity();
         const Eigen::Vector3d step = -damped.ldlt().solve(b);
         fit.pose = {pose.x + step(0), pose.y + step(1), wrapped(pose.theta + step(2))};
     }
     return fit;
 }
 
-Fit refine(const Pose &start, const std::vector<SurfacePoint> &points, const SurfaceField &field)
+template <size_t N>
+Fit refine(const Pose &start, const std::vector<SurfacePoint> &points, const SurfaceField &field,
+           const Pass (&passes)[N], const Pairing &pairing)
 {
     Fit fit{start, Eigen::Matrix3d::Zero(), 0, 0};
-    for (int pass = 0; pass < refine_passes; pass++) {
-        const double gate_m = pass < 4 ? 0.25 : (pass < 8 ? 0.12 : 0.06);
-        fit = refine_once(fit.pose, points, field, gate_m);
+    for (const Pass &pass : passes) {
+        for (int k = 0; k < pass.count; k++) {
+            fit = refine_once(fit.pose, points, field, pass.gate_m, pairing);
+        }
     }
     return fit;
 }
@@ -228,7 +245,7 @@ LoopMatch match_patch(const std::vector<SurfacePoint> &scan, const std::vector<C
     std::vector<Hypothesis> refined;
     std::vector<Fit> fits;
     for (const Hypothesis &h : best_distinct(scored)) {
-        fits.push_back(refine(h.pose, scan, field));
+        fits.push_back(refine(h.pose, scan, field, passes_from_afar, loose));
         refined.push_back({fits.back().pose, score_of(fits.back().pose, scan, field)});
     }
     if (refined.empty()) {
@@ -247,7 +264,12 @@ LoopMatch match_patch(const std::vector<SurfacePoint> &scan, const std::vector<C
 
 LoopMatch match_near(const std::vector<SurfacePoint> &scan, const SurfaceField &field, const Pose &guess)
 {
-    return as_match(refine(guess, scan, field), 0);
+    return as_match(refine(guess, scan, field, passes_from_afar, loose), 0);
+}
+
+LoopMatch match_tightly(const std::vector<SurfacePoint> &scan, const SurfaceField &field, const Pose &guess)
+{
+    return as_match(refine(guess, scan, field, passes_from_near, strict), 0);
 }
 
 } // namespace ale

@@ -13,6 +13,9 @@
 namespace ale
 {
 
+// The information of a match takes every point to be known to this along its normal, and on its own.
+constexpr double match_sigma_m = 0.01;
+
 struct SearchWindow {
     double half_m; // how far the guess may be off
     double half_rad;
@@ -33,6 +36,9 @@ LoopMatch match_patch(const std::vector<SurfacePoint> &scan, const std::vector<C
 
 // Refines the guess alone: for a place that the tracker seems to know. ambiguity is 0.
 LoopMatch match_near(const std::vector<SurfacePoint> &scan, const SurfaceField &field, const Pose &guess);
+
+// The same for two scans that lie a few centimetres off: pairs only what faces the same way.
+LoopMatch match_tightly(const std::vector<SurfacePoint> &scan, const SurfaceField &field, const Pose &guess);
 
 } // namespace ale
 

@@ -116,6 +116,15 @@ int ale_mapper_add(ale_mapper_t *mapper, const ale_keyframe_t *keyframe)
     }
 }
 
+bool ale_mapper_refine(ale_mapper_t *mapper)
+{
+    try {
+        return mapper->closer.refine();
+    } catch (const std::bad_alloc &) {
+        return false;
+    }
+}
+
 bool ale_mapper_correction(ale_mapper_t *mapper, ale_correction_t *out)
 {
     const std::vector<Pose> &now = mapper->closer.poses();

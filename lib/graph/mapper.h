@@ -59,6 +59,11 @@ void ale_mapper_destroy(ale_mapper_t *mapper);
  * the next keyframe. */
 int ale_mapper_add(ale_mapper_t *mapper, const ale_keyframe_t *keyframe);
 
+/* Draws the whole graph tight, as far as the scans allow: a bounded piece of the work a call. Poses move with
+ * the last one. False: nothing is left to do until a keyframe is added. For when the drive is over, or the
+ * thread has nothing else to do. On a lack of memory the poses stay as they are. */
+bool ale_mapper_refine(ale_mapper_t *mapper);
+
 /* Fills *out with what has moved since the last one that was handed out. Each must be applied, in order. */
 bool ale_mapper_correction(ale_mapper_t *mapper, ale_correction_t *out);
 

@@ -40,6 +40,8 @@ struct Node {
     bool weak;     // part of its pose was guessed from wheels or velocity
     std::vector<WallSight> walls;
     std::vector<SurfacePoint> points;
+    // By point: its normal is told by beams far apart, good enough only where the place is known already.
+    std::vector<bool> vague;
     std::vector<CornerMark> corners;
 };
 

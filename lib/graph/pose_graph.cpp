@@ -230,7 +230,8 @@ void PoseGraph::take_out(int k, int max_robust)
     const GraphEdge after = on_the_way(k);
     edges_.push_back(composed(before, after, false));
     for (const GraphEdge &edge : loose) {
-        const GraphEdge moved = edge.to == k ? composed(edge, after, true) : composed(before, edge, true);
+        GraphEdge moved = edge.to == k ? composed(edge, after, true) : composed(before, edge, true);
+        moved.recognised = edge.recognised;
         if (edge.robust && has_room(moved, max_robust)) {
             edges_.push_back(moved);
         }

@@ -27,6 +27,7 @@ struct GraphEdge {
     Pose measured;               // `to` as seen from `from`
     Eigen::Matrix3d information; // of (x, y, theta) of the measurement; 1/m^2, 1/(m rad), 1/rad^2
     bool robust;
+    bool recognised = false; // not measured: the tracker's word that it has been here
 };
 
 // A heading against one direction that all of them share and that is an unknown too: the building's. Always
@@ -55,10 +56,19 @@ class PoseGraph
     void clear(); // keeps that memory
     int add_pose(const Pose &pose);
     void add_edge(const GraphEdge &edge);
+    // In place of all edges.
+    void set_edges(std::vector<GraphEdge> edges)
+    {
+        edges_ = std::move(edges);
+    }
     // In place of those before.
     void set_headings(BuildingHeadings headings)
     {
         headings_ = std::move(headings);
+    }
+    const BuildingHeadings &headings() const
+    {
+        return headings_;
     }
     GraphReport optimise(int max_iterations);
 

@@ -6,8 +6,13 @@ namespace ale
 namespace
 {
 
-constexpr int neighbour_beams = 3; // to each side, for the normal of a point that lies on no line
-constexpr double neighbour_gap_m = 0.12;
+// To each side, for the normal of a point that lies on no line: beams, and how far apart they may be.
+struct Neighbourhood {
+    size_t beams;
+    double gap_m;
+};
+constexpr Neighbourhood close{3, 0.12};
+constexpr Neighbourhood far_apart{1, 0.35}; // sensors of few beams see most surfaces so
 
 struct Beams {
     std::vector<Eigen::Vector2d> p; // sensor's frame
@@ -46,18 +51,17 @@ Eigen::Vector2d towards_sensor(const Eigen::Vector2d &normal, const Eigen::Vecto
 
 // Normal of a point off the lines, from the chord of its neighbours; zero where the surface is not
 // continuous.
-Eigen::Vector2d neighbourhood_normal(const Beams &beams, size_t beam)
+Eigen::Vector2d neighbourhood_normal(const Beams &beams, size_t beam, const Neighbourhood &around)
 {
-    if (beam < neighbour_beams || beam + neighbour_beams >= beams.p.size()) {
+    if (beam < around.beams || beam + around.beams >= beams.p.size()) {
         return {0, 0};
     }
-    for (size_t k = beam - neighbour_beams; k < beam + neighbour_beams; k++) {
-        if (!beams.valid[k] || !beams.valid[k + 1] ||
-            (beams.p[k + 1] - beams.p[k]).norm() > neighbour_gap_m) {
+    for (size_t k = beam - around.beams; k < beam + around.beams; k++) {
+        if (!beams.valid[k] || !beams.valid[k + 1] || (beams.p[k + 1] - beams.p[k]).norm() > around.gap_m) {
             return {0, 0};
         }
     }
-    const Eigen::Vector2d chord = beams.p[beam + neighbour_beams] - beams.p[beam - neighbour_beams];
+    const Eigen::Vector2d chord = beams.p[beam + around.beams] - beams.p[beam - around.beams];
     return towards_sensor(Eigen::Vector2d(-chord.y(), chord.x()).normalized(), beams.p[beam]);
 }
 
@@ -109,6 +113,7 @@ Node node_of(const ale_keyframe_t &keyframe)
               keyframe.weak,
               {},
               {},
+              {},
               {}};
     add_walls(keyframe.features, sensor, &node);
     Eigen::Vector2d last(1e9, 1e9);
@@ -119,8 +124,13 @@ Node node_of(const ale_keyframe_t &keyframe)
         last = beams.p[k];
         const ale_line_t *on = line[k] < 0 ? nullptr : &keyframe.features.line[line[k]];
         const Eigen::Vector2d p = on ? on_line(*on, beams.p[k]) : beams.p[k];
-        const Eigen::Vector2d normal = on ? line_normal(*on, beams.p[k]) : neighbourhood_normal(beams, k);
+        Eigen::Vector2d normal = on ? line_normal(*on, beams.p[k]) : neighbourhood_normal(beams, k, close);
+        const bool vague = normal.isZero();
+        if (vague) {
+            normal = neighbourhood_normal(beams, k, far_apart);
+        }
         node.points.push_back({apply(sensor, p), turn * normal});
+        node.vague.push_back(vague);
     }
     for (int k = 0; k < keyframe.features.corner_count; k++) {
         node.corners.push_back(corner_of(keyframe.features.corner[k], sensor));

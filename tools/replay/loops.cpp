@@ -72,15 +72,31 @@ void Loops::after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate)
     }
     const int64_t start_ns = thread_time_ns();
     ale_mapper_add(mapper_.get(), keyframe_.get());
+    take_correction();
+    longest_ns_ = std::max(longest_ns_, thread_time_ns() - start_ns);
+}
+
+void Loops::take_correction()
+{
     auto correction = std::make_unique<ale_correction_t>();
     if (ale_mapper_correction(mapper_.get(), correction.get())) {
         due_.push_back(std::move(correction));
     }
-    longest_ns_ = std::max(longest_ns_, thread_time_ns() - start_ns);
+}
+
+void Loops::refine()
+{
+    for (bool more = true; more;) {
+        const int64_t start_ns = thread_time_ns();
+        more = ale_mapper_refine(mapper_.get());
+        longest_ns_ = std::max(longest_ns_, thread_time_ns() - start_ns);
+    }
+    take_correction();
 }
 
 void Loops::finish(ale_pipeline_t *pipeline)
 {
+    refine();
     for (const auto &correction : due_) {
         correction->due = 0;
     }

@@ -31,7 +31,8 @@ class Loops
     /* After the pipeline has answered it. */
     void after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate);
 
-    /* After the last scan: what is still under way takes effect, and every scan's pose is known. */
+    /* After the last scan: the graph is drawn tight, what is still under way takes effect, and every scan's
+     * pose is known. */
     void finish(ale_pipeline_t *pipeline);
 
     /* Map pose of a scan, corrected by all loops; after finish(). Between two keyframes the way as tracked is
@@ -60,6 +61,8 @@ class Loops
     };
 
     bool tied(uint32_t scan, uint32_t later) const;
+    void take_correction();
+    void refine();
 
     std::unique_ptr<ale_mapper_t, Destroy> mapper_;
     std::unique_ptr<ale_keyframe_t> keyframe_;

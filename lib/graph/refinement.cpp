@@ -1,0 +1,182 @@
+#include "graph/refinement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "graph/building_axes.h"
+#include "graph/loop_match.h"
+#include "graph/surface_field.h"
+
+namespace ale
+{
+
+namespace
+{
+
+constexpr int rounds = 2; // the second finds neighbours that the first has brought together
+constexpr int nodes_per_step = 8;
+constexpr int solves_per_round = 10;
+constexpr int nodes_along = 2; // the next few along the way
+constexpr size_t other_visits = 6;
+constexpr int same_visit_nodes = 3;
+constexpr double reach_m = 3.0;
+constexpr double metres_a_radian = 1.0; // how much less two views share when they look elsewhere
+// What a match must find, and how far from where the graph has it; farther is a loop's business.
+constexpr double least_overlap = 0.25;
+constexpr double least_pairs = 25;
+constexpr double farthest_m = 0.25;
+constexpr double farthest_rad = 0.1;
+// Neighbouring points err together: so many count as one. What all share is a floor.
+constexpr double points_a_witness = 4;
+constexpr double floor_m = 0.005;
+constexpr double floor_rad = 0.004;
+
+// What a match is worth, by direction: little along a bare corridor.
+Eigen::Matrix3d information_of(const LoopMatch &match)
+{
+    const double doubt = std::max(1.0, match.rms_m / match_sigma_m);
+    const Eigen::Matrix3d seen = match.information / (doubt * doubt * points_a_witness);
+    const Eigen::Matrix3d regular = seen + Eigen::Matrix3d::Identity() * 1e-3;
+    const Eigen::Vector3d floor(floor_m * floor_m, floor_m * floor_m, floor_rad * floor_rad);
+    return (regular.inverse() + Eigen::Matrix3d(floor.asDiagonal())).inverse();
+}
+
+bool is_tie(const LoopMatch &match, const Pose &guess, size_t points)
+{
+    const Pose off = between(guess, match.pose);
+    return match.overlap >= least_overlap && match.overlap * static_cast<double>(points) >= least_pairs &&
+           length(off.x, off.y) < farthest_m && std::abs(off.theta) < farthest_rad;
+}
+
+} // namespace
+
+Refinement::Refinement(const std::vector<Node> *nodes, PoseGraph graph)
+    : nodes_(nodes), graph_(std::move(graph)), given_(graph_.edges())
+{
+}
+
+bool Refinement::step()
+{
+    const int count = static_cast<int>(nodes_->size());
+    if (round_ == rounds) {
+        return false;
+    }
+    if (next_ < count) {
+        const int last = std::min(count, next_ + nodes_per_step);
+        for (; next_ < last; next_++) {
+            match_around(next_);
+        }
+        return true;
+    }
+    solve();
+    if (++solved_ == solves_per_round) {
+        matched_.clear();
+        next_ = 0;
+        solved_ = 0;
+        round_++;
+    }
+    return true;
+}
+
+// Later nodes that may see the same: the next few along the way, and the nearest of each other visit.
+std::vector<int> Refinement::neighbours_of(int k) const
+{
+    struct Place {
+        int k;
+        double distance;
+    };
+    const int count = static_cast<int>(nodes_->size());
+    std::vector<Place> places;
+    for (int there = k + nodes_along + 1; there < count; there++) {
+        const Pose off =
+            between(graph_.poses()[static_cast<size_t>(k)], graph_.poses()[static_cast<size_t>(there)]);
+        const double distance = length(off.x, off.y) + metres_a_radian * std::abs(off.theta);
+        if (distance < reach_m) {
+            places.push_back({there, distance});
+        }
+    }
+    std::stable_sort(places.begin(), places.end(),
+                     [](const Place &a, const Place &b) { return a.distance < b.distance; });
+    std::vector<int> chosen;
+    for (const Place &place : places) {
+        const bool same_visit = std::any_of(chosen.begin(), chosen.end(), [&](int other) {
+            return std::abs(other - place.k) <= same_visit_nodes;
+        });
+        if (!same_visit && chosen.size() < other_visits) {
+            chosen.push_back(place.k);
+        }
+    }
+    for (int there = k + 1; there < std::min(count, k + 1 + nodes_along); there++) {
+        chosen.push_back(there);
+    }
+    return chosen;
+}
+
+void Refinement::match_around(int k)
+{
+    const SurfaceField field((*nodes_)[static_cast<size_t>(k)].points);
+    for (const int there : neighbours_of(k)) {
+        const std::vector<SurfacePoint> &points = (*nodes_)[static_cast<size_t>(there)].points;
+        const Pose guess =
+            between(graph_.poses()[static_cast<size_t>(k)], graph_.poses()[static_cast<size_t>(there)]);
+        const LoopMatch match = match_tightly(points, field, guess);
+        if (is_tie(match, guess, points.size())) {
+            matched_.push_back({k, there, match.pose, information_of(match), true});
+        }
+    }
+}
+
+// What the graph was given: motions all, and of loops those that no match between the same places says
+// better. Where the tracker says that it has been before, and no match bears it out, it has no say in the
+// end.
+std::vector<GraphEdge> Refinement::still_needed() const
+{
+    std::vector<std::vector<int>> matched_with(nodes_->size());
+    for (const GraphEdge &edge : matched_) {
+        matched_with[static_cast<size_t>(edge.to)].push_back(edge.from);
+    }
+    const auto is_said_better = [&](const GraphEdge &loop) {
+        const int last = std::min(static_cast<int>(nodes_->size()) - 1, loop.to + same_visit_nodes);
+        for (int k = std::max(0, loop.to - same_visit_nodes); k <= last; k++) {
+            for (const int there : matched_with[static_cast<size_t>(k)]) {
+                if (std::abs(there - loop.from) <= same_visit_nodes) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    };
+    std::vector<GraphEdge> needed;
+    for (const GraphEdge &edge : given_) {
+        const bool doubted = edge.recognised && round_ > 0;
+        if (!edge.robust || (!doubted && !is_said_better(edge))) {
+            needed.push_back(edge);
+        }
+    }
+    return needed;
+}
+
+// Where the walls serve as a compass they still do.
+void Refinement::follow_walls()
+{
+    const BuildingHeadings headings = headings_by_walls(*nodes_, graph_.poses());
+    if (!graph_.headings().priors.empty() || have_drifted(headings, graph_.poses())) {
+        graph_.set_headings(headings);
+    }
+}
+
+void Refinement::solve()
+{
+    if (solved_ == 0) {
+        follow_walls();
+        graph_.set_edges(still_needed());
+        for (const GraphEdge &edge : matched_) {
+            graph_.add_edge(edge);
+        }
+    }
+    graph_.optimise(1);
+}
+
+} // namespace ale
