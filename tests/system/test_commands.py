@@ -43,6 +43,7 @@ class Rover:
         chain.simulator("--world", "tools/worlds/home.world", "--drive")
         self.firmware = self.start()
         self.motors = Motors(chain.url)
+        wait_until(lambda: self.motors.set_points, 5, "set points")
 
     def start(self, *words):
         config = f"[commands]\nrobot = rover\n[map]\nfolder = {self.chain.folder / 'maps'}\n[recorder]\nfolder =\n"
@@ -138,6 +139,8 @@ def test_10000_hostile_commands_are_all_counted_and_none_is_obeyed(rover):
     assert rover.send("alice", "stop")[0]
     heard = list(rover.motors.commands)
     wait_until(lambda: rover.motors.set_points[-1].v == 0, 5, "rest")
+    rested = rover.motors.set_points[-1].utime
+    wait_until(lambda: rover.chain.listener.statuses[-1].utime > rested, 5, "a status that counts them all")
     rover.motors.set_points.clear()
     before = rover.counters()
     genuine = before["command_genuine"]
