@@ -97,6 +97,9 @@ void ale_last_place_stop(ale_last_place_t *place)
 
 void ale_last_place_offer(ale_last_place_t *place, const ale_map_t *map, const ale_pose_t *pose)
 {
+    if (map->line_count == 0) {
+        return; /* nothing in it could confirm the pose */
+    }
     kept_t *kept = ale_snapshot_back(place->offered);
     kept->map = *map;
     kept->pose = *pose;

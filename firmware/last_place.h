@@ -18,7 +18,8 @@ ale_last_place_t *ale_last_place_start(const char *path);
 /* Writes what was offered last, if that is not on disk yet. */
 void ale_last_place_stop(ale_last_place_t *place);
 
-/* Telemetry thread; copies and never blocks. What is offered before the last was written takes its place. */
+/* Telemetry thread; copies and never blocks. A map without walls is not kept: nothing in it could confirm the
+ * pose. What is offered before the last was written takes its place. */
 void ale_last_place_offer(ale_last_place_t *place, const ale_map_t *map, const ale_pose_t *pose);
 
 #endif

@@ -1,11 +1,12 @@
 """After a power cut: on from the last map and pose, or lost; never sure and wrong."""
 import math
 import signal
+import time
 
 import pytest
 
 from at_hand import WORLDS
-from chain import wrap
+from chain import Truth, wrap
 from waiting import wait_until
 
 SPEED = 10
@@ -89,3 +90,29 @@ def test_what_cannot_be_read_is_told_and_the_robot_comes_up(chain):
     wait_until(lambda: len(chain.listener.poses) >= 20, 20, "poses")
     assert firmware.end() == 0
     assert "starting without what was kept" in firmware.err() and "line 2" in firmware.err()
+
+
+def test_killed_on_its_way_it_is_lost_or_right_when_it_comes_up_elsewhere(chain):
+    world = world_from(chain.folder, "way.world", FIRST, [(3.2, 1.95), (5.8, 2.0), (7.4, 2.0), (7.4, 4.7), (6.75, 4.75),
+                                                           (6.75, 7.4)])
+    chain.simulator("--world", world, "--truth", chain.truth_path, speed=SPEED)
+    firmware = chain.firmware(config(chain.folder), speed=SPEED)
+    poses = chain.listener.poses
+    wait_until(lambda: poses and poses[-1].map_x > 3 and (chain.folder / "kept.map").exists(), 40,
+               "a drive whose map is kept")
+    firmware.process.send_signal(signal.SIGKILL)
+    firmware.wait(10)
+    count = len(poses)
+    way_on = time.monotonic() + 0.4  # four seconds of its way
+    wait_until(lambda: time.monotonic() > way_on, 5, "the robot to drive on unseen")
+    again = chain.firmware(config(chain.folder), speed=SPEED)
+    wait_until(lambda: len(poses) >= count + 150, 40, "poses again")
+    assert again.end() == 0
+    chain.programs[0].end()
+    assert "going on from" in again.err()
+    truth = Truth(chain.truth_path)
+    compared = [(pose, truth.at(pose.utime * 1e-6, FIRST)) for pose in poses[count:]]
+    compared = [(pose, true) for pose, true in compared if true]
+    assert len(compared) > 100
+    assert all(pose.state == LOST or math.hypot(pose.map_x - true[0], pose.map_y - true[1]) < 0.3
+               for pose, true in compared if pose.state in (LOST, GOOD))
