@@ -1,8 +1,8 @@
 /* A few earlier scans from where the robot stands: was what is seen now always there, or has it come since?
  *
  * People stop and their legs make a short line, which is a wall as far as one scan can tell. Where one of the
- * elders, taken from the same place, looked through the place, something has come to stand there: it begins no
- * wall while the robot stays. Once the robot has gone on, what still stands is mapped as all else. The
+ * elders, taken from the same place, looked through the place, something has come to stand there: it begins
+ * no wall while the robot stays. Once the robot has gone on, what still stands is mapped as all else. The
  * elders' ages are 5, 10, 20 .. 640 s, at most twice that: who stops for minutes does not become a wall, and
  * who stood there when the robot came is known by those that were taken while he was away. */
 #ifndef ALE_TRACK_ELDERS_H

@@ -175,9 +175,11 @@ std::vector<FittedWall> fitted_walls(const Recording &recording, const std::vect
         adjust(wall, fit, recording, MatrixXd::Identity(count, count));
         if (const auto bend = bend_of(fit.jacobian, fit.residual, least_wall_beams / 2)) {
             const int corner = fit.beams[static_cast<size_t>(*bend)];
-            waiting.insert(waiting.end(), 2, found);
-            waiting.end()[-2].last = corner - end_margin;
-            waiting.end()[-1].first = corner + end_margin;
+            Wall before = found;
+            Wall after = found;
+            before.last = corner - end_margin;
+            after.first = corner + end_margin;
+            waiting.insert(waiting.end(), {before, after});
         } else {
             fitted.push_back({wall, std::move(fit)});
         }
