@@ -129,7 +129,8 @@ def test_the_trajectory_is_the_way_driven(room_log, tmp_path, odometry):
     replay(room_log, "--odometry", odometry, "--trajectory", tmp_path / "t.tum", "--trajectory-live", tmp_path / "live.tum",
            "--poses", tmp_path / "p.jsonl")
     poses = read_tum(tmp_path / "t.tum")
-    assert len(poses) == len(read_tum(tmp_path / "live.tum")) == 60
+    live = read_tum(tmp_path / "live.tum")
+    assert len(poses) == len(live) == 60
     for k, (t, x, y, z, qx, qy, qz, qw) in enumerate(poses):
         expected = way(k)
         assert t == pytest.approx(10 + 0.1 * k, abs=1e-6) and z == qx == qy == 0
@@ -139,7 +140,7 @@ def test_the_trajectory_is_the_way_driven(room_log, tmp_path, odometry):
     for k, pose in enumerate(read_json_lines(tmp_path / "p.jsonl")):
         assert pose["scan"] == k and len(pose["cov"]) == 9 and len(pose["information"]) == 6
         assert pose["state"] in (0, 1, 2) and {"x", "y", "theta", "map_x", "map_y", "map_theta", "lag_us"} <= set(pose)
-        assert pose["map_x"] == poses[k][1]
+        assert pose["map_x"] == live[k][1]
 
 
 def test_the_frame_of_the_laser_is_ahead_of_the_robots(room_log, tmp_path):

@@ -74,6 +74,7 @@ def test_a_short_drive_goes_through_the_whole_chain(build, world):
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupted_run_leaves_nothing_running(build, world, number):
+    world.write_text(WORLD + "# via 0 0\n# via 2.2 0.6\n" * 10)
     running = start(build, "--world", world)
     assert "watch it at" in running.stdout.readline()
     assert "poses" in running.stdout.readline()
