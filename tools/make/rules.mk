@@ -22,7 +22,9 @@ CXX_FLAGS = -std=c++17 -fno-strict-aliasing $(COMMON_FLAGS) $(CXXFLAGS)
 # Symbols are bound at start (-z now): the first call of a function would otherwise do it in the hard task.
 LINK_FLAGS = $(SANITIZER_FLAGS) -pthread -Wl,--as-needed,-z,now $(LDFLAGS)
 LIBRARIES = -llcm -lserialport -linih -lsodium -lwebsockets -lpng -lz -lm
-SYSTEM_INCLUDES = -isystem $(BUILD)/lcmtypes -isystem /usr/include/eigen3
+# Without vectors a structure of Eigen's is laid out alike in every file, whatever processor and flags it is compiled for.
+EIGEN = -isystem /usr/include/eigen3 -DEIGEN_DONT_VECTORIZE
+SYSTEM_INCLUDES = -isystem $(BUILD)/lcmtypes $(EIGEN)
 
 OBJ = $(BUILD)/obj
 objects = $(patsubst %,$(OBJ)/%.o,$(1))
@@ -75,9 +77,9 @@ TOOL_INCLUDES = -Ilib -Idrivers -Ifirmware -Itools $(SYSTEM_INCLUDES)
 TEST_INCLUDES = $(TOOL_INCLUDES) -Itests
 
 $(OBJ)/lib/%.o: INCLUDES = $(LIB_INCLUDES)
-$(OBJ)/lib/graph/%.o: INCLUDES = $(LIB_INCLUDES) -isystem /usr/include/eigen3
+$(OBJ)/lib/graph/%.o: INCLUDES = $(LIB_INCLUDES) $(EIGEN)
 # The same bytes on every machine: sums in the order written, no fused or vector arithmetic.
-$(OBJ)/lib/graph/%.o: CXX_FLAGS += -ffp-contract=off -fno-tree-vectorize -DEIGEN_DONT_VECTORIZE
+$(OBJ)/lib/graph/%.o: CXX_FLAGS += -ffp-contract=off -fno-tree-vectorize
 $(OBJ)/drivers/%.o: INCLUDES = $(DRIVER_INCLUDES)
 $(OBJ)/firmware/%.o: INCLUDES = $(FIRMWARE_INCLUDES)
 $(OBJ)/tools/%.o: INCLUDES = $(TOOL_INCLUDES)
