@@ -20,18 +20,18 @@ enum {
     HIGH_Z = 4,
     LOW_Z = 3,
     CLUTTER_LONGER = 4, /* thirds of the fewest points of a line, where there is clutter */
-    ROUGH_OWN_Q2 = 5,   /* own variances that a line may have beyond its bound: the measured noise errs too */
+    ROUGH_OWN_Q2 = 6,   /* own variances that a line may have beyond its bound: the measured noise errs too */
     ROUGH_SHARED = 12,  /* shared variances that a long wall may be wavy by, */
     ROUGH_REACHES = 4   /* and the reaches of the shared error from which on it is a long one */
 };
-static const int64_t MAX_SIGMA_ALPHA_NRAD = 104719755; /* 6 degrees: a line of no known direction is none */
+static const int64_t MAX_SIGMA_ALPHA_NRAD = 139626340; /* 8 degrees: a line of no known direction is none */
 
 ale_extract_config_t ale_extract_default_config(void)
 {
     const ale_extract_config_t config = {
         .noise = ale_noise_default(),
         .min_points = 9,
-        .min_length_um = 120000,
+        .min_length_um = 140000,
         .smooth_span = 1,
         .robust_passes = 2,
     };

@@ -18,10 +18,10 @@ namespace
 {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double rough_own = 1.25;  // the measured noise errs too
+constexpr double rough_own = 1.5;   // the measured noise errs too
 constexpr double rough_shared = 12; // shared variances that a long wall may be wavy by,
 constexpr double rough_reaches = 4; // and the reaches of the shared error from which on it is a long one
-constexpr double most_sigma_alpha = 6 * pi / 180;
+constexpr double most_sigma_alpha = 8 * pi / 180;
 constexpr int corner_gap = 5;        // beams
 constexpr double corner_reach = 150; // mm
 constexpr double overshoot = 2;      // deviations of both walls and a beam's width

@@ -8,7 +8,7 @@ namespace reference
 namespace
 {
 
-constexpr double penalty = 20; // own variances that a second line must gain,
+constexpr double penalty = 17; // own variances that a second line must gain,
 constexpr double peak = 3;     // and shared ones, where both lie on one surface, beside one for each point
 constexpr int widest_gap_points = 8;
 constexpr int widest_gap_beams = 8;
