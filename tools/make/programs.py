@@ -182,11 +182,9 @@ def common_options(parser):
 
 
 def conclude(name, work):
-    """Does the work; the exit code. Ctrl-C and SIGTERM end it alike."""
-    def interrupted(*_):
-        raise KeyboardInterrupt
-
-    signal.signal(signal.SIGTERM, interrupted)
+    """Does the work; the exit code. Ctrl-C and SIGTERM end it alike, also where a shell began it in the background."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.default_int_handler)
     try:
         work()
     except Failure as failure:
