@@ -72,8 +72,8 @@ static void vote_line(ale_registration_t *r, const pair_t *pair, uint16_t voter,
     const int64_t to = ale_round_div(ale_min64(along_um + pair->along_um, half_um), cell_um);
     /* in cells, Q14, from the grid's corner */
     const int64_t distance_q14 = ale_round_div(distance_um * (1 << 14), cell_um);
-    int64_t x_q14 = MIDDLE * (1 << 14) + ale_round_shift(distance_q14 * nx, 14) + from * ny;
-    int64_t y_q14 = MIDDLE * (1 << 14) + ale_round_shift(distance_q14 * ny, 14) - from * nx;
+    int64_t x_q14 = (int64_t)MIDDLE * (1 << 14) + ale_round_shift(distance_q14 * nx, 14) + from * ny;
+    int64_t y_q14 = (int64_t)MIDDLE * (1 << 14) + ale_round_shift(distance_q14 * ny, 14) - from * nx;
     for (int64_t t = from; t <= to; t++) {
         vote_cell(r, ale_round_shift(x_q14, 14), ale_round_shift(y_q14, 14), voter, pair->weight_mm);
         x_q14 += ny;
