@@ -27,7 +27,8 @@ void ale_wake_post(int wake)
 void ale_wake_wait(int wake, int64_t wait_ns)
 {
     struct pollfd source = {.fd = wake, .events = POLLIN};
-    const struct timespec wait = {.tv_sec = wait_ns / NS_PER_S, .tv_nsec = wait_ns % NS_PER_S};
+    const struct timespec wait = {.tv_sec = (time_t)(wait_ns / NS_PER_S),
+                                  .tv_nsec = (long)(wait_ns % NS_PER_S)};
     eventfd_t posts = 0;
     ppoll(&source, 1, &wait, NULL);
     eventfd_read(wake, &posts);

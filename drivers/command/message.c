@@ -47,8 +47,9 @@ static bool is_printable(const uint8_t *text, size_t length)
 /* LCM's text: its length with the end, its characters, the end. */
 static void take_text(reader_t *reader, char *out, size_t capacity)
 {
-    const uint64_t size = take_number(reader, COUNT_BYTES);
-    if (size < 1 || size > capacity || size > reader->left || reader->at[size - 1] != '\0' ||
+    const uint64_t stated = take_number(reader, COUNT_BYTES);
+    const size_t size = stated < capacity ? (size_t)stated : capacity;
+    if (size < 1 || size != stated || size > reader->left || reader->at[size - 1] != '\0' ||
         !is_printable(reader->at, size - 1)) {
         reader->broken = true;
         return;

@@ -78,8 +78,9 @@ def drive_through_faults(lan, line, machine):
     boot = statuses[-1].boot
     machine.order("kill")
     wait_until(lambda: statuses[-1].boot != boot, RECOVERY_S, "the firmware's new start")
-    wait_until(lambda: poses[-1].scan < poses[lan.killed - 1].scan and good_poses(lan, 20), RECOVERY_S, "good poses after the kill")
+    wait_until(lambda: poses[-1].scan < poses[lan.killed - 1].scan, RECOVERY_S, "a pose after the kill")
     lan.restarted = next(k for k in range(lan.killed - 1, len(poses)) if poses[k].scan < poses[k - 1].scan)
+    wait_until(lambda: len(poses) >= lan.restarted + STANDING_SCANS and good_poses(lan, 20), RECOVERY_S, "good poses after the kill")
 
 
 def offset_us(drive):
