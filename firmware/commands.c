@@ -51,7 +51,7 @@ static void record(const ale_commands_t *commands, const ale_command_t *command)
     ale_recorder_command(commands->exchange->recorder, commands->now_us, text);
 }
 
-void ale_commands_take(ale_commands_t *commands, const uint8_t *bytes, size_t count,
+bool ale_commands_take(ale_commands_t *commands, const uint8_t *bytes, size_t count,
                        const ale_map_t *newest_map)
 {
     const ale_clock_t *clock = &commands->exchange->clock;
@@ -59,7 +59,7 @@ void ale_commands_take(ale_commands_t *commands, const uint8_t *bytes, size_t co
     commands->now_us = ale_clock_now_us(clock);
     if (ale_verify(&commands->verifier, bytes, count, ale_clock_to_utime(clock, commands->now_us),
                    &command) != ALE_GENUINE) {
-        return;
+        return false;
     }
     const bool driving = strcmp(command.verb, "drive") == 0;
     const bool job_before = commands->job_waits;
@@ -70,6 +70,7 @@ void ale_commands_take(ale_commands_t *commands, const uint8_t *bytes, size_t co
         commands->news = commands->news || !driving || !obeyed;
     }
     record(commands, &command);
+    return true;
 }
 
 /* That an exploration has begun or ended is news. */

@@ -43,7 +43,8 @@ struct ale_telemetry {
     int64_t next_whole_map_ns;
     int64_t next_status_ns;
     int64_t last_status_ns;
-    bool news; /* of commands, not yet in a status */
+    bool news;     /* of commands, not yet in a status */
+    bool refusals; /* not yet in a status: shown soon, but many of them do not make many statuses */
     int64_t next_keep_ns;
     ale_pose_t pose; /* in the map, newest */
     ale_service_t service;
@@ -182,6 +183,7 @@ static void send_status(ale_telemetry_t *telemetry)
     ale_bus_send_status(telemetry->bus, report);
     telemetry->last_status_ns = ale_rt_now_ns();
     telemetry->news = false;
+    telemetry->refusals = false;
 }
 
 /* An answer that nobody has heard yet goes out before another may take its place. */
@@ -191,7 +193,9 @@ static void take_command(void *user, const uint8_t *bytes, size_t count)
     if (telemetry->news) {
         send_status(telemetry);
     }
-    ale_commands_take(telemetry->commands, bytes, count, telemetry->map);
+    if (!ale_commands_take(telemetry->commands, bytes, count, telemetry->map)) {
+        telemetry->refusals = true;
+    }
     telemetry->news = ale_commands_news(telemetry->commands);
 }
 
@@ -259,7 +263,7 @@ static void work(ale_telemetry_t *telemetry)
     send_map(telemetry, now_ns);
     ale_commands_work(telemetry->commands);
     telemetry->news = ale_commands_news(telemetry->commands) || telemetry->news;
-    if (telemetry->news) {
+    if (telemetry->news || telemetry->refusals) {
         telemetry->next_status_ns =
             ale_min64(telemetry->next_status_ns, telemetry->last_status_ns + NEWS_PERIOD_NS);
     }

@@ -18,7 +18,7 @@
 
 #define DEFAULT_GROUP "239.255.76.67"
 
-enum { MAX_HANDLED = 64, MESSAGE_BYTES = 16384 };
+enum { MAX_HANDLED = 64, MAX_WAITING = 256, MESSAGE_BYTES = 16384 };
 
 struct ale_bus {
     lcm_t *lcm;
@@ -241,11 +241,18 @@ static void take_odometry(const lcm_recv_buf_t *received, const char *channel, v
     bus->take_odometry(bus->odometry_user, &sample);
 }
 
+/* LCM drops without a word what waits beyond a channel's queue, 30 messages unless told otherwise. */
+static int subscribe(ale_bus_t *bus, const char *channel, lcm_msg_handler_t take)
+{
+    lcm_subscription_t *subscription = lcm_subscribe(bus->lcm, channel, take, bus);
+    return subscription ? lcm_subscription_set_queue_capacity(subscription, MAX_WAITING) : -1;
+}
+
 int ale_bus_on_odometry(ale_bus_t *bus, ale_bus_odometry_t take, void *user)
 {
     bus->take_odometry = take;
     bus->odometry_user = user;
-    return lcm_subscribe(bus->lcm, ALE_CHANNEL_ODOMETRY, take_odometry, bus) ? 0 : -1;
+    return subscribe(bus, ALE_CHANNEL_ODOMETRY, take_odometry);
 }
 
 static void take_command(const lcm_recv_buf_t *received, const char *channel, void *user)
@@ -259,7 +266,7 @@ int ale_bus_on_command(ale_bus_t *bus, ale_bus_command_t take, void *user)
 {
     bus->take_command = take;
     bus->command_user = user;
-    return lcm_subscribe(bus->lcm, ALE_CHANNEL_COMMAND, take_command, bus) ? 0 : -1;
+    return subscribe(bus, ALE_CHANNEL_COMMAND, take_command);
 }
 
 int ale_bus_descriptor(ale_bus_t *bus)

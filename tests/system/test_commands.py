@@ -15,6 +15,7 @@ from waiting import Ear, wait_until
 DEAD_MAN_US = 300000
 SCAN_LIFE_US = 400000  # with no younger scan the robot stands; a machine that is too busy may give it none
 TURN_US = 40000  # the drive thread's period
+FLOOD = 100  # commands at once: fewer than may wait in the kernel and in the firmware, so that none is lost on the way
 
 
 class Motors(Ear):
@@ -146,6 +147,12 @@ def test_10000_hostile_commands_are_all_counted_and_none_is_obeyed(rover):
     genuine = before["command_genuine"]
     refused = sum(value for name, value in before.items() if name.startswith("command_") and name not in
                   ("command_genuine", "command_refused"))
+    def counted():
+        now = rover.counters()
+        assert now["command_genuine"] == genuine
+        return sum(value for name, value in now.items() if name.startswith("command_") and name not in
+                   ("command_genuine", "command_refused")) - refused
+
     for k in range(10000):
         data = bytearray(rng.choice(heard))
         if k % 4 == 1:
@@ -159,15 +166,8 @@ def test_10000_hostile_commands_are_all_counted_and_none_is_obeyed(rover):
             command.num_signature = 0
             data = command.encode()
         bus.publish("ALE_COMMAND", bytes(data))
-        if k % 20 == 19:
-            time.sleep(0.004)
-
-    def counted():
-        now = rover.counters()
-        assert now["command_genuine"] == genuine
-        return sum(value for name, value in now.items() if name.startswith("command_") and name not in
-                   ("command_genuine", "command_refused")) - refused
-    wait_until(lambda: counted() >= 10000, 20, "10000 refusals")
+        if k % FLOOD == FLOOD - 1:
+            wait_until(lambda sent=k + 1: counted() >= sent, 20, f"{k + 1} refusals")
     assert counted() == 10000
     after = rover.counters()
     assert after["command_unsigned"] - before["command_unsigned"] == 2500
@@ -176,7 +176,6 @@ def test_10000_hostile_commands_are_all_counted_and_none_is_obeyed(rover):
     assert after["command_forged"] > before["command_forged"]
     assert all(p.v == 0 and p.w == 0 for p in rover.motors.set_points)
     assert rover.firmware.running()
-    rover.motors.commands.clear()
     assert rover.send("alice", "set", "drive_speed", "0.5")[0], "and an honest one is still obeyed"
 
 
@@ -201,7 +200,7 @@ def near(pose, other):
 
 def test_after_a_restart_it_finds_itself_and_an_old_command_is_not_obeyed(rover):
     here = rover.chain.listener.poses[-1]
-    old = [data for data in rover.motors.commands if ale.command_t.decode(data).verb == "reset"]
+    old = [data for data in rover.motors.commands if b"reset" in data]  # among them are some that nobody could decode
     assert rover.firmware.end() == 0
     boots = {status.boot for status in rover.chain.listener.statuses}
     before = len(rover.chain.listener.poses)
