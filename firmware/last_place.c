@@ -1,17 +1,15 @@
 #include "last_place.h"
 
-#include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/eventfd.h>
-#include <unistd.h>
 
 #include "realtime/rt.h"
 #include "snapshot.h"
 #include "store/map_file.h"
+#include "wake.h"
 
-enum { LOOK_MS = 500 };
+enum { LOOK_NS = 500000000 };
 
 typedef struct {
     ale_map_t map;
@@ -45,10 +43,7 @@ static void run(ale_rt_task_t *self, void *user)
 {
     ale_last_place_t *place = user;
     while (!ale_rt_task_stopping(self)) {
-        struct pollfd source = {.fd = place->wake, .events = POLLIN};
-        eventfd_t woken = 0;
-        poll(&source, 1, LOOK_MS);
-        eventfd_read(place->wake, &woken);
+        ale_wake_wait(place->wake, LOOK_NS);
         save_newest(place);
     }
     save_newest(place);
@@ -56,12 +51,8 @@ static void run(ale_rt_task_t *self, void *user)
 
 static void destroy(ale_last_place_t *place)
 {
-    if (place->offered) {
-        ale_snapshot_destroy(place->offered);
-    }
-    if (place->wake >= 0) {
-        close(place->wake);
-    }
+    ale_snapshot_destroy(place->offered);
+    ale_wake_close(place->wake);
     free(place);
 }
 
@@ -73,7 +64,7 @@ ale_last_place_t *ale_last_place_start(const char *path)
     }
     place->path = path;
     place->offered = ale_snapshot_create(sizeof(kept_t));
-    place->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    place->wake = ale_wake_open();
     if (place->offered && place->wake >= 0) {
         place->task = ale_rt_task_start(&(ale_rt_task_config_t){
             .name = "ale-last-place", .kind = ALE_RT_BACKGROUND, .body = run, .user = place});
@@ -89,7 +80,7 @@ void ale_last_place_stop(ale_last_place_t *place)
 {
     if (place) {
         ale_rt_task_stop(place->task);
-        eventfd_write(place->wake, 1);
+        ale_wake_post(place->wake);
         ale_rt_task_join(place->task);
         destroy(place);
     }
@@ -104,5 +95,5 @@ void ale_last_place_offer(ale_last_place_t *place, const ale_map_t *map, const a
     kept->map = *map;
     kept->pose = *pose;
     ale_snapshot_publish(place->offered);
-    eventfd_write(place->wake, 1);
+    ale_wake_post(place->wake);
 }

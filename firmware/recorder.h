@@ -1,9 +1,9 @@
 /* The flight recorder: the last minutes of raw bytes, odometry, decisions and stage times in memory of fixed
  * size, written to disk on a fault, a missed deadline or a command.
  *
- *   acquire ── bytes, scans ──► queue ─┐
- *                                      ├─► recorder thread: chunks in the order in which the estimate task
- * used telemetry ── odometry, results ► queue ─┘    them ─► ring ─► flight-TIME-REASON.scip
+ *   acquire ─── bytes, scans ───────► queue ─┐
+ *                                            ├─► recorder thread: chunks in one order ─► flight ring
+ *   telemetry ─ odometry, results ──► queue ─┘   (flight_order.h)            └─► flight-TIME-REASON.scip
  *
  * The order is that of the estimate task: odometry lies before the scan that knew it, so that ale-replay
  * comes to the same poses. Writers never wait: what finds its queue full is refused and counted. All

@@ -1,10 +1,8 @@
 #include "telemetry.h"
 
-#include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/eventfd.h>
 #include <sys/random.h>
 
 #include "base/fixed.h"
@@ -238,19 +236,12 @@ static void send_map(ale_telemetry_t *telemetry, int64_t now_ns)
 static void wait_for_work(ale_telemetry_t *telemetry)
 {
     ale_exchange_t *exchange = telemetry->exchange;
-    struct pollfd sources[] = {{.fd = exchange->under_way, .events = POLLIN},
-                               {.fd = ale_bus_descriptor(telemetry->bus), .events = POLLIN}};
     int64_t wait_ns = ale_max64(telemetry->next_status_ns - ale_rt_now_ns(), 0);
     if (map_under_way(telemetry)) {
         wait_ns = ale_min64(wait_ns, PART_NS);
     }
     wait_ns = ale_exchange_result_wait_ns(exchange, wait_ns);
-    const struct timespec wait = {.tv_sec = (time_t)(wait_ns / NS_PER_S),
-                                  .tv_nsec = (long)(wait_ns % NS_PER_S)};
-    ppoll(sources, 2, &wait, NULL);
-    eventfd_t announced = 0;
-    eventfd_read(exchange->under_way, &announced);
-    if (sources[1].revents != 0) {
+    if (ale_wake_wait_or_read(exchange->under_way, ale_bus_descriptor(telemetry->bus), wait_ns)) {
         ale_bus_receive(telemetry->bus, 0);
     }
 }

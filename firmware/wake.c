@@ -26,10 +26,16 @@ void ale_wake_post(int wake)
 
 void ale_wake_wait(int wake, int64_t wait_ns)
 {
-    struct pollfd source = {.fd = wake, .events = POLLIN};
+    ale_wake_wait_or_read(wake, -1, wait_ns);
+}
+
+bool ale_wake_wait_or_read(int wake, int source, int64_t wait_ns)
+{
+    struct pollfd sources[] = {{.fd = wake, .events = POLLIN}, {.fd = source, .events = POLLIN}};
     const struct timespec wait = {.tv_sec = (time_t)(wait_ns / NS_PER_S),
                                   .tv_nsec = (long)(wait_ns % NS_PER_S)};
     eventfd_t posts = 0;
-    ppoll(&source, 1, &wait, NULL);
+    ppoll(sources, 2, &wait, NULL);
     eventfd_read(wake, &posts);
+    return sources[1].revents != 0;
 }

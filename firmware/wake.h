@@ -3,6 +3,7 @@
 #ifndef ALE_FIRMWARE_WAKE_H
 #define ALE_FIRMWARE_WAKE_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* The descriptor, or -1. */
@@ -14,5 +15,8 @@ void ale_wake_post(int wake);
 
 /* Until a post, or wait_ns are over. One waiting thread. */
 void ale_wake_wait(int wake, int64_t wait_ns);
+
+/* The same, or until the descriptor `source` has something to read: then true. */
+bool ale_wake_wait_or_read(int wake, int source, int64_t wait_ns);
 
 #endif

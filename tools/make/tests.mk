@@ -67,7 +67,7 @@ $(BUILD)/tests/%: $(TEST_OBJ)/tests/%.cpp.o $(TEST_ARCHIVES)
 .PHONY: unit unit-programs system system-rtai venv
 unit-programs: $(SELECTED_TESTS)
 unit: unit-programs ## unit and property tests (T=part of a path selects)
-	@$(PYTHON) tools/make/run_tests.py unit $(SELECTED_TESTS)
+	@$(if $(strip $(SELECTED_TESTS)),,$(error no unit test has '$(T)' in its path))$(PYTHON) tools/make/run_tests.py unit $(SELECTED_TESTS)
 
 VENV = $(BUILD)/venv
 $(VENV)/ready: tests/requirements.txt

@@ -192,9 +192,8 @@ void Replay::put_estimate(const ale_estimate_t &estimate)
 
 void Replay::take(const ale_log_event_t &event)
 {
-    const bool measurement = event.kind != ALE_LOG_CONFIG && event.kind != ALE_LOG_COMMAND;
-    if (!begun_ && (measurement || event.kind == ALE_LOG_CONFIG)) {
-        begin(measurement ? nullptr : event.text);
+    if (!begun_ && event.kind != ALE_LOG_COMMAND) {
+        begin(event.kind == ALE_LOG_CONFIG ? event.text : nullptr);
     }
     switch (event.kind) {
     case ALE_LOG_SCAN: {
