@@ -1,10 +1,8 @@
 #include "track/elders.h"
 
-#include <stddef.h>
-#include <string.h>
-
 #include "base/fixed.h"
 #include "base/trig.h"
+#include "track/visibility.h"
 #include "track/wall.h"
 
 enum {
@@ -41,20 +39,7 @@ void ale_elders_keep(ale_elders_t *elders, const ale_seen_t *seen)
     ale_elder_t *elder = &elders->elder[place_of(elders->kept++)];
     elders->kept_us = seen->scan->stamp_us;
     elder->taken = true;
-    elder->scan = *seen->scan;
-    elder->straightened = seen->bearing_bam != NULL;
-    if (elder->straightened) {
-        memcpy(elder->bearing_bam, seen->bearing_bam, seen->scan->beams * sizeof elder->bearing_bam[0]);
-    }
-    elder->robot = seen->robot;
-    elder->sensor = seen->sensor;
-}
-
-static bool is_near(ale_pose_t a, ale_pose_t b)
-{
-    const ale_pose_t way = ale_pose_between(a, b);
-    return ale_abs64(way.x_um) < NEAR_UM && ale_abs64(way.y_um) < NEAR_UM &&
-           ale_abs64((int32_t)way.theta_bam) < NEAR_BAM;
+    ale_seen_copy(&elder->seen, seen);
 }
 
 static bool has_come(const ale_elders_t *elders, const ale_seen_t *seen, const ale_view_t *view)
@@ -65,9 +50,10 @@ static bool has_come(const ale_elders_t *elders, const ale_seen_t *seen, const a
     ale_wall_from_view(&surface, &placed);
     for (int i = 0; i < ALE_ELDERS; i++) {
         const ale_elder_t *elder = &elders->elder[i];
-        if (elder->taken && is_near(elder->robot, seen->robot) &&
-            ale_wall_points_sight(&surface, &elder->scan, elder->straightened ? elder->bearing_bam : NULL,
-                                  elder->sensor, (ale_slack_t){0, 0})
+        const ale_seen_copy_t *then = &elder->seen;
+        if (elder->taken && ale_are_near(then->robot, seen->robot, NEAR_UM, NEAR_BAM) &&
+            ale_wall_points_sight(&surface, &then->scan, ale_seen_bearings(then), then->sensor,
+                                  (ale_slack_t){0, 0})
                     .through >= DENIED_LEAST) {
             return true;
         }

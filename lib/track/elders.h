@@ -11,19 +11,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base/scan.h"
 #include "track/match.h"
-#include "track/witness.h"
+#include "track/seen.h"
 
 enum { ALE_ELDERS = 8 };
 
 typedef struct {
     bool taken;
-    bool straightened;
-    ale_scan_t scan;
-    uint32_t bearing_bam[ALE_MAX_BEAMS];
-    ale_pose_t robot; /* on the way that is smooth, as its sensor */
-    ale_pose_t sensor;
+    ale_seen_copy_t seen; /* on the way that is smooth */
 } ale_elder_t;
 
 typedef struct {

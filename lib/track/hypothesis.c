@@ -79,7 +79,7 @@ ale_hypothesis_t ale_hypothesis_at(const ale_local_map_t *map, const ale_view_t 
 {
     const ale_stand_t stand = ale_stand(pose);
     ale_hypothesis_t h = {.pose = pose};
-    for (uint32_t i = 0; i<count && * looks> 0; i++) {
+    for (uint32_t i = 0; *looks > 0 && i < count; i++) {
         if (view[i].kind != ALE_VIEW_WALL) {
             continue;
         }

@@ -67,7 +67,6 @@ static void take_in(ale_pipeline_t *p, bool grow)
 
 void ale_pipeline_first(ale_pipeline_t *p)
 {
-    p->fit.motion = p->motion;
     ale_pipeline_match(p, &p->motion, p->scan.range_max_um);
     p->fit.motion = p->motion;
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);
@@ -145,13 +144,13 @@ static bool register_scan(ale_pipeline_t *p, const ale_motion_t *before, const a
     /* on the way that is smooth, as the witness is */
     const ale_pose_t guess =
         ale_pose_compose(p->smooth.pose, ale_pose_between(before->pose, predicted->pose));
-    ale_pose_t way = ale_pose_between(p->witness.robot, guess);
+    ale_pose_t way = ale_pose_between(p->witness.seen.robot, guess);
     if (!ale_register(&p->registration, (ale_views_t){p->witness.view, p->witness.view_count},
                       (ale_views_t){p->view, p->view_count}, (int32_t)ale_min64(reach_um, REGISTER_MOST_UM),
                       (int32_t)ale_min64(reach_urad, REGISTER_MOST_URAD), &way)) {
         return false;
     }
-    const ale_pose_t there = ale_pose_compose(p->witness.robot, way);
+    const ale_pose_t there = ale_pose_compose(p->witness.seen.robot, way);
     *from = ale_pose_compose(before->pose, ale_pose_between(p->smooth.pose, there));
     return true;
 }

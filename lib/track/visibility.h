@@ -23,10 +23,6 @@ typedef struct {
     uint8_t through;
 } ale_points_sight_t;
 
-/* The same of the point t_um along the wall's tangent alone. */
-ale_sight_t ale_wall_point_sight(const ale_wall_t *wall, int64_t t_um, const ale_scan_t *scan,
-                                 const uint32_t *bearing_bam, ale_pose_t sensor);
-
 /* How far the sensor's pose may be off, beyond what is always allowed for. */
 typedef struct {
     int32_t offset_um;
@@ -40,5 +36,9 @@ ale_points_sight_t ale_wall_points_sight(const ale_wall_t *wall, const ale_scan_
  * ale_extract_scan. Three points of the wall are asked; two must be seen through. */
 ale_sight_t ale_wall_sight(const ale_wall_t *wall, const ale_scan_t *scan, const uint32_t *bearing_bam,
                            ale_pose_t sensor);
+
+/* The same of the point t_um along the wall's tangent alone. */
+ale_sight_t ale_wall_point_sight(const ale_wall_t *wall, int64_t t_um, const ale_scan_t *scan,
+                                 const uint32_t *bearing_bam, ale_pose_t sensor);
 
 #endif

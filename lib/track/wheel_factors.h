@@ -1,8 +1,7 @@
 /* Systematic errors of the wheels, known from a calibration drive and taken off every sample.
  *
  *   way  = distance * counted way            wheels larger or smaller than believed
- *   turn = turn factor * (counted turn - bias * counted way)   track width, and one wheel larger than the
- * other
+ *   turn = turn factor * (counted turn - bias * counted way)   track width; one wheel larger than the other
  *
  * Odometry arrives as poses, so the way is undone into steps, each is corrected, and they are put together
  * again. What is left after that is random and belongs to the noise of `wheels.h`. Source: J. Borenstein,

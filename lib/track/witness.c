@@ -1,6 +1,5 @@
 #include "track/witness.h"
 
-#include <stddef.h>
 #include <string.h>
 
 #include "base/fixed.h"
@@ -16,13 +15,7 @@ void ale_witness_clear(ale_witness_t *witness)
 
 void ale_witness_keep(ale_witness_t *witness, const ale_seen_t *seen)
 {
-    witness->scan = *seen->scan;
-    witness->straightened = seen->bearing_bam != NULL;
-    if (witness->straightened) {
-        memcpy(witness->bearing_bam, seen->bearing_bam, seen->scan->beams * sizeof witness->bearing_bam[0]);
-    }
-    witness->robot = seen->robot;
-    witness->sensor = seen->sensor;
+    ale_seen_copy(&witness->seen, seen);
     witness->view_count = seen->view_count;
     memcpy(witness->view, seen->view, seen->view_count * sizeof witness->view[0]);
 }
@@ -47,21 +40,14 @@ static void ask(const ale_seen_t *of, const ale_seen_t *asked, ale_slack_t slack
     }
 }
 
-static bool are_close(ale_pose_t a, ale_pose_t b)
-{
-    const ale_pose_t way = ale_pose_between(a, b);
-    return ale_abs64(way.x_um) < CLOSE_UM && ale_abs64(way.y_um) < CLOSE_UM &&
-           ale_abs64((int32_t)way.theta_bam) < CLOSE_BAM;
-}
-
 ale_testimony_t ale_witness_hear(const ale_witness_t *witness, const ale_seen_t *seen, ale_slack_t slack)
 {
-    const ale_seen_t before = {&witness->scan, witness->straightened ? witness->bearing_bam : NULL,
-                               witness->robot, witness->sensor,
-                               witness->view,  witness->view_count};
+    const ale_seen_copy_t *then = &witness->seen;
+    const ale_seen_t before = {&then->scan,  ale_seen_bearings(then), then->robot,
+                               then->sensor, witness->view,           witness->view_count};
     ale_testimony_t sum = {0, 0, 0, false};
     if (witness->view_count > 0) {
-        sum.close = are_close(witness->robot, seen->robot);
+        sum.close = ale_are_near(then->robot, seen->robot, CLOSE_UM, CLOSE_BAM);
         ask(seen, &before, slack, &sum);
         ask(&before, seen, slack, &sum);
     }

@@ -12,29 +12,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base/scan.h"
 #include "track/refine.h"
-#include "track/view.h"
+#include "track/seen.h"
 #include "track/visibility.h"
 
-/* A straightened scan, where it was taken from, and what it shows. bearing_bam NULL: regular. */
 typedef struct {
-    const ale_scan_t *scan;
-    const uint32_t *bearing_bam;
-    ale_pose_t robot; /* in any frame that both scans are given in */
-    ale_pose_t sensor;
-    const ale_view_t *view; /* robot's frame */
-    uint32_t view_count;    /* ALE_MAX_VIEWS at most */
-} ale_seen_t;
-
-typedef struct {
-    ale_scan_t scan;
-    uint32_t bearing_bam[ALE_MAX_BEAMS];
-    ale_pose_t robot;
-    ale_pose_t sensor;
+    ale_seen_copy_t seen;
     ale_view_t view[ALE_MAX_VIEWS];
     uint32_t view_count; /* 0: nobody saw anything */
-    bool straightened;
 } ale_witness_t;
 
 /* Length of the surfaces of both scans, and of those that the other one confirms, and that it saw through. */
