@@ -113,7 +113,7 @@ static ale_options_result_t read_words(int count, char **arguments, words_t *wor
         }
     }
     if (optind < count) {
-        fprintf(stderr, "ale-slamd: %s: not an option; see --help\n", arguments[optind]);
+        fprintf(stderr, "ale-slamd: what is \"%s\"? (see --help)\n", arguments[optind]);
         return ALE_OPTIONS_REFUSED;
     }
     return ALE_OPTIONS_RUN;

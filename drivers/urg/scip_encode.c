@@ -31,18 +31,6 @@ static void put_summed(ale_scip_writer_t *out, const uint8_t *bytes, size_t coun
     put(out, bytes, count, tail, sizeof tail);
 }
 
-void ale_scip_put_command(ale_scip_writer_t *out, const char *text)
-{
-    put_unsummed(out, (const uint8_t *)text, strlen(text));
-}
-
-void ale_scip_put_request(ale_scip_writer_t *out, const ale_scip_request_t *request)
-{
-    char text[ALE_SCIP_REQUEST_TEXT];
-    ale_scip_request_format(request, text);
-    ale_scip_put_command(out, text);
-}
-
 void ale_scip_put_echo(ale_scip_writer_t *out, const char *text)
 {
     put_unsummed(out, (const uint8_t *)text, strlen(text));
@@ -56,11 +44,6 @@ void ale_scip_put_status(ale_scip_writer_t *out, const char *status)
     } else {
         put_summed(out, (const uint8_t *)status, count);
     }
-}
-
-void ale_scip_put_line(ale_scip_writer_t *out, const char *text)
-{
-    put_summed(out, (const uint8_t *)text, strlen(text));
 }
 
 void ale_scip_put_info(ale_scip_writer_t *out, const char *key, const char *value)
@@ -118,11 +101,4 @@ void ale_scip_put_values(ale_scip_writer_t *out, int protocol, const int32_t *va
 void ale_scip_put_end(ale_scip_writer_t *out)
 {
     put_unsummed(out, (const uint8_t *)"", 0);
-}
-
-void ale_scip_put_reply(ale_scip_writer_t *out, const char *echo, const char *status)
-{
-    ale_scip_put_echo(out, echo);
-    ale_scip_put_status(out, status);
-    ale_scip_put_end(out);
 }

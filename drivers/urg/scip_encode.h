@@ -1,5 +1,4 @@
-/* Writer of SCIP: commands as a host sends them, replies as a device does. Pure functions on a buffer of
- * the caller.
+/* Writer of SCIP: replies as a device sends them. Pure functions on a buffer of the caller.
  *
  *   uint8_t bytes[4096];
  *   ale_scip_writer_t out = {bytes, sizeof bytes, 0, false};
@@ -17,8 +16,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "urg/scip_request.h"
-
 enum { ALE_SCIP_1 = 1, ALE_SCIP_2 = 2 };
 
 typedef struct {
@@ -28,16 +25,10 @@ typedef struct {
     bool overflow;
 } ale_scip_writer_t;
 
-/* Host: command text (with or without ";string") and LF. */
-void ale_scip_put_command(ale_scip_writer_t *out, const char *text);
-void ale_scip_put_request(ale_scip_writer_t *out, const ale_scip_request_t *request);
-
-/* Device: first line of a reply. */
+/* First line of a reply. */
 void ale_scip_put_echo(ale_scip_writer_t *out, const char *text);
 /* SCIP 2.0: two characters and their sum. SCIP 1.1: give one character, it goes out alone. */
 void ale_scip_put_status(ale_scip_writer_t *out, const char *status);
-/* SCIP 2.0: any line with its sum (the answer of TM1). */
-void ale_scip_put_line(ale_scip_writer_t *out, const char *text);
 /* SCIP 2.0: "KEY:value;" and the sum, in which ";" is not added. */
 void ale_scip_put_info(ale_scip_writer_t *out, const char *key, const char *value);
 /* SCIP 1.1: a line as it is ("KEY:value"). */
@@ -50,8 +41,5 @@ void ale_scip_put_values(ale_scip_writer_t *out, int protocol, const int32_t *va
                          unsigned characters);
 /* The empty line that ends a reply. */
 void ale_scip_put_end(ale_scip_writer_t *out);
-
-/* A whole reply without lines: echo, status, end. */
-void ale_scip_put_reply(ale_scip_writer_t *out, const char *echo, const char *status);
 
 #endif

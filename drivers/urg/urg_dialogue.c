@@ -3,7 +3,7 @@
 
 #include "base/fixed.h"
 #include "urg/baud.h"
-#include "urg/scip_encode.h"
+#include "urg/scip_request.h"
 #include "urg/urg_internal.h"
 
 enum {

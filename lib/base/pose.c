@@ -30,12 +30,6 @@ ale_pose_t ale_pose_compose(ale_pose_t a, ale_pose_t b)
     return (ale_pose_t){p.x_um, p.y_um, a.theta_bam + b.theta_bam};
 }
 
-ale_pose_t ale_pose_inverse(ale_pose_t a)
-{
-    const ale_point_t p = ale_rotate((ale_point_t){-a.x_um, -a.y_um}, 0u - a.theta_bam);
-    return (ale_pose_t){p.x_um, p.y_um, 0u - a.theta_bam};
-}
-
 ale_pose_t ale_pose_between(ale_pose_t a, ale_pose_t b)
 {
     const ale_point_t d = {(int32_t)ale_clamp64((int64_t)b.x_um - a.x_um, INT32_MIN, INT32_MAX),

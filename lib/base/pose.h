@@ -32,11 +32,8 @@ ale_point_t ale_pose_apply(ale_pose_t pose, ale_point_t p);
 /* The pose b, given in the frame of a, in the frame a is given in. */
 ale_pose_t ale_pose_compose(ale_pose_t a, ale_pose_t b);
 
-ale_pose_t ale_pose_inverse(ale_pose_t a);
-
-/* The pose b as seen from a (both given in one frame): compose(inverse(a), b) with one rounding. Poses
- * farther apart than 2147 m along an axis, as a broken odometry may name them, are as far apart as can be
- * told. */
+/* The pose b as seen from a (both given in one frame): compose(a, between(a, b)) is b. Poses farther apart
+ * than 2147 m along an axis, as a broken odometry may name them, are as far apart as can be told. */
 ale_pose_t ale_pose_between(ale_pose_t a, ale_pose_t b);
 
 /* The motion of the whole plane that carries the pose `from` to the pose `to`: compose(shift, from) is `to`

@@ -45,6 +45,7 @@ $(LCM_STAMP): $(LCM_FILES)
 	$(Q)touch $@
 
 .SECONDARY:
+.DELETE_ON_ERROR:
 $(BUILD)/lcmtypes/%.c: $(LCM_STAMP) ;
 
 $(OBJ)/lcmtypes/%.o: $(BUILD)/lcmtypes/%.c

@@ -114,7 +114,7 @@ TEST(ScipEncode, what_does_not_fit_is_left_out_whole)
 {
     uint8_t bytes[8];
     ale_scip_writer_t out = {bytes, sizeof bytes, 0, false};
-    ale_scip_put_command(&out, "QT");
+    ale_scip_put_echo(&out, "QT");
     EXPECT_FALSE(out.overflow);
     ale_scip_put_info(&out, "STAT", "too long");
     EXPECT_TRUE(out.overflow);
