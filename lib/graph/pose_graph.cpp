@@ -4,8 +4,8 @@
 #include <iterator>
 
 #include <Eigen/LU>
-#include <Eigen/Sparse>
-#include <Eigen/SparseCholesky>
+
+#include "graph/normal_equations.h"
 
 namespace ale
 {
@@ -31,94 +31,16 @@ double kernel_weight(double chi2)
     return s < 1 ? s * s : 1;
 }
 
-struct Linearised {
-    Eigen::Matrix3d from;
-    Eigen::Matrix3d to;
-};
-
-// Derivatives of the error by the two poses, Euclidean increments of (x, y, theta).
-Linearised jacobians(const GraphEdge &edge, const std::vector<Pose> &poses)
+LinearisedEdge linearised(const GraphEdge &edge, const std::vector<Pose> &poses)
 {
     const Pose &a = poses[static_cast<size_t>(edge.from)];
     const Pose &b = poses[static_cast<size_t>(edge.to)];
-    const Eigen::Matrix2d to_measured = rotation(-edge.measured.theta);
-    const Eigen::Matrix2d to_from = rotation(-a.theta);
-    Eigen::Matrix2d turned; // d R(-theta) / d theta
-    turned.row(0) << -sine(a.theta), cosine(a.theta);
-    turned.row(1) << -cosine(a.theta), -sine(a.theta);
-    const Eigen::Vector2d d(b.x - a.x, b.y - a.y);
-    Linearised j{Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()};
-    j.from.block<2, 2>(0, 0) = -to_measured * to_from;
-    j.from.block<2, 1>(0, 2) = to_measured * turned * d;
-    j.from(2, 2) = -1;
-    j.to.block<2, 2>(0, 0) = to_measured * to_from;
-    j.to(2, 2) = 1;
-    return j;
+    LinearisedEdge l{error_of(edge, poses), Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()};
+    l.to.topLeftCorner<2, 2>() = rotation(-edge.measured.theta - a.theta);
+    l.carry(0, 2) = a.y - b.y;
+    l.carry(1, 2) = b.x - a.x;
+    return l;
 }
-
-// The normal equations h step = -gradient, edge by edge: three unknowns a pose, and last the building's
-// direction.
-class Assembler
-{
-  public:
-    Assembler(size_t poses, size_t edges, size_t priors)
-        : b_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * poses + 1)))
-    {
-        triplets_.reserve(36 * edges + 4 * priors + 3 * poses + 1);
-    }
-
-    void add(const GraphEdge &edge, const Linearised &j, const Eigen::Vector3d &e, double weight)
-    {
-        const Eigen::Matrix3d omega = weight * edge.information;
-        block(edge.from, edge.from, j.from.transpose() * omega * j.from);
-        block(edge.from, edge.to, j.from.transpose() * omega * j.to);
-        block(edge.to, edge.from, j.to.transpose() * omega * j.from);
-        block(edge.to, edge.to, j.to.transpose() * omega * j.to);
-        b_.segment<3>(Eigen::Index{3} * edge.from) += j.from.transpose() * omega * e;
-        b_.segment<3>(Eigen::Index{3} * edge.to) += j.to.transpose() * omega * e;
-    }
-
-    void add(const HeadingPrior &prior, double e, double weight)
-    {
-        const Eigen::Index theta = Eigen::Index{3} * prior.pose + 2;
-        const Eigen::Index building = b_.size() - 1;
-        const double omega = weight * prior.information;
-        triplets_.emplace_back(theta, theta, omega);
-        triplets_.emplace_back(theta, building, -omega);
-        triplets_.emplace_back(building, theta, -omega);
-        triplets_.emplace_back(building, building, omega);
-        b_(theta) += omega * e;
-        b_(building) -= omega * e;
-    }
-
-    const Eigen::VectorXd &gradient() const
-    {
-        return b_;
-    }
-
-    // The first pose is held.
-    void write(double damping, Eigen::SparseMatrix<double> *h)
-    {
-        for (Eigen::Index k = 0; k < b_.size(); k++) {
-            triplets_.emplace_back(k, k, k < 3 ? 1e12 : damping);
-        }
-        h->resize(b_.size(), b_.size());
-        h->setFromTriplets(triplets_.begin(), triplets_.end());
-    }
-
-  private:
-    void block(Eigen::Index row, Eigen::Index column, const Eigen::Matrix3d &m)
-    {
-        for (int r = 0; r < 3; r++) {
-            for (int c = 0; c < 3; c++) {
-                triplets_.emplace_back(3 * row + r, 3 * column + c, m(r, c));
-            }
-        }
-    }
-
-    std::vector<Eigen::Triplet<double, Eigen::Index>> triplets_;
-    Eigen::VectorXd b_;
-};
 
 double robust_cost(double chi2)
 {
@@ -240,44 +162,49 @@ void PoseGraph::take_out(int k, int max_robust)
     renumber_above(k);
 }
 
+// The equations at the present poses; chi2 of all.
+double PoseGraph::linearise(NormalEquations *equations) const
+{
+    double sum = 0;
+    equations->clear();
+    for (size_t k = 0; k < edges_.size(); k++) {
+        const LinearisedEdge l = linearised(edges_[k], poses_);
+        const double chi2 = l.e.dot(edges_[k].information * l.e);
+        equations->add(k, edges_[k], l, edges_[k].robust ? kernel_weight(chi2) : 1);
+        sum += edges_[k].robust ? robust_cost(chi2) : chi2;
+    }
+    for (const HeadingPrior &prior : headings_.priors) {
+        const double e =
+            wrapped(poses_[static_cast<size_t>(prior.pose)].theta - headings_.building - prior.theta);
+        const double chi2 = e * e * prior.information;
+        equations->add(prior, e, kernel_weight(chi2));
+        sum += robust_cost(chi2);
+    }
+    return sum;
+}
+
+void PoseGraph::move(const NormalEquations &equations)
+{
+    for (size_t k = 0; k < poses_.size(); k++) {
+        const Eigen::Vector3d step = equations.step(k);
+        poses_[k] = {poses_[k].x + step(0), poses_[k].y + step(1), wrapped(poses_[k].theta + step(2))};
+    }
+    headings_.building += equations.building_step();
+}
+
 GraphReport PoseGraph::optimise(int max_iterations)
 {
     GraphReport report{0, 0, true};
-    Eigen::SparseMatrix<double> h;
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
-    for (; report.iterations < max_iterations; report.iterations++) {
-        Assembler assembler(poses_.size(), edges_.size(), headings_.priors.size());
-        report.chi2 = 0;
-        for (const GraphEdge &edge : edges_) {
-            const Eigen::Vector3d e = error_of(edge, poses_);
-            const double chi2 = e.dot(edge.information * e);
-            assembler.add(edge, jacobians(edge, poses_), e, edge.robust ? kernel_weight(chi2) : 1);
-            report.chi2 += edge.robust ? robust_cost(chi2) : chi2;
+    NormalEquations equations(poses_.size(), edges_);
+    while (report.iterations < max_iterations) {
+        report.chi2 = linearise(&equations);
+        report.solved = equations.solve();
+        if (!report.solved) {
+            break;
         }
-        for (const HeadingPrior &prior : headings_.priors) {
-            const double e =
-                wrapped(poses_[static_cast<size_t>(prior.pose)].theta - headings_.building - prior.theta);
-            const double chi2 = e * e * prior.information;
-            assembler.add(prior, e, kernel_weight(chi2));
-            report.chi2 += robust_cost(chi2);
-        }
-        assembler.write(1e-9, &h);
-        if (report.iterations == 0) {
-            solver.analyzePattern(h);
-        }
-        solver.factorize(h);
-        if (solver.info() != Eigen::Success) {
-            report.solved = false;
-            return report;
-        }
-        const Eigen::VectorXd step = solver.solve(-assembler.gradient());
-        for (size_t k = 0; k < poses_.size(); k++) {
-            const auto i = static_cast<Eigen::Index>(3 * k);
-            poses_[k] = {poses_[k].x + step(i), poses_[k].y + step(i + 1),
-                         wrapped(poses_[k].theta + step(i + 2))};
-        }
-        headings_.building += step(step.size() - 1);
-        if (step.lpNorm<Eigen::Infinity>() < converged_step) {
+        report.iterations++;
+        move(equations);
+        if (equations.largest_step() < converged_step) {
             break;
         }
     }

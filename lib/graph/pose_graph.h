@@ -48,6 +48,8 @@ struct GraphReport {
     bool solved; // false: the system could not be factorised; the poses are as they were
 };
 
+class NormalEquations;
+
 class PoseGraph
 {
   public:
@@ -91,6 +93,8 @@ class PoseGraph
     double residual2(const GraphEdge &edge) const;
 
   private:
+    double linearise(NormalEquations *equations) const;
+    void move(const NormalEquations &equations);
     bool has_room(const GraphEdge &edge, int max_robust) const;
     std::vector<GraphEdge> cut_loose(int k);
     void renumber_above(int k);
