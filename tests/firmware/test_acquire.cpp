@@ -123,7 +123,7 @@ TEST_F(Acquire, EveryScanAndEveryLostScanIsHandedOverInOrder)
     EXPECT_EQ(record(1).scan.beams, 0);
     EXPECT_GT(record(1).arrival_us, 0);
     EXPECT_FALSE(record(2).lost);
-    EXPECT_TRUE(ale_rt_release_wait(exchange.arrived, ale_rt_now_ns() + 1000000000))
+    EXPECT_TRUE(ale_rt_release_wait(exchange.arrived, ale_rt_now_ns() + 30000000000))
         << "the estimate task is released";
     ale_acquire_stop(acquire);
     EXPECT_EQ(script.destroyed, 1);

@@ -10,6 +10,7 @@ import time
 import ale
 
 from at_hand import BINARIES, WORLDS
+from priority import as_hardware
 from waiting import Ear, wait_until
 
 FIRMWARE = pathlib.Path(os.environ.get("ALE_SLAMD", BINARIES / "ale-slamd")).resolve()
@@ -25,13 +26,13 @@ def program_path(name):
 class Program:
     """One program with its output in files."""
 
-    def __init__(self, folder, name, *words, prefix=()):
+    def __init__(self, folder, name, *words, prefix=(), prepare=None):
         self.name = name
         self.out_path = folder / f"{name}.{time.monotonic_ns()}.out"
         self.err_path = self.out_path.with_suffix(".err")
         with open(self.out_path, "w", encoding="utf-8") as out, open(self.err_path, "w", encoding="utf-8") as err:
             self.process = subprocess.Popen([*prefix, program_path(name), *map(str, words)], stdout=out, stderr=err,
-                                            stdin=subprocess.DEVNULL)
+                                            stdin=subprocess.DEVNULL, preexec_fn=prepare)
 
     def out(self):
         return self.out_path.read_text(encoding="utf-8", errors="replace")
@@ -45,7 +46,7 @@ class Program:
     def wait(self, seconds):
         return self.process.wait(timeout=seconds)
 
-    def end(self, number=signal.SIGTERM, seconds=10):
+    def end(self, number=signal.SIGTERM, seconds=60):
         """Sends a signal; the exit status."""
         if self.running():
             self.process.send_signal(number)
@@ -66,6 +67,9 @@ class Listener(Ear):
 
     def _take(self, channel, data):
         self.messages[channel].append(TYPES[channel].decode(data))
+
+    def forget(self):
+        self.messages.update({channel: [] for channel in self.messages})
 
     @property
     def poses(self):
@@ -99,14 +103,15 @@ class Chain:
         self.programs = []
         self.listener = Listener(url, channels)
 
-    def start(self, name, *words, prefix=()):
-        program = Program(self.folder, name, *words, prefix=prefix)
+    def start(self, name, *words, **how):
+        program = Program(self.folder, name, *words, **how)
         self.programs.append(program)
         return program
 
     def simulator(self, *words, speed=1):
-        sim = self.start("ale-sim", "--pty", self.port, "--speed", speed, "--lcm-url", self.url, *words)
-        wait_until(lambda: self.port.exists() or not sim.running(), 10, "the simulated scanner")
+        sim = self.start("ale-sim", "--pty", self.port, "--speed", speed, "--lcm-url", self.url, *words,
+                         prepare=as_hardware)
+        wait_until(lambda: self.port.exists() or not sim.running(), 60, "the simulated scanner")
         assert sim.running(), sim.err()
         return sim
 
@@ -120,6 +125,20 @@ class Chain:
         path.write_text(config, encoding="utf-8")
         return self.start("ale-slamd", "--config", path, "--port", self.port, "--lcm-url", self.url, "--time-scale",
                           speed, *words, prefix=prefix)
+
+    def play_to_the_end(self, simulator, firmware):
+        """Waits until all that was sent is answered, and ends the firmware; what the simulator counted."""
+        assert simulator.wait(300) == 0, simulator.err()
+        counted = tally(simulator)
+        statuses = self.listener.statuses
+        wait_until(lambda: statuses and (statuses[-1].poses >= counted["sent"] or
+                                         statuses[-1].driver_state.startswith("no scanner")), 60, "the last pose")
+        assert firmware.end() == 0
+        return counted
+
+    def all_went_well(self, counted):
+        """Whether the machine was not too busy for every scan to be sent, and its pose to be heard."""
+        return counted["swallowed"] == 0 and len(self.listener.poses) == counted["sent"]
 
     def stop(self):
         for program in self.programs:

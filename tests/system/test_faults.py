@@ -7,7 +7,7 @@ import pytest
 from chain import Truth, tally
 from waiting import wait_until
 
-SPEED = 2
+SPEEDS = (2, 1)  # slower where the machine is too busy to hear all of it
 RECOVERY_S = 3
 MAX_SPEED = 0.6  # what the simulated robot cannot exceed (0.5 m/s, 0.9 rad/s), and some
 MAX_TURN = 1.1
@@ -31,16 +31,24 @@ BREAK_THE_STREAM = {"silence:2", "unplug:2", "reset11"}
 
 @pytest.fixture(scope="module")
 def drive(long_chain):
-    firmware = long_chain.firmware(f"[robot]\nmax_speed = {MAX_SPEED}\nmax_turn = {MAX_TURN}\n", speed=SPEED)
+    for speed in SPEEDS:
+        drive_through_the_faults(long_chain, speed)
+        if len(long_chain.listener.poses) == long_chain.listener.statuses[-1].poses:
+            break
+    return long_chain
+
+
+def drive_through_the_faults(chain, speed):
+    chain.listener.forget()
+    firmware = chain.firmware(f"[robot]\nmax_speed = {MAX_SPEED}\nmax_turn = {MAX_TURN}\n", speed=speed)
     spec = ",".join(f"{name}@{begin}" for name, begin, _, _ in FAULTS)
-    sim = long_chain.drive("home", "--faults", spec, speed=SPEED)
-    assert sim.wait(120) == 0, sim.err()
-    long_chain.tally = tally(sim)
-    wait_until(lambda: not long_chain.listener.statuses or
-               long_chain.listener.statuses[-1].driver_state.startswith("no scanner"), 10, "notice of the end")
+    sim = chain.drive("home", "--faults", spec, speed=speed)
+    assert sim.wait(300) == 0, sim.err()
+    chain.tally = tally(sim)
+    statuses = chain.listener.statuses
+    wait_until(lambda: statuses and statuses[-1].driver_state.startswith("no scanner"), 60, "notice of the end")
     assert firmware.running(), "it must not end by itself"
     assert firmware.end() == 0
-    return long_chain
 
 
 def seconds_of_drive(drive):

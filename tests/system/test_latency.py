@@ -1,23 +1,28 @@
 """From the last byte of a scan to its pose on the wire, in real time at ten scans a second."""
 import statistics
 
-from waiting import wait_until
+import pytest
+
+from waiting import Stopwatch, wait_until
 
 SCANS = 80
 MEDIAN_US = 5000
 
 
 def test_the_median_is_under_five_milliseconds(chain):
+    watch = Stopwatch()
     chain.simulator("--world", "tools/worlds/home.world")
     firmware = chain.firmware()
     report = chain.start("ale-latency", "--lcm-url", chain.url, "--poses", SCANS)
-    wait_until(lambda: len(chain.listener.poses) >= SCANS and not report.running(), 30, f"{SCANS} poses")
+    wait_until(lambda: len(chain.listener.poses) >= SCANS and not report.running(), 60, f"{SCANS} poses")
     assert firmware.end() == 0
     by_message = statistics.median(pose.age_us - (pose.arrival_utime - pose.utime) for pose in chain.listener.poses)
     status = chain.listener.statuses[-1]
     print(f"median {status.latency_p50_us:.0f} us ({by_message:.0f} us at sending), "
           f"p99 {status.latency_p99_us:.0f} us, worst {status.latency_worst_us:.0f} us")
     print(report.out())
+    if not status.realtime and watch.waiting_seconds() > 0.2 * watch.seconds():
+        pytest.skip(f"the machine is busy and the firmware has no priority on it: {status.realtime_detail}")
     assert 0 < by_message < MEDIAN_US
     assert 0 < status.latency_p50_us < MEDIAN_US
     assert status.deadline_misses <= 1
@@ -28,7 +33,7 @@ def test_the_median_is_under_five_milliseconds(chain):
 def test_every_scan_tells_its_way_from_the_first_beam_to_the_wire(chain):
     chain.simulator("--world", "tools/worlds/home.world", speed=5)
     firmware = chain.firmware(speed=5)
-    wait_until(lambda: len(chain.listener.poses) >= SCANS, 30, f"{SCANS} poses")
+    wait_until(lambda: len(chain.listener.poses) >= SCANS, 60, f"{SCANS} poses")
     assert firmware.end() == 0
     for pose in chain.listener.poses:
         if pose.predicted:

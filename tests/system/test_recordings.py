@@ -3,22 +3,21 @@ import math
 import subprocess
 
 from at_hand import BINARIES, shared
-from chain import tally
-from waiting import wait_until
 
-SPEED = 20
+SPEEDS = (20, 5)  # slower where the machine is too busy to send or to hear all of it
 
 
 def test_exp1_is_answered_scan_by_scan(chain):
     log = shared("data/urg04lx/exp1.dat")
     config = subprocess.run([BINARIES / "ale-sim", "--log", log, "--describe"], stdout=subprocess.PIPE, text=True,
                             check=True).stdout
-    firmware = chain.firmware(config, speed=SPEED)
-    sim = chain.simulator("--log", log, "--once", speed=SPEED)
-    assert sim.wait(300) == 0, sim.err()
-    sent = tally(sim)["sent"]
-    wait_until(lambda: len(chain.listener.poses) >= sent, 5, "the last pose")
-    assert firmware.end() == 0
+    for speed in SPEEDS:
+        chain.listener.forget()
+        firmware = chain.firmware(config, speed=speed)
+        counted = chain.play_to_the_end(chain.simulator("--log", log, "--once", speed=speed), firmware)
+        if chain.all_went_well(counted):
+            break
+    sent = counted["sent"]
     poses = chain.listener.poses
     assert len(poses) == sent
     assert sum(pose.predicted for pose in poses) <= 0.02 * sent

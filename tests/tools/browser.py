@@ -4,9 +4,10 @@ import json
 import shutil
 import subprocess
 import tempfile
-import time
 import urllib.error
 import urllib.request
+
+from waiting import wait_until
 
 FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-dev-shm-usage",
          "--disable-background-networking", "--disable-component-update", "--disable-sync", "--hide-scrollbars"]
@@ -65,15 +66,9 @@ class Browser:
         entries = self._call("POST", f"{self.session}/se/log", {"type": "browser"})
         return [entry["message"] for entry in entries if entry["level"] == "SEVERE"]
 
-    def wait_for(self, condition, seconds=10):
-        """Runs the script until it gives something true; returns that and the seconds it took."""
-        started = time.monotonic()
-        while time.monotonic() - started < seconds:
-            value = self.run(f"return {condition}")
-            if value:
-                return value, time.monotonic() - started
-            time.sleep(0.02)
-        raise AssertionError(f"not within {seconds} s: {condition}")
+    def wait_for(self, condition, seconds=60):
+        """Runs the script until it gives something true; the time is only there to fail when it never does."""
+        wait_until(lambda: self.run(f"return {condition}"), seconds, condition)
 
     def drag(self, x1, y1, x2, y2):
         self._pointer([self._to(x1, y1), {"type": "pointerDown", "button": 0}, self._to(x2, y2),

@@ -59,7 +59,7 @@ class Client:
             raise Gone
         return got
 
-    def reply(self, seconds=3):
+    def reply(self, seconds=60):
         """The next reply as it stands on the line, without its empty line."""
         end = time.monotonic() + seconds
         while b"\n\n" not in self.buffer:
@@ -72,7 +72,7 @@ class Client:
         self.send(command)
         return self.reply()
 
-    def scan(self, seconds=3):
+    def scan(self, seconds=60):
         """The next frame of a stream, every sum checked."""
         lines = self.reply(seconds).split(b"\n")
         echo, status = lines[0], lines[1]

@@ -39,9 +39,11 @@ def test_the_real_programs_explore_a_room_and_bring_the_robot_back(tmp_path, roo
     build.mkdir()
     (build / "bin").symlink_to(BINARIES.resolve())
     done = subprocess.run(["/usr/bin/python3", EXPLORE, "--build", build, "--world", room, "--speed", "4"],
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=120, check=False)
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=300, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
-    seen, collisions, off = re.search(r"(\d+) m2 seen, (\d+) collisions, back ([\d.]+) m", done.stdout).groups()
+    told = re.search(r"(\d+) m2 seen, (\d+) collisions, back ([\d.]+) m", done.stdout)
+    assert told, done.stdout
+    seen, collisions, off = told.groups()
     assert 19 <= int(seen) <= 24 and int(collisions) == 0 and float(off) <= 0.1, done.stdout
     assert (build / "explore" / "map.png").stat().st_size > 1000
 

@@ -15,7 +15,7 @@ STAGES = SPANS[2:7]
 
 
 def run_latency(*arguments):
-    return subprocess.run([BINARIES / "ale-latency", *map(str, arguments)], capture_output=True, text=True, timeout=20,
+    return subprocess.run([BINARIES / "ale-latency", *map(str, arguments)], capture_output=True, text=True, timeout=60,
                           check=False)
 
 
@@ -101,7 +101,7 @@ def test_it_listens_to_a_robot_until_it_has_what_was_asked_for(lcm_url):  # noqa
     double = RobotDouble(lcm_url)
     for _ in range(12):
         double.step()
-    out, _ = listening.communicate(timeout=20)
+    out, _ = listening.communicate(timeout=60)
     assert listening.returncode == 0
     assert out.startswith("poses 12,")
     assert table(out)["match"][1:4] == pytest.approx((310, 310, 310))

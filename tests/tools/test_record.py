@@ -2,12 +2,14 @@
 import json
 import os
 import signal
+import statistics
 import subprocess
 
 import pytest
 
 from at_hand import BINARIES
 from lcm_url import free_lcm_url
+from priority import as_hardware
 from waiting import wait_until
 
 ROOM = "-1 -2 3 -2\n3 -2 3 1\n3 1 -1 1\n-1 1 -1 -2\n"
@@ -29,19 +31,22 @@ class Bench:
         self.programs = []
         (folder / "room.world").write_text(ROOM, encoding="utf-8")
 
-    def program(self, name, *words):
-        process = subprocess.Popen([BINARIES / name, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    def program(self, name, *words, prepare=None):
+        process = subprocess.Popen([BINARIES / name, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                   preexec_fn=prepare)
         self.programs.append(process)
         return process
 
     def sensor(self, *words):
-        process = self.program("ale-sim", "--world", self.folder / "room.world", "--pty", self.link, "--speed", SPEED, *words)
-        wait_until(lambda: self.link.exists() or process.poll() is not None, 10, "the pseudo terminal")
+        process = self.program("ale-sim", "--world", self.folder / "room.world", "--pty", self.link, "--speed", SPEED, *words,
+                               prepare=as_hardware)
+        wait_until(lambda: self.link.exists() or process.poll() is not None, 60, "the pseudo terminal")
         assert process.poll() is None, process.stderr.read()
         return process
 
     def recorder(self, *words):
-        return self.program("ale-record", "--port", self.link, "--out", self.out, "--time-scale", SPEED, *words)
+        return self.program("ale-record", "--port", self.link, "--out", self.out, "--time-scale", SPEED, *words,
+                            prepare=as_hardware)  # not held up for as long as it takes the sensor to drop a scan
 
     def poses(self):
         poses = self.folder / "poses.jsonl"
@@ -59,7 +64,7 @@ def bench(tmp_path):
 
 
 def finished(process, code=0):
-    out, err = process.communicate(timeout=30)
+    out, err = process.communicate(timeout=60)
     assert process.returncode == code, err
     return out
 
@@ -71,8 +76,10 @@ def stopped(process):
 
 def turns(times):
     """Scans that the sensor made from the first to the last one recorded. What it sent after that, while the recorder
-    was already leaving, is nobody's."""
-    return round((times[-1] - times[0]) / TURN_S) + 1
+    was already leaving, is nobody's. By medians: on a busy machine some scans come late before the clocks agree."""
+    ahead = [time - k * TURN_S for k, time in enumerate(times)]
+    missing = (statistics.median(ahead[-15:]) - statistics.median(ahead[:15])) / TURN_S
+    return len(times) + round(missing)
 
 
 def test_every_scan_that_the_sensor_sent_is_in_the_recording(bench):
@@ -88,7 +95,7 @@ def test_every_scan_that_the_sensor_sent_is_in_the_recording(bench):
 def test_signal_ends_the_recording_cleanly_and_leaves_the_sensor_quiet(bench):
     sensor = bench.sensor("--no-odometry")
     recorder = bench.recorder("--no-lcm")
-    wait_until(lambda: bench.out.exists() and bench.out.stat().st_size >= 50000, 10, "50 kB")
+    wait_until(lambda: bench.out.exists() and bench.out.stat().st_size >= 50000, 60, "50 kB")
     recorder.send_signal(signal.SIGINT)
     recorded = counts(finished(recorder))
     before = bench.out.stat().st_size
@@ -130,7 +137,7 @@ def test_odometry_is_recorded_in_the_time_of_the_scans(bench, multicast):
 
 def test_sensor_that_never_comes_is_named_and_fails(bench):
     recorder = bench.recorder("--no-lcm", "--seconds", 1)
-    out, err = recorder.communicate(timeout=30)
+    out, err = recorder.communicate(timeout=60)
     assert recorder.returncode == 1
     assert counts(out)["scans"] == 0
     assert str(bench.link)[:50] in err and "no such serial device" in err
@@ -149,7 +156,7 @@ def test_full_disk_ends_the_recording(bench):
 
 
 def finished_with_error(process, code):
-    _, err = process.communicate(timeout=30)
+    _, err = process.communicate(timeout=60)
     assert process.returncode == code, err
     return err
 
@@ -160,6 +167,6 @@ def finished_with_error(process, code):
                                    ("--port", "x", "--out", "y", "--time-scale", "1000"),
                                    ("--port", "x", "--out", "y", "--lcm-url", "u", "--no-lcm")])
 def test_wrong_use_is_told_in_a_line(words):
-    done = subprocess.run([BINARIES / "ale-record", *words], capture_output=True, text=True, timeout=10, check=False)
+    done = subprocess.run([BINARIES / "ale-record", *words], capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 2
     assert done.stderr.startswith(("ale-record: ", str(BINARIES))) and done.stderr.count("\n") == 1

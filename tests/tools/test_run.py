@@ -79,7 +79,7 @@ def test_an_interrupted_run_leaves_nothing_running(build, world, number):
     assert "watch it at" in running.stdout.readline()
     assert "poses" in running.stdout.readline()
     running.send_signal(number)
-    _, err = running.communicate(timeout=20)
+    _, err = running.communicate(timeout=60)
     assert running.returncode == 130 and "interrupted" in err
     assert programs_of(build) == []
     assert not (build / "run" / "urg").is_symlink()
@@ -87,7 +87,7 @@ def test_an_interrupted_run_leaves_nothing_running(build, world, number):
 
 def test_a_recording_that_is_absent_is_named_in_one_line(build):
     running = start(build, "--log", "/absent.log")
-    _, err = running.communicate(timeout=20)
+    _, err = running.communicate(timeout=60)
     assert running.returncode == 1
     assert len(err.splitlines()) == 1 and "/absent.log" in err
 
@@ -101,7 +101,7 @@ def test_a_firmware_that_dies_fails_the_run(tmp_path, world):
     broken.write_text("#!/bin/sh\necho the floor is gone >&2\nexit 3\n")
     broken.chmod(0o755)
     running = start(folder, "--world", world)
-    _, err = running.communicate(timeout=20)
+    _, err = running.communicate(timeout=60)
     assert running.returncode == 1
     assert "ale-slamd ended with 3: the floor is gone" in err
     assert programs_of(folder) == []
@@ -109,7 +109,7 @@ def test_a_firmware_that_dies_fails_the_run(tmp_path, world):
 
 def test_programs_that_are_not_built_are_named(tmp_path):
     running = start(tmp_path)
-    _, err = running.communicate(timeout=20)
+    _, err = running.communicate(timeout=60)
     assert running.returncode == 1 and "ale-sim is missing" in err
 
 

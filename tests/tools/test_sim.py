@@ -8,8 +8,9 @@ import time
 import pytest
 
 from at_hand import BINARIES, WORLDS, shared
+from priority import as_hardware
 from scip_client import Client, Gone
-from waiting import wait_until
+from waiting import Stopwatch, wait_until
 
 SIM = BINARIES / "ale-sim"
 ROOM = "-1 -2 3 -2\n3 -2 3 1\n3 1 -1 1\n-1 1 -1 -2\n"
@@ -26,14 +27,14 @@ class Simulator:
             source = ("--world", folder / "room.world")
         words = (SIM, *source, "--pty", self.link, *([] if odometry else ["--no-odometry"]), *words)
         self.process = subprocess.Popen([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                        text=True)
+                                        text=True, preexec_fn=as_hardware)
         self.wait_for_link()
 
     def wait_for_link(self):
-        wait_until(lambda: self.link.exists() or self.process.poll() is not None, 10, "the pseudo terminal")
+        wait_until(lambda: self.link.exists() or self.process.poll() is not None, 60, "the pseudo terminal")
         assert self.process.poll() is None, self.process.stderr.read()
 
-    def tally(self, seconds=20):
+    def tally(self, seconds=60):
         """Waits for the end; what was counted."""
         out, err = self.process.communicate(timeout=seconds)
         assert self.process.returncode == 0, err
@@ -77,27 +78,30 @@ def test_a_stream_brings_whole_scans_ten_times_a_second(start):
 
 def test_a_scan_leaves_when_its_turn_is_over(start):
     client = Client(start("--noise", "none").link)
+    least, most = -math.inf, math.inf  # between these the zero of the device's clock lies
     client.ask("TM0")
-    before = time.monotonic()
-    stamp = client.ask("TM1").split(b"\n")[2]
-    offset = (before + time.monotonic()) / 2 - sum((c - 48) << 6 * (3 - k) for k, c in enumerate(stamp[:4])) / 1000
+    for _ in range(10):
+        before = time.monotonic()
+        stamp = client.ask("TM1").split(b"\n")[2]
+        device = sum((c - 48) << 6 * (3 - k) for k, c in enumerate(stamp[:4])) / 1000
+        least, most = max(least, before - device - 0.001), min(most, time.monotonic() - device)
     client.ask("TM2")
     client.ask(STREAM)
-    delays = []
+    shortest = math.inf
     for _ in range(10):
         scan = client.scan()
-        delays.append(time.monotonic() - offset - scan.stamp_ms / 1000)
-    assert 0.095 < min(delays) < 0.125, delays
+        shortest = min(shortest, time.monotonic() - scan.stamp_ms / 1000)
+    assert shortest - least > 0.095
+    assert shortest - most < 0.125, "of ten one came in time"
 
 
 def test_speed_scales_the_pace_and_the_device_clock_together(start):
     client = streaming(start("--speed", 5))
     first = client.scan()
-    begin = time.monotonic()
+    watch = Stopwatch()
     scans = [client.scan() for _ in range(50)]
-    seconds = time.monotonic() - begin
+    assert 0.9 < watch.most() and watch.least() < 1.5
     assert scans[-1].stamp_ms - first.stamp_ms == pytest.approx(5000, abs=1)
-    assert 0.9 < seconds < 1.5
 
 
 def test_nothing_is_played_before_a_client_asks_for_ranges(start):
@@ -148,19 +152,18 @@ def test_old_firmware_cannot_be_switched(start):
 def test_slow_firmware_answers_once_a_turn(start):
     client = Client(start("--command-interval", 100).link)
     client.ask("QT")
-    begin = time.monotonic()
+    watch = Stopwatch()
     for _ in range(5):
         client.ask("QT")
-    assert 0.45 < time.monotonic() - begin < 0.9
+    assert 0.45 < watch.most() and watch.least() < 0.9
 
 
 def test_the_rate_limit_is_kept_and_costs_scans(start):
     client = streaming(start("--baud-limit", 11520))
     first = client.scan()
-    begin = time.monotonic()
+    watch = Stopwatch()
     scans = [client.scan() for _ in range(5)]
-    rate = 5 * 2137 / (time.monotonic() - begin)
-    assert rate < 11520 * 1.03
+    assert 5 * 2137 / watch.most() < 11520 * 1.03
     assert scans[-1].stamp_ms - first.stamp_ms >= 9 * 100, "a frame takes 186 ms: every second scan at most"
 
 
@@ -190,7 +193,7 @@ def frames_around(start, fault, count=14):
     client = streaming(simulator)
     data = b""
     while data.count(b"\n\n") < count:
-        got = client.read_some(3)
+        got = client.read_some(60)
         assert got
         data += got
     return data
@@ -209,8 +212,8 @@ def test_a_flipped_bit_spoils_one_frame(start):
 
 def test_a_cut_frame_runs_into_the_next(start):
     frames = frames_around(start, "cut@#5").split(b"\n\n")[:12]
-    assert [well_formed(frame) for frame in frames] == [True] * 5 + [False] + [True] * 6
-    assert frames[5].count(STREAM.encode()) == 2
+    cut, = (frame for frame in frames if not well_formed(frame))
+    assert cut.count(STREAM.encode()) == 2 and well_formed(frames[-1])
 
 
 def test_garbage_comes_before_a_frame(start):
@@ -227,16 +230,14 @@ def test_a_repeated_frame_is_the_same_again(start):
 
 
 def test_silence_is_deaf_and_dumb_and_then_goes_on(start):
-    client = streaming(start("--faults", "silence:1@0.5"))
+    client = streaming(start("--faults", "silence:2@0.5"))
     before = [client.scan() for _ in range(4)][-1]
-    silent = time.monotonic()
-    while time.monotonic() - silent < 0.3:
-        if client.read_some(0.05):
-            silent = time.monotonic()
+    while client.read_some(1):  # more than a busy machine holds it up
+        pass
     client.buffer = b""
     client.send("QT")
-    after = client.scan(5)
-    assert after.stamp_ms - before.stamp_ms >= 1000
+    after = client.scan()
+    assert after.stamp_ms - before.stamp_ms >= 2000
     assert client.scan().stamp_ms > after.stamp_ms, "it has not heard QT"
 
 
@@ -248,11 +249,11 @@ def test_unplugged_it_hangs_up_and_returns_as_after_power_up(start):
     with pytest.raises(Gone):
         while True:
             client.scan()
-    gone = time.monotonic()
+    watch = Stopwatch()
     assert not simulator.link.exists()
     old = os.ttyname(client.fd) if os.isatty(client.fd) else None
     simulator.wait_for_link()
-    assert 0.9 < time.monotonic() - gone < 2
+    assert 0.9 < watch.most() and watch.least() < 2
     assert os.readlink(simulator.link) != old, "the old node is still held"
     client.close()
     assert Client(simulator.link).ask("QT") == b"QT\nE"
@@ -403,9 +404,9 @@ def test_a_stale_link_is_replaced_and_the_own_one_removed(tmp_path, start):
     other = simulator.folder / "urg2"
     other.symlink_to("/dev/null")
     second = subprocess.Popen([SIM, "--world", simulator.folder / "room.world", "--no-odometry", "--pty", other])
-    wait_until(lambda: os.readlink(other) != "/dev/null", 10, "the new link")
+    wait_until(lambda: os.readlink(other) != "/dev/null", 60, "the new link")
     second.terminate()
-    assert second.wait(timeout=10) == 0
+    assert second.wait(timeout=60) == 0
     assert not other.is_symlink()
     simulator.stop()
     assert not simulator.link.is_symlink()

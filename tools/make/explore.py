@@ -78,7 +78,8 @@ def explore(chain, arguments):
     for program in (sim, *(p for p in chain.programs if p is not sim)):
         program.stop()
         program.require_success(ANSWER_SECONDS)
-    return seconds, re.search(r"finished: (.*)", watch.said())[1], last_number(r"^collisions (\d+)", sim.lines)
+    seen = re.search(r"finished: (.*?)(?:  |$)", watch.said(), re.MULTILINE)[1]
+    return seconds, seen, last_number(r"^collisions (\d+)", sim.lines)
 
 
 def run(arguments):
