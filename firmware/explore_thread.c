@@ -25,6 +25,7 @@ typedef struct {
 typedef struct {
     ale_explorer_state_t state;
     bool lost;
+    bool looks;       /* drives about to find its place, while it is lost */
     uint32_t request; /* that it has heard of */
     uint32_t cells;
     uint32_t refused;
@@ -51,6 +52,7 @@ static void publish_doing(ale_explore_t *explore, bool lost)
     *(doing_t *)ale_snapshot_back(explore->doing) =
         (doing_t){.state = explorer->state,
                   .lost = lost,
+                  .looks = ale_wander_is_at_it(&explorer->wander),
                   .request = explore->heard,
                   .cells = explorer->begun ? explorer->grid.seen : 0,
                   .refused = explorer->planner.refused_count,
@@ -218,7 +220,8 @@ void ale_explore_words(ale_explore_t *explore, char text[ALE_ANSWER_BYTES])
     const doing_t doing = newest_doing(explore);
     text[0] = '\0';
     if (doing.lost && doing.state != ALE_EXPLORER_OFF && doing.state != ALE_EXPLORER_FINISHED) {
-        snprintf(text, ALE_ANSWER_BYTES, "waits: the pose is lost");
+        snprintf(text, ALE_ANSWER_BYTES, "%s: the pose is lost",
+                 doing.looks ? "looks for its place" : "waits");
         return;
     }
     switch (doing.state) {

@@ -52,6 +52,7 @@ void ale_explorer_request(ale_explorer_t *explorer, bool on)
     } else if (!ale_explorer_is_at_it(explorer)) {
         explorer->state = ALE_EXPLORER_EXPLORING;
         explorer->begun = false;
+        ale_wander_begin(&explorer->wander);
     }
 }
 
@@ -304,12 +305,26 @@ void ale_explorer_correct(ale_explorer_t *explorer, const ale_correction_t *corr
     }
 }
 
+/* Where it will be then, nobody knows: the way is planned anew. */
+static ale_velocity_t find_itself(ale_explorer_t *explorer, const ale_scan_t *scan)
+{
+    explorer->steps_since_plan = PLAN_EVERY;
+    explorer->steps_stuck = 0;
+    explorer->steps_back = 0;
+    got_on(explorer);
+    return ale_wander_step(&explorer->wander, &explorer->config.follower, scan);
+}
+
 ale_velocity_t ale_explorer_step(ale_explorer_t *explorer, const ale_scan_t *scan,
                                  const ale_estimate_t *estimate, int64_t now_us)
 {
-    if (!ale_explorer_is_at_it(explorer) || estimate->state == ALE_STATE_LOST) {
+    if (!ale_explorer_is_at_it(explorer)) {
         return standing;
     }
+    if (estimate->state == ALE_STATE_LOST) {
+        return find_itself(explorer, scan);
+    }
+    ale_wander_begin(&explorer->wander);
     if (!explorer->begun || estimate->epoch != explorer->epoch) {
         begin(explorer, estimate);
     }

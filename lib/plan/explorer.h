@@ -9,9 +9,10 @@
  *                   any of them but OFF and FINISHED -- the past has moved --> EXPLORING
  *
  * The grid begins anew with every "on" and with every new map; when loops have moved the map, it is drawn
- * again from the scans kept. While the pose is lost the robot stands. Goals that it cannot get to are given
- * up and counted. One owner thread, never the estimate task: a step in which ways are planned takes some 10
- * ms of a PC, and the structure 31 MB. No allocation, no clock, every loop bounded by the grid's capacity. */
+ * again from the scans kept. While the pose is lost the robot stands, then looks for a place that it can tell
+ * (wander.h), and goes on once it has found itself. Goals that it cannot get to are given up and counted. One
+ * owner thread, never the estimate task: a step in which ways are planned takes some 10 ms of a PC, and the
+ * structure 31 MB. No allocation, no clock, every loop bounded by the grid's capacity. */
 #ifndef ALE_PLAN_EXPLORER_H
 #define ALE_PLAN_EXPLORER_H
 
@@ -19,6 +20,7 @@
 #include "plan/grid.h"
 #include "plan/kept_scans.h"
 #include "plan/planner.h"
+#include "plan/wander.h"
 #include "track/pipeline.h"
 
 typedef struct {
@@ -54,6 +56,7 @@ typedef struct {
     uint32_t steps_at_anchor;
     uint32_t steps_stuck; /* the way ahead is closed */
     uint32_t steps_back;  /* still to be driven backwards */
+    ale_wander_t wander;  /* while the pose is lost */
     ale_grid_t grid;
     ale_planner_t planner;
     ale_kept_scans_t kept;

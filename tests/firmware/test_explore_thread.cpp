@@ -108,10 +108,10 @@ TEST_F(ExploreThread, OffTakesTheWishBack)
     EXPECT_EQ(wish().valid_until_us, 0);
 }
 
-TEST_F(ExploreThread, SaysThatItWaitsForThePose)
+TEST_F(ExploreThread, SaysThatThePoseIsLostAndStandsAtFirst)
 {
     ale_explore_request(explore, true);
-    ASSERT_TRUE(comes([&] { return words() == "waits: the pose is lost"; }, ALE_STATE_LOST));
+    ASSERT_TRUE(comes([&] { return words() == "looks for its place: the pose is lost"; }, ALE_STATE_LOST));
     EXPECT_FALSE(wishes_to_move());
 }
 

@@ -69,12 +69,27 @@ TEST_F(Explorer, StandsUntilItIsAskedAndWhenItIsToldToStop)
     EXPECT_EQ(explorer_->state, ALE_EXPLORER_OFF);
 }
 
-TEST_F(Explorer, StandsWhileThePoseIsLost)
+TEST_F(Explorer, LostItStandsFirst)
 {
     ale_explorer_request(explorer_.get(), true);
     EXPECT_FALSE(stands(step()));
     EXPECT_TRUE(stands(step(ALE_STATE_LOST)));
     EXPECT_FALSE(stands(step()));
+}
+
+TEST_F(Explorer, FoundAgainItGoesOnWhereverItHasWandered)
+{
+    ale_explorer_request(explorer_.get(), true);
+    step();
+    const reference::Pose before = pose_;
+    while (steps_ < 300) {
+        step(ALE_STATE_LOST);
+    }
+    EXPECT_GT(std::hypot(pose_[0] - before[0], pose_[1] - before[1]), 0.5);
+    EXPECT_FALSE(stands(step()));
+    EXPECT_EQ(explorer_->state, ALE_EXPLORER_EXPLORING);
+    EXPECT_EQ(explorer_->home.x_um, convert::pose(before).x_um) << "home is where it was";
+    EXPECT_EQ(explorer_->wander.steps, 0u);
 }
 
 TEST_F(Explorer, SeesTheWholeRoomAndComesBackToPlaceAndHeading)
