@@ -77,7 +77,7 @@ $(VENV)/ready: tests/requirements.txt
 venv: $(VENV)/ready
 
 system: programs lcm-types venv ## tests of the real programs over pseudo terminals and LCM (T=word selects)
-	@$(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(if $(T),-k "$(T)")
+	@$(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(if $(T),-rP -k "$(T)")
 
 system-rtai: programs lcm-types venv $(BUILD)/rtai/ale-slamd ## the system tests with the firmware on an emulated RTAI (T=file of tests/system)
 	@ALE_SLAMD=$(BUILD)/rtai/ale-slamd $(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(or $(T),tests/system)

@@ -3,6 +3,8 @@
 // way.
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <cstdlib>
 #include <set>
 #include <utility>
 
@@ -16,7 +18,7 @@ namespace
 
 using Beams = std::set<std::pair<int, int>>;
 
-constexpr unsigned scans = 480;
+const unsigned scans = std::getenv("ALE_LONG_TESTS") ? 3000 : 480;
 
 reference::Extraction twin_of(const ale_scan_t &scan)
 {
@@ -41,9 +43,11 @@ struct Common {
         equal += here;
         all += std::max(a.size(), b.size());
     }
-    double share() const
+    double share(const char *of_what) const
     {
-        return static_cast<double>(equal) / static_cast<double>(all);
+        const double part = static_cast<double>(equal) / static_cast<double>(all);
+        std::printf("%.2f %% of %zu %s in %u scans\n", 100 * part, all, of_what, scans);
+        return part;
     }
 };
 
@@ -85,9 +89,9 @@ TEST(Twins, NearlyAllLinesCurvesAndCornersHaveTheSameBeamsInIntegersAndInDouble)
     EXPECT_GT(lines.all, 2500U);
     EXPECT_GT(curves.all, 40U);
     EXPECT_GT(corners.all, 800U);
-    EXPECT_GE(lines.share(), 0.995) << lines.equal << " of " << lines.all;
-    EXPECT_GE(curves.share(), 0.95) << curves.equal << " of " << curves.all;
-    EXPECT_GE(corners.share(), 0.99) << corners.equal << " of " << corners.all;
+    EXPECT_GE(lines.share("lines"), 0.995) << lines.equal << " of " << lines.all;
+    EXPECT_GE(curves.share("curves"), 0.95) << curves.equal << " of " << curves.all;
+    EXPECT_GE(corners.share("corners"), 0.99) << corners.equal << " of " << corners.all;
 }
 
 // Where both have the same beams: 0.02 deviations, and the rounding of points to 1/16 mm.
