@@ -19,6 +19,7 @@
 #include "base/stage.h"
 #include "extract/extract.h"
 #include "track/odometry_sample.h"
+#include "track/seen.h"
 
 #define ALE_MAP_MAX_LINES 2048
 #define ALE_MAP_MAX_CORNERS 1024
@@ -130,6 +131,10 @@ void ale_pipeline_freeze_map(ale_pipeline_t *pipeline, bool frozen);
 
 /* Features of the scan last handed over: sensor frame at the scan's stamp, straightened. */
 const ale_features_t *ale_pipeline_features(const ale_pipeline_t *pipeline);
+
+/* The scan last handed over as it was straightened and taken into account (see seen.h), at its map pose;
+ * borrowed until the next one is handed over. False: the last answer had no scan, and *out is untouched. */
+bool ale_pipeline_seen(const ale_pipeline_t *pipeline, ale_seen_t *out);
 
 /* The map as it stands: walls and corners worth showing. Copies at most sizeof(ale_map_t). */
 void ale_pipeline_copy_map(const ale_pipeline_t *pipeline, ale_map_t *out);

@@ -21,6 +21,20 @@ const uint32_t *ale_pipeline_bearings(const ale_pipeline_t *p)
     return p->straightened ? p->bearing_bam : NULL;
 }
 
+bool ale_pipeline_seen(const ale_pipeline_t *p, ale_seen_t *out)
+{
+    if (!p->looked) {
+        return false;
+    }
+    *out = (ale_seen_t){.scan = &p->scan,
+                        .bearing_bam = ale_pipeline_bearings(p),
+                        .robot = p->motion.pose,
+                        .sensor = ale_pose_compose(p->motion.pose, p->config.sensor),
+                        .view = p->view,
+                        .view_count = p->view_count};
+    return true;
+}
+
 void ale_pipeline_look(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t velocity[ALE_AXES])
 {
     int32_t sensor_velocity[ALE_AXES];

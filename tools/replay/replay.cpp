@@ -6,6 +6,7 @@
 #include "cli/wrong_use.h"
 #include "export/map_image.h"
 #include "export/scan_cloud.h"
+#include "graph/map_redraw.h"
 #include "replay/core_object.h"
 #include "replay/features_file.h"
 #include "replay/loops.h"
@@ -46,6 +47,7 @@ class Replay
     void put_results(int64_t stamp_us, const ale_features_t *features);
     void put_estimate(const ale_estimate_t &estimate);
     ale_pose_t framed(const ale_pose_t &robot) const;
+    bool wants_map() const;
     void load_map();
     void close_loops();
     void finish();
@@ -65,6 +67,7 @@ class Replay
     std::optional<TimingFile> timing_file_;
 
     std::optional<Loops> loops_;
+    std::optional<MapRecord> record_; /* when a map is asked for that may be drawn anew */
     std::vector<ScanPose> track_;
     StageClock clock_;
     ReplayCounts counts_;
@@ -100,6 +103,10 @@ void Replay::begin(const char *recorded_config)
         if (options_.close_loops) {
             loops_.emplace();
         }
+        /* Of a loaded map this drive may have seen but a part. */
+        if (loops_ && options_.load_map.empty() && wants_map()) {
+            record_.emplace();
+        }
     }
     if (status < 0) {
         throw cli::WrongUse("the configuration has a value that the core refuses");
@@ -107,6 +114,11 @@ void Replay::begin(const char *recorded_config)
     if (!options_.load_map.empty()) {
         load_map();
     }
+}
+
+bool Replay::wants_map() const
+{
+    return !options_.maps.empty() || !options_.save_map.empty();
 }
 
 void Replay::load_map()
@@ -180,6 +192,9 @@ void Replay::put_estimate(const ale_estimate_t &estimate)
     if (loops_) {
         loops_->after_scan(pipeline_.get(), estimate);
     }
+    if (record_) {
+        record_->take(pipeline_.get(), estimate);
+    }
     track_.push_back({estimate.stamp_us, estimate.map, estimate.velocity_x_um_s, estimate.velocity_y_um_s,
                       estimate.velocity_theta_urad_s, !estimate.predicted});
     if (poses_file_) {
@@ -238,6 +253,10 @@ void Replay::draw_maps()
 {
     auto map = std::make_unique<ale_map_t>();
     ale_pipeline_copy_map(pipeline_.get(), map.get());
+    if (record_) {
+        redraw_map(
+            *record_, [this](uint32_t scan) { return track_[scan].robot; }, map.get());
+    }
     if (!options_.save_map.empty()) {
         char error[ALE_MAP_FILE_ERROR];
         if (ale_map_file_save(options_.save_map.c_str(), map.get(), error) < 0) {

@@ -1,0 +1,75 @@
+#include "graph/map_redraw.h"
+
+#include <algorithm>
+
+#include "graph/meeting_walls.h"
+#include "graph/wall_groups.h"
+#include "graph/wall_spans.h"
+
+extern "C" {
+#include "base/fixed.h"
+#include "base/trig.h"
+}
+
+namespace ale
+{
+
+namespace
+{
+
+// How well a corrected pose is known to its neighbours of other visits.
+constexpr int64_t pose_um = 15000;
+constexpr int64_t pose_urad = 6000;
+
+constexpr int64_t million = 1000000;
+
+PlacedLine placed(const LineSight &sight, ale_pose_t robot)
+{
+    const ale_stand_t stand = ale_stand(robot);
+    const int64_t aside_um = ale_along(sight.view.centre, ale_tangent_bam(sight.view.normal_bam));
+    const int64_t swung_um = ale_mul_div(aside_um, pose_urad, million);
+    return {sight.scan, sight.look, ale_view_from(&sight.view, &stand),
+            pose_um * pose_um + swung_um * swung_um, pose_urad * pose_urad};
+}
+
+// Offset and angle are told at the middle, where a map that is taken in puts the anchor.
+ale_map_line_t line_of(const WallSpan &span)
+{
+    const ale_wall_t &wall = span.wall;
+    const int64_t middle_um = (int64_t{wall.start_um} + wall.end_um) / 2;
+    ale_map_line_t line{};
+    line.start = ale_wall_point(&wall, wall.start_um);
+    line.end = ale_wall_point(&wall, wall.end_um);
+    line.var_alpha_nrad2 = wall.var_angle_urad2 * million;
+    line.cov_alpha_rho = ale_wall_offset_angle_cov(&wall, middle_um) * 1000;
+    line.var_rho_um2 = ale_wall_offset_var(&wall, middle_um);
+    line.seen = span.seen;
+    return line;
+}
+
+} // namespace
+
+void redraw_map(const MapRecord &record, const PoseOfScan &pose_of, ale_map_t *out)
+{
+    std::vector<PlacedLine> lines;
+    for (const LineSight &sight : record.lines()) {
+        lines.push_back(placed(sight, pose_of(sight.scan)));
+    }
+    std::vector<PlacedLook> looks;
+    for (const Look &look : record.looks()) {
+        looks.push_back({&look, ale_pose_compose(pose_of(look.scan), record.sensor())});
+    }
+    *out = {};
+    for (const WallSpan &span : spans_of(group_lines(lines), lines, looks)) {
+        if (out->line_count == ALE_MAP_MAX_LINES) {
+            out->refused++;
+            continue;
+        }
+        out->line[out->line_count] = line_of(span);
+        out->line[out->line_count].id = out->line_count;
+        out->line_count++;
+    }
+    meet_corners(record, pose_of, out);
+}
+
+} // namespace ale

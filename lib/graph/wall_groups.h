@@ -1,0 +1,41 @@
+// Which lines of which scans show one wall.
+//
+// Longest first, every line joins the group that it lies in, or begins one. Then groups that are one wall
+// are joined: those that continue or repeat each other within their errors, and those that lie side by side
+// farther than poses err, when no scan has seen them apart: of two surfaces that face the same way the nearer
+// hides the other, so that what stands twice in the map, and never in a scan, stands once.
+#ifndef ALE_GRAPH_WALL_GROUPS_H
+#define ALE_GRAPH_WALL_GROUPS_H
+
+#include <cstdint>
+#include <vector>
+
+extern "C" {
+#include "track/view.h"
+#include "track/wall.h"
+}
+
+namespace ale
+{
+
+// A line where the pose of its scan puts it.
+struct PlacedLine {
+    uint32_t scan;
+    uint32_t look;
+    ale_view_t view; // map frame; variances as one scan knows them
+    // What the doubt of the pose adds to the variances.
+    int64_t doubt_um2;
+    int64_t doubt_urad2;
+};
+
+struct WallGroup {
+    ale_wall_t wall;             // as all its lines together have it
+    std::vector<uint32_t> lines; // indices, ascending
+};
+
+// Lines by ascending scan. Groups by the length of their first line. O(lines * groups).
+std::vector<WallGroup> group_lines(const std::vector<PlacedLine> &lines);
+
+} // namespace ale
+
+#endif

@@ -1,0 +1,121 @@
+// lib/graph/wall_groups: lines of scans whose poses err, against the walls that they were taken of.
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "graph/wall_groups.h"
+
+extern "C" {
+#include "base/trig.h"
+}
+
+namespace
+{
+
+constexpr int64_t sigma_um = 10000;
+constexpr int64_t sigma_urad = 6000;
+
+// A line on a wall that faces along `normal_deg`, from..to along its tangent, `off_mm` in front of it.
+ale::PlacedLine line(uint32_t scan, double normal_deg, double from_m, double to_m, double off_mm,
+                     double turned_mrad = 0)
+{
+    ale::PlacedLine placed = {};
+    const auto normal_bam = static_cast<uint32_t>(static_cast<int64_t>(normal_deg * ALE_BAM_PER_DEGREE));
+    const auto half_um = static_cast<int32_t>((to_m - from_m) * 5e5);
+    placed.scan = scan;
+    placed.look = scan / 5;
+    placed.view.centre =
+        ale_plus(ale_polar(static_cast<int64_t>((from_m + to_m) * 5e5), ale_tangent_bam(normal_bam)),
+                 ale_polar(static_cast<int64_t>(off_mm * 1000), normal_bam));
+    placed.view.normal_bam =
+        normal_bam + static_cast<uint32_t>(static_cast<int64_t>(turned_mrad * ALE_BAM_PER_MRAD));
+    placed.view.start_um = -half_um;
+    placed.view.end_um = half_um;
+    placed.view.var_offset_um2 = 9000000;
+    placed.view.var_angle_urad2 = 25000000;
+    placed.doubt_um2 = sigma_um * sigma_um;
+    placed.doubt_urad2 = sigma_urad * sigma_urad;
+    return placed;
+}
+
+double offset_mm(const ale_wall_t &wall, double normal_deg)
+{
+    const auto normal_bam = static_cast<uint32_t>(static_cast<int64_t>(normal_deg * ALE_BAM_PER_DEGREE));
+    return static_cast<double>(
+               ale_along(ale_wall_point(&wall, (int64_t{wall.start_um} + wall.end_um) / 2), normal_bam)) *
+           1e-3;
+}
+
+TEST(WallGroups, LinesOfOneWallFromPosesThatErrAreOneGroupOnTheWall)
+{
+    std::mt19937 random(5);
+    std::normal_distribution<double> normal;
+    for (const double direction_deg : {0.0, 37.0, 90.0, 181.0, 359.9}) {
+        std::vector<ale::PlacedLine> lines;
+        for (uint32_t k = 0; k < 200; k++) {
+            const double from_m = 0.03 * k;
+            lines.push_back(
+                line(k, direction_deg, from_m, from_m + 1.5, 10 * normal(random), 6 * normal(random)));
+        }
+        const std::vector<ale::WallGroup> groups = ale::group_lines(lines);
+        ASSERT_EQ(groups.size(), 1U) << direction_deg;
+        EXPECT_EQ(groups[0].lines.size(), lines.size());
+        EXPECT_NEAR(offset_mm(groups[0].wall, direction_deg), 0, 4);
+        EXPECT_NEAR((groups[0].wall.end_um - groups[0].wall.start_um) * 1e-6, 199 * 0.03 + 1.5, 0.01);
+    }
+}
+
+TEST(WallGroups, BothSidesOfAPanelAreTwoWalls)
+{
+    std::vector<ale::PlacedLine> lines;
+    for (uint32_t k = 0; k < 20; k++) {
+        lines.push_back(line(k, 90, 0, 2, 10));
+        lines.push_back(line(k, 270, -2, 0, 10));
+    }
+    EXPECT_EQ(ale::group_lines(lines).size(), 2U);
+}
+
+// The second visit is displaced by more than any pose should be.
+TEST(WallGroups, WhatStandsTwiceAndNeverInOneScanStandsOnceBetween)
+{
+    std::vector<ale::PlacedLine> lines;
+    for (uint32_t k = 0; k < 40; k++) {
+        lines.push_back(line(k, 20, 0, 2, k < 20 ? 0 : 200));
+    }
+    const std::vector<ale::WallGroup> groups = ale::group_lines(lines);
+    ASSERT_EQ(groups.size(), 1U);
+    EXPECT_NEAR(offset_mm(groups[0].wall, 20), 100, 10);
+}
+
+TEST(WallGroups, AStepThatScansHaveSeenStaysAStep)
+{
+    std::vector<ale::PlacedLine> lines;
+    for (uint32_t k = 0; k < 20; k++) {
+        lines.push_back(line(k, 20, 0, 1.05, 0));
+        lines.push_back(line(k, 20, 1.0, 2, 150));
+    }
+    const std::vector<ale::WallGroup> groups = ale::group_lines(lines);
+    ASSERT_EQ(groups.size(), 2U);
+    EXPECT_NEAR(offset_mm(groups[0].wall, 20) + offset_mm(groups[1].wall, 20), 150, 2);
+}
+
+TEST(WallGroups, WallsOnBothSidesOfADoorAreTwo)
+{
+    std::vector<ale::PlacedLine> lines;
+    for (uint32_t k = 0; k < 20; k++) {
+        lines.push_back(line(k, 120, -2, -0.5, 0));
+        lines.push_back(line(k, 120, 0.5, 2, 0));
+    }
+    EXPECT_EQ(ale::group_lines(lines).size(), 2U);
+}
+
+TEST(WallGroups, LinesTooShortForAWallBeginNone)
+{
+    std::vector<ale::PlacedLine> lines;
+    for (uint32_t k = 0; k < 20; k++) {
+        lines.push_back(line(k, 0, 0, 0.2, 0));
+    }
+    EXPECT_TRUE(ale::group_lines(lines).empty());
+}
+
+} // namespace
