@@ -1,7 +1,5 @@
 #include "graph/wall_spans.h"
 
-#include <algorithm>
-
 extern "C" {
 #include "base/fixed.h"
 #include "base/trig.h"
