@@ -1,5 +1,7 @@
 #include "graph/wall_spans.h"
 
+#include <cstddef>
+
 extern "C" {
 #include "base/fixed.h"
 #include "base/trig.h"
