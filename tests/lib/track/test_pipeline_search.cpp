@@ -1,0 +1,109 @@
+// lib/track/pipeline_search.c: carried away, or started in a loaded map.
+#include <gtest/gtest.h>
+
+#include "room.h"
+
+TEST(PipelineSearch, CarriedAwayItSaysLostAndFindsItselfInTheMap)
+{
+    ale_pipeline_config_t config = ale_pipeline_default_config();
+    config.use_odometry = false;
+    const room::Pipeline p = room::make(config);
+    std::mt19937 rng(5);
+    room::Sensor sensor;
+    sensor.noise = 0.003;
+    ale_estimate_t e;
+    double t = 1;
+    for (int k = 0; k < 180; k++, t += 0.1) {
+        const ale_scan_t scan = room::scan_at(room::l_shape(), sensor, room::path, t, rng);
+        ale_pipeline_scan(p.get(), &scan, &e);
+    }
+    const reference::Pose there = reference::compose(room::path(t), {0.9, -0.7, 2.2});
+    auto standing = [&](double) { return there; };
+    bool lost = false;
+    double longest = 0;
+    for (int k = 0; k < 120; k++, t += 0.1) {
+        const ale_scan_t scan = room::scan_at(room::l_shape(), sensor, standing, t, rng);
+        const ale_pose_t before = e.smooth;
+        ale_pipeline_scan(p.get(), &scan, &e);
+        lost = lost || e.state == ALE_STATE_LOST;
+        longest = std::max(
+            longest, room::since_start(convert::pose(before), convert::pose(e.smooth)).head<2>().norm());
+    }
+    const reference::Pose truth = room::since_start(room::path(1), there);
+    EXPECT_TRUE(lost);
+    EXPECT_EQ(e.state, ALE_STATE_GOOD);
+    EXPECT_LT((convert::pose(e.map) - truth).head<2>().norm(), 0.03);
+    EXPECT_LT(std::abs(reference::wrap(convert::pose(e.map)[2] - truth[2])), 0.02);
+    EXPECT_LT(longest, 0.6);
+}
+
+/* Carried to another place between two scans, whichever it is: it never says good while it is wrong. */
+TEST(PipelineSearch, CarriedAnywhereItIsNeverWrongWhileItSaysGood)
+{
+    std::mt19937 rng(7);
+    std::uniform_real_distribution<double> unit(0, 1);
+    int found = 0;
+    for (int trial = 0; trial < 8; trial++) {
+        ale_pipeline_config_t config = ale_pipeline_default_config();
+        config.use_odometry = trial % 2;
+        const room::Pipeline p = room::make(config);
+        room::Sensor sensor;
+        sensor.noise = 0.004;
+        const double carried = 19.05; /* between two sweeps */
+        const reference::Pose there =
+            reference::compose(room::path(1 + 17 * unit(rng)),
+                               {0.6 * unit(rng) - 0.3, 0.6 * unit(rng) - 0.3, 2 * reference::pi * unit(rng)});
+        const reference::Pose hands = room::since_start(room::path(carried), there);
+        if (hands.head<2>().norm() < 0.5) {
+            continue;
+        }
+        auto path = [&](double t) {
+            return t < carried ? room::path(t)
+                               : reference::compose(there, {0, 0, 0.3 * std::sin(t - carried)});
+        };
+        reference::Pose wheels(0, 0, 0);
+        ale_estimate_t e = {};
+        for (int k = 0; k < 260; k++) {
+            const double t = 1 + 0.1 * k;
+            const bool lifted = t - 0.1 < carried && t >= carried;
+            wheels = lifted ? wheels : reference::compose(wheels, room::since_start(path(t - 0.1), path(t)));
+            const ale_odometry_t sample = {std::llround(t * 1e6), convert::pose(wheels)};
+            ale_pipeline_odometry(p.get(), &sample);
+            const ale_scan_t scan = room::scan_at(room::l_shape(), sensor, path, t, rng);
+            ale_pipeline_scan(p.get(), &scan, &e);
+            const reference::Pose error =
+                room::since_start(convert::pose(e.map), room::since_start(path(1), path(t)));
+            const bool wrong = error.head<2>().norm() > 0.3 || std::abs(reference::wrap(error[2])) > 0.2;
+            ASSERT_FALSE(wrong && e.state == ALE_STATE_GOOD) << "trial " << trial << " scan " << k;
+        }
+        found += e.state == ALE_STATE_GOOD;
+    }
+    EXPECT_GE(found, 5);
+}
+
+TEST(PipelineSearch, StartsInALoadedMapWhereverItStands)
+{
+    std::mt19937 rng(6);
+    ale_pipeline_config_t config = ale_pipeline_default_config();
+    config.use_odometry = false;
+    const room::Pipeline first = room::make(config);
+    ale_estimate_t e;
+    for (int k = 0; k < 180; k++) {
+        const ale_scan_t scan = room::scan_at(room::l_shape(), room::Sensor(), room::path, 1 + 0.1 * k, rng);
+        ale_pipeline_scan(first.get(), &scan, &e);
+    }
+    const auto map = std::make_unique<ale_map_t>();
+    ale_pipeline_copy_map(first.get(), map.get());
+    EXPECT_GE(map->line_count, 8);
+    EXPECT_LE(map->line_count, 20);
+    EXPECT_GE(map->corner_count, 4);
+    const room::Pipeline second = room::make(config);
+    ale_pipeline_load_map(second.get(), map.get(), {0, 0, 0}, false);
+    for (int k = 0; k < 100; k++) {
+        const ale_scan_t scan = room::scan_at(room::l_shape(), room::Sensor(), room::path, 9 + 0.1 * k, rng);
+        ale_pipeline_scan(second.get(), &scan, &e);
+        EXPECT_TRUE(k > 0 || e.state != ALE_STATE_GOOD);
+    }
+    const reference::Pose truth = room::since_start(room::path(1), room::path(18.9));
+    EXPECT_LT((convert::pose(e.map) - truth).head<2>().norm(), 0.03);
+}

@@ -1,0 +1,111 @@
+// lib/track/pipeline_track.c: a robot that stands among people who walk.
+#include <gtest/gtest.h>
+
+#include "room.h"
+
+namespace
+{
+
+/* People about a robot that stands: each a body of 0.4 m that goes from place to place. */
+class People
+{
+  public:
+    People(const Eigen::Vector2d &robot, int count, std::mt19937 &rng) : robot_(robot), rng_(rng)
+    {
+        for (int k = 0; k < count; k++) {
+            people_.push_back({somewhere(), somewhere(), 0.3 + unit_(rng_)});
+        }
+    }
+
+    /* A tenth of a second. */
+    void walk()
+    {
+        for (Person &p : people_) {
+            const Eigen::Vector2d way = p.to - p.at;
+            const Eigen::Vector2d next = p.at + way.normalized() * std::min(0.1 * p.speed, way.norm());
+            const bool blocked = (next - robot_).norm() < 0.5 || way.norm() < 0.05;
+            p.to = blocked ? somewhere() : p.to;
+            p.at = blocked ? p.at : next;
+        }
+    }
+
+    std::vector<room::Wall> in(std::vector<room::Wall> walls) const
+    {
+        for (const Person &p : people_) {
+            for (int i = 0; i < 10; i++) {
+                const double a = i * reference::pi / 5;
+                const double b = a + reference::pi / 5;
+                walls.push_back({p.at[0] + 0.2 * std::cos(a), p.at[1] + 0.2 * std::sin(a),
+                                 p.at[0] + 0.2 * std::cos(b), p.at[1] + 0.2 * std::sin(b)});
+            }
+        }
+        return walls;
+    }
+
+  private:
+    struct Person {
+        Eigen::Vector2d at, to;
+        double speed;
+    };
+
+    Eigen::Vector2d somewhere()
+    {
+        Eigen::Vector2d p = robot_;
+        while ((p - robot_).norm() < 0.6) {
+            const double x = -0.6 + 2.7 * unit_(rng_);
+            p = {x, -1.6 + 4.1 * unit_(rng_)};
+        }
+        return p;
+    }
+
+    Eigen::Vector2d robot_;
+    std::mt19937 &rng_;
+    std::uniform_real_distribution<double> unit_{0, 1};
+    std::vector<Person> people_;
+};
+
+double from_nearest_wall(const Eigen::Vector2d &p)
+{
+    double nearest = 9;
+    for (const room::Wall &w : room::l_shape()) {
+        const Eigen::Vector2d from(w.x1, w.y1);
+        const Eigen::Vector2d along = Eigen::Vector2d(w.x2, w.y2) - from;
+        const double u = std::clamp((p - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+        nearest = std::min(nearest, (p - from - u * along).norm());
+    }
+    return nearest;
+}
+
+TEST(PipelineTrack, AtRestAmongWalkingPeopleItStaysAndTheirBodiesAreNoWalls)
+{
+    std::mt19937 rng(3);
+    const reference::Pose robot(1, 0, 0.4);
+    People people(robot.head<2>(), 4, rng);
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    room::Sensor sensor;
+    sensor.noise = 0.004;
+    ale_estimate_t e = {};
+    for (int k = 0; k < 900; k++) {
+        const double t = 1 + 0.1 * k;
+        const ale_odometry_t still = {std::llround(t * 1e6), {0, 0, 0}};
+        people.walk();
+        ale_pipeline_odometry(p.get(), &still);
+        const ale_scan_t scan = room::scan_at(
+            people.in(room::l_shape()), sensor, [&](double) { return robot; }, t, rng);
+        ale_pipeline_scan(p.get(), &scan, &e);
+        ASSERT_NE(e.state, ALE_STATE_LOST) << k;
+    }
+    EXPECT_EQ(e.state, ALE_STATE_GOOD);
+    EXPECT_LT(convert::pose(e.map).head<2>().norm(), 0.010);
+    const auto map = std::make_unique<ale_map_t>();
+    ale_pipeline_copy_map(p.get(), map.get());
+    for (int i = 0; i < map->line_count; i++) {
+        const ale_map_line_t &line = map->line[i];
+        const reference::Pose a = convert::pose(ale_pose_t{line.start.x_um, line.start.y_um, 0});
+        const reference::Pose b = convert::pose(ale_pose_t{line.end.x_um, line.end.y_um, 0});
+        const reference::Pose middle = reference::compose(robot, (a + b) / 2);
+        EXPECT_LT(from_nearest_wall(middle.head<2>()), 0.05) << "line " << i;
+    }
+}
+
+} // namespace
