@@ -121,9 +121,7 @@ class Cells
     // Index of the cell at the foot of a point, or -1: beyond the ends.
     int64_t cell_beside(ale_point_t p) const
     {
-        const ale_point_t d = ale_minus(p, wall_.anchor);
-        const int64_t t_um =
-            ale_round_shift(int64_t{d.x_um} * wall_.normal_y_q30 - int64_t{d.y_um} * wall_.normal_x_q30, 30);
+        const int64_t t_um = ale_wall_along(&wall_, p);
         const int64_t k = t_um < wall_.start_um ? -1 : (t_um - wall_.start_um) / cell_um;
         return k < static_cast<int64_t>(cells_.size()) ? k : -1;
     }
@@ -138,9 +136,7 @@ bool may_see(const PlacedLook &from, const ale_wall_t &wall)
     const ale_point_t at = {from.sensor.x_um, from.sensor.y_um};
     const int64_t height_um = ale_wall_offset(&wall, at);
     const int64_t reach_um = from.look->seen.scan.range_max_um;
-    const ale_point_t d = ale_minus(at, wall.anchor);
-    const int64_t t_um =
-        ale_round_shift(int64_t{d.x_um} * wall.normal_y_q30 - int64_t{d.y_um} * wall.normal_x_q30, 30);
+    const int64_t t_um = ale_wall_along(&wall, at);
     return height_um > 0 && height_um < reach_um && t_um > wall.start_um - reach_um &&
            t_um < wall.end_um + reach_um;
 }
@@ -213,6 +209,7 @@ std::vector<WallSpan> spans_of(const std::vector<WallGroup> &groups, const std::
                                const std::vector<PlacedLook> &looks)
 {
     std::vector<Cells> cells;
+    cells.reserve(groups.size());
     for (const WallGroup &group : groups) {
         cells.push_back(cells_of(group, lines, looks));
     }

@@ -31,11 +31,9 @@ void ale_wall_from_view(ale_wall_t *wall, const ale_view_t *view)
 
 ale_wall_error_t ale_wall_error(const ale_wall_t *wall, const ale_view_t *view)
 {
-    const int64_t x = (int64_t)view->centre.x_um - wall->anchor.x_um;
-    const int64_t y = (int64_t)view->centre.y_um - wall->anchor.y_um;
     ale_wall_error_t e;
     e.offset_um = ale_wall_offset(wall, view->centre);
-    e.t_um = ale_round_shift(x * wall->normal_y_q30 - y * wall->normal_x_q30, 30);
+    e.t_um = ale_wall_along(wall, view->centre);
     e.angle_urad = urad_of(ale_bam_diff(view->normal_bam, wall->normal_bam));
     e.overlap_um =
         ale_min64(wall->end_um, e.t_um + view->end_um) - ale_max64(wall->start_um, e.t_um + view->start_um);

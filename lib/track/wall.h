@@ -63,6 +63,14 @@ static inline int64_t ale_wall_offset(const ale_wall_t *wall, ale_point_t p)
                            30);
 }
 
+/* And how far along it from the anchor. */
+static inline int64_t ale_wall_along(const ale_wall_t *wall, ale_point_t p)
+{
+    return ale_round_shift(((int64_t)p.x_um - wall->anchor.x_um) * wall->normal_y_q30 -
+                               ((int64_t)p.y_um - wall->anchor.y_um) * wall->normal_x_q30,
+                           30);
+}
+
 /* Variance of the wall's offset at t along it, and its covariance with the angle there. */
 int64_t ale_wall_offset_var(const ale_wall_t *wall, int64_t t_um);
 int64_t ale_wall_offset_angle_cov(const ale_wall_t *wall, int64_t t_um);
