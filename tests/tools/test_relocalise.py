@@ -7,7 +7,8 @@ from at_hand import BUILD, WORLDS
 
 @pytest.mark.parametrize("world", ["home", "arena"])
 def test_finds_itself_from_random_places_and_is_never_wrong_while_good(world):
-    times, right, wrong = relocalise.try_world(BUILD, WORLDS / f"{world}.world", 2, 60, 11)
+    times, right, wrong, off_m = relocalise.try_world(BUILD, WORLDS / f"{world}.world", 2, 60, 11)
     assert wrong == 0
     assert right == 2
     assert len(times) == 2
+    assert off_m < 0.03

@@ -5,6 +5,7 @@ const NEAREST = 3000; // pixels a metre
 const FARTHEST = 2;
 const MARGIN_PX = 48;
 const TOOLS_PX = 60; // the buttons at the left
+const CLEAR_LEAST = 0.75; // the whole map keeps clear of stick and stop unless that makes it smaller than this part
 const SETTLE_MS = 140; // time constant of the camera's glide
 
 export class View {
@@ -88,10 +89,24 @@ export class View {
     }
     const box = this.mode === "whole" && this.scene.bounds;
     if (!box || !this.width || !this.height) return null;
-    const scale = Math.min((this.width - TOOLS_PX - 2 * MARGIN_PX) / Math.max(2, box[2] - box[0]),
-                           (this.height - 2 * MARGIN_PX) / Math.max(2, box[3] - box[1]));
-    return { x: (box[0] + box[2]) / 2 - TOOLS_PX / 2 / scale, y: (box[1] + box[3]) / 2,
-             scale: Math.min(NEAREST, Math.max(FARTHEST, scale)) };
+    const [all, ...clear] = this.#areas().map((area) => this.#fit(box, area));
+    return clear.filter((fit) => fit.scale > CLEAR_LEAST * all.scale).sort((a, b) => b.scale - a.scale)[0] ?? all;
+  }
+
+  // Parts of the canvas that the map may fill, [left, right, bottom]: all of it, or what stick and stop leave free.
+  #areas() {
+    const all = [TOOLS_PX, this.width, this.height];
+    const hands = document.getElementById("driving");
+    if (!hands.offsetParent) return [all];
+    return [all, [TOOLS_PX, hands.offsetLeft, this.height], [TOOLS_PX, this.width, hands.offsetTop]];
+  }
+
+  #fit(box, [left, right, bottom]) {
+    const scale = Math.min((right - left - 2 * MARGIN_PX) / Math.max(2, box[2] - box[0]),
+                           (bottom - 2 * MARGIN_PX) / Math.max(2, box[3] - box[1]), NEAREST);
+    const kept = Math.max(FARTHEST, scale);
+    return { x: (box[0] + box[2]) / 2 - ((left + right) / 2 - this.width / 2) / kept,
+             y: (box[1] + box[3]) / 2 + (bottom / 2 - this.height / 2) / kept, scale: kept };
   }
 
   #look(mode) {
