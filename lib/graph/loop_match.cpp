@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 
@@ -14,8 +15,10 @@ namespace
 constexpr size_t glanced_points = 32; // of all hypotheses, to choose those that are scored
 constexpr size_t scored_points = 120;
 constexpr size_t scored_hypotheses = 600;
-constexpr size_t max_hypotheses = 20000;
-constexpr double window_step_m = 0.10;
+constexpr size_t max_corner_hypotheses = 2000;
+constexpr int max_window_places = 20000; // the widest windows are searched over fewer turns
+constexpr int window_step_cells = 2;
+constexpr double window_step_m = window_step_cells * SurfaceField::cell_m;
 constexpr double window_step_rad = 0.035;
 constexpr double distinct_m = 0.40; // two places farther apart than this are different answers
 constexpr double distinct_rad = 0.26;
@@ -85,29 +88,68 @@ void hypotheses_from_corners(const std::vector<CornerMark> &corners,
             const double theta = wrapped(there.bisector - here.bisector);
             const Eigen::Vector2d p = there.p - rotation(theta) * here.p;
             const Pose pose{p.x(), p.y(), theta};
-            if (inside(pose, guess, window) && out->size() < max_hypotheses) {
+            if (inside(pose, guess, window) && out->size() < max_corner_hypotheses) {
                 out->push_back(pose);
             }
         }
     }
 }
 
-void hypotheses_from_window(const Pose &guess, const SearchWindow &window, std::vector<Pose> *out)
+// Places all around the guess, a step apart: by turn, row, column.
+class WindowGrid
 {
-    const int steps = static_cast<int>(std::ceil(window.half_m / window_step_m));
-    const int turns = static_cast<int>(std::ceil(window.half_rad / window_step_rad));
-    for (int turn = -turns; turn <= turns; turn++) {
-        for (int row = -steps; row <= steps; row++) {
-            for (int column = -steps; column <= steps; column++) {
-                if (out->size() >= max_hypotheses) {
-                    return;
-                }
-                out->push_back({guess.x + column * window_step_m, guess.y + row * window_step_m,
-                                wrapped(guess.theta + turn * window_step_rad)});
+  public:
+    WindowGrid(const Pose &guess, const SearchWindow &window)
+        : guess_(guess), steps_(static_cast<int>(std::ceil(window.half_m / window_step_m))),
+          turns_(std::min(static_cast<int>(std::ceil(window.half_rad / window_step_rad)),
+                          (max_window_places / (side() * side()) - 1) / 2))
+    {
+    }
+
+    Pose pose(size_t k) const
+    {
+        const int in_turn = static_cast<int>(k % places());
+        return {guess_.x + (in_turn % side() - steps_) * window_step_m,
+                guess_.y + (in_turn / side() - steps_) * window_step_m,
+                turned(static_cast<int>(k / places()) - turns_)};
+    }
+
+    // Appends the score of each: only whole cells lie between the places of one turn.
+    void add_scores(const std::vector<SurfacePoint> &points, const SurfaceField &field,
+                    std::vector<double> *scores) const
+    {
+        std::vector<double> sums;
+        for (int turn = -turns_; turn <= turns_; turn++) {
+            const Eigen::Matrix2d r = rotation(turned(turn));
+            sums.assign(places(), 0);
+            for (const SurfacePoint &point : points) {
+                field.add_likeness_around(r * point.p + Eigen::Vector2d(guess_.x, guess_.y), steps_,
+                                          window_step_cells, &sums);
+            }
+            for (const double sum : sums) {
+                scores->push_back(points.empty() ? 0 : sum / static_cast<double>(points.size()));
             }
         }
     }
-}
+
+  private:
+    int side() const
+    {
+        return 2 * steps_ + 1;
+    }
+    size_t places() const
+    {
+        return static_cast<size_t>(side()) * static_cast<size_t>(side());
+    }
+    double turned(int turn) const
+    {
+        return wrapped(guess_.theta + turn * window_step_rad);
+    }
+
+    Pose guess_;
+    int steps_;
+    int turns_;
+};
 
 struct Fit {
     Pose pose;
@@ -183,29 +225,38 @@ bool distinct(const Pose &a, const Pose &b)
     return length(a.x - b.x, a.y - b.y) > distinct_m || std::abs(wrapped(a.theta - b.theta)) > distinct_rad;
 }
 
-std::vector<Hypothesis> scored_by(const std::vector<Pose> &poses, const std::vector<SurfacePoint> &points,
-                                  const SurfaceField &field)
+// Indices of the best so many, best first; of equals the first.
+std::vector<size_t> best_of(const std::vector<double> &scores, size_t count)
 {
-    std::vector<Hypothesis> scored;
-    scored.reserve(poses.size());
-    for (const Pose &pose : poses) {
-        scored.push_back({pose, score_of(pose, points, field)});
-    }
-    std::stable_sort(scored.begin(), scored.end(),
-                     [](const Hypothesis &a, const Hypothesis &b) { return a.score > b.score; });
-    return scored;
+    std::vector<size_t> order(scores.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(count, order.size()));
+    std::partial_sort(order.begin(), end, order.end(), [&scores](size_t a, size_t b) {
+        return scores[a] != scores[b] ? scores[a] > scores[b] : a < b;
+    });
+    order.erase(end, order.end());
+    return order;
 }
 
-// The hypotheses worth a closer look, scored, best first.
-std::vector<Hypothesis> promising(const std::vector<Pose> &poses, const std::vector<SurfacePoint> &scan,
-                                  const SurfaceField &field)
+// The hypotheses worth a closer look, scored, best first: of those from corners and of a window.
+std::vector<Hypothesis> promising(const std::vector<Pose> &from_corners, const WindowGrid &window,
+                                  const std::vector<SurfacePoint> &scan, const SurfaceField &field)
 {
-    const std::vector<Hypothesis> glanced = scored_by(poses, thinned(scan, glanced_points), field);
-    std::vector<Pose> chosen;
-    for (size_t k = 0; k < std::min(glanced.size(), scored_hypotheses); k++) {
-        chosen.push_back(glanced[k].pose);
+    const std::vector<SurfacePoint> few = thinned(scan, glanced_points);
+    std::vector<double> glances;
+    for (const Pose &pose : from_corners) {
+        glances.push_back(score_of(pose, few, field));
     }
-    return scored_by(chosen, thinned(scan, scored_points), field);
+    window.add_scores(few, field, &glances);
+    const std::vector<SurfacePoint> more = thinned(scan, scored_points);
+    std::vector<Hypothesis> chosen;
+    for (const size_t k : best_of(glances, scored_hypotheses)) {
+        const Pose pose = k < from_corners.size() ? from_corners[k] : window.pose(k - from_corners.size());
+        chosen.push_back({pose, score_of(pose, more, field)});
+    }
+    std::stable_sort(chosen.begin(), chosen.end(),
+                     [](const Hypothesis &a, const Hypothesis &b) { return a.score > b.score; });
+    return chosen;
 }
 
 // The best few hypotheses that are different places, best first.
@@ -238,10 +289,9 @@ LoopMatch match_patch(const std::vector<SurfacePoint> &scan, const std::vector<C
                       const SurfaceField &field, const std::vector<CornerMark> &field_corners,
                       const Pose &guess, const SearchWindow &window)
 {
-    std::vector<Pose> poses;
-    hypotheses_from_corners(corners, field_corners, guess, window, &poses);
-    hypotheses_from_window(guess, window, &poses);
-    const std::vector<Hypothesis> scored = promising(poses, scan, field);
+    std::vector<Pose> from_corners;
+    hypotheses_from_corners(corners, field_corners, guess, window, &from_corners);
+    const std::vector<Hypothesis> scored = promising(from_corners, WindowGrid(guess, window), scan, field);
     std::vector<Hypothesis> refined;
     std::vector<Fit> fits;
     for (const Hypothesis &h : best_distinct(scored)) {

@@ -1,6 +1,7 @@
 #include "graph/surface_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace ale
@@ -36,9 +37,11 @@ double likeness_at(double distance2)
 }
 
 // Two sides of a thin panel lie in one cell: surfaces that face apart are kept apart.
-int facing_of(const Eigen::Vector2d &normal)
+constexpr size_t facings = 4;
+
+size_t facing_of(const Eigen::Vector2d &normal)
 {
-    return (normal.x() > 0 ? 1 : 0) + (normal.y() > 0 ? 2 : 0);
+    return (normal.x() > 0 ? 1U : 0U) + (normal.y() > 0 ? 2U : 0U);
 }
 
 } // namespace
@@ -54,86 +57,118 @@ SurfaceField::SurfaceField(const std::vector<SurfacePoint> &points)
     height_ = static_cast<int>(size.y() / cell_m) + 1;
     const auto cells = static_cast<size_t>(width_) * static_cast<size_t>(height_);
     nearest_.assign(cells, -1);
-    likeness_.assign(cells, 0);
     thin_out(points);
     std::vector<double> distance2(cells, reach_m * reach_m);
     for (size_t k = 0; k < points_.size(); k++) {
         spread(k, &distance2);
     }
+    follow_likeness(distance2);
 }
 
-// One point a cell and facing: where the patch was seen many times, the mean of what was seen.
+// One point a cell and facing: where the patch was seen many times, the mean of what was seen. The points of
+// a cell are chained, nearest_ holds the first until the chains are followed.
 void SurfaceField::thin_out(const std::vector<SurfacePoint> &points)
 {
-    struct Entry {
-        int slot;
-        SurfacePoint point;
-    };
-    std::vector<Entry> entries;
-    for (const SurfacePoint &point : points) {
-        const int cell = cell_of(point.p);
+    std::vector<int32_t> next(points.size(), -1);
+    for (size_t k = points.size(); k-- > 0;) {
+        const int cell = cell_of(points[k].p);
         if (cell >= 0) {
-            entries.push_back({cell * 4 + facing_of(point.normal), point});
+            next[k] = nearest_[static_cast<size_t>(cell)];
+            nearest_[static_cast<size_t>(cell)] = static_cast<int32_t>(k);
         }
     }
-    std::stable_sort(entries.begin(), entries.end(),
-                     [](const Entry &a, const Entry &b) { return a.slot < b.slot; });
-    for (size_t k = 0; k < entries.size();) {
-        SurfacePoint sum = {{0, 0}, {0, 0}};
-        double count = 0;
-        for (const int slot = entries[k].slot; k < entries.size() && entries[k].slot == slot; k++) {
-            sum.p += entries[k].point.p;
-            sum.normal += entries[k].point.normal;
-            count++;
+    for (int32_t &first : nearest_) {
+        if (first >= 0) {
+            add_means(points, next, first);
+            first = -1;
         }
-        const double length = sum.normal.norm();
-        const Eigen::Vector2d none(0, 0);
-        points_.push_back({sum.p / count, length > count / 2 ? Eigen::Vector2d(sum.normal / length) : none});
     }
 }
 
+// Of a chain of points: one a facing.
+void SurfaceField::add_means(const std::vector<SurfacePoint> &points, const std::vector<int32_t> &next,
+                             int32_t first)
+{
+    struct Sum {
+        SurfacePoint point{{0, 0}, {0, 0}};
+        double count = 0;
+    };
+    std::array<Sum, facings> sums;
+    for (int32_t k = first; k >= 0; k = next[static_cast<size_t>(k)]) {
+        const SurfacePoint &point = points[static_cast<size_t>(k)];
+        Sum &sum = sums[facing_of(point.normal)];
+        sum.point.p += point.p;
+        sum.point.normal += point.normal;
+        sum.count++;
+    }
+    for (const Sum &sum : sums) {
+        if (sum.count > 0) {
+            const double length = sum.point.normal.norm();
+            const Eigen::Vector2d none(0, 0);
+            points_.push_back({sum.point.p / sum.count,
+                               length > sum.count / 2 ? Eigen::Vector2d(sum.point.normal / length) : none});
+        }
+    }
+}
+
+// The disc of cells that point k is the nearest of, as far as is known.
 void SurfaceField::spread(size_t k, std::vector<double> *distance2)
 {
-    const int reach = static_cast<int>(reach_m / cell_m) + 1;
-    const Eigen::Vector2d offset = (points_[k].p - origin_) / cell_m;
-    const int column = static_cast<int>(offset.x());
-    const int row = static_cast<int>(offset.y());
-    for (int r = std::max(0, row - reach); r <= std::min(height_ - 1, row + reach); r++) {
-        const double dy = (r + 0.5 - offset.y()) * cell_m;
-        for (int c = std::max(0, column - reach); c <= std::min(width_ - 1, column + reach); c++) {
-            const double dx = (c + 0.5 - offset.x()) * cell_m;
-            const double d2 = dx * dx + dy * dy;
-            const auto cell = static_cast<size_t>(r) * static_cast<size_t>(width_) + static_cast<size_t>(c);
+    const Eigen::Vector2d at = (points_[k].p - origin_) * cells_per_m;
+    const double reach = reach_m * cells_per_m;
+    const int first_row = std::max(0, static_cast<int>(std::ceil(at.y() - 0.5 - reach)));
+    const int last_row = std::min(height_ - 1, static_cast<int>(std::floor(at.y() - 0.5 + reach)));
+    for (int r = first_row; r <= last_row; r++) {
+        const double dy = r + 0.5 - at.y();
+        const double half = std::sqrt(std::max(0.0, reach * reach - dy * dy));
+        const int first = std::max(0, static_cast<int>(std::ceil(at.x() - 0.5 - half)));
+        const int last = std::min(width_ - 1, static_cast<int>(std::floor(at.x() - 0.5 + half)));
+        const auto row = static_cast<size_t>(r) * static_cast<size_t>(width_);
+        for (int c = first; c <= last; c++) {
+            const double dx = c + 0.5 - at.x();
+            const double d2 = (dx * dx + dy * dy) * (cell_m * cell_m);
+            const size_t cell = row + static_cast<size_t>(c);
             if (d2 < (*distance2)[cell]) {
                 (*distance2)[cell] = d2;
                 nearest_[cell] = static_cast<int32_t>(k);
-                likeness_[cell] = static_cast<float>(likeness_at(d2));
             }
         }
     }
 }
 
-int SurfaceField::cell_of(const Eigen::Vector2d &p) const
+void SurfaceField::follow_likeness(const std::vector<double> &distance2)
 {
-    const double column = (p.x() - origin_.x()) / cell_m;
-    const double row = (p.y() - origin_.y()) / cell_m;
-    if (!(column >= 0 && row >= 0 && column < width_ && row < height_)) {
-        return -1;
+    likeness_.resize(nearest_.size());
+    for (size_t cell = 0; cell < nearest_.size(); cell++) {
+        likeness_[cell] = nearest_[cell] < 0 ? 0 : static_cast<float>(likeness_at(distance2[cell]));
     }
-    return static_cast<int>(row) * width_ + static_cast<int>(column);
 }
 
-const SurfacePoint *SurfaceField::nearest(const Eigen::Vector2d &p) const
+void SurfaceField::add_likeness_around(const Eigen::Vector2d &p, int steps, int stride,
+                                       std::vector<double> *sums) const
 {
-    const int cell = cell_of(p);
-    const int32_t k = cell < 0 ? -1 : nearest_[static_cast<size_t>(cell)];
-    return k < 0 ? nullptr : &points_[static_cast<size_t>(k)];
-}
-
-double SurfaceField::likeness(const Eigen::Vector2d &p) const
-{
-    const int cell = cell_of(p);
-    return cell < 0 ? 0 : static_cast<double>(likeness_[static_cast<size_t>(cell)]);
+    const Eigen::Vector2d at = (p - origin_) * cells_per_m;
+    const double far = static_cast<double>(max_cells); // what is farther is outside at every step
+    if (!(std::abs(at.x()) < far && std::abs(at.y()) < far)) {
+        return;
+    }
+    const int column = static_cast<int>(std::floor(at.x()));
+    const int row = static_cast<int>(std::floor(at.y()));
+    const int side = 2 * steps + 1;
+    for (int y = 0; y < side; y++) {
+        const int r = row + (y - steps) * stride;
+        if (r < 0 || r >= height_) {
+            continue;
+        }
+        const float *cells = &likeness_[static_cast<size_t>(r) * static_cast<size_t>(width_)];
+        double *line = &(*sums)[static_cast<size_t>(y) * static_cast<size_t>(side)];
+        for (int x = 0; x < side; x++) {
+            const int c = column + (x - steps) * stride;
+            if (c >= 0 && c < width_) {
+                line[x] += static_cast<double>(cells[c]);
+            }
+        }
+    }
 }
 
 } // namespace ale
