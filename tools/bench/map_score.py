@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""How good is a map: walls that stand twice and, where the truth is known, what is false and what is missing.
+
+    map_score.py MAP.dxf [PLAN TRUTH.tum]
+
+MAP.dxf: of ale-replay --map. PLAN: walls as `x1 y1 x2 y2` a line, metres, such as a world file; TRUTH.tum: the robot's
+poses in the plan, whose first is the origin of the map. Two lines are one wall twice when they face the same way within 15
+degrees, less than 0.35 m apart, side by side for 0.3 m or more. Right: drawn length within 3 cm and 8 degrees of a wall.
+Found: of what five beams or more could see within 4 m, that which lies within 6 cm of a line.
+"""
+import argparse
+import math
+
+import numpy as np
+
+TWICE_M, TWICE_ALONG_M, TWICE_COS = 0.35, 0.30, math.cos(math.radians(15))
+RIGHT_M, RIGHT_COS, FOUND_M = 0.03, math.cos(math.radians(8)), 0.06
+STEP_M, SIGHT_M, BEAMS_LEAST, POSE_EVERY = 0.05, 4.0, 5, 5
+
+
+def read_walls(path):
+    """Lines of the layer WALLS, one a row: x1 y1 x2 y2."""
+    with open(path, encoding="ascii") as file:
+        words = [word.strip() for word in file]
+    walls, entity = [], {}
+    for code, value in zip(words[::2], words[1::2]):
+        if code == "0":
+            if entity.get("0") == "LINE" and entity["8"] == "WALLS":
+                walls.append([float(entity[key]) for key in ("10", "20", "11", "21")])
+            entity = {}
+        entity[code] = value
+    return np.array(walls).reshape(-1, 4)
+
+
+def read_numbers(path):
+    with open(path, encoding="ascii") as file:
+        return np.array([[float(word) for word in line.split()] for line in file if line.strip() and line[0] != "#"])
+
+
+def directions(walls):
+    way = walls[:, 2:] - walls[:, :2]
+    length = np.hypot(*way.T)
+    return way / length[:, None], length
+
+
+def standing_twice(walls):
+    """Pairs, and how long they run side by side in all."""
+    tangent, length = directions(walls)
+    pairs, along = 0, 0.0
+    for i in np.argsort(-length, kind="stable"):
+        shorter = (length < length[i]) | ((length == length[i]) & (np.arange(len(walls)) > i))
+        ends = [((walls[:, k:k + 2] - walls[i, :2]) @ tangent[i]) for k in (0, 2)]
+        middle = (walls[:, :2] + walls[:, 2:]) / 2 - walls[i, :2]
+        apart = abs(middle @ np.array([-tangent[i, 1], tangent[i, 0]]))
+        common = np.minimum(length[i], np.maximum(*ends)) - np.maximum(0, np.minimum(*ends))
+        twice = shorter & (tangent @ tangent[i] > TWICE_COS) & (apart < TWICE_M) & (common > TWICE_ALONG_M)
+        pairs += twice.sum()
+        along += common[twice].sum()
+    return pairs, along
+
+
+def samples(walls):
+    """Points every STEP_M, and the wall of each."""
+    _, length = directions(walls)
+    owner = np.repeat(np.arange(len(walls)), np.maximum(1, (length / STEP_M).astype(int)))
+    first = np.searchsorted(owner, owner)
+    part = (np.arange(len(owner)) - first + 0.5) / np.bincount(owner)[owner]
+    return walls[owner, :2] + part[:, None] * (walls[owner, 2:] - walls[owner, :2]), owner
+
+
+def distances(points, walls):
+    """Of every point to every wall: along the wall from its start, and across."""
+    tangent, _ = directions(walls)
+    off = points[:, None] - walls[None, :, :2]
+    return (off * tangent).sum(2), abs(off[..., 0] * tangent[:, 1] - off[..., 1] * tangent[:, 0])
+
+
+def are_right(drawn, plan):
+    points, owner = samples(drawn)
+    along, across = distances(points, plan)
+    tangent, length = directions(plan)
+    alike = abs(directions(drawn)[0][owner] @ tangent.T) > RIGHT_COS
+    beside = (along > -RIGHT_M) & (along < length + RIGHT_M)
+    return (alike & beside & (across < RIGHT_M)).any(1)
+
+
+def seen_points(plan, poses):
+    points, owner = samples(plan)
+    first, count = np.searchsorted(owner, np.arange(len(plan))), np.bincount(owner)
+    hits, way = np.zeros(len(points), int), plan[:, 2:] - plan[:, :2]
+    for x, y, theta in poses[::POSE_EVERY]:
+        bearing = theta + np.radians(np.arange(-120, 120))
+        ray = np.stack([np.cos(bearing), np.sin(bearing)], 1)
+        off = plan[:, :2] - [x, y]
+        with np.errstate(all="ignore"):
+            det = ray[:, :1] * way[:, 1] - ray[:, 1:] * way[:, 0]
+            far = (off[:, 0] * way[:, 1] - off[:, 1] * way[:, 0]) / det
+            part = (off[:, 0] * ray[:, 1:] - off[:, 1] * ray[:, :1]) / det
+            far = np.where((part >= 0) & (part <= 1) & (far > 0), far, np.inf)
+        wall = far.argmin(1)
+        near = far[np.arange(len(ray)), wall] < SIGHT_M
+        cell = (part[np.arange(len(ray)), wall][near] * count[wall[near]]).astype(int)
+        np.add.at(hits, first[wall[near]] + np.minimum(cell, count[wall[near]] - 1), 1)
+    return points[hits >= BEAMS_LEAST]
+
+
+def are_found(points, drawn):
+    nearest = np.full(len(points), np.inf)
+    for point in samples(drawn)[0]:
+        nearest = np.minimum(nearest, np.hypot(*(points - point).T))
+    return nearest < FOUND_M
+
+
+def in_plan(walls, start):
+    x, y, theta = start
+    turn = np.array([[math.cos(theta), math.sin(theta)], [-math.sin(theta), math.cos(theta)]])
+    return np.concatenate([walls[:, :2] @ turn + [x, y], walls[:, 2:] @ turn + [x, y]], 1)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("map")
+    parser.add_argument("plan", nargs="?")
+    parser.add_argument("truth", nargs="?")
+    options = parser.parse_args()
+    if options.plan and not options.truth:
+        parser.error("PLAN needs TRUTH.tum")
+    walls = read_walls(options.map)
+    pairs, along = standing_twice(walls)
+    words = f"{len(walls)} walls, {directions(walls)[1].sum():.1f} m; standing twice: {pairs} pairs, {along:.1f} m"
+    if options.plan:
+        plan, truth = read_numbers(options.plan)[:, :4], read_numbers(options.truth)
+        poses = np.stack([truth[:, 1], truth[:, 2], 2 * np.arctan2(truth[:, 6], truth[:, 7])], 1)
+        drawn = in_plan(walls, poses[0])
+        right, found = are_right(drawn, plan).mean(), are_found(seen_points(plan, poses), drawn).mean()
+        words += f"; right {100 * right:.1f} %, found {100 * found:.1f} %"
+    print(words)
+
+
+if __name__ == "__main__":
+    main()
