@@ -3,44 +3,16 @@
 
 #include <gtest/gtest.h>
 
-#include "graph/wall_groups.h"
+#include "placed_lines.hpp"
 
-extern "C" {
-#include "base/trig.h"
-}
+using placed_lines::line;
 
 namespace
 {
 
-constexpr int64_t sigma_um = 10000;
-constexpr int64_t sigma_urad = 6000;
-
-// A line on a wall that faces along `normal_deg`, from..to along its tangent, `off_mm` in front of it.
-ale::PlacedLine line(uint32_t scan, double normal_deg, double from_m, double to_m, double off_mm,
-                     double turned_mrad = 0)
-{
-    ale::PlacedLine placed = {};
-    const auto normal_bam = static_cast<uint32_t>(static_cast<int64_t>(normal_deg * ALE_BAM_PER_DEGREE));
-    const auto half_um = static_cast<int32_t>((to_m - from_m) * 5e5);
-    placed.scan = scan;
-    placed.look = scan / 5;
-    placed.view.centre =
-        ale_plus(ale_polar(static_cast<int64_t>((from_m + to_m) * 5e5), ale_tangent_bam(normal_bam)),
-                 ale_polar(static_cast<int64_t>(off_mm * 1000), normal_bam));
-    placed.view.normal_bam =
-        normal_bam + static_cast<uint32_t>(static_cast<int64_t>(turned_mrad * ALE_BAM_PER_MRAD));
-    placed.view.start_um = -half_um;
-    placed.view.end_um = half_um;
-    placed.view.var_offset_um2 = 9000000;
-    placed.view.var_angle_urad2 = 25000000;
-    placed.doubt_um2 = sigma_um * sigma_um;
-    placed.doubt_urad2 = sigma_urad * sigma_urad;
-    return placed;
-}
-
 double offset_mm(const ale_wall_t &wall, double normal_deg)
 {
-    const auto normal_bam = static_cast<uint32_t>(static_cast<int64_t>(normal_deg * ALE_BAM_PER_DEGREE));
+    const uint32_t normal_bam = placed_lines::bam_of_degrees(normal_deg);
     return static_cast<double>(
                ale_along(ale_wall_point(&wall, (int64_t{wall.start_um} + wall.end_um) / 2), normal_bam)) *
            1e-3;
