@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-enum { ALE_DECIMAL_TEXT = 32, ALE_DECIMAL_MAX_DIGITS = 9 };
+enum { ALE_DECIMAL_TEXT = 32 };
 
 /* The number in text (sign, digits, at most one point, nothing else) times 10^digits, digits 0..9; what
  * lies beyond is rounded half away from zero. 0, or -1 when text is no such number or |number| exceeds

@@ -43,13 +43,7 @@ typedef enum {
 } ale_urg_phase_t;
 
 /* What is still to be asked before the stream starts. */
-enum {
-    ALE_DUE_RESET = 1,
-    ALE_DUE_SPEED = 2,
-    ALE_DUE_PARAMETERS = 4,
-    ALE_DUE_VERSION = 8,
-    ALE_DUE_STATUS = 16
-};
+enum { ALE_DUE_RESET = 1, ALE_DUE_PARAMETERS = 2, ALE_DUE_VERSION = 4, ALE_DUE_STATUS = 8 };
 
 struct ale_urg {
     ale_urg_config_t config;

@@ -28,7 +28,8 @@ static const int64_t most_velocity[ALE_AXES] = {1310720, 655360, 1310720}; /* 10
 static const int64_t unknown_step[ALE_AXES] = {200000, 200000, 200000};
 static const int64_t unknown_velocity[ALE_AXES] = {60000, 20000, 120000};
 
-ale_pose_t ale_pose_of_step(int64_t x_um, int64_t y_um, int64_t turn_urad)
+/* A micro-motion (um, um, urad) as a pose. */
+static ale_pose_t pose_of_step(int64_t x_um, int64_t y_um, int64_t turn_urad)
 {
     const int64_t turn_bam = ale_round_div(turn_urad * BAM_PER_RAD, 1000000);
     return (ale_pose_t){(int32_t)x_um, (int32_t)y_um, (uint32_t)(uint64_t)turn_bam};
@@ -41,7 +42,7 @@ ale_pose_t ale_motion_sweep(const int32_t velocity[ALE_AXES], int64_t time_us)
     for (int i = 0; i < ALE_AXES; i++) {
         d[i] = ale_round_shift(velocity[i] * time_us, ALE_TICK_BITS);
     }
-    const ale_pose_t end = ale_pose_of_step(d[0], d[1], d[2]);
+    const ale_pose_t end = pose_of_step(d[0], d[1], d[2]);
     const int64_t half_mrad = ale_clamp64(d[TURN], -3000000, 3000000) / 2000;
     const int64_t chord_q20 = ((int64_t)1 << 20) - half_mrad * half_mrad * (1 << 20) / 6000000;
     const ale_point_t p = {(int32_t)ale_round_shift(d[0] * chord_q20, 20),
@@ -201,7 +202,7 @@ static void predict_with_wheels(ale_motion_t *m, int64_t dt_us, const ale_wheel_
     for (int i = 0; i < ALE_AXES; i++) {
         a[i] = fuse_axis(m, i, dt_us, wheels, way[i], l);
     }
-    const ale_pose_t turn = ale_pose_of_step(0, 0, a[TURN].way);
+    const ale_pose_t turn = pose_of_step(0, 0, a[TURN].way);
     const ale_point_t p = ale_rotate((ale_point_t){(int32_t)a[FORWARD].way, (int32_t)a[LEFT].way},
                                      (uint32_t)((int32_t)turn.theta_bam / 2));
     const ale_pose_t step = {p.x_um, p.y_um, turn.theta_bam};
@@ -281,7 +282,7 @@ void ale_motion_predict(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_
 
 void ale_motion_correct(ale_motion_t *motion, const int64_t delta[ALE_STATES])
 {
-    motion->pose = ale_pose_compose(motion->pose, ale_pose_of_step(delta[0], delta[1], delta[2]));
+    motion->pose = ale_pose_compose(motion->pose, pose_of_step(delta[0], delta[1], delta[2]));
     for (int i = 0; i < ALE_AXES; i++) {
         motion->velocity[i] =
             (int32_t)ale_clamp64(motion->velocity[i] + delta[i + 3], -most_velocity[i], most_velocity[i]);

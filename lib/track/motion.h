@@ -69,7 +69,4 @@ void ale_motion_widen(ale_motion_t *motion, int64_t sigma_um, int64_t sigma_urad
 /* Motion of a constant velocity over a time, in the frame of its beginning. |time| up to 2 s. */
 ale_pose_t ale_motion_sweep(const int32_t velocity[ALE_AXES], int64_t time_us);
 
-/* A micro-motion (um, um, urad) as a pose. */
-ale_pose_t ale_pose_of_step(int64_t x_um, int64_t y_um, int64_t turn_urad);
-
 #endif

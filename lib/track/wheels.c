@@ -37,7 +37,8 @@ void ale_wheel_scale_learn(ale_wheel_scale_t *scale, int64_t found_um, int64_t c
     }
 }
 
-int64_t ale_wheel_scale_sigma_ppm(const ale_wheel_scale_t *scale)
+/* One sigma of the learnt factor, parts per million. */
+static int64_t sigma_ppm(const ale_wheel_scale_t *scale)
 {
     return ale_max64((int64_t)LEARN_SIGMA_UM * 1000000 / scale->counted_um, SCALE_FLOOR_PPM);
 }
@@ -70,7 +71,7 @@ static void way_variance(const ale_wheel_scale_t *scale, ale_pose_t d, int64_t v
 {
     const int64_t way_um = ale_abs64(d.x_um) + ale_abs64(d.y_um);
     const int64_t turn = turn_urad(d);
-    var[0] = square(part(d.x_um, ale_wheel_scale_sigma_ppm(scale))) + square(FLOOR_UM);
+    var[0] = square(part(d.x_um, sigma_ppm(scale))) + square(FLOOR_UM);
     var[1] =
         square(part(way_um, SIDEWAYS_PPM)) + square(part(d.x_um, ale_abs64(turn) / 4)) + square(FLOOR_UM);
     var[2] = ale_mul_div(square(scale->noise.turn_urad_m), way_um, 1000000) +

@@ -31,9 +31,6 @@ void ale_wheel_scale_init(ale_wheel_scale_t *scale, const ale_wheel_noise_t *noi
 /* A way that matching found, forward, and the same way as counted by the wheels. */
 void ale_wheel_scale_learn(ale_wheel_scale_t *scale, int64_t found_um, int64_t counted_um);
 
-/* One sigma of the learnt factor, parts per million. */
-int64_t ale_wheel_scale_sigma_ppm(const ale_wheel_scale_t *scale);
-
 /* The way between two scans. False when the buffer does not cover it. */
 bool ale_wheel_motion(const ale_wheels_t *wheels, const ale_lag_t *lag, const ale_wheel_scale_t *scale,
                       int64_t from_us, int64_t to_us, ale_wheel_motion_t *out);

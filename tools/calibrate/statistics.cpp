@@ -4,8 +4,12 @@
 #include <cmath>
 #include <Eigen/Cholesky>
 #include <limits>
+#include <vector>
 
 namespace calibrate
+{
+
+namespace
 {
 
 double median_of(std::vector<double> values)
@@ -17,6 +21,8 @@ double median_of(std::vector<double> values)
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
 }
+
+} // namespace
 
 Spread robust_spread(const Eigen::Ref<const Eigen::VectorXd> &values)
 {

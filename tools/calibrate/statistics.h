@@ -3,7 +3,6 @@
 #define ALE_CALIBRATE_STATISTICS_H
 
 #include <Eigen/Core>
-#include <vector>
 
 namespace calibrate
 {
@@ -13,8 +12,6 @@ struct Spread {
     double median = 0;
     double sigma = 0; /* 1.4826 median absolute deviations */
 };
-
-double median_of(std::vector<double> values);
 
 /* Values that are not numbers are left out. */
 Spread robust_spread(const Eigen::Ref<const Eigen::VectorXd> &values);
