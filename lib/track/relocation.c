@@ -26,8 +26,12 @@ enum {
     FIT_SIGMA_UM = 100000,
     FIT_SIGMA_URAD = 50000,
     HOLD_OFFSET_UM = 60000, /* a line lies on a wall when it is no farther from it */
-    HOLD_ANGLE_URAD = 90000
+    HOLD_ANGLE_URAD = 90000,
+    SLIDE_UM = 500000, /* along the longest wall in view, where the answer must explain less */
+    PINNED_Q8 = 20     /* by 8 %: in a corridor of long walls only all places along it are alike */
 };
+
+static const ale_gate_t hold = {HOLD_OFFSET_UM, HOLD_ANGLE_URAD, FIT_SIGMAS, 0};
 
 void ale_relocation_clear(ale_relocation_t *relocation)
 {
@@ -119,7 +123,6 @@ static void fit_place(ale_place_t *place, const ale_scene_t *scene, const ale_ey
 {
     int32_t looks = ALE_LOOKS;
     const ale_gate_t gate = {FIT_OFFSET_UM, FIT_ANGLE_URAD, FIT_SIGMAS, 0};
-    const ale_gate_t hold = {HOLD_OFFSET_UM, HOLD_ANGLE_URAD, FIT_SIGMAS, 0};
     ale_motion_t there = *predicted;
     there.pose = place->pose;
     ale_motion_widen(&there, FIT_SIGMA_UM, FIT_SIGMA_URAD);
@@ -183,6 +186,39 @@ static ale_place_t *answer(ale_relocation_t *r)
     return best;
 }
 
+static const ale_view_t *longest_view(const ale_scene_t *scene)
+{
+    const ale_view_t *longest = &scene->view[0];
+    for (uint32_t i = 1; i < scene->view_count; i++) {
+        const ale_view_t *view = &scene->view[i];
+        if (view->kind == ALE_VIEW_WALL &&
+            view->end_um - view->start_um > longest->end_um - longest->start_um) {
+            longest = view;
+        }
+    }
+    return longest;
+}
+
+/* Whether the walls that the place explains hold it along the longest of them too: places half a metre before
+ * and behind it, which nobody may have proposed, explain less. */
+static bool is_pinned(const ale_scene_t *scene, ale_pose_t place)
+{
+    int32_t looks = ALE_LOOKS;
+    const uint32_t along_bam = longest_view(scene)->normal_bam + ALE_BAM_QUARTER_TURN;
+    const ale_hypothesis_t here =
+        ale_hypothesis_at(scene->map, scene->view, scene->view_count, place, &hold, &looks);
+    for (int32_t side = -1; side <= 1; side += 2) {
+        const ale_point_t slid = ale_rotate((ale_point_t){side * SLIDE_UM, 0}, along_bam);
+        const ale_pose_t beside = ale_pose_compose(place, (ale_pose_t){slid.x_um, slid.y_um, 0});
+        const ale_hypothesis_t there =
+            ale_hypothesis_at(scene->map, scene->view, scene->view_count, beside, &hold, &looks);
+        if (looks <= 0 || (here.score_um - there.score_um) * 256 <= here.shown_um * PINNED_Q8) {
+            return false;
+        }
+    }
+    return true;
+}
+
 void ale_relocation_follow(ale_relocation_t *relocation, ale_pose_t way)
 {
     for (uint32_t i = 0; i < relocation->count; i++) {
@@ -200,5 +236,10 @@ bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const 
         return false;
     }
     fit_place(place, scene, eye, predicted, &relocation->next_wall, fit);
-    return place->held_q8 >= ANSWER_Q8;
+    if (place->held_q8 < ANSWER_Q8) {
+        return false;
+    }
+    const bool pinned = is_pinned(scene, place->pose);
+    place->scans = pinned ? place->scans : 0;
+    return pinned;
 }

@@ -3,9 +3,10 @@
  * Every scan some hypotheses (hypothesis.h) join the places that are kept. All of them move as the robot
  * does; a few are fitted to the scan in turn, and each remembers how much of what scans showed lay on walls
  * there. A place is the answer when it has held for a while, explains nearly all, all pairs of walls have
- * been tried, and no other place explains nearly as much: in a building of equal rooms that takes a drive
- * into the next one. Work a scan is bounded by ALE_PLACES_FITTED fits, fewer of a rich scan, and one turn of
- * the search; a scan that is asked for the answer does neither. One owner. */
+ * been tried, and no other place explains nearly as much, nor a place half a metre before or behind it: in a
+ * building of equal rooms that takes a drive into the next one, in a corridor one to its end. Work a scan is
+ * bounded by ALE_PLACES_FITTED fits, fewer of a rich scan, and one turn of the search; a scan that is asked
+ * for the answer does neither. One owner. */
 #ifndef ALE_TRACK_RELOCATION_H
 #define ALE_TRACK_RELOCATION_H
 

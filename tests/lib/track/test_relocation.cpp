@@ -12,6 +12,12 @@ std::vector<room::Wall> rectangle()
     return {{-1.5, -2, 4.5, -2}, {4.5, -2, 4.5, 2.4}, {4.5, 2.4, -1.5, 2.4}, {-1.5, 2.4, -1.5, -2}};
 }
 
+// Two long walls, and a board that stands out from one of them.
+std::vector<room::Wall> corridor(double board)
+{
+    return {{-20, -2, 20, -2}, {20, 2.4, -20, 2.4}, {board, 2.4, board, 1.9}};
+}
+
 struct Robot {
     room::Pipeline pipeline = room::make(ale_pipeline_default_config());
     ale_estimate_t last = {};
@@ -67,6 +73,17 @@ TEST(Relocation, WhereTwoPlacesFitItSaysLostForAsLongAsThatLasts)
     ale_pipeline_load_map(robot.pipeline.get(), map.get(), {0, 0, 0}, false);
     for (int k = 0; k < 150; k++) {
         robot.see(rectangle(), 5 + 0.1 * k);
+        EXPECT_EQ(robot.last.state, ALE_STATE_LOST) << k;
+    }
+}
+
+TEST(Relocation, WhereNextToNothingTellsHowFarAlongACorridorItSaysLost)
+{
+    const auto map = map_of(corridor(1.5));
+    Robot robot;
+    ale_pipeline_load_map(robot.pipeline.get(), map.get(), {0, 0, 0}, false);
+    for (int k = 0; k < 150; k++) {
+        robot.see(corridor(2.5), 5 + 0.1 * k); // the board has been moved, or is another one
         EXPECT_EQ(robot.last.state, ALE_STATE_LOST) << k;
     }
 }
