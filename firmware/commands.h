@@ -27,8 +27,8 @@ ale_commands_t *ale_commands_create(const ale_config_t *config, const ale_keys_t
                                     ale_exchange_t *exchange, ale_map_keeper_t *keeper);
 void ale_commands_destroy(ale_commands_t *commands);
 
-/* Any bytes. newest_map: what save_map saves; NULL: none yet. Whether it was a genuine command; what is none is
- * counted and has no answer. */
+/* Any bytes. newest_map: what save_map saves; NULL: none yet. Whether it was a genuine command; what is none
+ * is counted and has no answer. */
 bool ale_commands_take(ale_commands_t *commands, const uint8_t *bytes, size_t count,
                        const ale_map_t *newest_map);
 

@@ -60,8 +60,8 @@ int ale_bus_send_bot_pose(ale_bus_t *bus, const ale_pose_report_t *report);
 typedef void (*ale_bus_odometry_t)(void *user, const ale_odometry_t *sample);
 int ale_bus_on_odometry(ale_bus_t *bus, ale_bus_odometry_t take, void *user);
 
-/* Commands as they arrive: bytes that nobody has looked at yet (command/verify.h does). At most 256 wait between
- * two calls of ale_bus_receive, of either channel. 0 or -1. */
+/* Commands as they arrive: bytes that nobody has looked at yet (command/verify.h does). At most 256 wait
+ * between two calls of ale_bus_receive, of either channel. 0 or -1. */
 typedef void (*ale_bus_command_t)(void *user, const uint8_t *bytes, size_t count);
 int ale_bus_on_command(ale_bus_t *bus, ale_bus_command_t take, void *user);
 
