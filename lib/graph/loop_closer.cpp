@@ -38,6 +38,9 @@ constexpr double agreement_m = 0.15;
 constexpr double agreement_rad = 0.035;
 constexpr int optimise_iterations = 10;
 constexpr int straighten_rounds = 2;
+// All that may follow from one keyframe: a loop for each candidate, or one and walls as a compass.
+constexpr int iterations_a_keyframe = optimise_iterations * (1 + straighten_rounds);
+static_assert(iterations_a_keyframe >= optimise_iterations * static_cast<int>(loop_candidates));
 constexpr size_t straighten_every = 8; // keyframes
 constexpr double believable_chi2 = 30; // of a loop edge after optimisation
 constexpr double weak_doubt = 3;       // how much worse a motion is known that wheels had to tell
@@ -100,6 +103,7 @@ bool LoopCloser::add(Node node, const Pose &motion)
     added_++;
     link_to_previous(motion);
     bool moved = false;
+    iterations_left_ = iterations_a_keyframe;
     for (const int there : candidates()) {
         statistics_.candidates++;
         Loop loop;
@@ -145,9 +149,11 @@ bool LoopCloser::refine()
 }
 
 // Turns what has drifted back to the directions of the walls. Twice: large drift hides which wall is which.
+// Waits for the next node where loops have used up what it takes.
 bool LoopCloser::straighten()
 {
-    if (added_ < straightened_at_ + straighten_every ||
+    if (iterations_left_ < straighten_rounds * optimise_iterations ||
+        added_ < straightened_at_ + straighten_every ||
         !have_drifted(headings_by_walls(nodes_, graph_.poses()), graph_.poses())) {
         return false;
     }
@@ -155,13 +161,20 @@ bool LoopCloser::straighten()
     const PoseGraph before = graph_;
     for (int round = 0; round < straighten_rounds; round++) {
         graph_.set_headings(headings_by_walls(nodes_, graph_.poses()));
-        if (!graph_.optimise(optimise_iterations).solved) {
+        if (!optimise()) {
             graph_ = before;
             return false;
         }
     }
     statistics_.straightened++;
     return true;
+}
+
+bool LoopCloser::optimise()
+{
+    const GraphReport report = graph_.optimise(optimise_iterations);
+    iterations_left_ -= report.iterations;
+    return report.solved;
 }
 
 // The first node holds the map in its place, the last ones are the present visit, and loops that wait for
@@ -371,8 +384,7 @@ bool LoopCloser::close(const Loop &loop, const std::vector<Loop> &partners)
         }
     }
     graph_.add_edge({loop.from, loop.to, loop.measured, loop.information, true});
-    const GraphReport report = graph_.optimise(optimise_iterations);
-    if (!report.solved || graph_.residual2(graph_.edges().back()) > believable_chi2) {
+    if (!optimise() || graph_.residual2(graph_.edges().back()) > believable_chi2) {
         graph_ = before;
         statistics_.contradicted++;
         return false;

@@ -6,8 +6,8 @@
 // A loop is believed only when matching finds the place clearly (overlap, no second place nearly as good),
 // and other nodes nearby find the same shift; it is taken back when the graph then contradicts it. Where the
 // tracker has recognised the place itself nothing is to be corrected: the tie is noted as the tracker knows
-// it, so that later corrections keep it. Work of one call: at most loop_candidates matches, and one
-// optimisation when a loop was believed.
+// it, so that later corrections keep it. Work of one call: at most loop_candidates matches, and 30 iterations
+// of the graph, however many loops are tried.
 //
 // Memory is bounded: when it holds as many nodes as it may, the next one takes the place of the most
 // redundant (thinning.h), whose ties go over to its neighbours on the way.
@@ -87,6 +87,7 @@ class LoopCloser
     size_t partners_wanted(const Loop &loop) const;
     bool close(const Loop &loop, const std::vector<Loop> &partners);
     bool straighten();
+    bool optimise();
     bool is_tied(const Loop &loop) const;
     std::vector<SurfacePoint> patch_around(int k, int before, int after) const;
     std::vector<CornerMark> corners_around(int k, int before, int after) const;
@@ -97,6 +98,7 @@ class LoopCloser
     std::deque<Loop> pending_;
     size_t added_ = 0;           // nodes, ever
     size_t straightened_at_ = 0; // how many had been added then
+    int iterations_left_ = 0;    // of those that may follow from the present node
     std::optional<Refinement> refinement_;
     bool refined_ = false; // nothing was added since
     LoopStatistics statistics_{};
