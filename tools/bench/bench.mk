@@ -43,7 +43,8 @@ $(BUILD)/bench/hardest: $(call objects,$(patsubst %,tools/bench/%.cpp,hardest su
 	$(call link)
 
 BENCH_STEPS ?= 40000
+BENCH_SEEDS ?= 1,2,3
 .PHONY: bench-hardest
 bench-hardest: deps-test ## the scan that costs the extractor most, in instructions
 	@$(MAKE) --no-print-directory -s $(BUILD)/bench/lines $(BUILD)/bench/hardest $(BUILD)/bin/ale-replay
-	@$(PYTHON) tools/bench/hardest_table.py --build $(BUILD) --steps $(BENCH_STEPS)
+	@$(PYTHON) tools/bench/hardest_table.py --build $(BUILD) --steps $(BENCH_STEPS) --seeds $(BENCH_SEEDS)
