@@ -13,6 +13,9 @@ namespace ale
 namespace
 {
 
+/* Size for those who ask for one: without it a viewer takes the metres for pixels. */
+constexpr int64_t long_side_px = 1600;
+
 /* SVG's y points down: all y are negated as they are written. Millimetres are enough for print. */
 class SvgFile
 {
@@ -23,6 +26,11 @@ class SvgFile
     SvgFile &put(std::string_view text)
     {
         file_.put(text);
+        return *this;
+    }
+    SvgFile &put_pixels(int64_t px)
+    {
+        file_.put_integer(px);
         return *this;
     }
     SvgFile &put_length(int64_t um)
@@ -62,8 +70,10 @@ void put_head(SvgFile &svg, const Extent &e, const Style &style)
     const int64_t top_um = -int64_t{e.top_um} - style.margin_um;
     const int64_t width_um = int64_t{e.right_um} - e.left_um + 2 * style.margin_um;
     const int64_t height_um = int64_t{e.top_um} - e.bottom_um + 4 * style.margin_um;
-    svg.put(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"");
+    const int64_t longest_um = std::max(width_um, height_um);
+    svg.put("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"");
+    svg.put_pixels(width_um * long_side_px / longest_um).put("\" height=\"");
+    svg.put_pixels(height_um * long_side_px / longest_um).put("\" viewBox=\"");
     svg.put_length(left_um).put(" ").put_length(top_um).put(" ").put_length(width_um).put(" ");
     svg.put_length(height_um)
         .put("\">\n<!-- metres; y of the map is -y here -->\n<rect x=\"")

@@ -137,7 +137,8 @@ TEST_F(MapImage, TheSameSceneGivesTheSameBytes)
 TEST_F(MapImage, TheSvgIsInMetresWithYUpwards)
 {
     const std::string svg = content(write("map.svg"));
-    EXPECT_NE(svg.find("viewBox=\"-1.16 -1.16 4.32 2.64\""), std::string::npos) << svg.substr(0, 200);
+    EXPECT_NE(svg.find("width=\"1600\" height=\"977\" viewBox=\"-1.16 -1.16 4.32 2.64\""), std::string::npos)
+        << svg.substr(0, 200);
     EXPECT_NE(svg.find("<path d=\"M-1 1L3 1\"/>"), std::string::npos) << "lower wall: y of the page is -y";
     EXPECT_NE(svg.find("M0 0L1 0L2 -0.5"), std::string::npos) << "trajectory";
     EXPECT_NE(svg.find(">0.5 m</text>"), std::string::npos) << "scale bar";
