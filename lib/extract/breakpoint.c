@@ -8,7 +8,10 @@ enum {
     COSTLY_REACH = 2, /* times the points accepted that a costly scan is tried for before the first refusal */
     SHARED_SHARE = 2, /* shared variances that a point may add in the mean, */
     SHARED_PEAK = 6,  /* and those that are in error together on top of it */
-    GRID = 12,        /* places at which a run is tried for a break */
+    GRID = 9,         /* places at which a run is tried for a break */
+    MEETING_UNIT = 1 << 20, /* so that the difference of two lines times a point fits int64 */
+    MEETING_LOSS_Q8 =
+        6 * 256,         /* own variances that a break where the lines meet may fit worse than the best */
     SUSPICIOUS_Q8 = 236, /* a run that has no more than its noise is not tried */
     PROMISING_Q8 = 100   /* part of the gain wanted that a place of the grid must show */
 };
@@ -98,47 +101,110 @@ int32_t ale_break_search(ale_extractor_t *e, int32_t from, int32_t to, ale_run_f
     return from + direction * low;
 }
 
-/* Squared residuals of the two lines that meet after split, each in its own variance; Q8. */
-static int64_t joint_chi_q8(const ale_extractor_t *e, ale_segment_t run, int32_t split, int64_t var_a_q8,
-                            int64_t var_b_q8)
+/* Two runs, which are the points of both, each with its own variance. */
+typedef struct {
+    ale_segment_t both;
+    int64_t var_a_q8;
+    int64_t var_b_q8;
+} pair_t;
+
+/* Squared residuals of the two lines that part after split, each in its own variance; Q8. */
+static int64_t joint_chi_q8(const ale_extractor_t *e, const pair_t *pair, int32_t split)
 {
-    return (ale_moments_sse_q8(e, run.first, split) << 8) / var_a_q8 +
-           (ale_moments_sse_q8(e, split + 1, run.last) << 8) / var_b_q8;
+    return (ale_moments_sse_q8(e, pair->both.first, split) << 8) / pair->var_a_q8 +
+           (ale_moments_sse_q8(e, split + 1, pair->both.last) << 8) / pair->var_b_q8;
+}
+
+/* The break where the lines through both runs meet: the one is nearer before it, the other beyond it. -1 when
+ * they do not meet within the range. */
+static int32_t meeting_point(const ale_extractor_t *e, const pair_t *pair, int32_t split,
+                             const ale_break_range_t *range)
+{
+    const ale_normal_line_t a = ale_moments_normal_line(e, pair->both.first, split);
+    const ale_normal_line_t b = ale_moments_normal_line(e, split + 1, pair->both.last);
+    /* a is nearer where this times the point is negative */
+    const int64_t wx = (a.rho * b.nx - b.rho * a.nx) / MEETING_UNIT;
+    const int64_t wy = (a.rho * b.ny - b.rho * a.ny) / MEETING_UNIT;
+    int32_t low = range->lowest;
+    int32_t high = range->highest + 1;
+    const bool a_first = e->x_q4[low] * wx + e->y_q4[low] * wy < 0;
+    if (a_first == (e->x_q4[high] * wx + e->y_q4[high] * wy < 0)) {
+        return -1;
+    }
+    while (high - low > 1) {
+        const int32_t middle = (low + high) / 2;
+        if (a_first == (e->x_q4[middle] * wx + e->y_q4[middle] * wy < 0)) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+/* A place, and how good it is. */
+typedef struct {
+    int32_t split;
+    int64_t chi_q8;
+} placing_t;
+
+/* The meeting point of the lines that part at a place is known better than the least joint chi square, which
+ * is nearly the same over many points where a wall bends a little. It is taken unless it fits worse. */
+static bool move_to_meeting(const ale_extractor_t *e, const pair_t *pair, const ale_break_range_t *range,
+                            placing_t *best)
+{
+    const int32_t meeting = meeting_point(e, pair, best->split, range);
+    if (meeting < 0) {
+        return false;
+    }
+    if (meeting != best->split) {
+        if (joint_chi_q8(e, pair, meeting) > best->chi_q8 + MEETING_LOSS_Q8) {
+            return false;
+        }
+        best->split = meeting;
+    }
+    return true;
+}
+
+/* One step of the pattern search: the better of both sides, or false. */
+static bool better_side(const ale_extractor_t *e, const pair_t *pair, const ale_break_range_t *range,
+                        int32_t step, int32_t came_from, placing_t *best)
+{
+    const int32_t centre = best->split;
+    for (int32_t side = 0; side < 2; side++) {
+        const int32_t k = centre + (side == 0 ? -step : step) * range->direction;
+        if (k < range->lowest || k > range->highest || k == came_from) {
+            continue;
+        }
+        const int64_t chi = joint_chi_q8(e, pair, k);
+        if (chi < best->chi_q8) {
+            *best = (placing_t){k, chi};
+        }
+    }
+    return best->split != centre;
 }
 
 int32_t ale_break_place(const ale_extractor_t *e, ale_segment_t both, int64_t var_a_q8, int64_t var_b_q8,
                         const ale_break_range_t *range)
 {
-    const int32_t lowest = range->lowest;
-    const int32_t highest = range->highest;
-    const int32_t direction = range->direction;
-    if (lowest > highest) {
+    if (range->lowest > range->highest) {
         return range->start;
     }
-    int32_t best = (int32_t)ale_clamp64(range->start, lowest, highest);
-    int64_t best_chi = joint_chi_q8(e, both, best, var_a_q8, var_b_q8);
-    int32_t came_from = 0;
+    const pair_t pair = {both, var_a_q8, var_b_q8};
+    placing_t best = {(int32_t)ale_clamp64(range->start, range->lowest, range->highest), 0};
+    best.chi_q8 = joint_chi_q8(e, &pair, best.split);
+    int32_t came_from = -1;
     for (int32_t step = range->widest_step; step > 0; step /= 2) {
         for (int32_t tries = 0; tries < 4; tries++) {
-            const int32_t centre = best;
-            for (int32_t side = -direction; side == direction || side == -direction; side += 2 * direction) {
-                const int32_t k = centre + side * step;
-                if (k < lowest || k > highest || k == came_from) {
-                    continue;
-                }
-                const int64_t chi = joint_chi_q8(e, both, k, var_a_q8, var_b_q8);
-                if (chi < best_chi) {
-                    best_chi = chi;
-                    best = k;
-                }
-            }
-            if (best == centre) {
+            const int32_t centre = best.split;
+            if (!better_side(e, &pair, range, step, came_from, &best)) {
                 break;
             }
             came_from = centre;
         }
     }
-    return best;
+    move_to_meeting(e, &pair, range, &best);
+    return best.split;
 }
 
 /* The break after which the joint fit is best, of the places of a grid that is the same in both directions;

@@ -14,7 +14,7 @@ int32_t ale_reading_direction(const ale_extractor_t *e, int32_t first, int32_t l
 int32_t ale_break_search(ale_extractor_t *e, int32_t from, int32_t to, ale_run_fit_t *accepted);
 
 /* First step where a break is known from a search alone, and where it was placed before. */
-enum { ALE_BREAK_WIDE_STEP = 8, ALE_BREAK_FINE_STEP = 2 };
+enum { ALE_BREAK_WIDE_STEP = 8, ALE_BREAK_FINE_STEP = 1 };
 
 /* Where a break may lie (last point of the first run), where the search for it starts, and in which
  * direction the points are read: that decides between equals. */
@@ -27,8 +27,8 @@ typedef struct {
 } ale_break_range_t;
 
 /* The break between two neighbouring runs, a and b, which are the points of both, by the best joint fit, each
- * in its own variance. range->start where the range is empty. A pattern search: 9 joint fits at most for each
- * power of two. */
+ * in its own variance: a pattern search, 9 joint fits at most for each power of two. From there to where both
+ * lines meet, unless that fits worse than noise makes it. range->start where the range is empty. */
 int32_t ale_break_place(const ale_extractor_t *e, ale_segment_t both, int64_t var_a_q8, int64_t var_b_q8,
                         const ale_break_range_t *range);
 

@@ -12,7 +12,7 @@ enum {
     SINGLE_Q8 = 3 * 256, /* deviations of the bulge from which one run is suspect, */
     MOST_SUSPECTS = 12,  /* and of so many suspects the strongest are tried */
     CHAIN_STEP_Q8 = 128, /* deviations that every run of a chain must bring, */
-    CHAIN_SUM_Q8 = 256,  /* and the chain beyond that */
+    CHAIN_SUM_Q8 = 0,    /* and the chain beyond that */
     CHAIN_ALLOWANCE_Q8 =
         20 * 256,        /* chi square that a circle may lose for each line beyond two it replaces */
     SHARED_PART_Q8 = 154 /* share of the shared variance that a bulge contains */
@@ -146,6 +146,18 @@ static stretch_t strongest_stretch(const shape_t *shape, int32_t first, int32_t 
     return best;
 }
 
+/* The last chord of a curve is often too short to bulge: it belongs to the curve if the circle holds with it.
+ */
+static void widen_stretch(ale_extractor_t *e, int32_t first, int32_t last, stretch_t *stretch)
+{
+    if (stretch->last < last && chain_is_curve(e, stretch->first, stretch->last + 1)) {
+        stretch->last++;
+    }
+    if (stretch->first > first && chain_is_curve(e, stretch->first - 1, stretch->last)) {
+        stretch->first--;
+    }
+}
+
 static int32_t chain_end(const ale_extractor_t *e, const shape_t *shape, int32_t first, int32_t *sign)
 {
     int32_t last = first;
@@ -208,8 +220,9 @@ void ale_curve_find(ale_extractor_t *e)
     for (int32_t first = 0; first < e->run_count;) {
         int32_t sign;
         const int32_t last = chain_end(e, shape, first, &sign);
-        const stretch_t stretch = strongest_stretch(shape, first, last, sign);
+        stretch_t stretch = strongest_stretch(shape, first, last, sign);
         if (stretch.first < stretch.last && chain_is_curve(e, stretch.first, stretch.last)) {
+            widen_stretch(e, first, last, &stretch);
             mark_chain(&stretch, ++curves, curve_of, strength_q8);
         }
         first = last > first ? last : first + 1;

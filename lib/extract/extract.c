@@ -92,18 +92,26 @@ static int64_t rough_q8(const ale_extractor_t *e, const ale_run_fit_t *fit)
     return own + ((ROUGH_SHARED * fit->shared_q8 * fit->n * share_q8) >> 8);
 }
 
-static bool is_line(ale_extractor_t *e, const ale_run_fit_t *fit, const ale_line_t *line)
+static bool is_line(ale_extractor_t *e, const ale_line_t *line)
 {
     const int64_t dx = (int64_t)line->start.x_um - line->end.x_um;
     const int64_t dy = (int64_t)line->start.y_um - line->end.y_um;
-    if (dx * dx + dy * dy < (int64_t)e->config.min_length_um * e->config.min_length_um) {
+    if (dx * dx + dy * dy < (int64_t)e->config.min_length_um * e->config.min_length_um ||
+        line->var_alpha_nrad2 > MAX_SIGMA_ALPHA_NRAD * MAX_SIGMA_ALPHA_NRAD) {
         e->refused[ALE_REFUSED_SHORT]++;
         return false;
     }
-    if (line->var_alpha_nrad2 > MAX_SIGMA_ALPHA_NRAD * MAX_SIGMA_ALPHA_NRAD) {
-        e->refused[ALE_REFUSED_SHORT]++;
+    return true;
+}
+
+/* A run of enough points, as smooth as its noise lets it be. */
+static bool is_wall(ale_extractor_t *e, ale_run_t *run)
+{
+    if (run->last + 1 - run->first < e->config.min_points) {
+        e->refused[ALE_REFUSED_FEW_POINTS]++;
         return false;
     }
+    const ale_run_fit_t *fit = ale_fit_of_run(e, run);
     if (fit->sse_q8 > rough_q8(e, fit)) {
         e->refused[ALE_REFUSED_ROUGH]++;
         return false;
@@ -145,6 +153,25 @@ static void write_curve(ale_extractor_t *e, ale_segment_t run, const frame_t *fr
     curve->centre = ale_turn(curve->centre, frame->direction);
 }
 
+static void write_line(ale_extractor_t *e, ale_run_t *wall, const frame_t *frame, ale_features_t *out)
+{
+    ale_run_trim(e, wall);
+    const ale_segment_t run = {wall->first, wall->last};
+    ale_line_t line;
+    ale_line_fit(e, run, &line);
+    if (!is_line(e, &line)) {
+        return;
+    }
+    if (out->line_count == ALE_MAX_LINES) {
+        e->refused[ALE_REFUSED_CAPACITY]++;
+        return;
+    }
+    line.first_end = end_kind(e, run.first, run.first - 1);
+    line.last_end = end_kind(e, run.last, run.last + 1);
+    turn_line(&line, frame);
+    out->line[out->line_count++] = line;
+}
+
 /* Fits the runs and gives them out in the sensor's frame. */
 static void write_features(ale_extractor_t *e, uint32_t frame_bam, ale_features_t *out)
 {
@@ -152,28 +179,12 @@ static void write_features(ale_extractor_t *e, uint32_t frame_bam, ale_features_
     out->line_count = 0;
     out->curve_count = 0;
     for (int32_t k = 0; k < e->run_count; k++) {
-        const ale_segment_t run = {e->run[k].first, e->run[k].last};
-        if (e->run[k].curved) {
-            write_curve(e, run, &frame, out);
-            continue;
+        ale_run_t *run = &e->run[k];
+        if (run->curved) {
+            write_curve(e, (ale_segment_t){run->first, run->last}, &frame, out);
+        } else if (is_wall(e, run)) {
+            write_line(e, run, &frame, out);
         }
-        if (run.last + 1 - run.first < e->config.min_points) {
-            e->refused[ALE_REFUSED_FEW_POINTS]++;
-            continue;
-        }
-        ale_line_t line;
-        const ale_run_fit_t fit = ale_line_fit(e, run, &line);
-        if (!is_line(e, &fit, &line)) {
-            continue;
-        }
-        if (out->line_count == ALE_MAX_LINES) {
-            e->refused[ALE_REFUSED_CAPACITY]++;
-            continue;
-        }
-        line.first_end = end_kind(e, run.first, run.first - 1);
-        line.last_end = end_kind(e, run.last, run.last + 1);
-        turn_line(&line, &frame);
-        out->line[out->line_count++] = line;
     }
     ale_corner_find(out);
     out->outliers = e->outliers;
@@ -219,8 +230,6 @@ static void search_runs(ale_extractor_t *e, const ale_scan_t *scan)
         } else {
             ale_runs_search(e);
         }
-    } else if (e->config.smooth_span == 1) {
-        ale_scan_noise_refine_own(e); /* smoothed residuals would tell of no noise */
     }
 }
 
@@ -229,12 +238,14 @@ static void search_runs(ale_extractor_t *e, const ale_scan_t *scan)
 static void improve_runs(ale_extractor_t *e)
 {
     if (is_clutter(e)) {
+        ale_scan_noise_refine_own(e);
         ale_runs_drop_short(e, e->config.min_points * CLUTTER_LONGER / 3);
         ale_merge_runs(e);
         return;
     }
     ale_merge_runs(e);
     ale_runs_place(e, ALE_BREAK_WIDE_STEP);
+    ale_scan_noise_refine_own(e); /* each run now has the points that are its own */
     ale_curve_find(e);
     ale_runs_split(e);
     ale_merge_runs(e);

@@ -70,7 +70,7 @@ static void set_covariance(const ale_extractor_t *e, const ale_spread_t *m, ale_
 
 /* Variance of an end along the line. The wall ends anywhere between its last beam and the next one, which
  * would meet it range^2 step / rho farther: a third of that squared. Where the surface goes on, the break may
- * be a beam off, and the noise along the normal moves it. */
+ * be a beam off, and what both lines err by along their normals moves the place where they meet. */
 static int64_t end_var_um2(const ale_extractor_t *e, int32_t i, bool at_break, int64_t var_um2,
                            int32_t rho_um)
 {
@@ -79,7 +79,7 @@ static int64_t end_var_um2(const ale_extractor_t *e, int32_t i, bool at_break, i
     const int64_t along_um = ale_round_div(across_um * range_um, ale_max64(rho_um, 1));
     const int64_t spacing_um = ale_min64(along_um, range_um);
     const int64_t spacing2_um2 = spacing_um * spacing_um;
-    return at_break ? spacing2_um2 / 2 + var_um2 : spacing2_um2 / 3;
+    return at_break ? spacing2_um2 * 2 / 5 + var_um2 : spacing2_um2 / 3;
 }
 
 ale_run_fit_t ale_line_fit(const ale_extractor_t *e, ale_segment_t run, ale_line_t *line)
@@ -107,7 +107,8 @@ ale_run_fit_t ale_line_fit(const ale_extractor_t *e, ale_segment_t run, ale_line
     const int64_t mse_q8 = m.fit.sse_q8 / ale_max64(m.fit.n - 2, 1);
     line->rmse_um = (int32_t)ale_isqrt((uint64_t)um2_of_q8(mse_q8));
     set_covariance(e, &m, line, dot_q30(m.mean_x_um, m.mean_y_um, -s, c));
-    const int64_t var_um2 = um2_of_q8(m.fit.var_q8);
+    const int64_t shared_q8 = e->shared_absent ? 0 : m.fit.shared_q8;
+    const int64_t var_um2 = um2_of_q8(m.fit.var_q8 / 8 + shared_q8);
     const bool from_break = run.first > 0 && !e->jump_after[run.first - 1];
     const bool to_break = run.last + 1 < e->count && !e->jump_after[run.last];
     line->var_start_um2 = end_var_um2(e, run.first, from_break, var_um2, line->rho_um);

@@ -4,7 +4,7 @@
 #include "extract/moments.h"
 #include "extract/segment.h"
 
-enum { PENALTY = 17, SHARED_PEAK = 3, MAX_GAP_POINTS = 8 };
+enum { PENALTY = 19, SHARED_PEAK = 3, MAX_GAP_POINTS = 8 };
 
 int64_t ale_merge_ratio_q8(const ale_extractor_t *e, const ale_run_fit_t *one, const ale_run_fit_t *a,
                            const ale_run_fit_t *b, bool on_one_surface)

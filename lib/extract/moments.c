@@ -10,6 +10,7 @@ enum {
     OWN_SCALED_BITS = 37,
     MEAN_SHIFT = 2,      /* of a mean's mm */
     DIRECTION_SHIFT = 8, /* of the scatter, so that its product with two means fits int64 */
+    NORMAL_SHIFT = 14,   /* of the scatter, so that a normal times the mean times another normal fits int64 */
     SCATTER_BITS = 32,   /* centred moments are scaled to this many bits: their products fit int64 */
     ROUND = 8,           /* a run is round when its width is more than this part of its length, squared */
     STEPS_OF_ROUND = 4,
@@ -189,4 +190,17 @@ ale_spread_t ale_moments_spread(const ale_extractor_t *e, int32_t first, int32_t
         .mean_y_um = ale_round_div(s.y * 1000, n << ALE_POINT_SHIFT),
     };
     return spread;
+}
+
+ale_normal_line_t ale_moments_normal_line(const ale_extractor_t *e, int32_t first, int32_t last)
+{
+    const int64_t n = last + 1 - first;
+    const ale_moments_t s = sums_of(e, first, last);
+    const scatter_t m = scatter_of(n, s);
+    const int64_t unit = (int64_t)1 << NORMAL_SHIFT;
+    const int64_t nx = (m.a >= m.c ? -m.b : m.lambda - m.c) / unit;
+    const int64_t ny = (m.a >= m.c ? m.a - m.lambda : m.b) / unit;
+    const int64_t rho = (nx * s.x + ny * s.y) / n;
+    const ale_normal_line_t line = {rho < 0 ? -nx : nx, rho < 0 ? -ny : ny, ale_abs64(rho)};
+    return line;
 }

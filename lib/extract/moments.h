@@ -49,6 +49,15 @@ typedef struct {
 
 ale_spread_t ale_moments_spread(const ale_extractor_t *e, int32_t first, int32_t last);
 
+/* The line alone, nx x + ny y = rho >= 0 in any unit, for where it meets another. */
+typedef struct {
+    int64_t nx; /* below 2^18 */
+    int64_t ny;
+    int64_t rho; /* below 2^39 */
+} ale_normal_line_t;
+
+ale_normal_line_t ale_moments_normal_line(const ale_extractor_t *e, int32_t first, int32_t last);
+
 /* Squared residuals in units of the own variance, Q8. */
 static inline int64_t ale_fit_chi_q8(const ale_run_fit_t *fit)
 {

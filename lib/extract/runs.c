@@ -9,7 +9,12 @@ enum {
     MAX_GAP_POINTS = 8,
     COSTLY_STEP = 4, /* to the next try, where a costly scan has no line */
     MIN_SPLIT_POINTS = 16,
-    MOST_TRIED = 12 /* runs that are tried for a break: of polygons seldom more are suspicious */
+    TRIM_MOST = 3,            /* points given up at one end, */
+    TRIM_SUSPICIOUS_Q8 = 333, /* where a run has more than its noise: chi square of a degree of freedom. */
+    TRIM_FIRST = 10,          /* Own variances that one point given up must bring, */
+    TRIM_NEXT = 4,            /* each further one, */
+    TRIM_SHARED = 12,         /* and shared variances each */
+    MOST_TRIED = 12           /* runs that are tried for a break: of polygons seldom more are suspicious */
 };
 
 static void add_run(ale_extractor_t *e, int32_t a, int32_t b, const ale_run_fit_t *fit)
@@ -155,6 +160,39 @@ void ale_runs_split(ale_extractor_t *e)
             k++;
         }
         k++;
+    }
+}
+
+/* How many points to give up at one end: what they bring beyond what noise would is most. */
+static int32_t points_to_trim(const ale_extractor_t *e, const ale_run_t *run, bool at_first)
+{
+    int32_t best = 0;
+    int64_t most = 0;
+    for (int32_t k = 1; k <= TRIM_MOST && 2 * k <= run->fit.n - e->config.min_points; k++) {
+        const int32_t first = run->first + (at_first ? k : 0);
+        const int32_t last = run->last - (at_first ? 0 : k);
+        const int64_t gain = run->fit.sse_q8 - ale_moments_sse_q8(e, first, last) -
+                             (TRIM_FIRST + TRIM_NEXT * (k - 1)) * run->fit.var_q8 -
+                             TRIM_SHARED * k * run->fit.shared_q8;
+        if (gain > most) {
+            most = gain;
+            best = k;
+        }
+    }
+    return best;
+}
+
+void ale_run_trim(const ale_extractor_t *e, ale_run_t *run)
+{
+    if (ale_fit_chi_q8(ale_fit_of_run(e, run)) < (int64_t)(run->fit.n - 2) * TRIM_SUSPICIOUS_Q8) {
+        return;
+    }
+    const int32_t at_first = points_to_trim(e, run, true);
+    const int32_t at_last = points_to_trim(e, run, false);
+    if (at_first + at_last > 0) {
+        run->first = (uint16_t)(run->first + at_first);
+        run->last = (uint16_t)(run->last - at_last);
+        ale_run_changed(run);
     }
 }
 

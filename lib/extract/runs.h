@@ -20,4 +20,8 @@ void ale_runs_split(ale_extractor_t *e);
  * see breakpoint.h. */
 void ale_runs_place(ale_extractor_t *e, int32_t widest_step);
 
+/* Gives up the outer points of a run that the rest of it does not explain: where a surface ends a beam may
+ * meet two. At most six fits. */
+void ale_run_trim(const ale_extractor_t *e, ale_run_t *run);
+
 #endif

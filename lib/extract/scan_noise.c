@@ -245,6 +245,9 @@ bool ale_scan_noise_measure_shared(ale_extractor_t *e, const ale_scan_t *scan)
 
 void ale_scan_noise_refine_own(ale_extractor_t *e)
 {
+    if (e->shared_scale_q8 > 256) {
+        return;
+    }
     int64_t chi_q8 = (int64_t)OWN_PRIOR_POINTS * 256;
     int64_t freedom = OWN_PRIOR_POINTS;
     for (int32_t k = 0; k < e->run_count; k++) {

@@ -12,7 +12,7 @@ void ale_scan_noise_measure(ale_extractor_t *e, const ale_scan_t *scan);
  * it than configured: then the runs were cut too short. O(points). */
 bool ale_scan_noise_measure_shared(ale_extractor_t *e, const ale_scan_t *scan);
 
-/* Refines the own noise by the residuals of e->run (where no shared error hides it). O(runs). */
+/* Refines the own noise by the residuals of e->run, where no shared error was found to hide it. O(runs). */
 void ale_scan_noise_refine_own(ale_extractor_t *e);
 
 #endif

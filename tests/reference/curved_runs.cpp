@@ -17,7 +17,7 @@ constexpr int widest_gap = 6; // points between runs of a chain
 constexpr double suspect_bulge = 3;
 constexpr size_t most_suspects = 12;
 constexpr double bulge_of_each = 0.5; // deviations that every run of a chain must bring,
-constexpr double bulge_of_all = 1;    // and the chain beyond that
+constexpr double bulge_of_all = 0;    // and the chain beyond that
 constexpr double chi_of_a_line = 20;  // that a circle may lose for each line beyond two it replaces
 constexpr double shared_in_bulge = 0.6;
 constexpr double largest_radius = 10000;
@@ -183,6 +183,14 @@ Stretch strongest_stretch(const std::vector<Shape> &shape, size_t first, const C
     return best;
 }
 
+// Whether one circle explains a stretch as well as its lines do.
+bool on_a_circle(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &runs,
+                 size_t first, size_t last, Decisions &decisions)
+{
+    return decisions.below(circle_excess(points, noise, runs, first, last),
+                           chi_of_a_line * static_cast<double>(last - first - 1));
+}
+
 std::vector<Run> joined(const std::vector<Run> &runs, const std::vector<int> &curve_of)
 {
     std::vector<Run> result;
@@ -240,10 +248,13 @@ std::vector<Run> with_curves(const ScanPoints &points, const NoiseOfScan &noise,
     }
     for (size_t first = 0; first < runs.size();) {
         const Chain chain = chain_from(segments, runs, shape, first, decisions);
-        const Stretch stretch = strongest_stretch(shape, first, chain, decisions);
-        if (stretch.first < stretch.last &&
-            decisions.below(circle_excess(points, noise, runs, stretch.first, stretch.last),
-                            chi_of_a_line * static_cast<double>(stretch.last - stretch.first - 1))) {
+        Stretch stretch = strongest_stretch(shape, first, chain, decisions);
+        const auto holds = [&](size_t from, size_t to) {
+            return on_a_circle(points, noise, runs, from, to, decisions);
+        };
+        if (stretch.first < stretch.last && holds(stretch.first, stretch.last)) {
+            stretch.last += stretch.last < chain.last && holds(stretch.first, stretch.last + 1) ? 1 : 0;
+            stretch.first -= stretch.first > first && holds(stretch.first - 1, stretch.last) ? 1 : 0;
             curves++;
             for (size_t k = stretch.first; k <= stretch.last; k++) {
                 if (stretch.strength > strength[k]) {

@@ -11,6 +11,7 @@
 #include "reference/scan_noise.h"
 #include "reference/stray_points.h"
 #include "reference/surface_segments.h"
+#include "reference/trimmed_run.h"
 
 namespace reference
 {
@@ -31,6 +32,7 @@ struct Prepared {
     ScanPoints points;
     std::vector<Run> segments;
     NoiseOfScan noise;
+    bool shared_found = false;
     double frame = 0; // direction of the points' x axis in the sensor's frame
 };
 
@@ -80,11 +82,8 @@ std::vector<Run> searched_runs(Prepared &p, const ExtractionSettings &settings, 
     p.noise.shared_constant *= shared.scale;
     p.noise.shared_relative *= shared.scale;
     p.noise.shared_absent = shared.absent;
-    if (shared.scale > 1) {
-        return p.noise.costly ? runs : search(p, decisions);
-    }
-    p.noise.own_scale = own_scale(p.points, p.noise, runs, decisions);
-    return runs;
+    p.shared_found = shared.scale > 1;
+    return shared.scale > 1 && !p.noise.costly ? search(p, decisions) : runs;
 }
 
 // Of clutter, to bound the work: its longer runs, joined where they are one line.
@@ -100,10 +99,19 @@ std::vector<Run> improved_clutter(const Prepared &p, const std::vector<Run> &run
     return merged_runs(p.points, p.noise, p.segments, longer, decisions);
 }
 
-std::vector<Run> improved_runs(const Prepared &p, const ExtractionSettings &settings, std::vector<Run> runs,
+// By residuals, which a shared error would be part of.
+void refine_own_noise(Prepared &p, const std::vector<Run> &runs, Decisions &decisions)
+{
+    if (!p.shared_found) {
+        p.noise.own_scale = own_scale(p.points, p.noise, runs, decisions);
+    }
+}
+
+std::vector<Run> improved_runs(Prepared &p, const ExtractionSettings &settings, std::vector<Run> runs,
                                Decisions &decisions)
 {
     if (is_clutter(p, runs)) {
+        refine_own_noise(p, runs, decisions);
         return improved_clutter(p, runs, settings.least_points * 4 / 3, decisions);
     }
     for (const bool split : {false, true}) {
@@ -112,6 +120,9 @@ std::vector<Run> improved_runs(const Prepared &p, const ExtractionSettings &sett
         }
         runs = merged_runs(p.points, p.noise, p.segments, runs, decisions);
         runs = placed_runs(p.points, p.noise, p.segments, runs, split ? fine_step : wide_step, decisions);
+        if (!split) {
+            refine_own_noise(p, runs, decisions);
+        }
         runs = with_curves(p.points, p.noise, p.segments, runs, decisions);
     }
     return runs;
@@ -151,6 +162,12 @@ double rough_limit(const NoiseOfScan &noise, const RunFit &fit)
     return rough_own * fit.var * chi_limit(fit.n, chi_high_z) + rough_shared * fit.shared * fit.n * bent;
 }
 
+bool is_wall(const Prepared &p, const ExtractionSettings &settings, Run run, Decisions &decisions)
+{
+    const RunFit fit = fit_run(p.points, p.noise, run.first, run.last);
+    return fit.n >= settings.least_points && decisions.below(fit.sse, rough_limit(p.noise, fit));
+}
+
 bool is_line(const Prepared &p, const ExtractionSettings &settings, Run run, const RunFit &fit,
              Decisions &decisions)
 {
@@ -158,9 +175,8 @@ bool is_line(const Prepared &p, const ExtractionSettings &settings, Run run, con
     const Eigen::Vector2d end = end_on_line(p.points[static_cast<size_t>(run.last)], fit);
     const double shared = p.noise.shared_absent ? 0 : fit.shared * together_in_slope(p.noise, fit.n);
     const double var_alpha = (fit.var + shared) / fit.along2;
-    return fit.n >= settings.least_points && !decisions.below((end - start).norm(), settings.least_length) &&
-           decisions.below(std::sqrt(var_alpha), most_sigma_alpha) &&
-           decisions.below(fit.sse, rough_limit(p.noise, fit));
+    return !decisions.below((end - start).norm(), settings.least_length) &&
+           decisions.below(std::sqrt(var_alpha), most_sigma_alpha);
 }
 
 double cross(const Eigen::Vector2d &a, const Eigen::Vector2d &b)
@@ -221,13 +237,20 @@ Extraction extract(const ScanPoints &valid, const ExtractionSettings &settings)
     Prepared p = prepare(valid, settings, out.decisions);
     const std::vector<Run> runs =
         improved_runs(p, settings, searched_runs(p, settings, out.decisions), out.decisions);
-    for (const Run &run : runs) {
-        const Run beams = {p.points[static_cast<size_t>(run.first)].beam,
-                           p.points[static_cast<size_t>(run.last)].beam, run.curved};
-        if (run.curved) {
-            out.curves.push_back(beams);
+    const auto beams_of = [&](const Run &run) {
+        return Run{p.points[static_cast<size_t>(run.first)].beam,
+                   p.points[static_cast<size_t>(run.last)].beam, run.curved};
+    };
+    for (const Run &found : runs) {
+        if (found.curved) {
+            out.curves.push_back(beams_of(found));
             continue;
         }
+        if (!is_wall(p, settings, found, out.decisions)) {
+            continue;
+        }
+        const Run run = trimmed_run(p.points, p.noise, found, settings.least_points, out.decisions);
+        const Run beams = beams_of(run);
         const RunFit fit = fit_run(p.points, p.noise, run.first, run.last);
         if (is_line(p, settings, run, fit, out.decisions)) {
             out.lines.push_back({beams.first, beams.last, fit.alpha, fit.rho, run});

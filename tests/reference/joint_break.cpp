@@ -1,6 +1,7 @@
 #include "reference/joint_break.h"
 
 #include <algorithm>
+#include <Eigen/Dense>
 
 #include "reference/line_search.h"
 #include "reference/run_fit.h"
@@ -13,7 +14,7 @@ namespace
 {
 
 constexpr int widest_gap = 8; // points between runs that meet
-constexpr int grid = 12;
+constexpr int grid = 9;
 constexpr int least_to_split = 16;
 constexpr size_t most_tried = 12;          // runs that are tried for a break
 constexpr double suspicious = 236.0 / 256; // of the chi square that noise alone makes
@@ -23,6 +24,31 @@ constexpr double promising = 100.0 / 256;
 int spare_points(Run run)
 {
     return std::max(0, run.points() - least_run) / 2;
+}
+
+// The last point of all from lowest to highest on the near side of where the lines through first..split and
+// split + 1..last meet, seen from the sensor; -1 when they do not meet there.
+int meeting_point(const ScanPoints &points, const NoiseOfScan &noise, Run both, int split,
+                  const BreakRange &range)
+{
+    const RunFit a = fit_run(points, noise, both.first, split);
+    const RunFit b = fit_run(points, noise, split + 1, both.last);
+    const Eigen::Vector2d wa(std::cos(a.alpha), std::sin(a.alpha));
+    const Eigen::Vector2d wb(std::cos(b.alpha), std::sin(b.alpha));
+    // along a ray u the line n u r = rho is rho / (n u) away
+    const auto a_is_nearer = [&](int k) {
+        const ScanPoint &p = points[static_cast<size_t>(k)];
+        return Eigen::Vector2d(p.x, p.y).dot(a.rho * wb - b.rho * wa) < 0;
+    };
+    const bool at_lowest = a_is_nearer(range.lowest);
+    if (at_lowest == a_is_nearer(range.highest + 1)) {
+        return -1;
+    }
+    int meeting = range.lowest;
+    while (a_is_nearer(meeting + 1) == at_lowest) {
+        meeting++;
+    }
+    return meeting;
 }
 
 bool meet(const std::vector<Run> &segments, Run a, Run b)
@@ -114,7 +140,8 @@ int placed_break(const ScanPoints &points, const NoiseOfScan &noise, Run a, Run 
             }
         }
     }
-    return best;
+    const int meeting = meeting_point(points, noise, {a.first, b.last}, best, range);
+    return meeting >= 0 && decisions.below(chi_at(meeting), least + meeting_loss) ? meeting : best;
 }
 
 std::vector<Run> placed_runs(const ScanPoints &points, const NoiseOfScan &noise,

@@ -11,7 +11,7 @@ namespace reference
 // First steps of the search for a break: where it is known from a search alone, and where it was placed
 // before.
 constexpr int wide_step = 8;
-constexpr int fine_step = 2;
+constexpr int fine_step = 1;
 
 // Squared residuals of the lines through first..split and split+1..last, in units of two variances.
 double joint_chi(const ScanPoints &points, Run both, int split, double var_a, double var_b);
@@ -25,9 +25,13 @@ struct BreakRange {
 };
 
 // The break of least joint chi square by a pattern search from range.start: up to four steps of the widest
-// width to the better side, then of half of it, down to 1. Where no break is allowed: range.start.
+// width to the better side, then of half of it, down to 1. From there to where the lines through both runs
+// meet, unless that has a chi square larger by more than 6. Where no break is allowed: range.start.
 int placed_break(const ScanPoints &points, const NoiseOfScan &noise, Run a, Run b, const BreakRange &range,
                  Decisions &decisions);
+
+// What a break where two lines meet may fit worse than the best one.
+constexpr double meeting_loss = 6;
 
 // The break of least joint chi square of all from lowest to highest.
 int best_break(const ScanPoints &points, const NoiseOfScan &noise, Run a, Run b, int lowest, int highest);
@@ -40,7 +44,7 @@ std::vector<Run> placed_runs(const ScanPoints &points, const NoiseOfScan &noise,
                              const std::vector<Run> &segments, std::vector<Run> runs, int widest_step,
                              Decisions &decisions);
 
-// The best of the breaks at twelfths of a run, by the squared residuals of both lines.
+// The best of the breaks at ninths of a run, by the squared residuals of both lines.
 struct CoarseBreak {
     int split; // -1: no room for two runs
     double sse;

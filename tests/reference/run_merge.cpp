@@ -8,7 +8,7 @@ namespace reference
 namespace
 {
 
-constexpr double penalty = 17; // own variances that a second line must gain,
+constexpr double penalty = 19; // own variances that a second line must gain,
 constexpr double peak = 3;     // and shared ones, where both lie on one surface, beside one for each point
 constexpr int widest_gap_points = 8;
 constexpr int widest_gap_beams = 8;
@@ -41,17 +41,24 @@ std::vector<Run> merged_runs(const ScanPoints &points, const NoiseOfScan &noise,
     for (;;) {
         size_t best = 0;
         double least = HUGE_VAL;
+        double second = HUGE_VAL;
         for (size_t k = 0; k + 1 < runs.size(); k++) {
             if (may_join(points, runs[k], runs[k + 1])) {
                 const double ratio = merge_ratio(points, noise, segments, runs[k], runs[k + 1]);
                 if (ratio < least) {
+                    second = least;
                     least = ratio;
                     best = k;
+                } else {
+                    second = std::min(second, ratio);
                 }
             }
         }
         if (least == HUGE_VAL || !decisions.below(least, 1)) {
             return runs;
+        }
+        if (second < 1) {
+            decisions.below(least, second);
         }
         runs[best].last = runs[best + 1].last;
         runs.erase(runs.begin() + static_cast<long>(best) + 1);

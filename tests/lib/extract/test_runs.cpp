@@ -1,6 +1,7 @@
 // lib/extract/runs.c, breakpoint.c, merge.c and curve.c against their twins in double, each stage on equal
 // input.
 #include <functional>
+#include <random>
 
 #include "lib/extract/agreement.h"
 #include "lib/extract/as_reference.h"
@@ -8,7 +9,9 @@
 #include "reference/curved_runs.h"
 #include "reference/joint_break.h"
 #include "reference/line_search.h"
+#include "reference/run_fit.h"
 #include "reference/run_merge.h"
+#include "reference/trimmed_run.h"
 
 namespace
 {
@@ -74,13 +77,14 @@ TEST(Runs, BreaksArePlacedWhereTheTwinPlacesThem)
     EXPECT_GT(compare_runs(12, 0.03, ale_merge_runs, scene::place_runs, twin), 100);
 }
 
-// A search that skips places may miss the best one; the twin here tries them all.
-TEST(Runs, NearlyAllBreaksAreTheBestOfAll)
+// A search that skips places may miss the best one; the twin here tries them all. Where the lines meet a
+// break may be a little worse than that.
+TEST(Runs, NearlyNoBreakIsWorseThanTheBestOfAllByMoreThanAMeetingPointMayBe)
 {
     scene::extractor extractor;
     ale_extractor_t *e = extractor.get();
     int breaks = 0;
-    int best = 0;
+    int good = 0;
     for (unsigned k = 0; k < scans; k++) {
         const auto scan = scene::simulated_scan(k, 13);
         scene::search_runs(e, *scan);
@@ -94,15 +98,77 @@ TEST(Runs, NearlyAllBreaksAreTheBestOfAll)
             }
             const reference::BreakRange range = reference::range_between(
                 before.points, before.runs[i], before.runs[i + 1], reference::wide_step);
+            const reference::Run &a = before.runs[i];
+            const reference::Run &b = before.runs[i + 1];
+            const auto chi_at = [&](int split) {
+                return reference::joint_chi(
+                    before.points, {a.first, b.last}, split,
+                    reference::fit_run(before.points, before.noise, a.first, a.last).var,
+                    reference::fit_run(before.points, before.noise, b.first, b.last).var);
+            };
+            const int least =
+                reference::best_break(before.points, before.noise, a, b, range.lowest, range.highest);
             breaks++;
-            best += placed[i].last == reference::best_break(before.points, before.noise, before.runs[i],
-                                                            before.runs[i + 1], range.lowest, range.highest)
-                        ? 1
-                        : 0;
+            good += chi_at(placed[i].last) <= chi_at(least) + reference::meeting_loss ? 1 : 0;
         }
     }
     EXPECT_GT(breaks, 200);
-    EXPECT_GE(best, 0.95 * breaks) << best << " of " << breaks;
+    EXPECT_GE(good, 0.95 * breaks) << good << " of " << breaks;
+}
+
+// Walls that bend by 4 to 12 degrees two metres away, behind beam 49 to 68, 10 mm of noise: the joint chi
+// square is nearly the same over many beams there.
+TEST(Runs, ABendIsFoundNearerToItsPlaceThanTheBestJointFitIs)
+{
+    scene::extractor extractor;
+    ale_extractor_t *e = extractor.get();
+    double placed_error = 0;
+    double best_error = 0;
+    for (int k = 0; k < 200; k++) {
+        const int bend = 49 + k % 20;
+        const double y = 2 * std::tan((bend + 0.5 - 60) * scene::urg_step);
+        const double turn = (4 + k % 9) * scene::pi / 180;
+        const auto scan = scene::empty_scan(120, -60 * scene::urg_step);
+        scene::see(*scan, {{2, -2, 2, y}, {2, y, 2 - 2 * std::sin(turn), y + 2 * std::cos(turn)}}, 10,
+                   static_cast<unsigned>(k));
+        scene::prepare_points(e, *scan);
+        scene::set_runs(e, {{0, bend + 9}, {bend + 10, e->count - 1}});
+        const Given before = given(e);
+        scene::place_runs(e);
+        const reference::Run &a = before.runs[0];
+        const reference::Run &b = before.runs[1];
+        const reference::BreakRange range =
+            reference::range_between(before.points, a, b, reference::wide_step);
+        const int best =
+            reference::best_break(before.points, before.noise, a, b, range.lowest, range.highest);
+        placed_error += std::pow(e->beam[e->run[0].last] - bend, 2);
+        best_error += std::pow(e->beam[best] - bend, 2);
+    }
+    EXPECT_LT(placed_error, best_error / 2) << "squared beams, " << best_error;
+}
+
+TEST(Runs, TheOuterPointsThatARunGivesUpAreThoseOfTheTwin)
+{
+    scene::extractor extractor;
+    ale_extractor_t *e = extractor.get();
+    scene::agreement agreement;
+    int trimmed = 0;
+    for (unsigned k = 0; k < scans; k++) {
+        const auto scan = scene::simulated_scan(k, 17);
+        scene::search_runs(e, *scan);
+        const Given g = given(e);
+        for (int i = 0; i < e->run_count; i++) {
+            Decisions decisions;
+            const reference::Run &run = g.runs[static_cast<size_t>(i)];
+            const reference::Run expected =
+                reference::trimmed_run(g.points, g.noise, run, e->config.min_points, decisions);
+            ale_run_trim(e, &e->run[i]);
+            agreement.compare(scene::runs_of(*e)[static_cast<size_t>(i)] == expected, decisions, k);
+            trimmed += expected == run ? 0 : 1;
+        }
+    }
+    agreement.expect_differences_below(0.01);
+    EXPECT_GT(trimmed, 100);
 }
 
 TEST(Runs, BreaksThatTheSearchMissedAreFoundWhereTheTwinFindsThem)
