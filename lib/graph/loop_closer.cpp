@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/LU>
+#include <iterator>
 
 #include "graph/building_axes.h"
+#include "graph/patch.h"
 #include "graph/thinning.h"
 
 namespace ale
@@ -15,7 +15,6 @@ namespace
 {
 
 constexpr size_t loop_candidates = 3;
-constexpr double loop_min_path_m = 6.0;   // nearer than this along the path it is the same visit
 constexpr double loop_reach_m = 2.5;      // places this near, beside what drift may have done
 constexpr double drift_per_metre = 0.008; // how far the guess may have drifted
 constexpr double drift_rad_per_metre = 0.002;
@@ -23,10 +22,9 @@ constexpr double max_window_m = 2.0;
 constexpr double max_window_rad = 0.35;
 constexpr int patch_nodes = 6; // to each side of the place
 constexpr int present_nodes = 2 * patch_nodes;
-constexpr double patch_reach_m = 4.0;  // and as far from it
-constexpr double clear_overlap = 0.55; // one node's word, confirmed by another
-constexpr double least_overlap = 0.30; // much is out of sight: more nodes must agree
-constexpr double most_ambiguity = 0.85;
+constexpr PatchExtent patch_there{patch_nodes, patch_nodes};
+constexpr PatchExtent patch_here{2, 0};
+constexpr PatchExtent corners_there{2, 2};
 constexpr size_t partners_when_clear = 1;
 constexpr size_t partners_when_sparse = 3;
 constexpr size_t partners_when_near = 2;
@@ -34,8 +32,6 @@ constexpr size_t partners_when_near = 2;
 constexpr double known_m = 0.05;
 constexpr double known_rad = 0.015;
 constexpr size_t pending_loops = 12;
-constexpr double agreement_m = 0.15;
-constexpr double agreement_rad = 0.035;
 constexpr int optimise_iterations = 10;
 constexpr int straighten_rounds = 2;
 // All that may follow from one keyframe: a loop for each candidate, or one and walls as a compass.
@@ -56,17 +52,6 @@ Eigen::Matrix3d motion_information(const Pose &motion, const Node &to)
     const double sigma_rad = doubt * (0.0015 + 0.002 * distance + 0.004 * turn);
     return Eigen::Vector3d(1 / (sigma_m * sigma_m), 1 / (sigma_m * sigma_m), 1 / (sigma_rad * sigma_rad))
         .asDiagonal();
-}
-
-// The matcher's information counts points as independent, which they are not: bounded by what a match is
-// worth.
-Eigen::Matrix3d tempered(const Eigen::Matrix3d &information)
-{
-    const double least_variance_m2 = 0.01 * 0.01;
-    const double least_variance_rad2 = 0.003 * 0.003;
-    const Eigen::Vector3d floor(least_variance_m2, least_variance_m2, least_variance_rad2);
-    const Eigen::Matrix3d regular = information + Eigen::Matrix3d::Identity() * 1e-3;
-    return (regular.inverse() + Eigen::Matrix3d(floor.asDiagonal())).inverse();
 }
 
 // How well the tracker knows a place that it has recognised.
@@ -97,6 +82,7 @@ LoopCloser::LoopCloser(size_t capacity) : capacity_(std::max(capacity, least_cap
 bool LoopCloser::add(Node node, const Pose &motion)
 {
     make_room();
+    search_.reset();
     refinement_.reset();
     refined_ = false;
     nodes_.push_back(std::move(node));
@@ -136,13 +122,20 @@ bool LoopCloser::refine()
     if (refined_ || nodes_.size() < 2) {
         return false;
     }
+    if (!search_) {
+        search_.emplace(&nodes_, graph_);
+    }
+    if (search_->step()) {
+        return true;
+    }
     if (!refinement_) {
-        refinement_.emplace(&nodes_, graph_);
+        refinement_.emplace(&nodes_, search_->graph());
     }
     if (refinement_->step()) {
         return true;
     }
     graph_ = refinement_->graph();
+    search_.reset();
     refinement_.reset();
     refined_ = true;
     return false;
@@ -209,6 +202,7 @@ void LoopCloser::begin_anew()
     nodes_.clear();
     graph_.clear();
     pending_.clear();
+    search_.reset();
     refinement_.reset();
     refined_ = false;
     added_ = straightened_at_ = 0;
@@ -267,69 +261,29 @@ std::vector<int> LoopCloser::candidates() const
     return chosen;
 }
 
-// What the nodes around k saw, in the frame of k.
-std::vector<SurfacePoint> LoopCloser::patch_around(int k, int before, int after) const
-{
-    const Pose &middle = graph_.poses()[static_cast<size_t>(k)];
-    const int first = std::max(0, k - before);
-    const int last = std::min(static_cast<int>(nodes_.size()) - 1, k + after);
-    std::vector<SurfacePoint> patch;
-    for (int i = first; i <= last; i++) {
-        const Pose seen = between(middle, graph_.poses()[static_cast<size_t>(i)]);
-        if (length(seen.x, seen.y) > patch_reach_m) {
-            continue;
-        }
-        const Eigen::Matrix2d r = rotation(seen.theta);
-        const Eigen::Vector2d t(seen.x, seen.y);
-        const Node &node = nodes_[static_cast<size_t>(i)];
-        for (size_t at = 0; at < node.points.size(); at++) {
-            const bool told = at >= node.vague.size() || !node.vague[at];
-            const Eigen::Vector2d normal = told ? node.points[at].normal : Eigen::Vector2d(0, 0);
-            patch.push_back({r * node.points[at].p + t, r * normal});
-        }
-    }
-    return patch;
-}
-
-std::vector<CornerMark> LoopCloser::corners_around(int k, int before, int after) const
-{
-    const Pose &middle = graph_.poses()[static_cast<size_t>(k)];
-    const int first = std::max(0, k - before);
-    const int last = std::min(static_cast<int>(nodes_.size()) - 1, k + after);
-    std::vector<CornerMark> corners;
-    for (int i = first; i <= last; i++) {
-        const Pose seen = between(middle, graph_.poses()[static_cast<size_t>(i)]);
-        for (CornerMark corner : nodes_[static_cast<size_t>(i)].corners) {
-            corner.p = apply(seen, corner.p);
-            corner.bisector = wrapped(corner.bisector + seen.theta);
-            corners.push_back(corner);
-        }
-    }
-    return corners;
-}
-
 LoopCloser::Sight LoopCloser::look_for_loop(int there, Loop *loop) const
 {
     const int here = static_cast<int>(nodes_.size()) - 1;
     const double driven_m = nodes_.back().path_m - nodes_[static_cast<size_t>(there)].path_m;
     const SearchWindow window{std::min(max_window_m, 0.3 + drift_per_metre * driven_m),
                               std::min(max_window_rad, 0.07 + drift_rad_per_metre * driven_m)};
-    const SurfaceField field(patch_around(there, patch_nodes, patch_nodes));
+    const SurfaceField field(patch_around(nodes_, graph_.poses(), there, patch_there));
     const Pose guess = between(graph_.poses()[static_cast<size_t>(there)], graph_.poses().back());
-    const std::vector<SurfacePoint> seen = patch_around(here, 2, 0);
+    const std::vector<SurfacePoint> seen = patch_around(nodes_, graph_.poses(), here, patch_here);
     *loop = {there, here, guess, known_information(), 1};
     if (near(guess, match_near(seen, field, guess), clear_overlap)) {
         return Sight::known;
     }
     const LoopMatch match =
-        match_patch(seen, nodes_.back().corners, field, corners_around(there, 2, 2), guess, window);
-    if (!match.found || match.overlap < least_overlap || match.ambiguity > most_ambiguity) {
+        match_patch(seen, nodes_.back().corners, field,
+                    corners_around(nodes_, graph_.poses(), there, corners_there), guess, window);
+    if (!is_sight(match)) {
         return Sight::unclear;
     }
     if (near(guess, match, least_overlap)) {
         return Sight::known;
     }
-    *loop = {there, here, match.pose, tempered(match.information), match.overlap};
+    *loop = loop_by(match, there, here);
     return Sight::displaced;
 }
 
@@ -348,23 +302,12 @@ size_t LoopCloser::partners_wanted(const Loop &loop) const
     return length(off.x, off.y) < drift_per_metre * driven_m ? partners_when_near : partners_when_sparse;
 }
 
-// Other loops, found from other nodes, that say the same: going round by both gives no displacement.
-std::vector<LoopCloser::Loop> LoopCloser::partners_of(const Loop &loop) const
+// Other loops, found from other nodes, that say the same.
+std::vector<Loop> LoopCloser::partners_of(const Loop &loop) const
 {
     std::vector<Loop> partners;
-    for (const Loop &other : pending_) {
-        if (other.to == loop.to) {
-            continue;
-        }
-        const Pose along_there = between(graph_.poses()[static_cast<size_t>(other.from)],
-                                         graph_.poses()[static_cast<size_t>(loop.from)]);
-        const Pose along_here = between(graph_.poses()[static_cast<size_t>(other.to)],
-                                        graph_.poses()[static_cast<size_t>(loop.to)]);
-        const Pose gap = between(compose(other.measured, along_here), compose(along_there, loop.measured));
-        if (length(gap.x, gap.y) < agreement_m && std::abs(gap.theta) < agreement_rad) {
-            partners.push_back(other);
-        }
-    }
+    std::copy_if(pending_.begin(), pending_.end(), std::back_inserter(partners),
+                 [&](const Loop &other) { return agree(other, loop, graph_.poses()); });
     return partners;
 }
 

@@ -18,7 +18,9 @@
 #include <optional>
 #include <vector>
 
+#include "graph/loop.h"
 #include "graph/loop_match.h"
+#include "graph/loop_search.h"
 #include "graph/node.h"
 #include "graph/pose_graph.h"
 #include "graph/refinement.h"
@@ -48,8 +50,8 @@ class LoopCloser
     // when earlier poses moved.
     bool add(Node node, const Pose &motion);
 
-    // Draws all poses tighter by matching neighbours anew, a bounded piece a call; poses() move with the
-    // last. False: nothing is left to do until a node is added.
+    // Looks for loops once more and draws all poses tighter by matching neighbours anew, a bounded piece a
+    // call; poses() move with the last. False: nothing is left to do until a node is added.
     bool refine();
 
     const std::vector<Node> &nodes() const
@@ -70,13 +72,6 @@ class LoopCloser
     }
 
   private:
-    struct Loop {
-        int from;
-        int to;
-        Pose measured;
-        Eigen::Matrix3d information;
-        double overlap;
-    };
     enum class Sight { unclear, known, displaced };
 
     void make_room();
@@ -89,8 +84,6 @@ class LoopCloser
     bool straighten();
     bool optimise();
     bool is_tied(const Loop &loop) const;
-    std::vector<SurfacePoint> patch_around(int k, int before, int after) const;
-    std::vector<CornerMark> corners_around(int k, int before, int after) const;
 
     size_t capacity_;
     std::vector<Node> nodes_; // in the order of the way
@@ -99,6 +92,7 @@ class LoopCloser
     size_t added_ = 0;           // nodes, ever
     size_t straightened_at_ = 0; // how many had been added then
     int iterations_left_ = 0;    // of those that may follow from the present node
+    std::optional<LoopSearch> search_;
     std::optional<Refinement> refinement_;
     bool refined_ = false; // nothing was added since
     LoopStatistics statistics_{};

@@ -43,6 +43,7 @@ struct Node {
     // By point: its normal is told by beams far apart, good enough only where the place is known already.
     std::vector<bool> vague;
     std::vector<CornerMark> corners;
+    Eigen::Vector2d eye{0, 0}; // where the sensor sits
 };
 
 } // namespace ale

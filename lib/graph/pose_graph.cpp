@@ -13,8 +13,6 @@ namespace ale
 namespace
 {
 
-// A robust edge keeps its full weight up to this Mahalanobis square, then fades.
-constexpr double robust_phi = 10;
 constexpr double converged_step = 1e-6;
 
 Eigen::Vector3d error_of(const GraphEdge &edge, const std::vector<Pose> &poses)
@@ -24,10 +22,10 @@ Eigen::Vector3d error_of(const GraphEdge &edge, const std::vector<Pose> &poses)
     return {e.x, e.y, e.theta};
 }
 
-// Weight of a robust edge with Mahalanobis square chi2: s^2, s = min(1, 2 phi / (phi + chi2)).
-double kernel_weight(double chi2)
+// Weight of a robust edge with Mahalanobis square chi2: s^2, s = min(1, 2 kernel / (kernel + chi2)).
+double kernel_weight(double chi2, double kernel)
 {
-    const double s = 2 * robust_phi / (robust_phi + chi2);
+    const double s = 2 * kernel / (kernel + chi2);
     return s < 1 ? s * s : 1;
 }
 
@@ -42,19 +40,9 @@ LinearisedEdge linearised(const GraphEdge &edge, const std::vector<Pose> &poses)
     return l;
 }
 
-double robust_cost(double chi2)
+double robust_cost(double chi2, double kernel)
 {
-    return kernel_weight(chi2) * chi2;
-}
-
-// What a displacement of a pose, seen in its own frame, is in the frame of another that `step` leads to.
-Eigen::Matrix3d carried_over(const Pose &step)
-{
-    const Pose back = inverse(step);
-    Eigen::Matrix3d a = Eigen::Matrix3d::Identity();
-    a.block<2, 2>(0, 0) = rotation(back.theta);
-    a.block<2, 1>(0, 2) << back.y, -back.x;
-    return a;
+    return kernel_weight(chi2, kernel) * chi2;
 }
 
 // One measurement after the other; they err independently.
@@ -67,6 +55,15 @@ GraphEdge composed(const GraphEdge &first, const GraphEdge &second, bool robust)
 }
 
 } // namespace
+
+Eigen::Matrix3d carried_over(const Pose &step)
+{
+    const Pose back = inverse(step);
+    Eigen::Matrix3d a = Eigen::Matrix3d::Identity();
+    a.block<2, 2>(0, 0) = rotation(back.theta);
+    a.block<2, 1>(0, 2) << back.y, -back.x;
+    return a;
+}
 
 void PoseGraph::reserve(size_t poses, size_t edges)
 {
@@ -98,6 +95,11 @@ double PoseGraph::residual2(const GraphEdge &edge) const
 {
     const Eigen::Vector3d e = error_of(edge, poses_);
     return e.dot(edge.information * e);
+}
+
+double PoseGraph::weight(const GraphEdge &edge) const
+{
+    return edge.robust ? kernel_weight(residual2(edge), robust_kernel) : 1;
 }
 
 bool PoseGraph::has_room(const GraphEdge &edge, int max_robust) const
@@ -163,22 +165,22 @@ void PoseGraph::take_out(int k, int max_robust)
 }
 
 // The equations at the present poses; chi2 of all.
-double PoseGraph::linearise(NormalEquations *equations) const
+double PoseGraph::linearise(NormalEquations *equations, double kernel) const
 {
     double sum = 0;
     equations->clear();
     for (size_t k = 0; k < edges_.size(); k++) {
         const LinearisedEdge l = linearised(edges_[k], poses_);
         const double chi2 = l.e.dot(edges_[k].information * l.e);
-        equations->add(k, edges_[k], l, edges_[k].robust ? kernel_weight(chi2) : 1);
-        sum += edges_[k].robust ? robust_cost(chi2) : chi2;
+        equations->add(k, edges_[k], l, edges_[k].robust ? kernel_weight(chi2, kernel) : 1);
+        sum += edges_[k].robust ? robust_cost(chi2, kernel) : chi2;
     }
     for (const HeadingPrior &prior : headings_.priors) {
         const double e =
             wrapped(poses_[static_cast<size_t>(prior.pose)].theta - headings_.building - prior.theta);
         const double chi2 = e * e * prior.information;
-        equations->add(prior, e, kernel_weight(chi2));
-        sum += robust_cost(chi2);
+        equations->add(prior, e, kernel_weight(chi2, kernel));
+        sum += robust_cost(chi2, kernel);
     }
     return sum;
 }
@@ -192,12 +194,12 @@ void PoseGraph::move(const NormalEquations &equations)
     headings_.building += equations.building_step();
 }
 
-GraphReport PoseGraph::optimise(int max_iterations)
+GraphReport PoseGraph::optimise(int max_iterations, double kernel)
 {
     GraphReport report{0, 0, true};
     NormalEquations equations(poses_.size(), edges_);
     while (report.iterations < max_iterations) {
-        report.chi2 = linearise(&equations);
+        report.chi2 = linearise(&equations, kernel);
         report.solved = equations.solve();
         if (!report.solved) {
             break;

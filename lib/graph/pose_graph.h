@@ -21,6 +21,9 @@
 namespace ale
 {
 
+// A robust edge keeps its full weight up to this Mahalanobis square, then fades.
+constexpr double robust_kernel = 10;
+
 struct GraphEdge {
     int from;
     int to;
@@ -50,6 +53,9 @@ struct GraphReport {
 
 class NormalEquations;
 
+// What a displacement of a pose, seen in its own frame, is in the frame of another that `step` leads to.
+Eigen::Matrix3d carried_over(const Pose &step);
+
 class PoseGraph
 {
   public:
@@ -72,7 +78,8 @@ class PoseGraph
     {
         return headings_;
     }
-    GraphReport optimise(int max_iterations);
+    // A wider kernel lets go of robust edges later: for a graph whose poses are not near the truth yet.
+    GraphReport optimise(int max_iterations, double kernel = robust_kernel);
 
     // Takes pose k out, one that has a pose before and after it; those after it move down by one. The two
     // edges of the way become one, measured through it. Robust edges that end at it end at the pose after
@@ -91,9 +98,11 @@ class PoseGraph
 
     // Mahalanobis square of an edge's residual at the present poses, not scaled.
     double residual2(const GraphEdge &edge) const;
+    // What the robust kernel leaves of it there, 0..1.
+    double weight(const GraphEdge &edge) const;
 
   private:
-    double linearise(NormalEquations *equations) const;
+    double linearise(NormalEquations *equations, double kernel) const;
     void move(const NormalEquations &equations);
     bool has_room(const GraphEdge &edge, int max_robust) const;
     std::vector<GraphEdge> cut_loose(int k);

@@ -114,7 +114,8 @@ Node node_of(const ale_keyframe_t &keyframe)
               {},
               {},
               {},
-              {}};
+              {},
+              {sensor.x, sensor.y}};
     add_walls(keyframe.features, sensor, &node);
     Eigen::Vector2d last(1e9, 1e9);
     for (size_t k = 0; k < beams.p.size(); k++) {
