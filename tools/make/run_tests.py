@@ -5,6 +5,7 @@
     run_tests.py system PYTHON [ARG...]   pytest over tests/, two a processor: they mostly wait
     run_tests.py fuzz --seconds N PROGRAM...   one a processor
     run_tests.py command NAME CMD...      one command that passes or fails
+    run_tests.py together WAITING COMPUTING    two command lines at a time; what the first says comes when it has ended
     run_tests.py phase NAME               a heading, and how long it is since `run_tests.py begin`
     run_tests.py sum                      the closing line over all that ran since `run_tests.py begin`
 
@@ -128,6 +129,17 @@ def command(name, words):
     return record(name.replace(" ", "-"), int(done.returncode == 0), int(done.returncode != 0), 0)
 
 
+def together(waiting, computing):
+    with tempfile.TemporaryFile() as words, subprocess.Popen(["sh", "-c", waiting], stdout=words, stderr=words) as first, \
+            subprocess.Popen(["sh", "-c", computing]) as second:
+        first.wait()
+        words.seek(0)
+        print(words.read().decode(errors="replace"), end="", flush=True)
+        second.wait()
+    failed = (first.returncode != 0) + (second.returncode != 0)
+    return record("together", 0, failed, 0) if failed else 0
+
+
 def begin():
     RESULTS.parent.mkdir(parents=True, exist_ok=True)
     RESULTS.write_text("", encoding="utf-8")
@@ -157,6 +169,9 @@ def main():
     kinds.add_parser("phase").add_argument("name")
     kinds.add_parser("sum")
     kinds.add_parser("unit").add_argument("programs", nargs="+")
+    one = kinds.add_parser("together")
+    one.add_argument("waiting")
+    one.add_argument("computing")
     one = kinds.add_parser("system")
     one.add_argument("python")
     one.add_argument("arguments", nargs=argparse.REMAINDER)
@@ -173,6 +188,8 @@ def main():
         return phase(args.name)
     if args.kind == "sum":
         return summary()
+    if args.kind == "together":
+        return together(args.waiting, args.computing)
     if args.kind == "unit":
         return unit(args.programs)
     if args.kind == "system":

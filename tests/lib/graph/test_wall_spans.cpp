@@ -16,7 +16,7 @@ std::vector<ale::WallSpan> spans(const std::vector<ale::PlacedLine> &lines)
 
 double length_m(const ale::WallSpan &span)
 {
-    return (int64_t{span.wall.end_um} - span.wall.start_um) * 1e-6;
+    return static_cast<double>(int64_t{span.wall.end_um} - span.wall.start_um) * 1e-6;
 }
 
 void show(std::vector<ale::PlacedLine> *lines, uint32_t scans, double from_m, double to_m)

@@ -27,7 +27,7 @@ TEST(Walkers, legs_take_turns_in_standing_and_stay_a_step_together)
         const auto next = sim::legs_of(to_and_fro, t + 0.001);
         longest_m = std::max(longest_m, std::abs(now[0].centre.x - now[1].centre.x));
         const bool rests = now[0].centre.x == next[0].centre.x && now[1].centre.x == next[1].centre.x;
-        for (int leg = 0; leg < 2 && !rests; leg++) {
+        for (size_t leg = 0; leg < 2 && !rests; leg++) {
             const double speed = std::abs(next[leg].centre.x - now[leg].centre.x) / 0.001;
             EXPECT_LT(speed, 3.1);
             standing += speed == 0;
