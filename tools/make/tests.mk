@@ -21,11 +21,9 @@ $(BUILD)/libale_tool_parts.a: $(call objects,$(TOOL_PARTS))
 # The tests themselves are compiled once, without sanitizers, for every build of the code under test; what they all
 # include, once for all of them. TEST_BUILD names the build whose tests are linked.
 TEST_BUILD ?= $(BUILD)
-# clang needs half the time of gcc for Eigen's templates. It warns of more, and every version of something else: no error.
-TEST_CXX ?= $(patsubst g++,clang++,$(CXX))
 TEST_OBJ = $(TEST_BUILD)/test-objects
 test_objects = $(patsubst %,$(TEST_OBJ)/%.o,$(1))
-TEST_FLAGS = -std=c++17 -fno-strict-aliasing -g1 $(WARNINGS) -Wno-error -MMD -MP $(CXXFLAGS) $(TEST_INCLUDES)
+TEST_FLAGS = -std=c++17 -fno-strict-aliasing -g1 $(WARNINGS) -MMD -MP $(CXXFLAGS) $(TEST_INCLUDES)
 # The twins of the core do the most work of all tests.
 TWIN_FLAGS = $(TEST_FLAGS) -O1
 PRELUDE = $(TEST_OBJ)/prelude.hpp
@@ -36,16 +34,16 @@ $(PRELUDE).gch: tests/prelude.hpp
 	$(call say,c++,$<)
 	@mkdir -p $(@D)
 	$(Q)cp $< $(PRELUDE)
-	$(Q)$(TEST_CXX) $(TEST_FLAGS) -O0 -x c++-header $(PRELUDE) -o $@
+	$(Q)$(CXX) $(TEST_FLAGS) -O0 -x c++-header $(PRELUDE) -o $@
 # Message types are system headers, which no .d file names.
 $(TEST_OBJ)/%.cpp.o: %.cpp $(LCM_FILES) $(PRELUDE).gch | $(LCM_STAMP)
 	$(call say,c++,$<)
 	@mkdir -p $(@D)
-	$(Q)$(TEST_CXX) -include $(PRELUDE) $(TEST_FLAGS) -O0 -c $< -o $@
+	$(Q)$(CXX) -include $(PRELUDE) $(TEST_FLAGS) -O0 -c $< -o $@
 define twin
 	$(call say,c++,$<)
 	@mkdir -p $(@D)
-	$(Q)$(TEST_CXX) $(TWIN_FLAGS) -c $< -o $@
+	$(Q)$(CXX) $(TWIN_FLAGS) -c $< -o $@
 endef
 $(TEST_OBJ)/tests/reference/%.cpp.o: tests/reference/%.cpp | $(LCM_STAMP)
 	$(twin)
