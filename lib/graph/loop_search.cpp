@@ -211,7 +211,7 @@ void LoopSearch::solve()
     if (solved_ == 0) {
         graph_.set_edges(edges());
     }
-    graph_.optimise(1, std::max(robust_kernel, widest_kernel / std::pow(2.0, solved_ / 2)));
+    graph_.optimise(1, std::max(robust_kernel, std::ldexp(widest_kernel, -(solved_ / 2))));
     solved_++;
 }
 
