@@ -109,8 +109,9 @@ class WindowGrid
     Pose pose(size_t k) const
     {
         const int in_turn = static_cast<int>(k % places());
-        return {guess_.x + (in_turn % side() - steps_) * window_step_m,
-                guess_.y + (in_turn / side() - steps_) * window_step_m,
+        const int column = in_turn % side() - steps_;
+        const int row = in_turn / side() - steps_;
+        return {guess_.x + column * window_step_m, guess_.y + row * window_step_m,
                 turned(static_cast<int>(k / places()) - turns_)};
     }
 
@@ -244,6 +245,7 @@ std::vector<Hypothesis> promising(const std::vector<Pose> &from_corners, const W
 {
     const std::vector<SurfacePoint> few = thinned(scan, glanced_points);
     std::vector<double> glances;
+    glances.reserve(from_corners.size() + max_window_places);
     for (const Pose &pose : from_corners) {
         glances.push_back(score_of(pose, few, field));
     }
