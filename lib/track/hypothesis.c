@@ -13,7 +13,6 @@ enum {
     SCORE_ANGLE_URAD = 120000,
     SCORE_SIGMAS = 1000,
     SHARED_PERCENT = 70, /* of either view of the pair must lie on its wall */
-    LOOKS_OF_A_VIEW = 16 /* what moving a view costs, in looks */
 };
 
 static int32_t enclosed(uint32_t a_bam, uint32_t b_bam)
@@ -83,7 +82,7 @@ ale_hypothesis_t ale_hypothesis_at(const ale_local_map_t *map, const ale_view_t 
         if (view[i].kind != ALE_VIEW_WALL) {
             continue;
         }
-        *looks -= LOOKS_OF_A_VIEW;
+        *looks -= ALE_LOOKS_OF_A_MOVE;
         const ale_match_t match = ale_match_view(map, &view[i], &stand, NULL, gate, looks);
         h.shown_um += length_of(&view[i]);
         if (match.wall != ALE_NO_WALL) {
@@ -123,7 +122,7 @@ static void next_pair(ale_search_t *s, uint16_t count)
     }
 }
 
-uint32_t ale_search(ale_search_t *search, const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
+uint32_t ale_search(ale_search_t *search, ale_local_map_t *map, const ale_view_t view[], uint32_t count,
                     ale_hypothesis_t out[ALE_MAX_HYPOTHESES])
 {
     const ale_gate_t gate = {SCORE_OFFSET_UM, SCORE_ANGLE_URAD, SCORE_SIGMAS, 0};
@@ -136,6 +135,7 @@ uint32_t ale_search(ale_search_t *search, const ale_local_map_t *map, const ale_
     const int32_t angle_bam = enclosed(a->normal_bam, b->normal_bam);
     search->first = search->first < map->count ? search->first : 0;
     search->second = search->second < map->count ? search->second : 0;
+    ale_local_map_focus(map, (ale_point_t){0, 0}, INT32_MAX);
     int32_t looks = ALE_SEARCH_LOOKS;
     uint32_t scored = 0;
     uint32_t placed = 0;

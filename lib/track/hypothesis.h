@@ -39,13 +39,14 @@ typedef struct {
 bool ale_pose_of_pair(const ale_view_t *a, const ale_view_t *b, const ale_wall_t *wall_a,
                       const ale_wall_t *wall_b, ale_pose_t *out);
 
-/* How well a pose explains the lines of a scan, as far as *looks suffices (as for ale_match_view). */
+/* How well a pose explains the lines of a scan, among the walls that the map is focused on, as far as
+ * *looks suffices (as for ale_match_view). */
 ale_hypothesis_t ale_hypothesis_at(const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
                                    ale_pose_t pose, const ale_gate_t *gate, int32_t *looks);
 
 /* Goes on with the search for the views of this scan; returns how many hypotheses it made. The near list of
- * the map must hold all walls. */
-uint32_t ale_search(ale_search_t *search, const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
+ * the map must hold all walls; it is focused on all of them. */
+uint32_t ale_search(ale_search_t *search, ale_local_map_t *map, const ale_view_t view[], uint32_t count,
                     ale_hypothesis_t out[ALE_MAX_HYPOTHESES]);
 
 #endif

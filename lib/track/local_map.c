@@ -35,9 +35,18 @@ int32_t ale_local_map_buckets(int32_t angle_urad)
     return angle_urad / BUCKET_URAD + 1;
 }
 
-/* Whether some of the wall lies within the square of half width `reach` around the centre. */
+/* Whether some of the wall's bounding box lies within the square of half width `reach` around the centre.
+ * Where the anchor is, and how long the wall, decides for most. */
 static bool is_near(const ale_wall_t *wall, ale_point_t centre, int64_t reach_um)
 {
+    const int64_t off_um = ale_max64(ale_abs64((int64_t)wall->anchor.x_um - centre.x_um),
+                                     ale_abs64((int64_t)wall->anchor.y_um - centre.y_um));
+    if (off_um < reach_um && wall->start_um <= 0 && wall->end_um >= 0) {
+        return true;
+    }
+    if (off_um - ale_max64(ale_abs64(wall->start_um), ale_abs64(wall->end_um)) >= reach_um) {
+        return false;
+    }
     const ale_point_t a = ale_minus(ale_wall_point(wall, wall->start_um), centre);
     const ale_point_t b = ale_minus(ale_wall_point(wall, wall->end_um), centre);
     return ale_min64(a.x_um, b.x_um) < reach_um && ale_max64(a.x_um, b.x_um) > -reach_um &&
@@ -81,11 +90,30 @@ void ale_local_map_approach(ale_local_map_t *map, ale_point_t centre, int32_t re
     list_near(map);
 }
 
-void ale_local_map_facing(const ale_local_map_t *map, int32_t bucket, uint16_t *first, uint16_t *last)
+void ale_local_map_focus(ale_local_map_t *map, ale_point_t centre, int32_t reach_um)
 {
-    const uint32_t b = (uint32_t)bucket % ALE_MAP_DIRECTIONS;
-    *first = map->near_first[b];
-    *last = map->near_first[b + 1];
+    uint16_t count = 0;
+    for (int b = 0; b < ALE_MAP_DIRECTIONS; b++) {
+        map->glance_first[b] = count;
+        for (uint16_t k = map->near_first[b]; k < map->near_first[b + 1]; k++) {
+            const ale_wall_t *wall = &map->wall[map->near[k]];
+            if (is_near(wall, centre, reach_um)) {
+                map->glance[count++] =
+                    (ale_glance_t){wall->anchor, wall->normal_x_q30, wall->normal_y_q30, map->near[k]};
+            }
+        }
+    }
+    map->glance_first[ALE_MAP_DIRECTIONS] = count;
+}
+
+void ale_local_map_facing(const uint16_t first[ALE_MAP_DIRECTIONS + 1], uint32_t normal_bam, int32_t reach,
+                          ale_range_t out[2])
+{
+    const uint32_t from = (uint32_t)(ale_local_map_bucket(normal_bam) - reach) % ALE_MAP_DIRECTIONS;
+    const uint32_t to = from + 2 * (uint32_t)reach + 1;
+    const uint32_t end = to < ALE_MAP_DIRECTIONS ? to : ALE_MAP_DIRECTIONS;
+    out[0] = (ale_range_t){first[from], first[end]};
+    out[1] = (ale_range_t){0, first[to - end]};
 }
 
 static uint16_t oldest_unconfirmed(const ale_local_map_t *map)
@@ -174,14 +202,11 @@ static void join(ale_wall_t *keep, const ale_wall_t *other, const ale_wall_error
 
 bool ale_local_map_merge_at(ale_local_map_t *map, uint16_t index, int32_t *looks)
 {
-    const int32_t bucket = ale_local_map_bucket(map->wall[index].normal_bam);
-    for (int32_t b = bucket - 1; b <= bucket + 1; b++) {
-        uint16_t first;
-        uint16_t last;
-        ale_local_map_facing(map, b, &first, &last);
-        last = (uint16_t)ale_min64(last, first + ale_max64(*looks, 0));
-        *looks -= last - first;
-        for (uint16_t k = first; k < last; k++) {
+    ale_range_t facing[2];
+    ale_local_map_facing(map->near_first, map->wall[index].normal_bam, 1, facing);
+    for (int r = 0; r < 2; r++) {
+        ale_take_looks(&facing[r], looks);
+        for (uint16_t k = facing[r].first; k < facing[r].last; k++) {
             const uint16_t other = map->near[k];
             if (other == index || are_apart(&map->wall[index], &map->wall[other])) {
                 continue;

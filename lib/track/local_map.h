@@ -20,6 +20,20 @@ enum {
     ALE_NO_WALL = 0xffff
 };
 
+/* What a first look at a wall asks for, packed: most walls that are looked at are dismissed by it. */
+typedef struct {
+    ale_point_t anchor;
+    int32_t normal_x_q30;
+    int32_t normal_y_q30;
+    uint16_t wall;
+} ale_glance_t;
+
+/* A range of a list, last excluded. */
+typedef struct {
+    uint16_t first;
+    uint16_t last;
+} ale_range_t;
+
 typedef struct {
     ale_wall_t wall[ALE_MAP_MAX_LINES];
     uint16_t count;
@@ -31,7 +45,9 @@ typedef struct {
 
     uint16_t near[ALE_MAP_MAX_LINES]; /* walls around near_centre, by direction of their normal */
     uint16_t near_first[ALE_MAP_DIRECTIONS + 1];
-    uint16_t chosen[ALE_MAP_MAX_LINES]; /* working memory of the listing */
+    uint16_t chosen[ALE_MAP_MAX_LINES];     /* working memory of the listing */
+    ale_glance_t glance[ALE_MAP_MAX_LINES]; /* those of them that a scan may show, in the same order */
+    uint16_t glance_first[ALE_MAP_DIRECTIONS + 1];
     ale_point_t near_centre;
     int32_t near_radius_um; /* 0: to be made anew */
 } ale_local_map_t;
@@ -42,9 +58,24 @@ void ale_local_map_clear(ale_local_map_t *map);
  * when the robot has gone a metre or walls came and went. */
 void ale_local_map_approach(ale_local_map_t *map, ale_point_t centre, int32_t reach_um);
 
-/* Range first..last-1 of near[] that holds the walls facing in the bucket's direction (any integer). */
-void ale_local_map_facing(const ale_local_map_t *map, int32_t bucket, uint16_t *first, uint16_t *last);
+/* Of the near walls those within reach of a place: what ale_match_view looks at until the next call. As the
+ * walls are now; while a scan moves them a little, so far off. O(near walls), a few instructions each. */
+void ale_local_map_focus(ale_local_map_t *map, ale_point_t centre, int32_t reach_um);
+
+/* The ranges of a list by direction (near[], glance[] with their first[]) that hold the walls facing within
+ * `reach` buckets of a direction, 31 at most; the second is empty unless the list wraps. */
+void ale_local_map_facing(const uint16_t first[ALE_MAP_DIRECTIONS + 1], uint32_t normal_bam, int32_t reach,
+                          ale_range_t out[2]);
 int32_t ale_local_map_bucket(uint32_t normal_bam);
+
+/* Shortens a range to the looks that are left, and takes them. */
+static inline void ale_take_looks(ale_range_t *range, int32_t *looks)
+{
+    const int32_t size = range->last - range->first;
+    const int32_t most = *looks < size ? (*looks > 0 ? *looks : 0) : size;
+    range->last = (uint16_t)(range->first + most);
+    *looks -= most;
+}
 
 /* How many buckets to either side hold all directions within an angle. */
 int32_t ale_local_map_buckets(int32_t angle_urad);

@@ -38,18 +38,43 @@ static ale_map_corner_t in_map(const ale_corner_t *c, ale_pose_t sensor)
     return m;
 }
 
+static void grow_box(ale_point_t p, ale_point_t box[2])
+{
+    box[0].x_um = (int32_t)ale_min64(box[0].x_um, p.x_um);
+    box[0].y_um = (int32_t)ale_min64(box[0].y_um, p.y_um);
+    box[1].x_um = (int32_t)ale_max64(box[1].x_um, p.x_um);
+    box[1].y_um = (int32_t)ale_max64(box[1].y_um, p.y_um);
+}
+
+/* The corners of the map that one of the scan's may be. */
+static void list_around(ale_map_corners_t *corners, const ale_map_corner_t scan[], uint32_t count)
+{
+    ale_point_t box[2] = {scan[0].p, scan[0].p};
+    corners->around_count = 0;
+    for (uint32_t i = 1; i < count; i++) {
+        grow_box(scan[i].p, box);
+    }
+    for (uint16_t i = 0; i < corners->count && corners->around_count < ALE_CORNERS_AROUND; i++) {
+        const ale_point_t p = corners->corner[i].p;
+        if ((int64_t)box[0].x_um - p.x_um < REACH_UM && (int64_t)p.x_um - box[1].x_um < REACH_UM &&
+            (int64_t)box[0].y_um - p.y_um < REACH_UM && (int64_t)p.y_um - box[1].y_um < REACH_UM) {
+            corners->around[corners->around_count++] = i;
+        }
+    }
+}
+
 static int32_t nearest(const ale_map_corners_t *corners, const ale_map_corner_t *c)
 {
     int32_t best = NO_CORNER;
     int64_t least = REACH_UM;
-    for (int32_t i = 0; i < corners->count; i++) {
-        const ale_map_corner_t *m = &corners->corner[i];
+    for (int32_t i = 0; i < corners->around_count; i++) {
+        const ale_map_corner_t *m = &corners->corner[corners->around[i]];
         const int64_t far_um =
             ale_max64(ale_abs64((int64_t)m->p.x_um - c->p.x_um), ale_abs64((int64_t)m->p.y_um - c->p.y_um));
         if (far_um < least && m->kind == c->kind &&
             ale_abs64(ale_bam_diff(m->bisector_bam, c->bisector_bam)) < BISECTOR_BAM) {
             least = far_um;
-            best = i;
+            best = corners->around[i];
         }
     }
     return best;
@@ -69,33 +94,54 @@ static void observe(ale_map_corner_t *m, const ale_map_corner_t *c)
     m->seen++;
 }
 
+/* A place for a new corner: behind the last, or that of one that was seen once. Over all calls for one scan
+ * the map is gone through once. */
+static int32_t place_of_new(ale_map_corners_t *corners)
+{
+    if (corners->count < ALE_MAP_MAX_CORNERS) {
+        return corners->count++;
+    }
+    while (corners->once < ALE_MAP_MAX_CORNERS && corners->corner[corners->once].seen > 1) {
+        corners->once++;
+    }
+    return corners->once < ALE_MAP_MAX_CORNERS ? corners->once++ : NO_CORNER;
+}
+
 static void add(ale_map_corners_t *corners, const ale_map_corner_t *c, uint32_t scan)
 {
-    int32_t place = corners->count < ALE_MAP_MAX_CORNERS ? corners->count : NO_CORNER;
-    for (int32_t i = 0; place == NO_CORNER && i < ALE_MAP_MAX_CORNERS; i++) {
-        place = corners->corner[i].seen == 1 ? i : NO_CORNER;
-    }
+    const int32_t place = place_of_new(corners);
     if (place == NO_CORNER) {
         corners->refused++;
         return;
     }
-    corners->count = (uint16_t)ale_max64(corners->count, place + 1);
     corners->corner[place] = *c;
     corners->born[place] = scan;
+    if (corners->around_count < ALE_CORNERS_AROUND) {
+        corners->around[corners->around_count++] = (uint16_t)place;
+    }
 }
 
 uint16_t ale_map_corners_update(ale_map_corners_t *corners, const ale_features_t *features, ale_pose_t sensor,
                                 uint32_t scan, bool grow)
 {
+    ale_map_corner_t seen[ALE_CORNERS_PER_SCAN];
+    const uint32_t count = (uint32_t)ale_min64(features->corner_count, ALE_CORNERS_PER_SCAN);
     uint16_t known = 0;
-    for (uint32_t i = 0; i < features->corner_count && i < ALE_CORNERS_PER_SCAN; i++) {
-        const ale_map_corner_t c = in_map(&features->corner[i], sensor);
-        const int32_t found = nearest(corners, &c);
+    if (count == 0) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        seen[i] = in_map(&features->corner[i], sensor);
+    }
+    list_around(corners, seen, count);
+    corners->once = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const int32_t found = nearest(corners, &seen[i]);
         if (found != NO_CORNER) {
-            observe(&corners->corner[found], &c);
+            observe(&corners->corner[found], &seen[i]);
             known++;
         } else if (grow) {
-            add(corners, &c, scan);
+            add(corners, &seen[i], scan);
         }
     }
     return known;

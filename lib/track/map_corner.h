@@ -2,7 +2,7 @@
  *
  * A corner follows from its two walls, which already hold the pose in the match; as a row of its own it
  * would count them twice. Corners are kept because they name places: for people, and to find a place again.
- * O(ALE_CORNERS_PER_SCAN * corners of the map). */
+ * O(corners of the map), and ALE_CORNERS_PER_SCAN times those that lie around the scan's. */
 #ifndef ALE_TRACK_MAP_CORNER_H
 #define ALE_TRACK_MAP_CORNER_H
 
@@ -13,13 +13,21 @@
 #include "track/motion.h"
 #include "track/pipeline.h"
 
-enum { ALE_CORNERS_PER_SCAN = 16, ALE_CORNER_CONFIRMED = 3 };
+enum {
+    ALE_CORNERS_PER_SCAN = 16,
+    ALE_CORNERS_AROUND = 256, /* of the map that are compared with a scan's */
+    ALE_CORNER_CONFIRMED = 3
+};
 
 typedef struct {
     ale_map_corner_t corner[ALE_MAP_MAX_CORNERS];
     uint32_t born[ALE_MAP_MAX_CORNERS]; /* scan that saw it first */
     uint16_t count;
     uint32_t refused;
+
+    uint16_t around[ALE_CORNERS_AROUND]; /* working memory: those around the scan's corners */
+    uint16_t around_count;
+    uint16_t once; /* where to go on looking for one that was seen once */
 } ale_map_corners_t;
 
 void ale_map_corners_clear(ale_map_corners_t *corners);

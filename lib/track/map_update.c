@@ -10,6 +10,7 @@ enum {
     CONFLICT_ANGLE_URAD = 120000,
     CONFLICT_SIGMAS = 1000,
     NEW_MARK_UM = 60000, /* marks lie no closer than this */
+    MAP_LOOKS = 3072,    /* at walls near new ones, and near those that may be joined */
     REPLACED = 4         /* new walls a scan that may take the place of old ones in a full map */
 };
 
@@ -87,7 +88,7 @@ static void tidy(ale_local_map_t *map, uint32_t count, const ale_fit_t *fit, int
 void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t count, const ale_fit_t *fit,
                     ale_drift_t here, uint32_t scan, bool grow)
 {
-    int32_t looks = ALE_LOOKS;
+    int32_t looks = MAP_LOOKS;
     int room = REPLACED;
     const ale_stand_t stand = ale_stand(fit->motion.pose);
     const ale_gate_t conflict = {CONFLICT_OFFSET_UM, CONFLICT_ANGLE_URAD, CONFLICT_SIGMAS, 0};

@@ -37,16 +37,34 @@ static bool overlaps(const ale_wall_t *wall, const ale_view_t *view, const ale_w
     return e->overlap_um > needed_um;
 }
 
+/* What the pose's covariance gives the offset and angle of a view; found out for views that need it. */
+typedef struct {
+    const ale_matrix_t *cov; /* NULL: known exactly */
+    int64_t var[2];
+    bool known;
+} pose_var_t;
+
+static const int64_t *pose_var(const ale_view_t *view, pose_var_t *p)
+{
+    if (!p->known && p->cov) {
+        p->var[0] = ale_view_offset_var(view, p->cov);
+        p->var[1] = ale_view_angle_var(p->cov);
+    }
+    p->known = true;
+    return p->var;
+}
+
 /* Squared distance in sigmas, Q8; beyond the gate: INT64_MAX. */
 static int64_t distance_q8(const ale_wall_t *wall, const ale_view_t *view, const ale_wall_error_t *e,
-                           const int64_t pose_var[2], const ale_gate_t *gate)
+                           pose_var_t *pose, const ale_gate_t *gate)
 {
     if (ale_abs64(e->angle_urad) > gate->angle_urad || ale_abs64(e->offset_um) > gate->offset_um ||
         !overlaps(wall, view, e)) {
         return INT64_MAX;
     }
-    const int64_t var_offset = ale_wall_offset_var(wall, e->t_um) + view->var_offset_um2 + pose_var[0];
-    const int64_t var_angle = wall->var_angle_urad2 + view->var_angle_urad2 + pose_var[1];
+    const int64_t *var = pose_var(view, pose);
+    const int64_t var_offset = ale_wall_offset_var(wall, e->t_um) + view->var_offset_um2 + var[0];
+    const int64_t var_angle = wall->var_angle_urad2 + view->var_angle_urad2 + var[1];
     const int64_t limit = (int64_t)gate->sigmas * gate->sigmas;
     const int64_t offset2 = e->offset_um * e->offset_um;
     const int64_t angle2 = e->angle_urad * e->angle_urad;
@@ -57,31 +75,38 @@ static int64_t distance_q8(const ale_wall_t *wall, const ale_view_t *view, const
     return (offset2 << 8) / var_offset + (angle2 << 8) / var_angle;
 }
 
+/* Whether a place lies farther off the wall's line than the gate. */
+static bool is_off(const ale_glance_t *wall, ale_point_t p, int32_t gate_um)
+{
+    const int64_t offset_q30 = ((int64_t)p.x_um - wall->anchor.x_um) * wall->normal_x_q30 +
+                               ((int64_t)p.y_um - wall->anchor.y_um) * wall->normal_y_q30;
+    return ale_abs64(ale_round_shift(offset_q30, 30)) > gate_um;
+}
+
 ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
                            const ale_matrix_t *cov, const ale_gate_t *gate, int32_t *looks)
 {
     ale_match_t best = {.wall = ALE_NO_WALL, .mark = ALE_NO_MARK};
     int64_t least = INT64_MAX;
-    const int64_t pose_var[2] = {cov ? ale_view_offset_var(view, cov) : 0, cov ? ale_view_angle_var(cov) : 0};
+    pose_var_t pose = {.cov = cov};
     const ale_view_t moved = ale_view_from(view, stand);
-    const int32_t bucket = ale_local_map_bucket(moved.normal_bam);
-    const int32_t reach = ale_local_map_buckets(gate->angle_urad);
-    for (int32_t b = bucket - reach; b <= bucket + reach; b++) {
-        uint16_t first;
-        uint16_t last;
-        ale_local_map_facing(map, b, &first, &last);
-        last = (uint16_t)ale_min64(last, first + ale_max64(*looks, 0));
-        *looks -= last - first;
-        for (uint16_t k = first; k < last; k++) {
-            const ale_wall_t *wall = &map->wall[map->near[k]];
-            if (ale_abs64(ale_wall_offset(wall, moved.centre)) > gate->offset_um) {
+    ale_range_t facing[2];
+    ale_local_map_facing(map->glance_first, moved.normal_bam, ale_local_map_buckets(gate->angle_urad),
+                         facing);
+    for (int r = 0; r < 2; r++) {
+        ale_take_looks(&facing[r], looks);
+        for (uint16_t k = facing[r].first; k < facing[r].last && *looks >= 0; k++) {
+            const ale_glance_t *glance = &map->glance[k];
+            if (is_off(glance, moved.centre, gate->offset_um)) {
                 continue;
             }
+            *looks -= ALE_LOOKS_OF_A_WALL;
+            const ale_wall_t *wall = &map->wall[glance->wall];
             const ale_wall_error_t e = ale_wall_error(wall, &moved);
-            const int64_t d = distance_q8(wall, view, &e, pose_var, gate);
+            const int64_t d = distance_q8(wall, view, &e, &pose, gate);
             if (d < least) {
                 least = d;
-                best.wall = map->near[k];
+                best.wall = glance->wall;
                 best.error = e;
             }
         }

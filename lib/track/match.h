@@ -37,12 +37,17 @@ ale_match_t ale_match_mark(const ale_local_map_t *map, const ale_view_t *view, c
 void ale_match_renew(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
                      ale_match_t *match);
 
-/* Walls that one pass over the views of a scan may look at: several times what the richest building asks for.
- * It bounds the work on a map that is crowded beyond reason. */
-enum { ALE_LOOKS = 8192 };
+/* What one pass over the views of a scan may cost, in first looks at a wall. It bounds the work on a map that
+ * is crowded beyond reason: of recorded scans one in a thousand asks for more. */
+enum {
+    ALE_LOOKS = 8192,
+    ALE_LOOKS_OF_A_WALL = 10,  /* one that the first look does not dismiss */
+    ALE_LOOKS_OF_A_VIEW = 112, /* in a fit: the search of its mark and its rows */
+    ALE_LOOKS_OF_A_MOVE = 16   /* a view that is only laid on walls */
+};
 
-/* The wall that fits a view seen from a pose with covariance `cov` (NULL: known exactly). Every wall that is
- * looked at is taken from *looks; with none left nothing more is found. */
+/* The wall, of those that the map is focused on, that fits a view seen from a pose with covariance `cov`
+ * (NULL: known exactly). What is looked at is taken from *looks; with none left nothing more is found. */
 ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
                            const ale_matrix_t *cov, const ale_gate_t *gate, int32_t *looks);
 

@@ -21,9 +21,11 @@ typedef struct {
     const ale_scan_t *scan;
     ale_pose_t sensor;
     const ale_noise_t *noise;
-    const ale_point_t *point; /* of every beam that is in no line, sensor frame */
+    ale_pieces_t *memory;
     ale_view_t *out;
-    uint32_t count;
+    uint32_t loose; /* runs found */
+    uint32_t parts; /* pieces that they make */
+    uint32_t count; /* pieces written */
 } pieces_t;
 
 static int64_t spacing_um(const ale_scan_t *scan, int32_t beam)
@@ -53,13 +55,13 @@ static cloud_t cloud_of(const pieces_t *p, int32_t first, int32_t last)
     int64_t y = 0;
     const int32_t n = last - first + 1;
     for (int32_t k = first; k <= last; k++) {
-        const ale_point_t q = p->point[k];
+        const ale_point_t q = p->memory->point[k];
         x += q.x_um;
         y += q.y_um;
     }
     c.mean = (ale_point_t){(int32_t)ale_round_div(x, n), (int32_t)ale_round_div(y, n)};
     for (int32_t k = first; k <= last; k++) {
-        const ale_point_t q = ale_minus(p->point[k], c.mean);
+        const ale_point_t q = ale_minus(p->memory->point[k], c.mean);
         c.xx += ale_round_shift((int64_t)q.x_um * q.x_um, 10);
         c.yy += ale_round_shift((int64_t)q.y_um * q.y_um, 10);
         c.xy += ale_round_shift((int64_t)q.x_um * q.y_um, 10);
@@ -83,14 +85,11 @@ static bool direction_of(const cloud_t *c, uint32_t *direction_bam)
 
 static void add(pieces_t *p, int32_t first, int32_t last, bool spot)
 {
-    if (p->count == ALE_MAX_PIECES) {
-        return;
-    }
     const cloud_t c = cloud_of(p, first, last);
     const int32_t n = last - first + 1;
     const int32_t middle = (first + last) / 2;
     const uint32_t facing_bam = ale_atan2_bam(-c.mean.y_um, -c.mean.x_um);
-    const int64_t length_um = ale_isqrt((uint64_t)distance2(p->point[first], p->point[last]));
+    const int64_t length_um = ale_isqrt((uint64_t)distance2(p->memory->point[first], p->memory->point[last]));
     const int64_t half_um = length_um / 2 + spacing_um(p->scan, middle) / 2;
     uint32_t direction_bam;
     const bool straight = !spot && n >= 3 && length_um > STRAIGHT_UM && direction_of(&c, &direction_bam);
@@ -128,21 +127,35 @@ static bool is_clear(const pieces_t *p, int32_t beam, int32_t range_um)
            (flag == ALE_BEAM_VALID && p->scan->range_um[beam] > range_um + SPOT_CLEAR_UM);
 }
 
-static void cut(pieces_t *p, int32_t first, int32_t last)
+/* Notes a run and how many pieces it makes. */
+static void note(pieces_t *p, int32_t first, int32_t last)
 {
     const int32_t n = last - first + 1;
     if (n < 2) {
         return;
     }
-    const bool small = distance2(p->point[first], p->point[last]) < (int64_t)SPOT_UM * SPOT_UM;
-    if (small && is_clear(p, first - 1, p->scan->range_um[first]) &&
-        is_clear(p, last + 1, p->scan->range_um[last])) {
-        add(p, first, last, true);
-        return;
-    }
-    const int32_t parts = (n + PIECE_BEAMS - 1) / PIECE_BEAMS;
-    for (int32_t k = 0; k < parts; k++) {
-        add(p, first + n * k / parts, first + n * (k + 1) / parts - 1, false);
+    const ale_point_t *point = p->memory->point;
+    const bool small = distance2(point[first], point[last]) < (int64_t)SPOT_UM * SPOT_UM;
+    const bool spot = small && is_clear(p, first - 1, p->scan->range_um[first]) &&
+                      is_clear(p, last + 1, p->scan->range_um[last]);
+    const int32_t parts = spot ? 0 : (n + PIECE_BEAMS - 1) / PIECE_BEAMS;
+    p->memory->loose[p->loose++] = (ale_loose_t){(uint16_t)first, (uint16_t)last, (uint16_t)parts};
+    p->parts += spot ? 1 : (uint32_t)parts;
+}
+
+/* Cuts the runs into pieces, an even choice of them where there is no room for all. */
+static void cut(pieces_t *p, uint32_t room)
+{
+    uint32_t number = 0;
+    for (uint32_t i = 0; i < p->loose; i++) {
+        const ale_loose_t *run = &p->memory->loose[i];
+        const int32_t n = run->last - run->first + 1;
+        const int32_t parts = run->parts > 0 ? run->parts : 1;
+        for (int32_t k = 0; k < parts; k++) {
+            if (ale_is_chosen(number++, p->parts, room)) {
+                add(p, run->first + n * k / parts, run->first + n * (k + 1) / parts - 1, run->parts == 0);
+            }
+        }
     }
 }
 
@@ -150,13 +163,14 @@ static void cut(pieces_t *p, int32_t first, int32_t last)
 static bool continues(const pieces_t *p, int32_t k)
 {
     const int64_t gap_um = ale_max64(GAP_FLOOR_UM, GAP_SPACINGS * spacing_um(p->scan, k));
-    return distance2(p->point[k - 1], p->point[k]) < gap_um * gap_um;
+    return distance2(p->memory->point[k - 1], p->memory->point[k]) < gap_um * gap_um;
 }
 
 uint32_t ale_pieces_of(const ale_features_t *features, const ale_scan_t *scan, const uint32_t *bearing_bam,
-                       ale_pose_t sensor, const ale_noise_t *noise, ale_point_t point[], ale_view_t out[])
+                       ale_pose_t sensor, const ale_noise_t *noise, ale_pieces_t *memory, uint32_t room,
+                       ale_view_t out[])
 {
-    pieces_t p = {scan, sensor, noise, point, out, 0};
+    pieces_t p = {.scan = scan, .sensor = sensor, .noise = noise, .memory = memory, .out = out};
     int32_t begun = -1;
     uint32_t line = 0;
     for (int32_t k = 0; k < scan->beams; k++) {
@@ -166,16 +180,18 @@ uint32_t ale_pieces_of(const ale_features_t *features, const ale_scan_t *scan, c
         const bool in_line = line < features->line_count && features->line[line].first <= k;
         const bool loose = scan->flag[k] == ALE_BEAM_VALID && !in_line;
         if (loose) {
-            point[k] = ale_polar(scan->range_um[k], bearing_bam ? bearing_bam[k] : ale_scan_bearing(scan, k));
+            memory->point[k] =
+                ale_polar(scan->range_um[k], bearing_bam ? bearing_bam[k] : ale_scan_bearing(scan, k));
         }
         if (begun >= 0 && (!loose || !continues(&p, k))) {
-            cut(&p, begun, k - 1);
+            note(&p, begun, k - 1);
             begun = -1;
         }
         begun = loose && begun < 0 ? k : begun;
     }
     if (begun >= 0) {
-        cut(&p, begun, scan->beams - 1);
+        note(&p, begun, scan->beams - 1);
     }
+    cut(&p, room);
     return p.count;
 }

@@ -3,7 +3,8 @@
  * Beams that made no line are taken in runs along the surface and cut into pieces of a few beams. A piece
  * has a centre, a normal (from its own direction where it has one, else towards the sensor), and hardly
  * an angle. A short run with nothing but distance on either side is a spot: its place is known across the
- * beams too. Single beams are left out: they are stray points as often as not. O(beams). */
+ * beams too. Single beams are left out: they are stray points as often as not. Of more pieces than there is
+ * room for an even choice is taken. O(beams). */
 #ifndef ALE_TRACK_PIECE_H
 #define ALE_TRACK_PIECE_H
 
@@ -12,11 +13,23 @@
 #include "base/noise.h"
 #include "track/view.h"
 
-enum { ALE_MAX_PIECES = 120 };
+/* Neighbouring beams along a surface. */
+typedef struct {
+    uint16_t first;
+    uint16_t last;
+    uint16_t parts; /* 0: a spot */
+} ale_loose_t;
 
-/* Pieces of a straightened scan (bearing_bam as for ale_extract_scan) in the robot's frame. point: working
- * memory for every beam. Returns their number, ALE_MAX_PIECES at most; further ones are left out. */
+/* Working memory. */
+typedef struct {
+    ale_point_t point[ALE_MAX_BEAMS]; /* of every beam that is in no line, sensor frame */
+    ale_loose_t loose[ALE_MAX_BEAMS / 2];
+} ale_pieces_t;
+
+/* Pieces of a straightened scan (bearing_bam as for ale_extract_scan) in the robot's frame. Returns their
+ * number, `room` at most. */
 uint32_t ale_pieces_of(const ale_features_t *features, const ale_scan_t *scan, const uint32_t *bearing_bam,
-                       ale_pose_t sensor, const ale_noise_t *noise, ale_point_t point[], ale_view_t out[]);
+                       ale_pose_t sensor, const ale_noise_t *noise, ale_pieces_t *memory, uint32_t room,
+                       ale_view_t out[]);
 
 #endif

@@ -48,6 +48,6 @@ void ale_pipeline_look(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t v
     ale_extract_scan(&p->extractor, &p->scan, bearing_bam, &p->features);
     const ale_noise_t noise = measured_noise(p);
     p->view_count = ale_views_of(&p->features, &p->scan, p->config.sensor, noise.surface_um / 2, p->view);
-    p->view_count += ale_pieces_of(&p->features, &p->scan, bearing_bam, p->config.sensor, &noise, p->point,
-                                   &p->view[p->view_count]);
+    p->view_count += ale_pieces_of(&p->features, &p->scan, bearing_bam, p->config.sensor, &noise, &p->pieces,
+                                   ALE_MAX_VIEWS - p->view_count, &p->view[p->view_count]);
 }

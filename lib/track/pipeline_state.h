@@ -11,6 +11,7 @@
 #include "track/motion.h"
 #include "track/odometry.h"
 #include "track/pace.h"
+#include "track/piece.h"
 #include "track/pipeline.h"
 #include "track/refine.h"
 #include "track/registration.h"
@@ -49,7 +50,7 @@ struct ale_pipeline {
     /* the scan at hand */
     ale_scan_t scan;
     uint32_t bearing_bam[ALE_MAX_BEAMS];
-    ale_point_t point[ALE_MAX_BEAMS]; /* working memory of the pieces */
+    ale_pieces_t pieces;
     ale_features_t features;
     ale_view_t view[ALE_MAX_VIEWS];
     ale_fit_t fit;

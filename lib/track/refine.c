@@ -16,7 +16,8 @@ enum {
     LATER_PIECE_UM = 50000,
     MARK_CONFIRMED = 3, /* until it was seen so often a mark may be of someone who walks: (20 mm)^2 more */
     MARK_PASSING_UM2 = 400000000,
-    PIECE_ANGLE_URAD = 600000 /* a piece hardly has a direction */
+    PIECE_ANGLE_URAD = 600000, /* a piece hardly has a direction */
+    FOCUS_MARGIN_UM = 2000000
 };
 
 static const ale_gate_t later = {LATER_OFFSET_UM, LATER_ANGLE_URAD, LATER_SIGMAS, LATER_PIECE_UM};
@@ -161,6 +162,7 @@ static void gather(const ale_scene_t *scene, const ale_matrix_t *cov, const ale_
         const ale_view_t *view = &scene->view[i];
         ale_match_t *match = &fit->match[i];
         const int64_t length_um = (int64_t)view->end_um - view->start_um;
+        looks -= ALE_LOOKS_OF_A_VIEW;
         if (gate) {
             *match = find(scene, view, &stand, cov, gate, &looks);
         } else {
@@ -225,6 +227,19 @@ void ale_refine_reject(const ale_motion_t *predicted, const ale_scene_t *scene, 
     gather(scene, &predicted->cov, &none, fit);
 }
 
+/* How far from the robot a wall may be that one of the views shows: what the gates and a step of the pose
+ * add is more than either allows. */
+static int32_t reach_um(const ale_scene_t *scene)
+{
+    int64_t reach = 0;
+    for (uint32_t i = 0; i < scene->view_count; i++) {
+        const ale_view_t *v = &scene->view[i];
+        const int64_t away = ale_abs64(v->centre.x_um) + ale_abs64(v->centre.y_um);
+        reach = ale_max64(reach, away + ale_max64(ale_abs64(v->start_um), ale_abs64(v->end_um)));
+    }
+    return (int32_t)ale_min64(reach + FOCUS_MARGIN_UM, INT32_MAX);
+}
+
 /* Newton's steps from where out->motion is; the gates narrow from the first to the last. */
 static void fit_from(const ale_motion_t *predicted, const ale_scene_t *scene,
                      const ale_gate_t *const gates[ALE_REFINE_ITERATIONS], ale_fit_t *out)
@@ -234,6 +249,8 @@ static void fit_from(const ale_motion_t *predicted, const ale_scene_t *scene,
     const ale_pose_t ahead = ale_pose_between(predicted->pose, out->motion.pose);
     int64_t total[ALE_STATES] = {ahead.x_um, ahead.y_um, ale_bam_to_nrad((int32_t)ahead.theta_bam) / 1000};
     int64_t size = INT64_MAX;
+    ale_local_map_focus(scene->map, (ale_point_t){out->motion.pose.x_um, out->motion.pose.y_um},
+                        reach_um(scene));
     ale_matrix_factor(&predicted->cov, &factors);
     ale_matrix_invert(&factors, ALE_MATRIX_BITS, &prior);
     for (out->iterations = 0; out->iterations < ALE_REFINE_ITERATIONS && size > CONVERGED_UM;

@@ -20,10 +20,10 @@
 #include "track/piece.h"
 #include "track/view.h"
 
-enum { ALE_REFINE_ITERATIONS = 3, ALE_MAX_VIEWS = ALE_MAX_LINES + ALE_MAX_PIECES };
+enum { ALE_REFINE_ITERATIONS = 3 };
 
 typedef struct {
-    const ale_local_map_t *map; /* near list prepared */
+    ale_local_map_t *map; /* near list prepared; fits focus it */
     const ale_view_t *view;
     uint32_t view_count; /* ALE_MAX_VIEWS at most */
 } ale_scene_t;

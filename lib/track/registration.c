@@ -10,6 +10,7 @@ enum {
     FACING_BAM = 12 * ALE_BAM_PER_DEGREE,       /* two lines that may be one wall */
     PIECE_FACING_BAM = 40 * ALE_BAM_PER_DEGREE, /* with a piece among them */
     LEAST_VOTES_MM = 800,
+    PAIR_WORK = 4,
     DISCOUNT_CELLS2 = 6 * MIDDLE * MIDDLE /* a sixth of the votes at the edge of the grid */
 };
 
@@ -57,7 +58,8 @@ static void vote_cell(ale_registration_t *r, int64_t column, int64_t row, uint16
     r->votes_mm[row][column] += weight_mm;
 }
 
-/* All displacements that lay the pair on each other: the points offset + t * tangent. */
+/* All displacements that lay the pair on each other: the points offset + t * tangent. As far as the work that
+ * is left reaches. */
 static void vote_line(ale_registration_t *r, const pair_t *pair, uint16_t voter, int32_t cell_um)
 {
     const int64_t nx = pair->normal_q14.x_um;
@@ -65,11 +67,14 @@ static void vote_line(ale_registration_t *r, const pair_t *pair, uint16_t voter,
     const int64_t distance_um = ale_round_shift(pair->offset.x_um * nx + pair->offset.y_um * ny, 14);
     const int64_t along_um = ale_round_shift(pair->offset.x_um * ny - pair->offset.y_um * nx, 14);
     const int64_t half_um = (int64_t)cell_um * ALE_REGISTRATION_CELLS * 3 / 4; /* of the grid's diagonal */
-    if (ale_abs64(distance_um) > half_um) {
+    if (ale_abs64(distance_um) > half_um || r->work <= PAIR_WORK) {
         return;
     }
+    r->work -= PAIR_WORK;
     const int64_t from = ale_round_div(ale_max64(along_um - pair->along_um, -half_um), cell_um);
-    const int64_t to = ale_round_div(ale_min64(along_um + pair->along_um, half_um), cell_um);
+    const int64_t to =
+        ale_min64(ale_round_div(ale_min64(along_um + pair->along_um, half_um), cell_um), from + r->work - 1);
+    r->work -= (int32_t)ale_max64(to + 1 - from, 0);
     /* in cells, Q14, from the grid's corner */
     const int64_t distance_q14 = ale_round_div(distance_um * (1 << 14), cell_um);
     int64_t x_q14 = (int64_t)MIDDLE * (1 << 14) + ale_round_shift(distance_q14 * nx, 14) + from * ny;
@@ -126,10 +131,14 @@ static int64_t best_cell(const ale_registration_t *r, int32_t *column, int32_t *
 {
     int64_t most = 0;
     for (int32_t y = 1; y < ALE_REGISTRATION_CELLS - 1; y++) {
+        int32_t column_mm[ALE_REGISTRATION_CELLS]; /* of three rows */
+        for (int32_t x = 0; x < ALE_REGISTRATION_CELLS; x++) {
+            column_mm[x] = r->votes_mm[y - 1][x] + r->votes_mm[y][x] + r->votes_mm[y + 1][x];
+        }
         for (int32_t x = 1; x < ALE_REGISTRATION_CELLS - 1; x++) {
-            int64_t sum = r->votes_mm[y][x];
-            for (int32_t k = 0; k < 9; k++) {
-                sum += r->votes_mm[y + k / 3 - 1][x + k % 3 - 1];
+            int64_t sum = r->votes_mm[y][x] + column_mm[x - 1] + column_mm[x] + column_mm[x + 1];
+            if (sum <= most) {
+                continue;
             }
             sum = discounted(sum, x, y);
             if (sum > most) {
@@ -159,6 +168,7 @@ bool ale_register(ale_registration_t *memory, ale_views_t before, ale_views_t no
         const ale_stand_t stand = ale_stand(pose);
         memset(memory->votes_mm, 0, sizeof memory->votes_mm);
         memset(memory->voter, 0xff, sizeof memory->voter);
+        memory->work = ALE_REGISTRATION_WORK;
         for (uint32_t i = 0; i < now_count; i++) {
             const ale_view_t moved = ale_view_from(&now.view[memory->now[i]], &stand);
             vote_view(memory, before, before_count, &moved, (uint16_t)i, cell_um);

@@ -5,7 +5,7 @@
  * every surface of the last one that then faces the same way; each such pair allows the displacements along a
  * line, and where most lines cross the scans lie on each other. The paper's section IV adopts a pair of
  * features and checks the rest; all pairs at once are its Hough transform. Bounded: ALE_REGISTRATION_VIEWS
- * longest views of each scan, headings and cells as below. */
+ * longest views of each scan, headings, cells and votes as below; the longest views vote first. */
 #ifndef ALE_TRACK_REGISTRATION_H
 #define ALE_TRACK_REGISTRATION_H
 
@@ -17,7 +17,9 @@
 enum {
     ALE_REGISTRATION_VIEWS = 20,
     ALE_REGISTRATION_HEADINGS = 15, /* odd: the guess and as many to either side */
-    ALE_REGISTRATION_CELLS = 17     /* a side, the guess in the middle */
+    ALE_REGISTRATION_CELLS = 17,    /* a side, the guess in the middle */
+    ALE_REGISTRATION_WORK = 640 /* of one heading: a vote counts 1, a pair that votes 4 more; recorded scans
+                                   ask for 260 as a rule, and for more than 640 once in a hundred headings */
 };
 
 typedef struct {
@@ -32,6 +34,7 @@ typedef struct {
     ale_point_t normal_q14[ALE_REGISTRATION_VIEWS]; /* of the views before: unit vectors */
     int32_t votes_mm[ALE_REGISTRATION_CELLS][ALE_REGISTRATION_CELLS];
     uint16_t voter[ALE_REGISTRATION_CELLS][ALE_REGISTRATION_CELLS];
+    int32_t work; /* left for the heading at hand */
 } ale_registration_t;
 
 /* The pose of the new scan's robot as seen from the last one's; *guess on the way in, within the reaches, and

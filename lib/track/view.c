@@ -70,12 +70,15 @@ static void view_of(const ale_line_t *line, const ale_scan_t *scan, ale_pose_t s
 }
 
 uint32_t ale_views_of(const ale_features_t *features, const ale_scan_t *scan, ale_pose_t sensor,
-                      int32_t systematic_um, ale_view_t out[])
+                      int32_t systematic_um, ale_view_t out[ALE_MAX_VIEWS])
 {
+    uint32_t count = 0;
     for (uint32_t i = 0; i < features->line_count; i++) {
-        view_of(&features->line[i], scan, sensor, systematic_um, &out[i]);
-        out[i].line = (uint16_t)i;
-        out[i].kind = ALE_VIEW_WALL;
+        if (ale_is_chosen(i, features->line_count, ALE_MAX_VIEWS)) {
+            view_of(&features->line[i], scan, sensor, systematic_um, &out[count]);
+            out[count].line = (uint16_t)i;
+            out[count++].kind = ALE_VIEW_WALL;
+        }
     }
-    return features->line_count;
+    return count;
 }

@@ -37,11 +37,11 @@ TEST_F(Map, ListsTheNearWallsByTheDirectionTheyFace)
     add(50, 0, reference::pi, 1);
     ale_local_map_approach(map.get(), {0, 0}, 5000000);
     EXPECT_EQ(map->near_first[ALE_MAP_DIRECTIONS], 2);
-    uint16_t first;
-    uint16_t last;
-    ale_local_map_facing(map.get(), ale_local_map_bucket(convert::bam(-reference::pi / 2)), &first, &last);
-    ASSERT_EQ(last - first, 1);
-    EXPECT_EQ(map->near[first], 1);
+    ale_range_t facing[2];
+    ale_local_map_facing(map->near_first, convert::bam(-reference::pi / 2), 0, facing);
+    ASSERT_EQ(facing[0].last - facing[0].first, 1);
+    EXPECT_EQ(map->near[facing[0].first], 1);
+    EXPECT_EQ(facing[1].last, facing[1].first);
     ale_local_map_approach(map.get(), {50000000, 0}, 5000000);
     EXPECT_EQ(map->near_first[ALE_MAP_DIRECTIONS], 1);
 }

@@ -138,6 +138,7 @@ TEST(Match, TheWallThatAViewShowsIsThatOfTheTwin)
                                                    exact, {0.25, 0.12, 3}, decisions);
             const ale_stand_t stand = ale_stand(pose);
             int32_t looks = ALE_LOOKS;
+            ale_local_map_focus(scene.map.get(), {pose.x_um, pose.y_um}, 20000000);
             const ale_match_t match = ale_match_view(scene.map.get(), &view, &stand, &cov, &gate, &looks);
             const int wall = match.wall == ALE_NO_WALL ? -1 : match.wall;
             EXPECT_TRUE(wall == twin || decisions.nearest_miss() < 0.01)
