@@ -8,7 +8,7 @@
 
 enum {
     GAP_US = 350000,      /* headings farther apart than this are not interpolated */
-    INTERVALS_A_SCAN = 8, /* what is left over waits for the next scan */
+    INTERVALS_A_SCAN = 4, /* what is left over waits for the next scan */
     INTERVAL_US = 80000,  /* shortest interval of the wheels that is compared */
     FORGET_SHIFT = 10,    /* a memory of about a thousand intervals */
     LAST_US = ALE_LAG_FIRST_US + (ALE_LAG_CANDIDATES - 1) * ALE_LAG_STEP_US,

@@ -37,20 +37,23 @@ int32_t ale_local_map_buckets(int32_t angle_urad)
 
 /* Whether some of the wall's bounding box lies within the square of half width `reach` around the centre.
  * Where the anchor is, and how long the wall, decides for most. */
-static bool is_near(const ale_wall_t *wall, ale_point_t centre, int64_t reach_um)
+static bool reaches_in(const ale_wall_t *wall, ale_point_t centre, int64_t reach_um)
+{
+    const ale_point_t a = ale_minus(ale_wall_point(wall, wall->start_um), centre);
+    const ale_point_t b = ale_minus(ale_wall_point(wall, wall->end_um), centre);
+    return ale_min64(a.x_um, b.x_um) < reach_um && ale_max64(a.x_um, b.x_um) > -reach_um &&
+           ale_min64(a.y_um, b.y_um) < reach_um && ale_max64(a.y_um, b.y_um) > -reach_um;
+}
+
+static inline bool is_near(const ale_wall_t *wall, ale_point_t centre, int64_t reach_um)
 {
     const int64_t off_um = ale_max64(ale_abs64((int64_t)wall->anchor.x_um - centre.x_um),
                                      ale_abs64((int64_t)wall->anchor.y_um - centre.y_um));
     if (off_um < reach_um && wall->start_um <= 0 && wall->end_um >= 0) {
         return true;
     }
-    if (off_um - ale_max64(ale_abs64(wall->start_um), ale_abs64(wall->end_um)) >= reach_um) {
-        return false;
-    }
-    const ale_point_t a = ale_minus(ale_wall_point(wall, wall->start_um), centre);
-    const ale_point_t b = ale_minus(ale_wall_point(wall, wall->end_um), centre);
-    return ale_min64(a.x_um, b.x_um) < reach_um && ale_max64(a.x_um, b.x_um) > -reach_um &&
-           ale_min64(a.y_um, b.y_um) < reach_um && ale_max64(a.y_um, b.y_um) > -reach_um;
+    const int64_t most_um = ale_max64(ale_abs64(wall->start_um), ale_abs64(wall->end_um));
+    return off_um - most_um < reach_um && reaches_in(wall, centre, reach_um);
 }
 
 /* Counting sort of the near walls by bucket. */

@@ -15,7 +15,7 @@
 
 enum {
     ALE_CORNERS_PER_SCAN = 16,
-    ALE_CORNERS_AROUND = 256, /* of the map that are compared with a scan's */
+    ALE_CORNERS_AROUND = 128, /* of the map that are compared with a scan's */
     ALE_CORNER_CONFIRMED = 3
 };
 

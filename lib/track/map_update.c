@@ -10,7 +10,7 @@ enum {
     CONFLICT_ANGLE_URAD = 120000,
     CONFLICT_SIGMAS = 1000,
     NEW_MARK_UM = 60000, /* marks lie no closer than this */
-    MAP_LOOKS = 3072,    /* at walls near new ones, and near those that may be joined */
+    MAP_LOOKS = 2048,    /* at walls near new ones, and near those that may be joined */
     REPLACED = 4         /* new walls a scan that may take the place of old ones in a full map */
 };
 

@@ -75,12 +75,12 @@ static int64_t distance_q8(const ale_wall_t *wall, const ale_view_t *view, const
     return (offset2 << 8) / var_offset + (angle2 << 8) / var_angle;
 }
 
-/* Whether a place lies farther off the wall's line than the gate. */
-static bool is_off(const ale_glance_t *wall, ale_point_t p, int32_t gate_um)
+/* Whether a place lies off the wall's line by `limit_q30` or more, um. */
+static inline bool is_off(const ale_glance_t *wall, ale_point_t p, int64_t limit_q30)
 {
     const int64_t offset_q30 = ((int64_t)p.x_um - wall->anchor.x_um) * wall->normal_x_q30 +
                                ((int64_t)p.y_um - wall->anchor.y_um) * wall->normal_y_q30;
-    return ale_abs64(ale_round_shift(offset_q30, 30)) > gate_um;
+    return offset_q30 >= limit_q30 || offset_q30 <= -limit_q30;
 }
 
 ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
@@ -90,17 +90,22 @@ ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, c
     int64_t least = INT64_MAX;
     pose_var_t pose = {.cov = cov};
     const ale_view_t moved = ale_view_from(view, stand);
+    const int64_t limit_q30 =
+        ((int64_t)gate->offset_um << 30) + (1 << 29); /* what rounds to more than the gate */
     ale_range_t facing[2];
     ale_local_map_facing(map->glance_first, moved.normal_bam, ale_local_map_buckets(gate->angle_urad),
                          facing);
     for (int r = 0; r < 2; r++) {
         ale_take_looks(&facing[r], looks);
-        for (uint16_t k = facing[r].first; k < facing[r].last && *looks >= 0; k++) {
+        for (uint16_t k = facing[r].first; k < facing[r].last; k++) {
             const ale_glance_t *glance = &map->glance[k];
-            if (is_off(glance, moved.centre, gate->offset_um)) {
+            if (is_off(glance, moved.centre, limit_q30)) {
                 continue;
             }
             *looks -= ALE_LOOKS_OF_A_WALL;
+            if (*looks < 0) {
+                return best;
+            }
             const ale_wall_t *wall = &map->wall[glance->wall];
             const ale_wall_error_t e = ale_wall_error(wall, &moved);
             const int64_t d = distance_q8(wall, view, &e, &pose, gate);

@@ -38,11 +38,12 @@ void ale_match_renew(const ale_local_map_t *map, const ale_view_t *view, const a
                      ale_match_t *match);
 
 /* What one pass over the views of a scan may cost, in first looks at a wall. It bounds the work on a map that
- * is crowded beyond reason: of recorded scans one in a thousand asks for more. */
+ * is crowded beyond reason: of recorded scans two in a hundred ask for more, and leave the last pieces out.
+ */
 enum {
-    ALE_LOOKS = 8192,
-    ALE_LOOKS_OF_A_WALL = 10,  /* one that the first look does not dismiss */
-    ALE_LOOKS_OF_A_VIEW = 112, /* in a fit: the search of its mark and its rows */
+    ALE_LOOKS = 7680,
+    ALE_LOOKS_OF_A_WALL = 8,   /* one that the first look does not dismiss */
+    ALE_LOOKS_OF_A_VIEW = 128, /* in a fit: the search of its mark and its rows */
     ALE_LOOKS_OF_A_MOVE = 16   /* a view that is only laid on walls */
 };
 

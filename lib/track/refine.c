@@ -163,7 +163,9 @@ static void gather(const ale_scene_t *scene, const ale_matrix_t *cov, const ale_
         ale_match_t *match = &fit->match[i];
         const int64_t length_um = (int64_t)view->end_um - view->start_um;
         looks -= ALE_LOOKS_OF_A_VIEW;
-        if (gate) {
+        if (gate && looks < 0) {
+            *match = (ale_match_t){.wall = ALE_NO_WALL, .mark = ALE_NO_MARK};
+        } else if (gate) {
             *match = find(scene, view, &stand, cov, gate, &looks);
         } else {
             ale_match_renew(scene->map, view, &stand, match);
@@ -244,19 +246,15 @@ static int32_t reach_um(const ale_scene_t *scene)
 static void fit_from(const ale_motion_t *predicted, const ale_scene_t *scene,
                      const ale_gate_t *const gates[ALE_REFINE_ITERATIONS], ale_fit_t *out)
 {
-    ale_factors_t factors;
-    ale_matrix_t prior;
     const ale_pose_t ahead = ale_pose_between(predicted->pose, out->motion.pose);
     int64_t total[ALE_STATES] = {ahead.x_um, ahead.y_um, ale_bam_to_nrad((int32_t)ahead.theta_bam) / 1000};
     int64_t size = INT64_MAX;
     ale_local_map_focus(scene->map, (ale_point_t){out->motion.pose.x_um, out->motion.pose.y_um},
                         reach_um(scene));
-    ale_matrix_factor(&predicted->cov, &factors);
-    ale_matrix_invert(&factors, ALE_MATRIX_BITS, &prior);
     for (out->iterations = 0; out->iterations < ALE_REFINE_ITERATIONS && size > CONVERGED_UM;
          out->iterations++) {
         gather(scene, out->iterations == 0 ? &predicted->cov : &out->motion.cov, gates[out->iterations], out);
-        size = step(&prior, total, out);
+        size = step(&out->prior, total, out);
     }
     /* errors at the pose that was found, for the map */
     gather(scene, &out->motion.cov, out->iterations > 2 ? NULL : &later, out);
@@ -268,6 +266,9 @@ void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const a
     const ale_gate_t second = {(gate->offset_um + LATER_OFFSET_UM) / 3, gate->angle_urad, LATER_SIGMAS,
                                gate->piece_um};
     const ale_gate_t *const wide[ALE_REFINE_ITERATIONS] = {gate, &second, &later};
+    ale_factors_t factors;
+    ale_matrix_factor(&predicted->cov, &factors);
+    ale_matrix_invert(&factors, ALE_MATRIX_BITS, &out->prior);
     start(predicted, out);
     fit_from(predicted, scene, wide, out);
 }
@@ -277,6 +278,7 @@ void ale_refine_again(const ale_motion_t *predicted, ale_pose_t from, const ale_
 {
     const ale_gate_t *const gates[ALE_REFINE_ITERATIONS] = {gate, &later, &later};
     start(predicted, other);
+    other->prior = fit->prior;
     other->motion.pose = from;
     fit_from(predicted, scene, gates, other);
     if (other->matched_um >= fit->matched_um) {

@@ -31,6 +31,7 @@ typedef struct {
 typedef struct {
     ale_motion_t motion;           /* corrected */
     int64_t velocity_change[3];    /* against the velocity the scan was straightened with */
+    ale_matrix_t prior;            /* the prediction's information, Q54 */
     ale_information_t information; /* of the scan alone */
     ale_match_t match[ALE_MAX_VIEWS];
     uint16_t matched;        /* lines that found a wall */

@@ -10,7 +10,8 @@ enum {
     FACING_BAM = 12 * ALE_BAM_PER_DEGREE,       /* two lines that may be one wall */
     PIECE_FACING_BAM = 40 * ALE_BAM_PER_DEGREE, /* with a piece among them */
     LEAST_VOTES_MM = 800,
-    PAIR_WORK = 4,
+    FACING_WORK = 3,                      /* of a pair that faces the same way, */
+    PAIR_WORK = 2,                        /* and of one that votes, in votes */
     DISCOUNT_CELLS2 = 6 * MIDDLE * MIDDLE /* a sixth of the votes at the edge of the grid */
 };
 
@@ -67,7 +68,7 @@ static void vote_line(ale_registration_t *r, const pair_t *pair, uint16_t voter,
     const int64_t distance_um = ale_round_shift(pair->offset.x_um * nx + pair->offset.y_um * ny, 14);
     const int64_t along_um = ale_round_shift(pair->offset.x_um * ny - pair->offset.y_um * nx, 14);
     const int64_t half_um = (int64_t)cell_um * ALE_REGISTRATION_CELLS * 3 / 4; /* of the grid's diagonal */
-    if (ale_abs64(distance_um) > half_um || r->work <= PAIR_WORK) {
+    if (ale_abs64(distance_um) > half_um) {
         return;
     }
     r->work -= PAIR_WORK;
@@ -106,11 +107,12 @@ static bool may_be_one(const ale_view_t *a, const ale_view_t *b)
 static void vote_view(ale_registration_t *r, ale_views_t before, uint32_t count, const ale_view_t *moved,
                       uint16_t voter, int32_t cell_um)
 {
-    for (uint32_t k = 0; k < count; k++) {
+    for (uint32_t k = 0; k < count && r->work > FACING_WORK + PAIR_WORK; k++) {
         const ale_view_t *other = &before.view[r->before[k]];
         if (!may_be_one(moved, other)) {
             continue;
         }
+        r->work -= FACING_WORK;
         const int64_t apart_um = ((int64_t)length_mm(moved) + length_mm(other)) * 500;
         const pair_t pair = {r->normal_q14[k], ale_minus(other->centre, moved->centre),
                              (int32_t)ale_max64(apart_um / 2, cell_um / 2),

@@ -18,8 +18,8 @@ enum {
     ALE_REGISTRATION_VIEWS = 20,
     ALE_REGISTRATION_HEADINGS = 15, /* odd: the guess and as many to either side */
     ALE_REGISTRATION_CELLS = 17,    /* a side, the guess in the middle */
-    ALE_REGISTRATION_WORK = 640 /* of one heading: a vote counts 1, a pair that votes 4 more; recorded scans
-                                   ask for 260 as a rule, and for more than 640 once in a hundred headings */
+    ALE_REGISTRATION_WORK = 640     /* of one heading, in votes, with those of pairs that face the same way;
+                                       recorded scans     ask for 300 as a rule */
 };
 
 typedef struct {

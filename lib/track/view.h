@@ -17,7 +17,7 @@
 
 /* Views of one scan. Recorded scans of 682 beams show 29 as a rule and 44 or less nine times in ten; of more
  * an even choice is matched, since the time of a fit goes with their number. */
-enum { ALE_MAX_VIEWS = 48 };
+enum { ALE_MAX_VIEWS = 44 };
 
 /* Whether the i-th of n things is one of the even choice of at most `most` of them. */
 static inline bool ale_is_chosen(uint32_t i, uint32_t n, uint32_t most)

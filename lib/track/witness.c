@@ -6,7 +6,11 @@
 #include "base/trig.h"
 #include "track/wall.h"
 
-enum { CLOSE_UM = 500000, CLOSE_BAM = 25 * ALE_BAM_PER_DEGREE };
+enum {
+    CLOSE_UM = 500000,
+    CLOSE_BAM = 25 * ALE_BAM_PER_DEGREE,
+    ASKED_MOST = 32 /* surfaces of either scan; of more an even choice */
+};
 
 void ale_witness_clear(ale_witness_t *witness)
 {
@@ -25,7 +29,7 @@ static void ask(const ale_seen_t *of, const ale_seen_t *asked, ale_slack_t slack
 {
     const ale_stand_t stand = ale_stand(of->robot);
     for (uint32_t i = 0; i < of->view_count; i++) {
-        if (of->view[i].kind == ALE_VIEW_SPOT) {
+        if (of->view[i].kind == ALE_VIEW_SPOT || !ale_is_chosen(i, of->view_count, ASKED_MOST)) {
             continue;
         }
         const ale_view_t moved = ale_view_from(&of->view[i], &stand);

@@ -5,7 +5,8 @@
  * little of the map and is right all the same. Two scans taken one after the other from poses that are known
  * must agree where both look: a surface of one lies where the other saw it, or out of its view, or hidden,
  * but not where it saw through. A scene that has changed all at once does not pass: the robot was
- * carried away, tilted, or its pose is wrong. O(views), three points each. */
+ * carried away, tilted, or its pose is wrong. At most 32 surfaces of either scan are asked, three points
+ * each. */
 #ifndef ALE_TRACK_WITNESS_H
 #define ALE_TRACK_WITNESS_H
 

@@ -14,6 +14,9 @@ namespace
 constexpr double um_per_m = 1e6;
 constexpr double bam_per_rad = 4294967296.0 / (2 * M_PI);
 constexpr double reach_m = 30;
+constexpr double period_s = 0.1;
+constexpr int wheel_samples = 10; /* in a period */
+constexpr int64_t first_stamp_us = 1000000;
 constexpr int jump_at = 10; /* the scan from which on the scene has turned */
 
 struct Gene {
@@ -82,16 +85,28 @@ Costly changed(const Costly &from, std::mt19937 &random)
     return to;
 }
 
+std::vector<ale_odometry_t> wheels_before(const Costly &costly, int k)
+{
+    std::vector<ale_odometry_t> samples;
+    for (int n = 1; n <= wheel_samples; n++) {
+        const double after = (k - 1 + n / static_cast<double>(wheel_samples)) * period_s;
+        const double turned = std::remainder(costly.turn_rad_s * after, 2 * M_PI);
+        samples.push_back({first_stamp_us + std::llround(after * 1e6),
+                           {0, 0, static_cast<uint32_t>(std::llround(turned * bam_per_rad))}});
+    }
+    return samples;
+}
+
 ale_scan_t scan_of(const Costly &costly, int k, std::mt19937 &random)
 {
     std::normal_distribution<double> noise(0, costly.noise_m);
     std::uniform_real_distribution<double> part(0, 1);
     const double step = step_rad(costly);
-    const double turned = costly.turn_rad_s * 0.1 * k + (k >= jump_at ? costly.jump_rad : 0);
+    const double turned = costly.turn_rad_s * period_s * k + (k >= jump_at ? costly.jump_rad : 0);
     ale_scan_t scan{};
     scan.beams = static_cast<uint16_t>(costly.beams);
-    scan.stamp_us = 1000000 + 100000LL * k;
-    scan.beam_time_ns = static_cast<int32_t>(0.1e9 * step / (2 * M_PI));
+    scan.stamp_us = first_stamp_us + std::llround(period_s * 1e6) * k;
+    scan.beam_time_ns = static_cast<int32_t>(1e9 * period_s * step / (2 * M_PI));
     scan.step_bam = static_cast<int32_t>(step * bam_per_rad);
     scan.first_bearing_bam = static_cast<uint32_t>(-costly.beams / 2 * int64_t{scan.step_bam});
     scan.range_min_um = 20000;

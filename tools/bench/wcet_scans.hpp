@@ -6,6 +6,7 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <vector>
 
 extern "C" {
 #include "track/pipeline.h"
@@ -31,6 +32,9 @@ struct Costly {
 
 /* One of the numbers made larger or smaller, within what a scanner can see. */
 Costly changed(const Costly &from, std::mt19937 &random);
+
+/* What its wheels tell in the tenth of a second before scan number k. */
+std::vector<ale_odometry_t> wheels_before(const Costly &costly, int k);
 
 /* Scan number k of a robot that stands in it. */
 ale_scan_t scan_of(const Costly &costly, int k, std::mt19937 &random);

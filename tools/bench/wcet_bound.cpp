@@ -1,0 +1,403 @@
+#include "bench/wcet_bound.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <random>
+
+#include "bench/wcet_scans.hpp"
+
+extern "C" {
+#include "base/trig.h"
+#include "extract/breakpoint.h"
+#include "extract/corner.h"
+#include "extract/curve.h"
+#include "extract/line_fit.h"
+#include "extract/merge.h"
+#include "extract/moments.h"
+#include "extract/outlier.h"
+#include "extract/points.h"
+#include "extract/runs.h"
+#include "extract/scan_noise.h"
+#include "extract/segment.h"
+#include "track/deskew.h"
+#include "track/map_update.h"
+#include "track/piece.h"
+#include "track/pipeline_state.h"
+}
+
+namespace bench
+{
+
+namespace
+{
+
+constexpr int seeds = 8;
+constexpr int pool_scans = 60;
+constexpr int32_t centimetre_um = 10000;
+constexpr double um_per_m = 1e6;
+
+/* Everything that is measured more than once counts as the most it took. */
+class Parts
+{
+  public:
+    explicit Parts(InstructionCounter &counter) : counter_(counter)
+    {
+    }
+
+    template <typename Call> void measure(const std::string &name, int times, Call call)
+    {
+        const uint64_t each = counter_.of(call);
+        for (BoundPart &part : parts_) {
+            if (part.name == name) {
+                part.each = std::max(part.each, each);
+                return;
+            }
+        }
+        parts_.push_back({name, times, each});
+    }
+
+    std::vector<BoundPart> take()
+    {
+        return std::move(parts_);
+    }
+
+  private:
+    InstructionCounter &counter_;
+    std::vector<BoundPart> parts_;
+};
+
+double uniform(std::mt19937 &random, double low, double high)
+{
+    return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+int32_t micrometres(double metres)
+{
+    return static_cast<int32_t>(std::lround(metres * um_per_m));
+}
+
+uint32_t any_direction(std::mt19937 &random)
+{
+    return static_cast<uint32_t>(random());
+}
+
+/* A scan of full size of anything between walls and noise. */
+ale_scan_t any_scan(std::mt19937 &random)
+{
+    Costly costly;
+    for (int k = 0; k < 12; k++) {
+        costly = changed(costly, random);
+    }
+    return scan_of(costly, 0, random);
+}
+
+/* The extractor's steps, in the order of ale_extract_scan, each as often as it is taken at most: a scan that
+ * is costly to search is searched once; one with more than ALE_MANY_RUNS runs is spared breaks and curves,
+ * which cost more than the fits of the runs beyond. */
+void extraction(Parts &parts, ale_extractor_t *e, const ale_scan_t &scan, const uint32_t *bearing_bam,
+                ale_features_t *out)
+{
+    parts.measure("points", 1, [&] { ale_points_list(e, &scan); });
+    parts.measure("noise of the beams", 1, [&] { ale_scan_noise_measure(e, &scan); });
+    parts.measure("suspects", 1, [&] { ale_segment_suspect(e); });
+    parts.measure("spikes", 1, [&] { ale_outlier_remove_spikes(e); });
+    parts.measure("segments", 1, [&] { ale_segment(e, &scan); });
+    parts.measure("stray points", 1, [&] { ale_outlier_remove_strays(e); });
+    parts.measure("segments again", 1, [&] { ale_segment(e, &scan); });
+    parts.measure("places of the points", 1, [&] { ale_points_place(e, &scan, bearing_bam); });
+    parts.measure("moments", 1, [&] { ale_moments_build(e); });
+    parts.measure("search of the runs", 1, [&] { ale_runs_search(e); });
+    parts.measure("shared noise", 1, [&] { ale_scan_noise_measure_shared(e, &scan); });
+    ale_runs_forget_fits(e);
+    parts.measure("own noise again", 1, [&] { ale_scan_noise_refine_own(e); });
+    if (e->run_count > (ale_costly(e) ? ALE_MANY_RUNS / 3 : ALE_MANY_RUNS)) {
+        ale_runs_drop_short(e, ALE_COSTLY_RUN);
+        parts.measure("runs joined", 1, [&] { ale_merge_runs(e); });
+    } else {
+        parts.measure("runs joined", 1, [&] { ale_merge_runs(e); });
+        parts.measure("breaks placed", 1, [&] { ale_runs_place(e, ALE_BREAK_WIDE_STEP); });
+        parts.measure("curves", 1, [&] { ale_curve_find(e); });
+        parts.measure("runs split", 1, [&] { ale_runs_split(e); });
+        parts.measure("runs joined again", 1, [&] { ale_merge_runs(e); });
+        parts.measure("breaks placed again", 1, [&] { ale_runs_place(e, ALE_BREAK_FINE_STEP); });
+        parts.measure("curves again", 1, [&] { ale_curve_find(e); });
+    }
+    for (int32_t k = 0; k < e->run_count; k++) {
+        ale_line_t line;
+        parts.measure("a line's fit", ALE_MANY_RUNS, [&] {
+            ale_line_fit(e, {e->run[k].first, e->run[k].last}, &line);
+        });
+    }
+    ale_extract_scan(e, &scan, nullptr, out);
+    parts.measure("corners", 1, [&] { ale_corner_find(out); });
+}
+
+void looking(Parts &parts)
+{
+    std::mt19937 random(3);
+    const ale_pipeline_config_t config = ale_pipeline_default_config();
+    const ale_noise_t &noise = config.extract.noise;
+    auto extractor = std::make_unique<ale_extractor_t>();
+    auto features = std::make_unique<ale_features_t>();
+    auto pieces = std::make_unique<ale_pieces_t>();
+    std::vector<ale_view_t> views(ALE_MAX_VIEWS);
+    ale_extractor_init(extractor.get(), &config.extract);
+    const ale_scan_t first =
+        any_scan(random); /* with it the beams' directions are listed; it meets an empty map */
+    ale_extract_scan(extractor.get(), &first, nullptr, features.get());
+    for (int k = 0; k < pool_scans; k++) {
+        std::vector<uint32_t> bearing(ALE_MAX_BEAMS);
+        ale_scan_t moved = any_scan(random);
+        const int32_t velocity[ALE_AXES] = {40000, 20000, 60000};
+        parts.measure("straightening", 1, [&] { ale_deskew(&moved, velocity, bearing.data()); });
+        extraction(parts, extractor.get(), any_scan(random), bearing.data(), features.get());
+        const ale_scan_t scan = any_scan(random);
+        ale_extract_scan(extractor.get(), &scan, bearing.data(), features.get());
+        parts.measure("views of lines", 1, [&] {
+            ale_views_of(features.get(), &scan, {0, 0, 0}, 3000, views.data());
+        });
+        features->line_count = 0;
+        parts.measure("views of pieces", 1, [&] {
+            ale_pieces_of(features.get(), &scan, bearing.data(), {0, 0, 0}, &noise, pieces.get(),
+                          ALE_MAX_VIEWS, views.data());
+        });
+    }
+}
+
+/* A surface around the robot; square: all face one of two ways. */
+ale_view_t any_view(std::mt19937 &random, uint8_t kind, bool square)
+{
+    const uint32_t from_bam = square ? (random() & 1U) << 30 : any_direction(random);
+    ale_view_t v{};
+    v.centre = ale_polar(micrometres(uniform(random, 1, 5)), from_bam);
+    v.normal_bam = from_bam + ALE_BAM_HALF_TURN;
+    v.end_um = kind == ALE_VIEW_WALL ? micrometres(uniform(random, 0.3, 2)) : 8 * centimetre_um;
+    v.start_um = -v.end_um;
+    v.var_offset_um2 = 9000000;
+    v.var_angle_urad2 = 9000000;
+    v.start_time_us = -10000;
+    v.end_time_us = 10000;
+    v.kind = kind;
+    return v;
+}
+
+/* All that a robot in the middle of a crowded map can see: a wall, or a mark, for every view, as many more
+ * walls as there is room for, and marks wherever one is looked for. */
+struct Crowd {
+    std::unique_ptr<ale_local_map_t> map = std::make_unique<ale_local_map_t>();
+    std::vector<ale_view_t> views;
+
+    Crowd(std::mt19937 &random, uint8_t kind, bool square, int walls)
+    {
+        ale_local_map_clear(map.get());
+        for (int k = 0; k < ALE_MAX_VIEWS; k++) {
+            views.push_back(any_view(random, kind, square));
+            add_wall(views.back(), kind == ALE_VIEW_WALL);
+            add_mark(views.back());
+        }
+        for (int k = ALE_MAX_VIEWS; k < walls; k++) {
+            add_wall(any_view(random, ALE_VIEW_WALL, square), true);
+        }
+        ale_local_map_approach(map.get(), {0, 0}, 30000000);
+    }
+
+  private:
+    void add_wall(const ale_view_t &view, bool wanted)
+    {
+        ale_wall_t wall;
+        ale_wall_from_view(&wall, &view);
+        wall.seen = ALE_MAP_CONFIRMED;
+        if (wanted) {
+            ale_local_map_add(map.get(), &wall);
+        }
+    }
+
+    void add_mark(const ale_view_t &view)
+    {
+        for (int k = 0; k < 9; k++) {
+            const ale_point_t place = {view.centre.x_um + (k % 3 - 1) * 10 * centimetre_um,
+                                       view.centre.y_um + (k / 3 - 1) * 10 * centimetre_um};
+            const ale_mark_t mark = {place, view.normal_bam, 0, 9000000, 1, view.kind == ALE_VIEW_SPOT, 0, 0};
+            for (int way = 0; way < ALE_MARK_WAYS; way++) {
+                ale_marks_add(&map->marks, &mark);
+            }
+        }
+    }
+};
+
+/* Some centimetres off, moving, and not well known: three steps are needed. */
+ale_motion_t any_motion(std::mt19937 &random)
+{
+    ale_motion_t motion;
+    ale_motion_init(&motion, 0,
+                    {micrometres(uniform(random, -0.03, 0.03)), micrometres(uniform(random, -0.03, 0.03)),
+                     static_cast<uint32_t>(static_cast<int32_t>(uniform(random, -8e6, 8e6)))},
+                    300, 500);
+    for (int i = 0; i < 3; i++) {
+        motion.cov.m[i][i] = 900000000;
+        motion.velocity[i] = 5000;
+    }
+    return motion;
+}
+
+const std::map<std::string, ale_gate_t> gates = {{"first", {600000, 300000, 4, 100000}},
+                                                 {"second", {250000, 200000, 6, 100000}}};
+
+void matching(Parts &parts, std::mt19937 &random, Crowd &crowd)
+{
+    const ale_motion_t predicted = any_motion(random);
+    const ale_scene_t scene = {crowd.map.get(), crowd.views.data(),
+                               static_cast<uint32_t>(crowd.views.size())};
+    auto fit = std::make_unique<ale_fit_t>();
+    auto other = std::make_unique<ale_fit_t>();
+    parts.measure("near walls listed", 2, [&] {
+        crowd.map->near_radius_um = 0;
+        ale_local_map_approach(crowd.map.get(), {0, 0}, 30000000);
+    });
+    parts.measure("fit", 1, [&] { ale_refine(&predicted, &scene, &gates.at("first"), fit.get()); });
+    parts.measure("second fit", 1, [&] {
+        ale_refine_again(&predicted, predicted.pose, &scene, &gates.at("second"), other.get(), fit.get());
+    });
+    auto memory = std::make_unique<ale_registration_t>();
+    const ale_views_t all = {scene.view, scene.view_count};
+    ale_pose_t way = {0, 0, 0};
+    parts.measure("vote of the last scan", 1,
+                  [&] { ale_register(memory.get(), all, all, 1000000, 450000, &way); });
+    for (int k = 0; k < ALE_MAX_VIEWS; k++) {
+        fit->match[k] = {ALE_NO_WALL, ALE_NO_MARK, {}};
+    }
+    parts.measure("walls and marks of the map", 1, [&] {
+        ale_map_update(crowd.map.get(), scene.view, scene.view_count, fit.get(), {0, 0}, 1, true);
+    });
+    ale_refine(&predicted, &scene, &gates.at("first"), fit.get());
+    parts.measure("walls and marks of the map", 1, [&] {
+        ale_map_update(crowd.map.get(), scene.view, scene.view_count, fit.get(), {0, 0}, 2, true);
+    });
+}
+
+void witnesses(Parts &parts, std::mt19937 &random, Crowd &crowd)
+{
+    auto pipeline = std::make_unique<ale_pipeline>();
+    std::vector<uint32_t> bearing(ALE_MAX_BEAMS);
+    ale_scan_t scan = any_scan(random);
+    const int32_t velocity[ALE_AXES] = {40000, 20000, 60000};
+    ale_deskew(&scan, velocity, bearing.data());
+    for (uint16_t k = 0; k < scan.beams; k++) {
+        ale_scan_set_range(&scan, k, 25000000); /* nothing to confirm, every beam is asked */
+    }
+    const ale_seen_t seen = {&scan,     bearing.data(),     {0, 0, 0},
+                             {0, 0, 0}, crowd.views.data(), static_cast<uint32_t>(crowd.views.size())};
+    parts.measure("last scan kept", 1, [&] { ale_witness_keep(&pipeline->witness, &seen); });
+    parts.measure("last scan heard", 1, [&] {
+        ale_witness_hear(&pipeline->witness, &seen, {200000, 100000});
+    });
+    for (int64_t k = 0; k < 2 * ALE_ELDERS; k++) {
+        scan.stamp_us += 10000000;
+        ale_elders_keep(&pipeline->elders, &seen);
+    }
+    for (ale_elder_t &elder : pipeline->elders.elder) {
+        elder = pipeline->elders.elder[0];
+        std::fill(std::begin(elder.scan.flag), std::end(elder.scan.flag),
+                  ALE_BEAM_NO_RETURN); /* none denies */
+    }
+    scan.stamp_us += 10000000;
+    parts.measure("an elder kept", 1, [&] { ale_elders_keep(&pipeline->elders, &seen); });
+    std::vector<ale_match_t> match(ALE_MAX_VIEWS, {ALE_NO_WALL, ALE_NO_MARK, {}});
+    parts.measure("elders asked", 1, [&] {
+        ale_elders_drop_newcomers(&pipeline->elders, &seen, crowd.views.data(), match.data());
+    });
+    ale_fade_t fade = {0};
+    ale_local_map_approach(crowd.map.get(), {0, 0}, 30000000);
+    parts.measure("fading", 1, [&] {
+        ale_fade(&fade, crowd.map.get(), &scan, bearing.data(), {0, 0, 0}, 1000000, true);
+    });
+}
+
+void corners(Parts &parts, std::mt19937 &random)
+{
+    auto map = std::make_unique<ale_map_corners_t>();
+    auto features = std::make_unique<ale_features_t>();
+    ale_map_corners_clear(map.get());
+    for (uint32_t scan = 0; scan < 2000; scan++) {
+        features->corner_count = ALE_CORNERS_PER_SCAN;
+        for (uint32_t k = 0; k < ALE_CORNERS_PER_SCAN; k++) {
+            features->corner[k] = {};
+            features->corner[k].p = {micrometres(uniform(random, -4, 4)),
+                                     micrometres(uniform(random, -4, 4))};
+            features->corner[k].bisector_bam = any_direction(random);
+        }
+        if (scan % 100 == 99) {
+            parts.measure("corners of the map", 1, [&] {
+                ale_map_corners_update(map.get(), features.get(), {0, 0, 12345}, scan, true);
+            });
+        } else {
+            ale_map_corners_update(map.get(), features.get(), {0, 0, 12345}, scan, true);
+        }
+    }
+}
+
+/* Wheels at a thousand samples a second, on a way that turns; the lag's row has waited for all it may take.
+ */
+void wheels(Parts &parts)
+{
+    auto wheels = std::make_unique<ale_wheels_t>();
+    ale_wheels_init(wheels.get(), 3000, 6000);
+    ale_lag_t lag;
+    ale_lag_init(&lag, 0);
+    const ale_wheel_noise_t noise = {50000, 35000, 20000};
+    ale_wheel_scale_t scale;
+    ale_wheel_scale_init(&scale, &noise);
+    const auto turned = [](int64_t t_us) { return static_cast<uint32_t>(t_us * 700); };
+    for (int64_t t_us = 0; t_us <= 1500000; t_us += 10000) {
+        const ale_odometry_t sample = {t_us, {static_cast<int32_t>(t_us / 4), 0, turned(t_us)}};
+        ale_wheels_add(wheels.get(), &sample);
+    }
+    for (int64_t t_us = 0; t_us <= 1500000; t_us += 100000) {
+        const ale_heading_t heading = {t_us, turned(t_us), 65536};
+        ale_lag_add_heading(&lag, &heading);
+    }
+    lag.done_us = 500000;
+    ale_wheel_motion_t motion;
+    parts.measure("way of the wheels", 1,
+                  [&] { ale_wheel_motion(wheels.get(), &lag, &scale, 300000, 400000, &motion); });
+    parts.measure("lag of the wheels", 1, [&] { ale_lag_update(&lag, wheels.get()); });
+}
+
+/* Prediction, answer and what else a scan of any size asks for: a dropped one needs it too. */
+void always(Parts &parts)
+{
+    const ale_pipeline_config_t config = ale_pipeline_default_config();
+    auto pipeline = std::make_unique<ale_pipeline>();
+    ale_pipeline_init(pipeline.get(), &config);
+    std::mt19937 random(4);
+    const ale_scan_t scan = any_scan(random);
+    ale_estimate_t estimate;
+    ale_pipeline_scan(pipeline.get(), &scan, &estimate);
+    parts.measure("prediction and answer", 1,
+                  [&] { ale_pipeline_dropped(pipeline.get(), scan.stamp_us + 100000, &estimate); });
+}
+
+} // namespace
+
+std::vector<BoundPart> bound_parts(InstructionCounter &counter)
+{
+    Parts parts(counter);
+    looking(parts);
+    for (unsigned seed = 0; seed < seeds; seed++) {
+        std::mt19937 random(seed);
+        for (const uint8_t kind : {ALE_VIEW_WALL, ALE_VIEW_PIECE, ALE_VIEW_SPOT}) {
+            Crowd crowd(random, kind, seed % 2 == 1, seed % 4 < 2 ? ALE_MAP_MAX_LINES : ALE_MAX_VIEWS);
+            matching(parts, random, crowd);
+            witnesses(parts, random, crowd);
+        }
+    }
+    std::mt19937 random(5);
+    corners(parts, random);
+    wheels(parts);
+    always(parts);
+    return parts.take();
+}
+
+} // namespace bench
