@@ -169,7 +169,7 @@ void looking(Parts &parts)
 /* A surface around the robot; square: all face one of two ways. */
 ale_view_t any_view(std::mt19937 &random, uint8_t kind, bool square)
 {
-    const uint32_t from_bam = square ? (random() & 1U) << 30 : any_direction(random);
+    const uint32_t from_bam = square ? (any_direction(random) & 1U) << 30 : any_direction(random);
     ale_view_t v{};
     v.centre = ale_polar(micrometres(uniform(random, 1, 5)), from_bam);
     v.normal_bam = from_bam + ALE_BAM_HALF_TURN;
@@ -299,7 +299,7 @@ void witnesses(Parts &parts, std::mt19937 &random, Crowd &crowd)
     }
     for (ale_elder_t &elder : pipeline->elders.elder) {
         elder = pipeline->elders.elder[0];
-        std::fill(std::begin(elder.scan.flag), std::end(elder.scan.flag),
+        std::fill(std::begin(elder.seen.scan.flag), std::end(elder.seen.scan.flag),
                   ALE_BEAM_NO_RETURN); /* none denies */
     }
     scan.stamp_us += 10000000;
