@@ -12,6 +12,7 @@ from waiting import wait_until
 SPEED = 10
 LOST, GOOD = 0, 2
 FIRST, LATER = (1.5, 1.5, 0.0), (6.75, 7.4, 3.0)  # in the living room; in the study, where nobody left it
+WAY = [(3.2, 1.95), (5.8, 2.0), (4.2, 2.0)]
 
 
 def world_from(folder, name, start, vias):
@@ -43,12 +44,13 @@ def of_the_next_start(poses, count):
 @pytest.fixture
 def driven(chain):
     """A robot that drove through two rooms and stands; its firmware running, its map kept."""
-    world = world_from(chain.folder, "first.world", FIRST, [(3.2, 1.95), (5.8, 2.0), (4.2, 2.0)])
+    world = world_from(chain.folder, "first.world", FIRST, WAY)
     chain.simulator("--world", world, speed=SPEED)
     firmware = chain.firmware(config(chain.folder), speed=SPEED)
     poses = chain.listener.poses
-    wait_until(lambda: len(poses) > 150 and all(abs(p.vx) < 0.01 and abs(p.omega) < 0.01 for p in poses[-20:]), 60,
-               "a robot that stands")
+    end = (WAY[-1][0] - FIRST[0], WAY[-1][1] - FIRST[1])
+    wait_until(lambda: len(poses) > 150 and all(abs(p.vx) < 0.01 and abs(p.omega) < 0.01 for p in poses[-20:])
+               and math.dist((poses[-1].map_x, poses[-1].map_y), end) < 0.1, 60, "a robot that stands at its way's end")
     standing = len(poses)
     # What was offered after it stood has been written: twice the period.
     wait_until(lambda: len(poses) > standing + 2 * SPEED * 10, 60, "the map to be kept")
