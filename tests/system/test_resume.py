@@ -26,7 +26,22 @@ def world_from(folder, name, start, vias):
 
 
 def config(folder):
-    return f"[map]\nkeep = {folder / 'kept.map'}\nkeep_seconds = 1\n[realtime]\npriority = 0\nlock_memory = no\n"
+    return f"[map]\nkeep = {folder / 'kept.map'}\nkeep_seconds = 1\n"
+
+
+def kept_pose(folder):
+    """Out of the file: metres and radians; None while there is no file."""
+    path = folder / "kept.map"
+    for line in path.read_text(encoding="utf-8").splitlines() if path.exists() else []:
+        if line.startswith("pose "):
+            x_um, y_um, theta_bam = map(int, line.split()[1:])
+            return x_um * 1e-6, y_um * 1e-6, theta_bam * 2 * math.pi / 2**32
+    return None
+
+
+def near(kept, pose):
+    return (kept is not None and math.dist(kept[:2], (pose.map_x, pose.map_y)) < 0.01
+            and abs(wrap(kept[2] - pose.map_theta)) < math.radians(0.5))
 
 
 def seen_from(origin, pose):
@@ -52,8 +67,11 @@ def driven(chain):
     wait_until(lambda: len(poses) > 150 and all(abs(p.vx) < 0.01 and abs(p.omega) < 0.01 for p in poses[-20:])
                and math.dist((poses[-1].map_x, poses[-1].map_y), end) < 0.1, 60, "a robot that stands at its way's end")
     standing = len(poses)
-    # What was offered after it stood has been written: twice the period.
-    wait_until(lambda: len(poses) > standing + 2 * SPEED * 10, 60, "the map to be kept")
+    wait_until(lambda: near(kept_pose(chain.folder), poses[-1]), 60, "the pose in which it stands to be kept")
+    # And once more, with what it sees from there: twice the period at least.
+    first = (chain.folder / "kept.map").stat().st_mtime_ns
+    wait_until(lambda: len(poses) > standing + 2 * SPEED * 10 and (chain.folder / "kept.map").stat().st_mtime_ns != first, 60,
+               "the map to be kept again")
     return chain, firmware
 
 
