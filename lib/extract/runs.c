@@ -173,7 +173,7 @@ static int32_t points_to_trim(const ale_extractor_t *e, const ale_run_t *run, bo
         const int32_t last = run->last - (at_first ? 0 : k);
         const int64_t gain = run->fit.sse_q8 - ale_moments_sse_q8(e, first, last) -
                              (TRIM_FIRST + TRIM_NEXT * (k - 1)) * run->fit.var_q8 -
-                             TRIM_SHARED * k * run->fit.shared_q8;
+                             (int64_t)TRIM_SHARED * k * run->fit.shared_q8;
         if (gain > most) {
             most = gain;
             best = k;
