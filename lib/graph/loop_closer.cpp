@@ -31,6 +31,9 @@ constexpr size_t partners_when_near = 2;
 // Nearer than this the tracker has recognised the place itself, better than a loop edge would tie it.
 constexpr double known_m = 0.05;
 constexpr double known_rad = 0.015;
+// How well it then knows it.
+constexpr double recognised_m = 0.015;
+constexpr double recognised_rad = 0.004;
 constexpr size_t pending_loops = 12;
 constexpr int optimise_iterations = 10;
 constexpr int straighten_rounds = 2;
@@ -50,17 +53,7 @@ Eigen::Matrix3d motion_information(const Pose &motion, const Node &to)
     const double doubt = to.broken ? broken_doubt : (to.weak ? weak_doubt : 1);
     const double sigma_m = doubt * (0.004 + 0.008 * distance + 0.004 * turn);
     const double sigma_rad = doubt * (0.0015 + 0.002 * distance + 0.004 * turn);
-    return Eigen::Vector3d(1 / (sigma_m * sigma_m), 1 / (sigma_m * sigma_m), 1 / (sigma_rad * sigma_rad))
-        .asDiagonal();
-}
-
-// How well the tracker knows a place that it has recognised.
-Eigen::Matrix3d known_information()
-{
-    const double sigma_m = 0.015;
-    const double sigma_rad = 0.004;
-    return Eigen::Vector3d(1 / (sigma_m * sigma_m), 1 / (sigma_m * sigma_m), 1 / (sigma_rad * sigma_rad))
-        .asDiagonal();
+    return known_to(sigma_m, sigma_rad);
 }
 
 bool near(const Pose &guess, const LoopMatch &match, double overlap)
@@ -270,7 +263,7 @@ LoopCloser::Sight LoopCloser::look_for_loop(int there, Loop *loop) const
     const SurfaceField field(patch_around(nodes_, graph_.poses(), there, patch_there));
     const Pose guess = between(graph_.poses()[static_cast<size_t>(there)], graph_.poses().back());
     const std::vector<SurfacePoint> seen = patch_around(nodes_, graph_.poses(), here, patch_here);
-    *loop = {there, here, guess, known_information(), 1};
+    *loop = {there, here, guess, known_to(recognised_m, recognised_rad), 1};
     if (near(guess, match_near(seen, field, guess), clear_overlap)) {
         return Sight::known;
     }

@@ -56,6 +56,12 @@ GraphEdge composed(const GraphEdge &first, const GraphEdge &second, bool robust)
 
 } // namespace
 
+Eigen::Matrix3d known_to(double sigma_m, double sigma_rad)
+{
+    return Eigen::Vector3d(1 / (sigma_m * sigma_m), 1 / (sigma_m * sigma_m), 1 / (sigma_rad * sigma_rad))
+        .asDiagonal();
+}
+
 Eigen::Matrix3d carried_over(const Pose &step)
 {
     const Pose back = inverse(step);

@@ -53,6 +53,9 @@ struct GraphReport {
 
 class NormalEquations;
 
+// Information of what is known to so much, along x and y alike and in the heading.
+Eigen::Matrix3d known_to(double sigma_m, double sigma_rad);
+
 // What a displacement of a pose, seen in its own frame, is in the frame of another that `step` leads to.
 Eigen::Matrix3d carried_over(const Pose &step);
 

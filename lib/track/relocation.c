@@ -239,7 +239,9 @@ bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const 
     if (place->held_q8 < ANSWER_Q8) {
         return false;
     }
-    const bool pinned = is_pinned(scene, place->pose);
-    place->scans = pinned ? place->scans : 0;
-    return pinned;
+    if (!is_pinned(scene, place->pose)) {
+        place->scans = 0;
+        return false;
+    }
+    return true;
 }

@@ -8,7 +8,7 @@ import subprocess
 import pytest
 
 from chain import FIRMWARE
-from waiting import Stopwatch, wait_until
+from waiting import assert_in_time, seconds_of, wait_until
 
 
 def ask(*words, prefix=()):
@@ -18,19 +18,21 @@ def ask(*words, prefix=()):
     return done.returncode, done.stdout, done.stderr
 
 
-def assert_ends_quickly(firmware, number=signal.SIGTERM):
-    watch = Stopwatch()
-    assert firmware.end(number) == 0
-    assert watch.least() < 2
+def assert_ends_quickly(chain, has_begun, number=signal.SIGTERM):
+    def ended():
+        chain.listener.forget()
+        firmware = chain.firmware()
+        wait_until(lambda: has_begun(firmware), 60, "what it begins with")
+        seconds = seconds_of(lambda: firmware.end(number))
+        assert firmware.wait(0) == 0
+        return seconds
+    assert_in_time(ended, most=2)
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
 def test_a_signal_ends_it_cleanly_while_it_streams(chain, number):
     chain.simulator("--world", "tools/worlds/home.world")
-    firmware = chain.firmware()
-    wait_until(lambda: len(chain.listener.poses) > 5, 60, "poses")
-    assert_ends_quickly(firmware, number)
-    assert "streaming" in firmware.err()
+    assert_ends_quickly(chain, lambda firmware: len(chain.listener.poses) > 5 and "streaming" in firmware.err(), number)
 
 
 def test_without_a_device_it_says_so_once_and_takes_it_when_it_comes(chain):
@@ -48,9 +50,7 @@ def test_without_a_device_it_says_so_once_and_takes_it_when_it_comes(chain):
 
 
 def test_a_signal_ends_it_quickly_without_a_device(chain):
-    firmware = chain.firmware()
-    wait_until(lambda: "no scanner" in firmware.err(), 60, "its word")
-    assert_ends_quickly(firmware)
+    assert_ends_quickly(chain, lambda firmware: "no scanner" in firmware.err())
 
 
 def test_it_starts_again_where_another_was_killed(chain):

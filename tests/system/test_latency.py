@@ -1,17 +1,21 @@
 """From the last byte of a scan to its pose on the wire, in real time at ten scans a second."""
+import math
 import statistics
 
-import pytest
-
-from waiting import Stopwatch, wait_until
+from waiting import assert_in_time, wait_until
 
 SCANS = 80
-MEDIAN_US = 5000
+MEDIAN_S = 0.005
 
 
 def test_the_median_is_under_five_milliseconds(chain):
-    watch = Stopwatch()
-    chain.simulator("--world", "tools/worlds/home.world")
+    assert_in_time(lambda: median_s(chain), most=MEDIAN_S)
+
+
+def median_s(chain):
+    """The larger of what the firmware says and what its messages say; for ever when it missed deadlines."""
+    chain.listener.forget()
+    simulator = chain.simulator("--world", "tools/worlds/home.world")
     firmware = chain.firmware()
     report = chain.start("ale-latency", "--lcm-url", chain.url, "--poses", SCANS)
     wait_until(lambda: len(chain.listener.poses) >= SCANS and not report.running(), 60, f"{SCANS} poses")
@@ -21,13 +25,11 @@ def test_the_median_is_under_five_milliseconds(chain):
     print(f"median {status.latency_p50_us:.0f} us ({by_message:.0f} us at sending), "
           f"p99 {status.latency_p99_us:.0f} us, worst {status.latency_worst_us:.0f} us")
     print(report.out())
-    if not status.realtime and watch.waiting_seconds() > 0.2 * watch.seconds():
-        pytest.skip(f"the machine is busy and the firmware has no priority on it: {status.realtime_detail}")
-    assert 0 < by_message < MEDIAN_US
-    assert 0 < status.latency_p50_us < MEDIAN_US
-    assert status.deadline_misses <= 1
+    simulator.end()
+    assert by_message > 0 and status.latency_p50_us > 0
     in_all = next(line.split() for line in report.out().splitlines() if line.startswith("in all"))
     assert abs(float(in_all[3]) - by_message) < 0.2 * by_message + 50
+    return max(by_message, status.latency_p50_us) * 1e-6 if status.deadline_misses <= 1 else math.inf
 
 
 def test_every_scan_tells_its_way_from_the_first_beam_to_the_wire(chain):

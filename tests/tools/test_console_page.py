@@ -4,7 +4,7 @@ import re
 import pytest
 
 import browser
-from waiting import Stopwatch, wait_until
+from waiting import Pulse, assert_in_time, seconds_of, wait_until
 from watching import Console, alice, commands, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
 
 pytestmark = pytest.mark.skipif(bool(browser.missing()), reason=f"no browser test: {browser.missing()}")
@@ -103,12 +103,13 @@ def test_the_numbers_are_those_that_were_sent(page, pulse):
 
 @pytest.mark.parametrize("state, name", [(1, "weak"), (0, "lost")])
 def test_weak_and_lost_cannot_be_missed(page, robot, pulse, state, name):
-    page.wait_for(f"{STATE} === 'good'")
-    assert page.run(f"return {ALARM}") is False
-    watch = Stopwatch()
-    robot.state = state
-    page.wait_for(f"{ALARM} === '{name}'")
-    assert watch.least() < 1
+    def shown():
+        robot.state = 2
+        page.wait_for(f"{STATE} === 'good'")
+        assert page.run(f"return {ALARM}") is False
+        robot.state = state
+        return seconds_of(lambda: page.wait_for(f"{ALARM} === '{name}'"))
+    assert_in_time(shown, most=1)
     assert page.text("state-word") == name
     assert page.run("return getComputedStyle(document.querySelector('main'), '::after').borderTopWidth") != "0px"
 
@@ -126,27 +127,33 @@ def test_what_the_scanner_reports_stands_over_the_map_in_plain_words(page, robot
     page.wait_for("document.getElementById('advice').hidden")
 
 
-def test_a_lost_link_shows_within_a_second(page, pulse):
-    page.wait_for(f"{LINK} === 'up'")
-    pulse.stop()
-    watch = Stopwatch()
-    page.wait_for(f"{LINK} === 'lost'")
-    assert watch.least() < 1
+def test_a_lost_link_shows_within_a_second(page, robot):
+    def shown():
+        pulse = Pulse(0.1, robot.step)
+        try:
+            page.wait_for(f"{LINK} === 'up'")
+        finally:
+            pulse.stop()
+        return seconds_of(lambda: page.wait_for(f"{LINK} === 'lost'"))
+    assert_in_time(shown, most=1)
     assert page.run(f"return {ALARM}") == "link lost"
     assert "ago" in page.text("alarm-text")
 
 
 def test_a_console_that_ends_shows_within_a_second_and_one_that_returns_is_found(chromium, lcm_url, robot, pulse):
-    first = Console(lcm_url)
-    chromium.open(first.url)
-    chromium.wait_for(f"{LINK} === 'up'")
-    assert first.end() == 0
-    watch = Stopwatch()
-    chromium.wait_for(f"{LINK} === 'gone'")
-    assert watch.least() < 1
-    again = Console(lcm_url, first.url.removeprefix("http://").rstrip("/"))
-    chromium.wait_for(f"{LINK} === 'up'")
-    assert again.end() == 0
+    running = Console(lcm_url)
+    chromium.open(running.url)
+
+    def gone_and_found_again():
+        nonlocal running
+        chromium.wait_for(f"{LINK} === 'up'")
+        assert running.end() == 0
+        seconds = seconds_of(lambda: chromium.wait_for(f"{LINK} === 'gone'"))
+        running = Console(lcm_url, running.url.removeprefix("http://").rstrip("/"))
+        chromium.wait_for(f"{LINK} === 'up'")
+        return seconds
+    assert_in_time(gone_and_found_again, most=1)
+    assert running.end() == 0
     chromium.errors()  # the browser's own notes about the connection that was refused meanwhile
 
 

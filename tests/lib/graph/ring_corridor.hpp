@@ -49,6 +49,15 @@ inline std::vector<Wall> walls()
     return w;
 }
 
+inline double largest_error_m(const std::vector<ale::Pose> &truth, const std::vector<ale::Pose> &poses)
+{
+    double largest = 0;
+    for (size_t k = 0; k < truth.size(); k++) {
+        largest = std::max(largest, ale::length(truth[k].x - poses[k].x, truth[k].y - poses[k].y));
+    }
+    return largest;
+}
+
 // The truth: along the middle of the corridor, `laps` times, a node every 0.5 m.
 inline std::vector<ale::Pose> truth(double laps)
 {

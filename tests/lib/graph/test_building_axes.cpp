@@ -100,11 +100,7 @@ TEST(BuildingAxes, GraphTurnsDriftedHeadingsBackButForTheFirstPoseThatIsHeld)
     const Drive made = drive(100, 0.05 * degree, {0, ale::pi / 2, 0}, 0.3 * degree, 6);
     ale::PoseGraph graph;
     graph.add_pose(made.drifted[0]);
-    const double sigma_m = 0.01;
-    const double sigma_rad = 0.003;
-    const Eigen::Matrix3d information =
-        Eigen::Vector3d(1 / (sigma_m * sigma_m), 1 / (sigma_m * sigma_m), 1 / (sigma_rad * sigma_rad))
-            .asDiagonal();
+    const Eigen::Matrix3d information = ale::known_to(0.01, 0.003);
     for (size_t k = 1; k < made.nodes.size(); k++) {
         const ale::Pose motion = ale::between(made.drifted[k - 1], made.drifted[k]);
         graph.add_pose(made.drifted[k]);

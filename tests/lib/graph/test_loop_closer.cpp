@@ -9,15 +9,6 @@
 namespace
 {
 
-double largest_error(const std::vector<ale::Pose> &truth, const std::vector<ale::Pose> &poses)
-{
-    double largest = 0;
-    for (size_t k = 0; k < truth.size(); k++) {
-        largest = std::max(largest, std::hypot(truth[k].x - poses[k].x, truth[k].y - poses[k].y));
-    }
-    return largest;
-}
-
 // With the motion that was tracked; the test's tracker never takes a correction in.
 void add(ale::LoopCloser *closer, const ale::Node &node)
 {
@@ -42,7 +33,8 @@ Walk walk(double laps, double bend_rad_m, unsigned seed)
         tracked.push_back(node.smooth);
         add(&closer, node);
     }
-    return {largest_error(truth, tracked), largest_error(truth, closer.poses()), closer.statistics()};
+    return {ring_corridor::largest_error_m(truth, tracked),
+            ring_corridor::largest_error_m(truth, closer.poses()), closer.statistics()};
 }
 
 TEST(LoopCloser, ADriftingWalkAroundABlockCloses)
@@ -97,7 +89,7 @@ TEST(LoopCloser, AFullGraphThinsOutAndStaysRight)
     EXPECT_EQ(closer.statistics().thinned, truth.size() - ale::LoopCloser::least_capacity);
     EXPECT_GT(closer.statistics().loops, 0U);
     EXPECT_GT(tracked_m, 1.0);
-    EXPECT_LT(largest_error(true_of_held, closer.poses()), 0.35);
+    EXPECT_LT(ring_corridor::largest_error_m(true_of_held, closer.poses()), 0.35);
 }
 
 // Four sides of a square hall that look alike: the place that was left is not the place that is reached.

@@ -9,12 +9,6 @@ namespace
 
 constexpr double bend_rad_m = 0.003;
 
-Eigen::Matrix3d known_to(double metres, double radians)
-{
-    return Eigen::Vector3d(1 / (metres * metres), 1 / (metres * metres), 1 / (radians * radians))
-        .asDiagonal();
-}
-
 struct Walk {
     std::vector<ale::Pose> truth;
     std::vector<ale::Node> nodes;
@@ -28,19 +22,14 @@ struct Walk {
             graph.add_pose(nodes[k].smooth);
             if (k > 0) {
                 graph.add_edge({here - 1, here, ale::between(nodes[k - 1].smooth, nodes[k].smooth),
-                                known_to(0.01, 0.004), false});
+                                ale::known_to(0.01, 0.004), false});
             }
         }
     }
 
     double error_m(const ale::PoseGraph &estimate) const
     {
-        double largest = 0;
-        for (size_t k = 0; k < truth.size(); k++) {
-            const ale::Pose &pose = estimate.poses()[k];
-            largest = std::max(largest, ale::length(truth[k].x - pose.x, truth[k].y - pose.y));
-        }
-        return largest;
+        return ring_corridor::largest_error_m(truth, estimate.poses());
     }
 };
 
@@ -65,7 +54,7 @@ TEST(LoopSearch, LetsGoOfWhatWasBelievedWrongly)
     const int last = static_cast<int>(walk.nodes.size()) - 1;
     ale::Pose elsewhere = ale::between(walk.truth[4], walk.truth.back());
     elsewhere.x += 1.5;
-    walk.graph.add_edge({4, last, elsewhere, known_to(0.01, 0.003), true});
+    walk.graph.add_edge({4, last, elsewhere, ale::known_to(0.01, 0.003), true});
     walk.graph.optimise(10);
     EXPECT_LT(walk.error_m(searched(walk, walk.graph)), 0.4);
 }

@@ -12,12 +12,6 @@ namespace
 constexpr double sigma_m = 0.02;
 constexpr double sigma_rad = 0.03;
 
-Eigen::Matrix3d known_to(double metres, double radians)
-{
-    return Eigen::Vector3d(1 / (metres * metres), 1 / (metres * metres), 1 / (radians * radians))
-        .asDiagonal();
-}
-
 ale::Pose disturbed(const ale::Pose &step, std::mt19937 *random)
 {
     std::normal_distribution<double> normal(0, 1);
@@ -36,7 +30,7 @@ struct Arc {
         graph.add_pose({3, -2, 1});
         for (int k = 0; k < count; k++) {
             graph.add_pose(ale::compose(graph.poses().back(), step));
-            graph.add_edge({k, k + 1, step, known_to(sigma_m, sigma_rad), false});
+            graph.add_edge({k, k + 1, step, ale::known_to(sigma_m, sigma_rad), false});
         }
     }
 };
@@ -70,9 +64,10 @@ TEST(PathSpread, ALoopIsAShortCutUnlessTheKernelHasSwitchedItOff)
     const double chain_m = ale::PathSpread(arc.graph).from(0).back().metres;
     const ale::Pose true_end = ale::between(arc.graph.poses().front(), arc.graph.poses().back());
     ale::PoseGraph with_false = arc.graph;
-    with_false.add_edge({0, 12, {true_end.x + 1, true_end.y, true_end.theta}, known_to(0.01, 0.01), true});
+    with_false.add_edge(
+        {0, 12, {true_end.x + 1, true_end.y, true_end.theta}, ale::known_to(0.01, 0.01), true});
     EXPECT_DOUBLE_EQ(ale::PathSpread(with_false).from(0).back().metres, chain_m);
-    arc.graph.add_edge({0, 12, true_end, known_to(0.01, 0.01), true});
+    arc.graph.add_edge({0, 12, true_end, ale::known_to(0.01, 0.01), true});
     EXPECT_NEAR(ale::PathSpread(arc.graph).from(0).back().metres, 0.01, 1e-9);
 }
 

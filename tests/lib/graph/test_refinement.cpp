@@ -9,12 +9,6 @@ namespace
 
 constexpr double laps = 1.15;
 
-Eigen::Matrix3d known_to(double sigma_m, double sigma_rad)
-{
-    return Eigen::Vector3d(1 / (sigma_m * sigma_m), 1 / (sigma_m * sigma_m), 1 / (sigma_rad * sigma_rad))
-        .asDiagonal();
-}
-
 // A walk along the corridor, and how well a graph knows it.
 struct Walk {
     std::vector<ale::Pose> truth;
@@ -36,12 +30,13 @@ struct Walk {
             graph.add_pose(nodes[k].smooth);
             if (k > 0) {
                 graph.add_edge({here - 1, here, ale::between(nodes[k - 1].smooth, nodes[k].smooth),
-                                known_to(0.005, 0.002), false});
+                                ale::known_to(0.005, 0.002), false});
             }
             if (k > lap && k % 10 == 0) {
                 ale::Pose measured = ale::between(truth[k - lap], truth[k]);
                 measured.y += off_m;
-                graph.add_edge({here - static_cast<int>(lap), here, measured, known_to(0.01, 0.003), true});
+                graph.add_edge(
+                    {here - static_cast<int>(lap), here, measured, ale::known_to(0.01, 0.003), true});
             }
         }
         graph.optimise(10);
@@ -50,12 +45,7 @@ struct Walk {
 
     double error_m(const ale::PoseGraph &graph) const
     {
-        double largest = 0;
-        for (size_t k = 0; k < truth.size(); k++) {
-            const ale::Pose &pose = graph.poses()[k];
-            largest = std::max(largest, ale::length(truth[k].x - pose.x, truth[k].y - pose.y));
-        }
-        return largest;
+        return ring_corridor::largest_error_m(truth, graph.poses());
     }
 
     // How far places of the second lap lie from where they lay in the first, in the mean.
@@ -108,7 +98,7 @@ TEST(Refinement, ALoopThatNoMatchBearsOutHasNoSay)
     const int last = static_cast<int>(walk.nodes.size()) - 1;
     ale::Pose false_place = ale::between(graph.poses().front(), graph.poses().back());
     false_place.x += 0.5;
-    graph.add_edge({0, last, false_place, known_to(0.05, 0.02), true});
+    graph.add_edge({0, last, false_place, ale::known_to(0.05, 0.02), true});
     graph.optimise(10);
     EXPECT_GT(walk.error_m(graph), before + 0.2);
     ale::Refinement refinement(&walk.nodes, std::move(graph));
