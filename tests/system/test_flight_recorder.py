@@ -8,7 +8,7 @@ import zlib
 import pytest
 
 from at_hand import BINARIES
-from waiting import wait_until
+from waiting import TRIALS, wait_until
 
 SPEED = 10
 DECISION, CORRECTION, STAGES, CONFIG, ODOMETRY = 7, 5, 8, 6, 3
@@ -109,14 +109,22 @@ def test_the_oldest_makes_room_and_the_rest_still_replays(chain, folder):
     assert length([pose[1:] for pose in poses]) == pytest.approx(flown, rel=0.05)
 
 
-def test_a_scanner_that_goes_away_is_recorded_with_what_came_of_it(chain, folder):
+def recorded_when_the_scanner_goes(chain, folder):
     simulator, firmware = fly(chain, folder, 60)
     simulator.kill()
     wait_until(lambda: recordings(folder, "fault") or "scanner lost" in firmware.err() and recordings(folder, "deadline"), 60,
                "the recording")
     assert firmware.end() == 0
-    if not recordings(folder, "fault"):
-        pytest.skip("the machine is so busy that a late answer was recorded just before, and the recorder is quiet for a minute")
+    return recordings(folder, "fault")
+
+
+def test_a_scanner_that_goes_away_is_recorded_with_what_came_of_it(chain, folder):
+    for _ in range(TRIALS):  # where a busy machine was late just before, that was recorded, and a minute is quiet then
+        if recorded_when_the_scanner_goes(chain, folder):
+            break
+        chain.listener.forget()
+        for late in recordings(folder):
+            late.unlink()
     path = recordings(folder, "fault")[-1]
     assert len(decisions(path)) >= 60 and len(replayed(path, chain.folder)) >= 60
 
