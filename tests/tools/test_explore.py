@@ -41,7 +41,7 @@ def test_the_real_programs_explore_a_room_and_bring_the_robot_back(tmp_path, roo
     done = subprocess.run(["/usr/bin/python3", EXPLORE, "--build", build, "--world", room, "--speed", "4"],
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=300, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
-    told = re.search(r"(\d+) m2 seen, (\d+) collisions, back ([\d.]+) m", done.stdout)
+    told = re.search(r"finished after \d+ s of the robot's time: (\d+) m2 seen.*, (\d+) collisions, back ([\d.]+) m", done.stdout)
     assert told, done.stdout
     seen, collisions, off = told.groups()
     assert 19 <= int(seen) <= 24 and int(collisions) == 0 and float(off) <= 0.1, done.stdout

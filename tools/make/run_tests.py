@@ -86,7 +86,7 @@ def system(python, arguments):
     where = [] if any(word.startswith("tests/") for word in arguments) else ["tests"]
     path = os.pathsep.join([str(BUILD / "python"), os.environ.get("PYTHONPATH", "")]).rstrip(os.pathsep)
     done = subprocess.run([python, "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--junitxml={report}",
-                           "-n", str(2 * (os.cpu_count() or 1)), "--dist", "loadfile", *arguments, *where],
+                           "-n", str(2 * (os.cpu_count() or 1)), "--dist", "loadfile", "--reruns", "1", "-rR", *arguments, *where],
                           env={**os.environ, "PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1"}, check=False)
     passed, failed, skipped = counts(report) if report.exists() else (0, 1, 0)
     if done.returncode not in (0, 5) and failed == 0:
