@@ -1,6 +1,7 @@
 """Where things are: the tree, the programs under test, and recordings that may be there or not."""
 import os
 import pathlib
+import random
 import socket
 
 import pytest
@@ -21,6 +22,12 @@ def shared(name):
 
 
 def free_udp_port():
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
+    """Above those that the kernel gives to whoever asks for any."""
+    while True:
+        port = random.randint(61000, 65500)
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+            try:
+                probe.bind(("127.0.0.1", port))
+            except OSError:
+                continue
+            return port

@@ -30,9 +30,9 @@ class WithPort : public testing::Test
 class WithExchange : public WithPort
 {
   protected:
-    WithExchange()
+    explicit WithExchange(int32_t scale_ppm = ALE_CLOCK_REAL)
     {
-        EXPECT_EQ(ale_exchange_open(&exchange, ale_clock_start(ALE_CLOCK_REAL)), 0);
+        EXPECT_EQ(ale_exchange_open(&exchange, ale_clock_start(scale_ppm)), 0);
     }
     ~WithExchange() override
     {

@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "comes_true.hpp"
 #include "room.hpp"
 #include "surroundings.hpp"
 
@@ -61,11 +62,14 @@ class ExploreThread : public surroundings::WithExchange
     /* Gives scans until the condition holds. */
     bool comes(const std::function<bool()> &condition, uint8_t state = ALE_STATE_GOOD)
     {
-        for (int k = 0; k < 500 && !condition(); k++) {
-            give_scan(state);
-            std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        }
-        return condition();
+        return comes_true([&] {
+            const bool there = condition();
+            if (!there) {
+                give_scan(state);
+                std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            }
+            return there;
+        });
     }
 
     void hand_out_correction(uint32_t number)

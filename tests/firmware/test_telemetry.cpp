@@ -97,7 +97,7 @@ class Telemetry : public surroundings::WithExchange
     void receive_until(const std::function<bool()> &condition)
     {
         for (int k = 0; !condition(); k++) {
-            ASSERT_GT(lcm_handle_timeout(lcm, 30000), 0) << "nothing came for 30 s";
+            ASSERT_GT(lcm_handle_timeout(lcm, 180000), 0) << "nothing came for three minutes";
             ASSERT_LT(k, 1000) << "of all that came, nothing was it";
         }
     }

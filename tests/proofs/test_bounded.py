@@ -182,7 +182,7 @@ def filtered(tmp_path_factory):
         program = folder / name
         run("g++", main, *objects, *(BUILD / f"libale{part}.a" for part in ("_firmware", "_drivers", "")), "-lseccomp",
             "-llcm", "-lserialport", "-linih", "-pthread", "-lm", "-o", program)
-        done = subprocess.run([program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=60,
+        done = subprocess.run([program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=180,
                               check=False)
         return done.returncode, done.stdout, done.stderr
 

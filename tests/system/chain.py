@@ -46,7 +46,7 @@ class Program:
     def wait(self, seconds):
         return self.process.wait(timeout=seconds)
 
-    def end(self, number=signal.SIGTERM, seconds=60):
+    def end(self, number=signal.SIGTERM, seconds=180):
         """Sends a signal; the exit status."""
         if self.running():
             self.process.send_signal(number)
@@ -111,7 +111,7 @@ class Chain:
     def simulator(self, *words, speed=1):
         sim = self.start("ale-sim", "--pty", self.port, "--speed", speed, "--lcm-url", self.url, *words,
                          prepare=as_hardware)
-        wait_until(lambda: self.port.exists() or not sim.running(), 60, "the simulated scanner")
+        wait_until(lambda: self.port.exists() or not sim.running(), 180, "the simulated scanner")
         assert sim.running(), sim.err()
         return sim
 
@@ -132,7 +132,7 @@ class Chain:
         counted = tally(simulator)
         statuses = self.listener.statuses
         wait_until(lambda: statuses and (statuses[-1].poses >= counted["sent"] or
-                                         statuses[-1].driver_state.startswith("no scanner")), 60, "the last pose")
+                                         statuses[-1].driver_state.startswith("no scanner")), 180, "the last pose")
         assert firmware.end() == 0
         return counted
 

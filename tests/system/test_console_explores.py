@@ -25,11 +25,11 @@ WALLS = "Number(document.getElementById('map-lines').textContent)"
 @pytest.fixture
 def page(chain):
     secret, listed = chain.folder / "operator.key", chain.folder / "robot.keys"
-    subprocess.run([BINARIES / "ale-keys", "operator", "--secret", secret, "--robot", listed], check=True, timeout=60)
+    subprocess.run([BINARIES / "ale-keys", "operator", "--secret", secret, "--robot", listed], check=True, timeout=180)
     chain.sim = chain.simulator("--world", WORLDS / "arena.world", "--drive", "--truth", chain.truth_path, speed=SPEED)
     chain.firmware("[lcm]\npublish_scan = yes\n[recorder]\nfolder =\n", "--keys", listed, speed=SPEED)
     console = chain.start("ale-console", "--lcm-url", chain.url, "--http", "127.0.0.1:0", "--keys", secret)
-    wait_until(console.out, 60, "the console's address")
+    wait_until(console.out, 180, "the console's address")
     watching = browser.Browser()
     try:
         watching.open(console.out().strip())

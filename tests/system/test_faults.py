@@ -46,7 +46,7 @@ def drive_through_the_faults(chain, speed):
     assert sim.wait(300) == 0, sim.err()
     chain.tally = tally(sim)
     statuses = chain.listener.statuses
-    wait_until(lambda: statuses and statuses[-1].driver_state.startswith("no scanner"), 60, "notice of the end")
+    wait_until(lambda: statuses and statuses[-1].driver_state.startswith("no scanner"), 180, "notice of the end")
     assert firmware.running(), "it must not end by itself"
     assert firmware.end() == 0
 

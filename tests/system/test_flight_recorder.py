@@ -45,7 +45,7 @@ def decisions(path):
 def replayed(path, folder):
     poses = folder / "replayed.tum"
     done = subprocess.run([BINARIES / "ale-replay", path, "--trajectory-live", poses], capture_output=True, text=True,
-                          timeout=60, check=False)
+                          timeout=180, check=False)
     assert done.returncode == 0, done.stderr
     return [tuple(float(word) for word in line.split()[:3]) for line in poses.read_text().splitlines()]
 
@@ -59,7 +59,7 @@ def folder(tmp_path):
 def fly(chain, folder, scans, words=(), **settings):
     simulator = chain.simulator("--world", "tools/worlds/home.world", *words, speed=SPEED)
     firmware = chain.firmware(config(folder, **settings), speed=SPEED)
-    wait_until(lambda: len(chain.listener.poses) >= scans, 60, f"{scans} poses")
+    wait_until(lambda: len(chain.listener.poses) >= scans, 180, f"{scans} poses")
     return simulator, firmware
 
 
@@ -67,7 +67,7 @@ def recorded_on_command(chain, firmware, folder):
     """What is written when told to, under the name of the late answer that was about to be recorded, if one was."""
     before = recordings(folder)
     firmware.process.send_signal(signal.SIGUSR1)
-    wait_until(lambda: len(recordings(folder)) > len(before) and chain.listener.counters()["flight_recordings"] > 0, 60,
+    wait_until(lambda: len(recordings(folder)) > len(before) and chain.listener.counters()["flight_recordings"] > 0, 180,
                "the recording")
     assert firmware.end() == 0
     return max(set(recordings(folder)) - set(before), key=lambda path: path.stat().st_mtime)
@@ -112,7 +112,7 @@ def test_the_oldest_makes_room_and_the_rest_still_replays(chain, folder):
 def recorded_when_the_scanner_goes(chain, folder):
     simulator, firmware = fly(chain, folder, 60)
     simulator.kill()
-    wait_until(lambda: recordings(folder, "fault") or "scanner lost" in firmware.err() and recordings(folder, "deadline"), 60,
+    wait_until(lambda: recordings(folder, "fault") or "scanner lost" in firmware.err() and recordings(folder, "deadline"), 180,
                "the recording")
     assert firmware.end() == 0
     return recordings(folder, "fault")
@@ -132,8 +132,8 @@ def test_a_scanner_that_goes_away_is_recorded_with_what_came_of_it(chain, folder
 def test_a_folder_that_cannot_be_written_is_named_and_harms_nothing(chain, folder):
     _, firmware = fly(chain, folder / "absent", 20)
     firmware.process.send_signal(signal.SIGUSR1)
-    wait_until(lambda: "not written" in firmware.err(), 60, "the complaint")
+    wait_until(lambda: "not written" in firmware.err(), 180, "the complaint")
     assert str(folder / "absent") in firmware.err()
     seen = len(chain.listener.poses)
-    wait_until(lambda: len(chain.listener.poses) > seen + 10, 60, "more poses")
+    wait_until(lambda: len(chain.listener.poses) > seen + 10, 180, "more poses")
     assert firmware.end() == 0

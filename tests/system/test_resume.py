@@ -65,12 +65,12 @@ def driven(chain):
     poses = chain.listener.poses
     end = (WAY[-1][0] - FIRST[0], WAY[-1][1] - FIRST[1])
     wait_until(lambda: len(poses) > 150 and all(abs(p.vx) < 0.01 and abs(p.omega) < 0.01 for p in poses[-20:])
-               and math.dist((poses[-1].map_x, poses[-1].map_y), end) < 0.1, 60, "a robot that stands at its way's end")
+               and math.dist((poses[-1].map_x, poses[-1].map_y), end) < 0.1, 180, "a robot that stands at its way's end")
     standing = len(poses)
-    wait_until(lambda: near(kept_pose(chain.folder), poses[-1]), 60, "the pose in which it stands to be kept")
+    wait_until(lambda: near(kept_pose(chain.folder), poses[-1]), 180, "the pose in which it stands to be kept")
     # And once more, with what it sees from there: twice the period at least.
     first = (chain.folder / "kept.map").stat().st_mtime_ns
-    wait_until(lambda: len(poses) > standing + 2 * SPEED * 10 and (chain.folder / "kept.map").stat().st_mtime_ns != first, 60,
+    wait_until(lambda: len(poses) > standing + 2 * SPEED * 10 and (chain.folder / "kept.map").stat().st_mtime_ns != first, 180,
                "the map to be kept again")
     return chain, firmware
 
@@ -82,7 +82,7 @@ def test_it_goes_on_from_the_last_map_and_pose(driven):
     before = chain.listener.poses[-1]
     count = len(chain.listener.poses)
     again = chain.firmware(config(chain.folder), speed=SPEED)
-    wait_until(lambda: len(of_the_next_start(chain.listener.poses, count)) >= 30, 60, "poses again")
+    wait_until(lambda: len(of_the_next_start(chain.listener.poses, count)) >= 30, 180, "poses again")
     assert again.end() == 0
     assert "going on from" in again.err() and "last pose" in again.err()
     after = of_the_next_start(chain.listener.poses, count)
@@ -100,7 +100,7 @@ def test_carried_away_meanwhile_it_is_lost_or_right(driven):
     count = len(chain.listener.poses)
     chain.simulator("--world", world_from(chain.folder, "second.world", LATER, [(6.7, 7.45)]), speed=SPEED)
     again = chain.firmware(config(chain.folder), speed=SPEED)
-    wait_until(lambda: len(of_the_next_start(chain.listener.poses, count)) >= 150, 60, "poses again")
+    wait_until(lambda: len(of_the_next_start(chain.listener.poses, count)) >= 150, 180, "poses again")
     assert again.end() == 0
     true = seen_from(FIRST, LATER)
     after = of_the_next_start(chain.listener.poses, count)
@@ -113,7 +113,7 @@ def test_what_cannot_be_read_is_told_and_the_robot_comes_up(chain):
     (chain.folder / "kept.map").write_text("ALE-SLAM map 1\nwall 1 2\n", encoding="utf-8")
     chain.simulator("--world", WORLDS / "home.world", speed=SPEED)
     firmware = chain.firmware(config(chain.folder), speed=SPEED)
-    wait_until(lambda: len(chain.listener.poses) >= 20, 60, "poses")
+    wait_until(lambda: len(chain.listener.poses) >= 20, 180, "poses")
     assert firmware.end() == 0
     assert "starting without what was kept" in firmware.err() and "line 2" in firmware.err()
 
@@ -124,15 +124,15 @@ def test_killed_on_its_way_it_is_lost_or_right_when_it_comes_up_elsewhere(chain)
     chain.simulator("--world", world, "--truth", chain.truth_path, speed=SPEED)
     firmware = chain.firmware(config(chain.folder), speed=SPEED)
     poses = chain.listener.poses
-    wait_until(lambda: poses and poses[-1].map_x > 3 and (chain.folder / "kept.map").exists(), 60,
+    wait_until(lambda: poses and poses[-1].map_x > 3 and (chain.folder / "kept.map").exists(), 180,
                "a drive whose map is kept")
     firmware.process.send_signal(signal.SIGKILL)
     firmware.wait(10)
     count = len(poses)
     way_on = time.monotonic() + 0.4  # four seconds of its way
-    wait_until(lambda: time.monotonic() > way_on, 60, "the robot to drive on unseen")
+    wait_until(lambda: time.monotonic() > way_on, 180, "the robot to drive on unseen")
     again = chain.firmware(config(chain.folder), speed=SPEED)
-    wait_until(lambda: len(of_the_next_start(poses, count)) >= 150, 60, "poses again")
+    wait_until(lambda: len(of_the_next_start(poses, count)) >= 150, 180, "poses again")
     assert again.end() == 0
     chain.programs[0].end()
     assert "going on from" in again.err()

@@ -27,9 +27,9 @@ def test_ready_fed_and_stopping_are_told(chain):
     prefix = ["env", f"NOTIFY_SOCKET={manager.name}", "WATCHDOG_USEC=400000"]
     chain.simulator("--world", "tools/worlds/home.world")
     firmware = chain.firmware(prefix=prefix)
-    wait_until(lambda: manager.words().count("WATCHDOG=1") >= 5, 60, "the watchdog to be fed")
+    wait_until(lambda: manager.words().count("WATCHDOG=1") >= 5, 180, "the watchdog to be fed")
+    wait_until(lambda: any(text.startswith("STATUS=") for text in manager.words()), 180, "words for the status")
     assert manager.heard.count("READY=1") == 1
-    assert any(text.startswith("STATUS=") for text in manager.heard)
     assert firmware.end() == 0
     assert "STOPPING=1" in manager.words()
 
@@ -38,5 +38,5 @@ def test_the_watchdog_is_fed_without_a_scanner_too(chain):
     manager = Manager()
     prefix = ["env", f"NOTIFY_SOCKET={manager.name}", "WATCHDOG_USEC=400000"]
     firmware = chain.firmware(prefix=prefix)
-    wait_until(lambda: manager.words().count("WATCHDOG=1") >= 3, 60, "the watchdog to be fed")
+    wait_until(lambda: manager.words().count("WATCHDOG=1") >= 3, 180, "the watchdog to be fed")
     assert firmware.end() == 0

@@ -261,7 +261,7 @@ class Machine:
             "-netdev", f"dgram,id=lan,local.type=inet,local.host=127.0.0.1,local.port={lan.machine[1]},"
                        f"remote.type=inet,remote.host=127.0.0.1,remote.port={lan.port}",
             "-device", "e1000,netdev=lan"], stdin=subprocess.DEVNULL)
-        wait_until(lambda: console.exists() and self.uart.exists() or not self.running(), 60, "the virtual machine")
+        wait_until(lambda: console.exists() and self.uart.exists() or not self.running(), 180, "the virtual machine")
         self.console = socket.socket(socket.AF_UNIX)
         self.console.connect(str(console))
         self.reader = threading.Thread(target=self._drain)
@@ -284,7 +284,7 @@ class Machine:
     def stop(self):
         if self.running():
             self.process.send_signal(signal.SIGTERM)
-        self.process.wait(timeout=60)
+        self.process.wait(timeout=180)
         self.reader.join()
         self.console.close()
 

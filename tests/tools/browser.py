@@ -47,13 +47,17 @@ class Browser:
         data = None if method != "POST" else json.dumps(body or {}).encode()
         request = urllib.request.Request(self.base + path, data, {"Content-Type": "application/json"}, method=method)
         try:
-            with urllib.request.urlopen(request, timeout=60) as answer:
+            with urllib.request.urlopen(request, timeout=180) as answer:
                 return json.load(answer)["value"]
         except urllib.error.HTTPError as error:
             raise RuntimeError(json.load(error)["value"]["message"]) from None
 
     def open(self, url):
         self._call("POST", f"{self.session}/url", {"url": url})
+
+    def reload(self):
+        """Comes back when the page is there again."""
+        self._call("POST", f"{self.session}/refresh")
 
     def run(self, script, *arguments):
         return self._call("POST", f"{self.session}/execute/sync", {"script": script, "args": list(arguments)})
@@ -66,13 +70,13 @@ class Browser:
         entries = self._call("POST", f"{self.session}/se/log", {"type": "browser"})
         return [entry["message"] for entry in entries if entry["level"] == "SEVERE"]
 
-    def wait_for(self, condition, seconds=60):
+    def wait_for(self, condition, seconds=180):
         """Runs the script until it gives something true; the time is only there to fail when it never does."""
         wait_until(lambda: self.run(f"return {condition}"), seconds, condition)
 
-    def drag(self, x1, y1, x2, y2):
+    def drag(self, x1, y1, x2, y2, held_ms=200):
         self._pointer([self._to(x1, y1), {"type": "pointerDown", "button": 0}, self._to(x2, y2),
-                       {"type": "pause", "duration": 200}, {"type": "pointerUp", "button": 0}])
+                       {"type": "pause", "duration": held_ms}, {"type": "pointerUp", "button": 0}])
 
     def click(self, element_id):
         x, y = self.run("const r = document.getElementById(arguments[0]).getBoundingClientRect();"

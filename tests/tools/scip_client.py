@@ -1,6 +1,7 @@
 """A small SCIP client over a pseudo terminal, written from the specification and from nothing of this project."""
 import os
 import select
+import termios
 import time
 import tty
 
@@ -38,7 +39,7 @@ class Client:
         self.fd = os.open(path, os.O_RDWR | os.O_NOCTTY)
         self.buffer = b""
         if raw:
-            tty.setraw(self.fd)
+            tty.setraw(self.fd, termios.TCSANOW)  # what has come already is kept
 
     def close(self):
         os.close(self.fd)
@@ -59,7 +60,7 @@ class Client:
             raise Gone
         return got
 
-    def reply(self, seconds=60):
+    def reply(self, seconds=180):
         """The next reply as it stands on the line, without its empty line."""
         end = time.monotonic() + seconds
         while b"\n\n" not in self.buffer:
@@ -72,7 +73,7 @@ class Client:
         self.send(command)
         return self.reply()
 
-    def scan(self, seconds=60):
+    def scan(self, seconds=180):
         """The next frame of a stream, every sum checked."""
         lines = self.reply(seconds).split(b"\n")
         echo, status = lines[0], lines[1]

@@ -29,7 +29,7 @@ MISSING_FILE = {
 
 
 def run(name, *words, cwd=None):
-    return subprocess.run([BINARIES / name, *words], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60, cwd=cwd,
+    return subprocess.run([BINARIES / name, *words], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=180, cwd=cwd,
                           check=False)
 
 

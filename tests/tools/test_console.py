@@ -17,12 +17,13 @@ import pytest
 
 from robot_double import WALLS
 from at_hand import BINARIES
+from waiting import Pulse, wait_until
 from watching import Console, alice, commands, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
 from web_socket import Refused, WebSocket
 
 
 def run_console(*arguments):
-    return subprocess.run([BINARIES / "ale-console", *arguments], capture_output=True, text=True, timeout=60, check=False)
+    return subprocess.run([BINARIES / "ale-console", *arguments], capture_output=True, text=True, timeout=180, check=False)
 
 
 def one_line(text):
@@ -95,11 +96,11 @@ def test_with_a_token_page_and_web_socket_are_for_those_who_have_it(lcm_url, opt
     assert len(token) >= 12
     for wrong in ("", "?token=", "?token=" + token[:-1], "?token=" + token + "x", "?token=" + "x" * len(token)):
         with pytest.raises(urllib.error.HTTPError) as refused:
-            urllib.request.urlopen(address + wrong, timeout=60)
+            urllib.request.urlopen(address + wrong, timeout=180)
         assert refused.value.code == 403
         with pytest.raises(Refused, match="403"):
             WebSocket(address + wrong)
-    assert urllib.request.urlopen(f"{address}?token={token}", timeout=60).status == 200
+    assert urllib.request.urlopen(f"{address}?token={token}", timeout=180).status == 200
     WebSocket(f"{address}?token={token}").wait_for("hello")
     assert running.end() == 0
 
@@ -107,7 +108,7 @@ def test_with_a_token_page_and_web_socket_are_for_those_who_have_it(lcm_url, opt
 @pytest.mark.skipif(os.geteuid() != 0 or shutil.which("unshare") is None, reason="needs root and unshare to take the network away")
 def test_without_a_multicast_route_it_says_so():
     done = subprocess.run(["unshare", "-n", BINARIES / "ale-console", "--http", "127.0.0.1:0"], capture_output=True,
-                          text=True, timeout=60, check=False)
+                          text=True, timeout=180, check=False)
     assert done.returncode == 1
     assert "no route for multicast" in done.stderr.strip().splitlines()[-1]
 
@@ -194,8 +195,7 @@ def test_scan_and_features_keep_their_geometry(console, robot):
 
 def test_who_comes_late_gets_map_status_and_the_whole_trail(console, robot):
     first = WebSocket(console.url)
-    for _ in range(40):
-        robot.step()
+    robot.drive(40)
     first.wait_for("pose", lambda pose: pose["scan"] == 39)
     late = WebSocket(console.url)
     wanted = {"map", "status", "trail", "pose", "features", "scan"}
@@ -209,8 +209,7 @@ def test_who_comes_late_gets_map_status_and_the_whole_trail(console, robot):
 
 def test_a_restarted_robot_is_shown_from_anew(console, robot):
     watching = WebSocket(console.url)
-    for _ in range(20):
-        robot.step()
+    robot.drive(20)
     watching.wait_for("pose", lambda pose: pose["scan"] == 19)
     robot.scan, robot.boot = 0, 2
     robot.step()
@@ -231,19 +230,23 @@ def test_an_overtaken_pose_does_not_turn_back_time(console, robot):
 def test_a_client_that_does_not_keep_up_skips_to_the_newest(console, robot):
     watching = WebSocket(console.url)
     watching.wait_for("hello")
-    for _ in range(100):
+
+    def next_pose():
         robot.publish_pose()
         robot.scan += 1
-        time.sleep(0.005)
+
+    poses = Pulse(0.005, next_pose)
     backlog = [watching.next() for _ in range(32)]  # never more on the way
+    held_back = robot.scan
+    wait_until(lambda: robot.scan > held_back + 10, 180, "more poses")
+    poses.stop()
     watching.socket.settimeout(0.7)
     with pytest.raises(TimeoutError):
         watching.next()
-    watching.socket.settimeout(60)
+    watching.socket.settimeout(180)
     watching.got()
-    newest = watching.wait_for("pose")
-    assert newest["scan"] == 99
-    assert max(message["scan"] for message in backlog if message["type"] == "pose") < 98
+    assert watching.wait_for("pose", lambda pose: pose["scan"] == robot.scan - 1)
+    assert max(message["scan"] for message in backlog if message["type"] == "pose") < robot.scan - 2
     assert watching.wait_for("link", lambda link: link["skipped"] > 0)
 
 

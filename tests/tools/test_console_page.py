@@ -91,14 +91,14 @@ def test_the_map_appears_and_the_pose_moves(page, pulse):
 
 def test_the_numbers_are_those_that_were_sent(page, pulse):
     page.wait_for("document.getElementById('device').textContent.startsWith('URG-04LX')")
+    page.wait_for("document.getElementById('codes').textContent.includes('1 beside a disturbed beam')")  # the scan comes last
     assert page.text("realtime") == "yes"
     assert page.text("latency-p99") == "2.30 ms"
     assert page.text("sigma-x") == "4.0 mm" and page.text("sigma-heading") == "0.17°"
     assert page.text("dropped") == "1"  # one scan lost; what else is counted was no scan
     assert "wrong checksums" in page.text("counters") and "streaming" in page.text("driver")
-    assert "1 beside a disturbed beam" in page.text("codes")
     wait_until(lambda: page.run("return parseFloat(document.getElementById('rate').textContent) || 0")
-               == pytest.approx(pulse.rate(), rel=0.2), 60, "the rate of the scans")
+               == pytest.approx(pulse.rate(), rel=0.2), 180, "the rate of the scans")
 
 
 @pytest.mark.parametrize("state, name", [(1, "weak"), (0, "lost")])
@@ -203,8 +203,8 @@ def test_dark_and_light_by_one_button_and_remembered(page, robot):
     page.wait_for(f"document.documentElement.dataset.theme !== '{theme}'")
     assert page.run(f"return {ground}") != colour
     assert pixels(page, "ground")["count"] > 10000
-    page.run("location.reload()")
-    page.wait_for(f"document.documentElement.dataset.theme !== '{theme}' && document.readyState === 'complete'")
+    page.reload()
+    page.wait_for(f"document.documentElement.dataset.theme !== '{theme}'")
 
 
 @pytest.mark.parametrize("width, height", [(820, 1180), (1180, 820), (480, 900)])
@@ -244,7 +244,7 @@ def test_without_a_key_it_says_so_and_shows_no_controls(page, pulse):
 
 def test_the_stick_drives_while_it_is_held_and_then_stands(cockpit, commands):
     x, y = middle(cockpit, "stick")
-    cockpit.drag(x, y, x, y - 60)
+    cockpit.drag(x, y, x, y - 60, held_ms=600)
     def moved_and_stood(heard):
         return any(c.args[0] != "0.000" for c in heard) and heard[-1].args == ["0.000", "0.000"]
     sent = [[float(word) for word in c.args] for c in commands(moved_and_stood)]
@@ -253,7 +253,7 @@ def test_the_stick_drives_while_it_is_held_and_then_stands(cockpit, commands):
 
 
 def test_the_keys_drive_and_space_stops(cockpit, commands):
-    cockpit.hold("a", 0.3)
+    cockpit.hold("a", 0.6)
     cockpit.hold(" ", 0.05)
     heard = commands(lambda heard: any(c.verb == "stop" for c in heard))
     assert ["0.000", "0.800"] in [c.args for c in heard]

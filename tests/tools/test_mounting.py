@@ -8,7 +8,7 @@ from at_hand import BINARIES, WORLDS, shared
 
 
 def run(program, *words, code=0):
-    done = subprocess.run([BINARIES / program, *map(str, words)], check=False, capture_output=True, text=True, timeout=60)
+    done = subprocess.run([BINARIES / program, *map(str, words)], check=False, capture_output=True, text=True, timeout=180)
     assert done.returncode == code, done.stderr
     return done
 

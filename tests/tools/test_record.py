@@ -40,7 +40,7 @@ class Bench:
     def sensor(self, *words):
         process = self.program("ale-sim", "--world", self.folder / "room.world", "--pty", self.link, "--speed", SPEED, *words,
                                prepare=as_hardware)
-        wait_until(lambda: self.link.exists() or process.poll() is not None, 60, "the pseudo terminal")
+        wait_until(lambda: self.link.exists() or process.poll() is not None, 180, "the pseudo terminal")
         assert process.poll() is None, process.stderr.read()
         return process
 
@@ -50,7 +50,7 @@ class Bench:
 
     def poses(self):
         poses = self.folder / "poses.jsonl"
-        subprocess.run([BINARIES / "ale-replay", self.out, "--poses", poses], check=True, capture_output=True, timeout=60)
+        subprocess.run([BINARIES / "ale-replay", self.out, "--poses", poses], check=True, capture_output=True, timeout=180)
         return [json.loads(line) for line in poses.read_text(encoding="utf-8").splitlines()]
 
 
@@ -64,7 +64,7 @@ def bench(tmp_path):
 
 
 def finished(process, code=0):
-    out, err = process.communicate(timeout=60)
+    out, err = process.communicate(timeout=180)
     assert process.returncode == code, err
     return out
 
@@ -95,7 +95,7 @@ def test_every_scan_that_the_sensor_sent_is_in_the_recording(bench):
 def test_signal_ends_the_recording_cleanly_and_leaves_the_sensor_quiet(bench):
     sensor = bench.sensor("--no-odometry")
     recorder = bench.recorder("--no-lcm")
-    wait_until(lambda: bench.out.exists() and bench.out.stat().st_size >= 50000, 60, "50 kB")
+    wait_until(lambda: bench.out.exists() and bench.out.stat().st_size >= 50000, 180, "50 kB")
     recorder.send_signal(signal.SIGINT)
     recorded = counts(finished(recorder))
     before = bench.out.stat().st_size
@@ -131,13 +131,13 @@ def test_odometry_is_recorded_in_the_time_of_the_scans(bench, multicast):
     recorded = counts(finished(bench.recorder("--lcm-url", url, "--seconds", 1)))
     assert recorded["odometry"] > recorded["scans"] / 2
     done = subprocess.run([BINARIES / "ale-replay", bench.out, "--poses", bench.folder / "with.jsonl"], check=True,
-                          capture_output=True, text=True, timeout=60)
+                          capture_output=True, text=True, timeout=180)
     assert "scans" in done.stderr
 
 
 def test_sensor_that_never_comes_is_named_and_fails(bench):
     recorder = bench.recorder("--no-lcm", "--seconds", 1)
-    out, err = recorder.communicate(timeout=60)
+    out, err = recorder.communicate(timeout=180)
     assert recorder.returncode == 1
     assert counts(out)["scans"] == 0
     assert str(bench.link)[:50] in err and "no such serial device" in err
@@ -156,7 +156,7 @@ def test_full_disk_ends_the_recording(bench):
 
 
 def finished_with_error(process, code):
-    _, err = process.communicate(timeout=60)
+    _, err = process.communicate(timeout=180)
     assert process.returncode == code, err
     return err
 
@@ -167,6 +167,6 @@ def finished_with_error(process, code):
                                    ("--port", "x", "--out", "y", "--time-scale", "1000"),
                                    ("--port", "x", "--out", "y", "--lcm-url", "u", "--no-lcm")])
 def test_wrong_use_is_told_in_a_line(words):
-    done = subprocess.run([BINARIES / "ale-record", *words], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run([BINARIES / "ale-record", *words], capture_output=True, text=True, timeout=180, check=False)
     assert done.returncode == 2
     assert done.stderr.startswith(("ale-record: ", str(BINARIES))) and done.stderr.count("\n") == 1

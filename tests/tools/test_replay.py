@@ -17,7 +17,7 @@ ROOM = (-2.0, -1.5, 2.5, 1.7)  # left, bottom, right, top
 
 
 def replay(*arguments, code=0):
-    done = subprocess.run([REPLAY, *map(str, arguments)], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run([REPLAY, *map(str, arguments)], capture_output=True, text=True, timeout=180, check=False)
     assert done.returncode == code, done.stderr
     return done
 

@@ -12,7 +12,7 @@ from watching import lcm_url, pulse, robot  # noqa: F401 (fixtures)
 
 
 def run(*arguments, **more):
-    return subprocess.run([BINARIES / "ale-screen", *arguments], capture_output=True, text=True, timeout=60, check=False, **more)
+    return subprocess.run([BINARIES / "ale-screen", *arguments], capture_output=True, text=True, timeout=180, check=False, **more)
 
 
 def test_without_a_terminal_it_says_so(lcm_url):
@@ -44,7 +44,7 @@ class Terminal:
                       {**os.environ, "TERM": "xterm-256color", "LC_ALL": "C.UTF-8", "COLUMNS": "100", "LINES": "30"})
         self.seen = b""
 
-    def wait_for(self, text, seconds=60):
+    def wait_for(self, text, seconds=180):
         end = time.monotonic() + seconds
         while text not in self.seen and time.monotonic() < end:
             if select.select([self.fd], [], [], 0.1)[0]:

@@ -31,10 +31,10 @@ class Simulator:
         self.wait_for_link()
 
     def wait_for_link(self):
-        wait_until(lambda: self.link.exists() or self.process.poll() is not None, 60, "the pseudo terminal")
+        wait_until(lambda: self.link.exists() or self.process.poll() is not None, 180, "the pseudo terminal")
         assert self.process.poll() is None, self.process.stderr.read()
 
-    def tally(self, seconds=60):
+    def tally(self, seconds=180):
         """Waits for the end; what was counted."""
         out, err = self.process.communicate(timeout=seconds)
         assert self.process.returncode == 0, err
@@ -88,11 +88,13 @@ def test_a_scan_leaves_when_its_turn_is_over(start):
     client.ask("TM2")
     client.ask(STREAM)
     shortest = math.inf
-    for _ in range(10):
+    for _ in range(50):
         scan = client.scan()
         shortest = min(shortest, time.monotonic() - scan.stamp_ms / 1000)
-    assert shortest - least > 0.095
-    assert shortest - most < 0.125, "of ten one came in time"
+        assert shortest - least > 0.095
+        if shortest - most < 0.125:
+            return
+    raise AssertionError(f"of fifty none came in time: {shortest - most} s at best")
 
 
 def test_speed_scales_the_pace_and_the_device_clock_together(start):
@@ -414,9 +416,9 @@ def test_a_stale_link_is_replaced_and_the_own_one_removed(tmp_path, start):
     other = simulator.folder / "urg2"
     other.symlink_to("/dev/null")
     second = subprocess.Popen([SIM, "--world", simulator.folder / "room.world", "--no-odometry", "--pty", other])
-    wait_until(lambda: os.readlink(other) != "/dev/null", 60, "the new link")
+    wait_until(lambda: os.readlink(other) != "/dev/null", 180, "the new link")
     second.terminate()
-    assert second.wait(timeout=60) == 0
+    assert second.wait(timeout=180) == 0
     assert not other.is_symlink()
     simulator.stop()
     assert not simulator.link.is_symlink()

@@ -13,6 +13,10 @@ from waiting import Pulse
 from watching import lcm_url  # noqa: F401 (fixture)
 
 
+SPEED = 2
+ORDER_LIFE_S = 0.5  # of silence after which the simulated robot stands, in its own time
+
+
 class Wheels:
     """Keeps what comes on ALE_ODOMETRY."""
 
@@ -100,7 +104,7 @@ def driver(lcm_url):
     one.stop()
 
 
-def scan_until(client, condition, scans=80):
+def scan_until(client, condition, scans=400):
     for _ in range(scans):
         scan = client.scan()
         if condition(scan):
@@ -109,7 +113,7 @@ def scan_until(client, condition, scans=80):
 
 
 def test_it_drives_as_told_stops_without_orders_and_at_walls(simulator, lcm_url, driver):
-    running = simulator("--drive", "--noise", "none", "--speed", 2, "--lcm-url", lcm_url)
+    running = simulator("--drive", "--noise", "none", "--speed", SPEED, "--lcm-url", lcm_url)
     client = Client(running.link)
     client.ask(STREAM)
     assert client.scan().values[340] == 3000, "without orders it stands"
@@ -127,7 +131,10 @@ def test_it_drives_as_told_stops_without_orders_and_at_walls(simulator, lcm_url,
     for _ in range(10):
         scan = client.scan()
     assert scan.values[340] > 150, "the wall holds it"
-    assert running.stop()["collisions"] == 1
+    beats = driver.beats
+    held_up = max(after - before for before, after in zip(beats, beats[1:])) > ORDER_LIFE_S / SPEED / 2
+    collisions = running.stop()["collisions"]
+    assert collisions == 1 or held_up and collisions > 1, "a busy machine's orders end on the way, and it begins anew"
 
 
 def test_nonsense_on_the_channel_moves_nothing(simulator, lcm_url):

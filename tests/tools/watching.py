@@ -27,11 +27,11 @@ class Console:
         self.url = self.process.stdout.readline().strip()
 
     def get(self, path=""):
-        return urllib.request.urlopen(self.url + path, timeout=60)
+        return urllib.request.urlopen(self.url + path, timeout=180)
 
     def end(self, signal_number=15):
         self.process.send_signal(signal_number)
-        self.process.communicate(timeout=60)
+        self.process.communicate(timeout=180)
         return self.process.returncode
 
 
@@ -46,7 +46,7 @@ def console(lcm_url):
 @pytest.fixture
 def alice(lcm_url, tmp_path):
     """A console with the key of an operator."""
-    subprocess.run([BINARIES / "ale-keys", "alice"], cwd=tmp_path, check=True, capture_output=True, timeout=60)
+    subprocess.run([BINARIES / "ale-keys", "alice"], cwd=tmp_path, check=True, capture_output=True, timeout=180)
     running = Console(lcm_url, "127.0.0.1:0", "--keys", str(tmp_path / "alice.key"))
     yield running
     assert running.end() == 0
@@ -56,9 +56,9 @@ def alice(lcm_url, tmp_path):
 def commands(lcm_url):
     """Commands as they pass on LCM: waits for so many, or until they meet a condition."""
     heard, bus = [], lcm.LCM(lcm_url)
-    bus.subscribe("ALE_COMMAND", lambda _, data: heard.append(ale.command_t.decode(data)))
+    bus.subscribe("ALE_COMMAND", lambda _, data: heard.append(ale.command_t.decode(data))).set_queue_capacity(0)
 
-    def wait(wanted, seconds=60):
+    def wait(wanted, seconds=180):
         end = time.monotonic() + seconds
         while not (wanted(heard) if callable(wanted) else len(heard) >= wanted) and time.monotonic() < end:
             bus.handle_timeout(50)

@@ -15,7 +15,7 @@ class Refused(Exception):
 class WebSocket:
     def __init__(self, url, origin=None, host=None):
         place = urllib.parse.urlsplit(url)
-        self.socket = socket.create_connection((place.hostname, place.port), timeout=60)
+        self.socket = socket.create_connection((place.hostname, place.port), timeout=180)
         self.buffer = b""
         self.received = 0
         key = base64.b64encode(os.urandom(16)).decode()
@@ -82,7 +82,7 @@ class WebSocket:
         """Tells the console that all received so far has been drawn."""
         self.send(json.dumps({"type": "got", "count": self.received}))
 
-    def wait_for(self, kind, condition=lambda message: True, seconds=60):
+    def wait_for(self, kind, condition=lambda message: True, seconds=180):
         """The first message of a kind that meets the condition, keeping pace with the console."""
         deadline = time.monotonic() + seconds
         while time.monotonic() < deadline:

@@ -47,16 +47,22 @@ def ensure_multicast():
     return True
 
 
+HELD = []  # sockets that keep ports for this process, so that nobody else is given them before its programs listen
+
+
 def free_lcm_url():
     """LCM on a multicast port of its own, so that several runs do not hear each other; it stays on this computer."""
     while True:
         port = random.randint(20000, 60000)
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-            try:
-                probe.bind(("", port))
-            except OSError:
-                continue
-            return f"udpm://{GROUP}:{port}?ttl=0"
+        holder = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        try:
+            holder.bind(("127.0.0.1", port))  # of LCM's datagrams nothing comes here
+        except OSError:
+            holder.close()
+            continue
+        holder.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # as LCM's own sockets: they may join
+        HELD.append(holder)
+        return f"udpm://{GROUP}:{port}?ttl=0"
 
 
 def main():

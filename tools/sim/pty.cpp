@@ -10,6 +10,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <termios.h>
 #include <time.h>
@@ -129,6 +130,17 @@ bool Pty::connected() const
 {
     pollfd line = {master_, POLLIN, 0};
     return plugged() && poll(&line, 1, 0) >= 0 && (line.revents & POLLHUP) == 0;
+}
+
+bool Pty::client_has_to_read() const
+{
+    const int client = open(path_.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    int count = 0;
+    if (client >= 0) {
+        ioctl(client, FIONREAD, &count);
+        close(client);
+    }
+    return count > 0;
 }
 
 std::string Pty::read()

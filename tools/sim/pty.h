@@ -37,6 +37,8 @@ class Pty
 
     /* True while a client has the port open. */
     bool connected() const;
+    /* Whether bytes wait for a client that has the port open; false where it lets nobody else look. */
+    bool client_has_to_read() const;
     /* Waits until the client sends something, or until `other` (a descriptor, or -1) is readable, at most so
      * long. */
     void wait(int64_t timeout_us, int other) const;

@@ -14,8 +14,11 @@ namespace
 /* From the request that begins the play to the first turn. */
 constexpr int64_t run_up_us = 10000;
 constexpr int64_t longest_wait_us = 100000;
-/* After the last frame the line stays open so long: closing it takes away what is not read yet. */
+/* After the last frame the line stays open so long, and longer where the client is still to read: closing it
+ * takes away what is not read yet. */
 constexpr int64_t farewell_host_us = 500000;
+constexpr int64_t longest_farewell_host_us = 10000000;
+constexpr int64_t farewell_look_host_us = 50000;
 
 ScipDevice::Options device_options(const SimulatorOptions &options, const Faults &faults)
 {
@@ -172,10 +175,12 @@ int64_t Simulator::next_us(int64_t now_us)
 
 void Simulator::let_client_finish()
 {
-    const int64_t until_us = clock_.host_us() + farewell_host_us;
-    while (pty_.connected() && clock_.host_us() < until_us) {
+    const int64_t begin_us = clock_.host_us();
+    int64_t longest_us = farewell_host_us;
+    while (pty_.connected() && clock_.host_us() - begin_us < longest_us) {
         pty_.read();
-        pty_.wait(until_us - clock_.host_us(), -1);
+        pty_.wait(farewell_look_host_us, -1);
+        longest_us = pty_.client_has_to_read() ? longest_farewell_host_us : farewell_host_us;
     }
 }
 

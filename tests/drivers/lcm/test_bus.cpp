@@ -134,7 +134,7 @@ class Wire : public testing::Test
     }
     void receive(size_t count)
     {
-        while (received.messages.size() < count && lcm_handle_timeout(lcm, 5000) > 0) {
+        while (received.messages.size() < count && lcm_handle_timeout(lcm, 60000) > 0) {
         }
         ASSERT_EQ(received.messages.size(), count);
     }
@@ -204,7 +204,7 @@ TEST_F(Wire, CommandsArriveAsTheBytesThatWereSent)
     const uint8_t bytes[] = {3, 1, 4, 1, 5};
     ASSERT_EQ(ale_bus_send_command(bus, bytes, 5), 0);
     ASSERT_EQ(ale_bus_send_command(bus, bytes, 0), 0);
-    while (heard.size() < 2 && ale_bus_receive(bus, 5000) > 0) {
+    while (heard.size() < 2 && ale_bus_receive(bus, 60000) > 0) {
     }
     ASSERT_EQ(heard.size(), 2U);
     EXPECT_EQ(heard[0], std::vector<uint8_t>(bytes, bytes + 5));
@@ -223,7 +223,7 @@ TEST_F(Wire, JunkOnTheOdometryChannelIsCountedAndOtherwiseIgnored)
     }
     const ale_odometry_t good = {5, {0, 0, 0}};
     ASSERT_EQ(ale_bus_send_odometry(bus, &good), 0);
-    while (samples.empty() && ale_bus_receive(bus, 5000) > 0) {
+    while (samples.empty() && ale_bus_receive(bus, 60000) > 0) {
     }
     ASSERT_EQ(samples.size(), 1u);
     EXPECT_EQ(ale_bus_refused(bus), 4u);

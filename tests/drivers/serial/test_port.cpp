@@ -62,7 +62,7 @@ class Port : public testing::Test
     std::string receive(size_t count)
     {
         std::string out;
-        while (out.size() < count && ale_port_wait(port, 2000) == 1) {
+        while (out.size() < count && ale_port_wait(port, 60000) == 1) {
             uint8_t bytes[256];
             const int got = ale_port_read(port, bytes, sizeof bytes);
             if (got < 0) {
@@ -101,7 +101,7 @@ TEST_F(Port, reading_does_not_wait_and_waiting_ends)
     EXPECT_EQ(ale_port_read(port, &byte, 1), 0);
     EXPECT_EQ(ale_port_wait(port, 20), 0);
     send("x");
-    EXPECT_EQ(ale_port_wait(port, 2000), 1);
+    EXPECT_EQ(ale_port_wait(port, 60000), 1);
     EXPECT_EQ(ale_port_wait(nullptr, 1), 0);
 }
 
@@ -141,7 +141,7 @@ TEST_F(Port, unplugged_port_is_gone_and_stays_gone)
     open();
     hang_up();
     uint8_t byte = 0;
-    EXPECT_NE(ale_port_wait(port, 5000), 0) << "told at once, not at the end of the wait";
+    EXPECT_NE(ale_port_wait(port, 60000), 0) << "told at once, not at the end of the wait";
     EXPECT_EQ(ale_port_read(port, &byte, 1), ALE_PORT_GONE);
     EXPECT_EQ(ale_port_read(port, &byte, 1), ALE_PORT_GONE);
     EXPECT_EQ(ale_port_write(port, &byte, 1, 100), ALE_PORT_GONE);
@@ -163,7 +163,7 @@ TEST_F(Port, signals_do_not_end_a_wait)
     action.sa_handler = [](int) {};
     sigaction(SIGUSR1, &action, &before);
     int waited = -99;
-    std::thread waiter([&] { waited = ale_port_wait(port, 5000); });
+    std::thread waiter([&] { waited = ale_port_wait(port, 60000); });
     for (int k = 0; k < 5; k++) {
         pthread_kill(waiter.native_handle(), SIGUSR1);
         usleep(1000);
