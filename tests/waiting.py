@@ -16,7 +16,7 @@ def wait_until(condition, seconds, what):
         time.sleep(0.01)
 
 
-TRIALS = 4
+TRIALS = 8
 
 
 def assert_in_time(trial, least=0, most=math.inf):

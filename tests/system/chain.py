@@ -14,6 +14,7 @@ from priority import as_hardware
 from waiting import Ear, wait_until
 
 FIRMWARE = pathlib.Path(os.environ.get("ALE_SLAMD", BINARIES / "ale-slamd")).resolve()
+IN_TIME_S = 0.015
 TYPES = {"ALE_POSE": ale.pose_t, "ALE_FEATURES": ale.features_t, "ALE_SCAN": ale.scan_t, "ALE_MAP": ale.map_t,
          "ALE_STATUS": ale.status_t}
 
@@ -137,8 +138,16 @@ class Chain:
         return counted
 
     def all_went_well(self, counted):
-        """Whether the machine was not too busy for every scan to be sent, and its pose to be heard."""
-        return counted["swallowed"] == 0 and len(self.listener.poses) == counted["sent"]
+        """Whether the machine was not too busy for every scan to be sent in time, used, and its pose to be heard."""
+        return (counted["swallowed"] == 0 and len(self.listener.poses) == counted["sent"]
+                and self.listener.counters()["overloaded"] == 0 and self.scans_came_in_time())
+
+    def scans_came_in_time(self, poses=None):
+        """Whether the stamps are right: the scanner's clock is found from when its scans come. A recording has no truth."""
+        if not self.truth_path.exists():
+            return True
+        times = Truth(self.truth_path).times
+        return all(abs(time - pose.utime * 1e-6) < IN_TIME_S for time, pose in zip(times, poses or self.listener.poses))
 
     def stop(self):
         for program in self.programs:

@@ -6,7 +6,7 @@ import pytest
 
 from chain import Truth, distance_to_wall, trajectory_error, walls_of
 
-SPEEDS = (4, 2, 1)  # slower where the machine is too busy to send or to hear all of it
+SPEEDS = (4, 2, 1, 1)  # slower where the machine is too busy to send or to hear all of it
 ATE_M = 0.030
 ATE_RAD = math.radians(0.5)
 ON_A_WALL_M = 0.060  # noise, mixed pixels and the end of a wall together

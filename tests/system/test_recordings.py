@@ -4,7 +4,7 @@ import subprocess
 
 from at_hand import BINARIES, shared
 
-SPEEDS = (20, 5)  # slower where the machine is too busy to send or to hear all of it
+SPEEDS = (20, 5, 2)  # slower where the machine is too busy to send or to hear all of it
 
 
 def test_exp1_is_answered_scan_by_scan(chain):

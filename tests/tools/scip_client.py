@@ -1,7 +1,6 @@
 """A small SCIP client over a pseudo terminal, written from the specification and from nothing of this project."""
 import os
 import select
-import termios
 import time
 import tty
 
@@ -39,7 +38,7 @@ class Client:
         self.fd = os.open(path, os.O_RDWR | os.O_NOCTTY)
         self.buffer = b""
         if raw:
-            tty.setraw(self.fd, termios.TCSANOW)  # what has come already is kept
+            tty.setraw(self.fd)
 
     def close(self):
         os.close(self.fd)

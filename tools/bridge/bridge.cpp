@@ -96,6 +96,7 @@ void Bridge::receive_datagrams()
     for (int k = 0; k < most_at_once && link_.receive(datagram_, from_peer); k++) {
         const std::optional<Frame> frame = decode(datagram_.data(), datagram_.size());
         const int64_t now = now_us();
+        tell_changes(now); /* that the peer was silent, before another takes its place */
         if (!frame || (!from_peer && !link_.accept_sender(now))) {
             counts_.refused++;
             continue;
@@ -120,9 +121,9 @@ void Bridge::say_hello()
     hello_us_ = now + hello_period_us;
 }
 
-void Bridge::tell_changes()
+void Bridge::tell_changes(int64_t now)
 {
-    const bool up = link_.has_peer() && !link_.is_silent(now_us());
+    const bool up = link_.has_peer() && !link_.is_silent(now);
     if (up != up_) {
         std::fprintf(stderr, "ale-bridge: %s %s\n", link_.peer_name().c_str(),
                      up ? "is there" : "is silent: waiting until it is there again");
@@ -140,7 +141,7 @@ void Bridge::step()
     for (int k = 0; k < most_at_once && lcm_handle_timeout(lcm_.get(), 0) > 0; k++) {
     }
     say_hello();
-    tell_changes();
+    tell_changes(now_us());
 }
 
 } // namespace bridge

@@ -50,7 +50,7 @@ class Bridge
     void carry_in(const Frame &frame);
     void receive_datagrams();
     void say_hello();
-    void tell_changes();
+    void tell_changes(int64_t now);
 
     std::unique_ptr<lcm_t, decltype(&lcm_destroy)> lcm_;
     UdpLink link_;
