@@ -102,7 +102,11 @@ void ale_local_map_focus(ale_local_map_t *map, ale_point_t centre, int32_t reach
             const ale_wall_t *wall = &map->wall[map->near[k]];
             if (is_near(wall, centre, reach_um)) {
                 map->glance[count++] =
-                    (ale_glance_t){wall->anchor, wall->normal_x_q30, wall->normal_y_q30, map->near[k]};
+                    (ale_glance_t){.offset_q30 = (int64_t)wall->anchor.x_um * wall->normal_x_q30 +
+                                                 (int64_t)wall->anchor.y_um * wall->normal_y_q30,
+                                   .normal_x_q30 = wall->normal_x_q30,
+                                   .normal_y_q30 = wall->normal_y_q30,
+                                   .wall = map->near[k]};
             }
         }
     }

@@ -22,7 +22,7 @@ enum {
 
 /* What a first look at a wall asks for, packed: most walls that are looked at are dismissed by it. */
 typedef struct {
-    ale_point_t anchor;
+    int64_t offset_q30; /* of the wall's line along its normal, from the map's origin, um */
     int32_t normal_x_q30;
     int32_t normal_y_q30;
     uint16_t wall;

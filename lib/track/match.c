@@ -27,16 +27,6 @@ int64_t ale_view_angle_var(const ale_matrix_t *cov)
     return cov->m[2][2];
 }
 
-/* Common length of view and wall, enough to believe that one shows the other. */
-static bool overlaps(const ale_wall_t *wall, const ale_view_t *view, const ale_wall_error_t *e)
-{
-    const int64_t shorter_um =
-        ale_min64(wall->end_um - wall->start_um, (int64_t)view->end_um - view->start_um);
-    const int64_t needed_um =
-        ale_min64(ale_max64(shorter_um * OVERLAP_PERCENT / 100, OVERLAP_LEAST_UM), shorter_um * 8 / 10);
-    return e->overlap_um > needed_um;
-}
-
 /* What the pose's covariance gives the offset and angle of a view; found out for views that need it. */
 typedef struct {
     const ale_matrix_t *cov; /* NULL: known exactly */
@@ -54,14 +44,41 @@ static const int64_t *pose_var(const ale_view_t *view, pose_var_t *p)
     return p->var;
 }
 
+/* Common length of view and wall, enough to believe that one shows the other. */
+static inline bool overlaps(const ale_wall_t *wall, const ale_view_t *view, int64_t overlap_um)
+{
+    if (overlap_um <= 0) {
+        return false;
+    }
+    const int64_t shorter_um =
+        ale_min64(wall->end_um - wall->start_um, (int64_t)view->end_um - view->start_um);
+    const int64_t needed_um =
+        ale_min64(ale_max64(shorter_um * OVERLAP_PERCENT / 100, OVERLAP_LEAST_UM), shorter_um * 8 / 10);
+    return overlap_um > needed_um;
+}
+
+/* The view's errors against a wall, where it lies beside it and within the gate. Most walls are dismissed by
+ * what is found out first. */
+static inline bool is_beside(const ale_wall_t *wall, const ale_view_t *view, const ale_gate_t *gate,
+                             ale_wall_error_t *e)
+{
+    e->angle_urad = ale_wall_angle(wall, view->normal_bam);
+    if (ale_abs64(e->angle_urad) > gate->angle_urad) {
+        return false;
+    }
+    e->t_um = ale_wall_along(wall, view->centre);
+    e->overlap_um = ale_wall_overlap(wall, view, e->t_um);
+    if (!overlaps(wall, view, e->overlap_um)) {
+        return false;
+    }
+    e->offset_um = ale_wall_offset(wall, view->centre);
+    return ale_abs64(e->offset_um) <= gate->offset_um;
+}
+
 /* Squared distance in sigmas, Q8; beyond the gate: INT64_MAX. */
 static int64_t distance_q8(const ale_wall_t *wall, const ale_view_t *view, const ale_wall_error_t *e,
                            pose_var_t *pose, const ale_gate_t *gate)
 {
-    if (ale_abs64(e->angle_urad) > gate->angle_urad || ale_abs64(e->offset_um) > gate->offset_um ||
-        !overlaps(wall, view, e)) {
-        return INT64_MAX;
-    }
     const int64_t *var = pose_var(view, pose);
     const int64_t var_offset = ale_wall_offset_var(wall, e->t_um) + view->var_offset_um2 + var[0];
     const int64_t var_angle = wall->var_angle_urad2 + view->var_angle_urad2 + var[1];
@@ -78,9 +95,9 @@ static int64_t distance_q8(const ale_wall_t *wall, const ale_view_t *view, const
 /* Whether a place lies off the wall's line by `limit_q30` or more, um. */
 static inline bool is_off(const ale_glance_t *wall, ale_point_t p, int64_t limit_q30)
 {
-    const int64_t offset_q30 = ((int64_t)p.x_um - wall->anchor.x_um) * wall->normal_x_q30 +
-                               ((int64_t)p.y_um - wall->anchor.y_um) * wall->normal_y_q30;
-    return offset_q30 >= limit_q30 || offset_q30 <= -limit_q30;
+    const int64_t off_q30 =
+        (int64_t)p.x_um * wall->normal_x_q30 + (int64_t)p.y_um * wall->normal_y_q30 - wall->offset_q30;
+    return (uint64_t)(off_q30 + limit_q30 - 1) >= (uint64_t)(2 * limit_q30 - 1);
 }
 
 ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
@@ -97,8 +114,8 @@ ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, c
                          facing);
     for (int r = 0; r < 2; r++) {
         ale_take_looks(&facing[r], looks);
-        for (uint16_t k = facing[r].first; k < facing[r].last; k++) {
-            const ale_glance_t *glance = &map->glance[k];
+        const ale_glance_t *const last = &map->glance[facing[r].last];
+        for (const ale_glance_t *glance = &map->glance[facing[r].first]; glance < last; glance++) {
             if (is_off(glance, moved.centre, limit_q30)) {
                 continue;
             }
@@ -107,7 +124,10 @@ ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, c
                 return best;
             }
             const ale_wall_t *wall = &map->wall[glance->wall];
-            const ale_wall_error_t e = ale_wall_error(wall, &moved);
+            ale_wall_error_t e;
+            if (!is_beside(wall, &moved, gate, &e)) {
+                continue;
+            }
             const int64_t d = distance_q8(wall, view, &e, &pose, gate);
             if (d < least) {
                 least = d;

@@ -17,9 +17,10 @@
 enum {
     ALE_REGISTRATION_VIEWS = 20,
     ALE_REGISTRATION_HEADINGS = 15, /* odd: the guess and as many to either side */
-    ALE_REGISTRATION_CELLS = 17,    /* a side, the guess in the middle */
+    ALE_REGISTRATION_CELLS = 17,    /* a side, the guess in the middle, */
+    ALE_REGISTRATION_COLUMNS = 20,  /* in rows of whole vectors */
     ALE_REGISTRATION_WORK = 640     /* of one heading, in votes, with those of pairs that face the same way;
-                                       recorded scans     ask for 300 as a rule */
+                                       recorded scans ask for 300 as a rule */
 };
 
 typedef struct {
@@ -27,13 +28,28 @@ typedef struct {
     uint32_t count;
 } ale_views_t;
 
+/* Two surfaces that may be one, as they lie at the guess. */
+typedef struct {
+    uint32_t turned_bam; /* the new one's normal against the other's */
+    int32_t limit_bam;   /* for it, */
+    int32_t along_um;    /* how far the centres may lie apart along the wall, */
+    int32_t weight_mm;   /* and what it counts */
+    uint16_t before;
+} ale_registration_pair_t;
+
 /* Working memory. */
 typedef struct {
     uint16_t before[ALE_REGISTRATION_VIEWS];
     uint16_t now[ALE_REGISTRATION_VIEWS];
-    ale_point_t normal_q14[ALE_REGISTRATION_VIEWS]; /* of the views before: unit vectors */
-    int32_t votes_mm[ALE_REGISTRATION_CELLS][ALE_REGISTRATION_CELLS];
-    uint16_t voter[ALE_REGISTRATION_CELLS][ALE_REGISTRATION_CELLS];
+    uint32_t before_count;
+    uint32_t now_count;
+    ale_point_t centre[ALE_REGISTRATION_VIEWS]; /* of the views before, and their normals: unit vectors */
+    ale_point_t normal_q14[ALE_REGISTRATION_VIEWS];
+    ale_registration_pair_t pair[ALE_REGISTRATION_VIEWS * ALE_REGISTRATION_VIEWS];
+    uint16_t pair_first[ALE_REGISTRATION_VIEWS + 1]; /* of each new view */
+    int32_t votes_mm[ALE_REGISTRATION_CELLS][ALE_REGISTRATION_COLUMNS];
+    uint16_t voter[ALE_REGISTRATION_CELLS][ALE_REGISTRATION_COLUMNS];
+    int32_t cell_um;
     int32_t work; /* left for the heading at hand */
 } ale_registration_t;
 

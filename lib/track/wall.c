@@ -7,11 +7,6 @@
 /* A wall is never known better than this: buildings are not straighter, and it stays open to change. */
 enum { OFFSET_FLOOR_UM2 = 10000, ANGLE_FLOOR_URAD2 = 2500 };
 
-static int64_t urad_of(int32_t angle_bam)
-{
-    return ale_bam_to_nrad(angle_bam) / 1000;
-}
-
 void ale_wall_set_normal(ale_wall_t *wall, uint32_t normal_bam)
 {
     wall->normal_bam = normal_bam;
@@ -34,9 +29,8 @@ ale_wall_error_t ale_wall_error(const ale_wall_t *wall, const ale_view_t *view)
     ale_wall_error_t e;
     e.offset_um = ale_wall_offset(wall, view->centre);
     e.t_um = ale_wall_along(wall, view->centre);
-    e.angle_urad = urad_of(ale_bam_diff(view->normal_bam, wall->normal_bam));
-    e.overlap_um =
-        ale_min64(wall->end_um, e.t_um + view->end_um) - ale_max64(wall->start_um, e.t_um + view->start_um);
+    e.angle_urad = ale_wall_angle(wall, view->normal_bam);
+    e.overlap_um = ale_wall_overlap(wall, view, e.t_um);
     return e;
 }
 

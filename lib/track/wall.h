@@ -71,6 +71,16 @@ static inline int64_t ale_wall_along(const ale_wall_t *wall, ale_point_t p)
                            30);
 }
 
+/* How far a normal is turned against the wall's, and how much a view at t has in common with it. */
+static inline int64_t ale_wall_angle(const ale_wall_t *wall, uint32_t normal_bam)
+{
+    return ale_bam_to_nrad(ale_bam_diff(normal_bam, wall->normal_bam)) / 1000;
+}
+static inline int64_t ale_wall_overlap(const ale_wall_t *wall, const ale_view_t *view, int64_t t_um)
+{
+    return ale_min64(wall->end_um, t_um + view->end_um) - ale_max64(wall->start_um, t_um + view->start_um);
+}
+
 /* Variance of the wall's offset at t along it, and its covariance with the angle there. */
 int64_t ale_wall_offset_var(const ale_wall_t *wall, int64_t t_um);
 int64_t ale_wall_offset_angle_cov(const ale_wall_t *wall, int64_t t_um);

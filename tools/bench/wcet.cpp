@@ -10,7 +10,6 @@
 #include <memory>
 #include <new>
 #include <numeric>
-#include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,6 +17,7 @@
 #include <valgrind/callgrind.h>
 
 #include "bench/instruction_counter.hpp"
+#include "bench/random.hpp"
 #include "bench/wcet_bound.hpp"
 #include "bench/wcet_scans.hpp"
 #include "cli/command_line.h"
@@ -154,7 +154,7 @@ void count_log(InstructionCounter &counter, const std::string &path, Tally &all)
 /* The most expensive of a candidate's scans. */
 Counts cost(InstructionCounter &counter, const Costly &costly, Tally &stages)
 {
-    std::mt19937 random(7);
+    bench::Random random(7);
     Counted counted(counter, ale_pipeline_default_config());
     const auto map = bench::map_of(costly, random);
     if (map->line_count > 0) {
@@ -204,7 +204,7 @@ Costly search(InstructionCounter &counter, int tries, Tally &stages)
             best_cost = counts;
         }
     }
-    std::mt19937 random(11);
+    bench::Random random(11);
     for (int k = 0; k < tries; k++) {
         const Costly candidate = bench::changed(best, random);
         const Counts counts = cost(counter, candidate, stages);

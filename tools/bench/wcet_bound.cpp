@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <random>
 
+#include "bench/random.hpp"
 #include "bench/wcet_scans.hpp"
 
 extern "C" {
@@ -37,6 +37,7 @@ constexpr int seeds = 8;
 constexpr int pool_scans = 60;
 constexpr int32_t centimetre_um = 10000;
 constexpr double um_per_m = 1e6;
+constexpr double full_turn_bam = 4294967296.0;
 
 /* Everything that is measured more than once counts as the most it took. */
 class Parts
@@ -68,23 +69,18 @@ class Parts
     std::vector<BoundPart> parts_;
 };
 
-double uniform(std::mt19937 &random, double low, double high)
-{
-    return std::uniform_real_distribution<double>(low, high)(random);
-}
-
 int32_t micrometres(double metres)
 {
     return static_cast<int32_t>(std::lround(metres * um_per_m));
 }
 
-uint32_t any_direction(std::mt19937 &random)
+uint32_t any_direction(Random &random)
 {
-    return static_cast<uint32_t>(random());
+    return static_cast<uint32_t>(random.uniform(0, full_turn_bam));
 }
 
 /* A scan of full size of anything between walls and noise. */
-ale_scan_t any_scan(std::mt19937 &random)
+ale_scan_t any_scan(Random &random)
 {
     Costly costly;
     for (int k = 0; k < 12; k++) {
@@ -136,7 +132,7 @@ void extraction(Parts &parts, ale_extractor_t *e, const ale_scan_t &scan, const 
 
 void looking(Parts &parts)
 {
-    std::mt19937 random(3);
+    Random random(3);
     const ale_pipeline_config_t config = ale_pipeline_default_config();
     const ale_noise_t &noise = config.extract.noise;
     auto extractor = std::make_unique<ale_extractor_t>();
@@ -167,13 +163,14 @@ void looking(Parts &parts)
 }
 
 /* A surface around the robot; square: all face one of two ways. */
-ale_view_t any_view(std::mt19937 &random, uint8_t kind, bool square)
+ale_view_t any_view(Random &random, uint8_t kind, bool square)
 {
-    const uint32_t from_bam = square ? (any_direction(random) & 1U) << 30 : any_direction(random);
+    const uint32_t from_bam =
+        square ? (random.chance(0.5) ? 0 : ALE_BAM_QUARTER_TURN) : any_direction(random);
     ale_view_t v{};
-    v.centre = ale_polar(micrometres(uniform(random, 1, 5)), from_bam);
+    v.centre = ale_polar(micrometres(random.uniform(1, 5)), from_bam);
     v.normal_bam = from_bam + ALE_BAM_HALF_TURN;
-    v.end_um = kind == ALE_VIEW_WALL ? micrometres(uniform(random, 0.3, 2)) : 8 * centimetre_um;
+    v.end_um = kind == ALE_VIEW_WALL ? micrometres(random.uniform(0.3, 2)) : 8 * centimetre_um;
     v.start_um = -v.end_um;
     v.var_offset_um2 = 9000000;
     v.var_angle_urad2 = 9000000;
@@ -189,7 +186,7 @@ struct Crowd {
     std::unique_ptr<ale_local_map_t> map = std::make_unique<ale_local_map_t>();
     std::vector<ale_view_t> views;
 
-    Crowd(std::mt19937 &random, uint8_t kind, bool square, int walls)
+    Crowd(Random &random, uint8_t kind, bool square, int walls)
     {
         ale_local_map_clear(map.get());
         for (int k = 0; k < ALE_MAX_VIEWS; k++) {
@@ -228,12 +225,12 @@ struct Crowd {
 };
 
 /* Some centimetres off, moving, and not well known: three steps are needed. */
-ale_motion_t any_motion(std::mt19937 &random)
+ale_motion_t any_motion(Random &random)
 {
     ale_motion_t motion;
     ale_motion_init(&motion, 0,
-                    {micrometres(uniform(random, -0.03, 0.03)), micrometres(uniform(random, -0.03, 0.03)),
-                     static_cast<uint32_t>(static_cast<int32_t>(uniform(random, -8e6, 8e6)))},
+                    {micrometres(random.uniform(-0.03, 0.03)), micrometres(random.uniform(-0.03, 0.03)),
+                     static_cast<uint32_t>(static_cast<int32_t>(random.uniform(-8e6, 8e6)))},
                     300, 500);
     for (int i = 0; i < 3; i++) {
         motion.cov.m[i][i] = 900000000;
@@ -245,7 +242,7 @@ ale_motion_t any_motion(std::mt19937 &random)
 const std::map<std::string, ale_gate_t> gates = {{"first", {600000, 300000, 4, 100000}},
                                                  {"second", {250000, 200000, 6, 100000}}};
 
-void matching(Parts &parts, std::mt19937 &random, Crowd &crowd)
+void matching(Parts &parts, Random &random, Crowd &crowd)
 {
     const ale_motion_t predicted = any_motion(random);
     const ale_scene_t scene = {crowd.map.get(), crowd.views.data(),
@@ -277,7 +274,7 @@ void matching(Parts &parts, std::mt19937 &random, Crowd &crowd)
     });
 }
 
-void witnesses(Parts &parts, std::mt19937 &random, Crowd &crowd)
+void witnesses(Parts &parts, Random &random, Crowd &crowd)
 {
     auto pipeline = std::make_unique<ale_pipeline>();
     std::vector<uint32_t> bearing(ALE_MAX_BEAMS);
@@ -315,7 +312,7 @@ void witnesses(Parts &parts, std::mt19937 &random, Crowd &crowd)
     });
 }
 
-void corners(Parts &parts, std::mt19937 &random)
+void corners(Parts &parts, Random &random)
 {
     auto map = std::make_unique<ale_map_corners_t>();
     auto features = std::make_unique<ale_features_t>();
@@ -324,8 +321,7 @@ void corners(Parts &parts, std::mt19937 &random)
         features->corner_count = ALE_CORNERS_PER_SCAN;
         for (uint32_t k = 0; k < ALE_CORNERS_PER_SCAN; k++) {
             features->corner[k] = {};
-            features->corner[k].p = {micrometres(uniform(random, -4, 4)),
-                                     micrometres(uniform(random, -4, 4))};
+            features->corner[k].p = {micrometres(random.uniform(-4, 4)), micrometres(random.uniform(-4, 4))};
             features->corner[k].bisector_bam = any_direction(random);
         }
         if (scan % 100 == 99) {
@@ -371,7 +367,7 @@ void always(Parts &parts)
     const ale_pipeline_config_t config = ale_pipeline_default_config();
     auto pipeline = std::make_unique<ale_pipeline>();
     ale_pipeline_init(pipeline.get(), &config);
-    std::mt19937 random(4);
+    Random random(4);
     const ale_scan_t scan = any_scan(random);
     ale_estimate_t estimate;
     ale_pipeline_scan(pipeline.get(), &scan, &estimate);
@@ -386,14 +382,14 @@ std::vector<BoundPart> bound_parts(InstructionCounter &counter)
     Parts parts(counter);
     looking(parts);
     for (unsigned seed = 0; seed < seeds; seed++) {
-        std::mt19937 random(seed);
+        Random random(seed);
         for (const uint8_t kind : {ALE_VIEW_WALL, ALE_VIEW_PIECE, ALE_VIEW_SPOT}) {
             Crowd crowd(random, kind, seed % 2 == 1, seed % 4 < 2 ? ALE_MAP_MAX_LINES : ALE_MAX_VIEWS);
             matching(parts, random, crowd);
             witnesses(parts, random, crowd);
         }
     }
-    std::mt19937 random(5);
+    Random random(5);
     corners(parts, random);
     wheels(parts);
     always(parts);

@@ -70,17 +70,16 @@ std::string Costly::words() const
     return text;
 }
 
-Costly changed(const Costly &from, std::mt19937 &random)
+Costly changed(const Costly &from, Random &random)
 {
     Costly to = from;
-    std::normal_distribution<double> normal;
-    const int changes = 1 + static_cast<int>(random() % 3);
+    const int changes = random.integer(1, 3);
     for (int k = 0; k < changes; k++) {
-        const Gene &gene = genes[random() % genes.size()];
+        const Gene &gene = genes[static_cast<size_t>(random.integer(0, static_cast<int>(genes.size()) - 1))];
         double &value = to.*gene.value;
-        value = std::clamp(value * std::exp(0.4 * normal(random)) +
-                               0.05 * (gene.most - gene.least) * normal(random),
-                           gene.least, gene.most);
+        const double factor = std::exp(0.4 * random.normal());
+        const double more = 0.05 * (gene.most - gene.least) * random.normal();
+        value = std::clamp(value * factor + more, gene.least, gene.most);
     }
     return to;
 }
@@ -97,10 +96,8 @@ std::vector<ale_odometry_t> wheels_before(const Costly &costly, int k)
     return samples;
 }
 
-ale_scan_t scan_of(const Costly &costly, int k, std::mt19937 &random)
+ale_scan_t scan_of(const Costly &costly, int k, Random &random)
 {
-    std::normal_distribution<double> noise(0, costly.noise_m);
-    std::uniform_real_distribution<double> part(0, 1);
     const double step = step_rad(costly);
     const double turned = costly.turn_rad_s * period_s * k + (k >= jump_at ? costly.jump_rad : 0);
     ale_scan_t scan{};
@@ -112,22 +109,20 @@ ale_scan_t scan_of(const Costly &costly, int k, std::mt19937 &random)
     scan.range_min_um = 20000;
     scan.range_max_um = micrometres(reach_m);
     for (uint16_t beam = 0; beam < scan.beams; beam++) {
-        const double range = range_m(costly, beam + turned / step) + noise(random);
-        ale_scan_set_range(&scan, beam, part(random) < costly.dropped ? 0 : micrometres(range));
+        const double range = range_m(costly, beam + turned / step) + costly.noise_m * random.normal();
+        ale_scan_set_range(&scan, beam, random.chance(costly.dropped) ? 0 : micrometres(range));
     }
     return scan;
 }
 
-std::unique_ptr<ale_map_t> map_of(const Costly &costly, std::mt19937 &random)
+std::unique_ptr<ale_map_t> map_of(const Costly &costly, Random &random)
 {
     auto map = std::make_unique<ale_map_t>();
-    std::uniform_real_distribution<double> angle(0, 2 * M_PI);
-    std::uniform_real_distribution<double> distance(0.3, 1.5 * (costly.base_m + costly.tooth_m));
     map->version = 1;
     map->line_count = static_cast<uint16_t>(costly.map_walls);
     for (uint16_t k = 0; k < map->line_count; k++) {
-        const double normal = angle(random);
-        const double rho = distance(random);
+        const double normal = random.uniform(0, 2 * M_PI);
+        const double rho = random.uniform(0.3, 1.5 * (costly.base_m + costly.tooth_m));
         const double x = rho * std::cos(normal);
         const double y = rho * std::sin(normal);
         const double half = 0.3;

@@ -4,9 +4,10 @@
 
 #include <cstdint>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
+
+#include "bench/random.hpp"
 
 extern "C" {
 #include "track/pipeline.h"
@@ -31,16 +32,16 @@ struct Costly {
 };
 
 /* One of the numbers made larger or smaller, within what a scanner can see. */
-Costly changed(const Costly &from, std::mt19937 &random);
+Costly changed(const Costly &from, Random &random);
 
 /* What its wheels tell in the tenth of a second before scan number k. */
 std::vector<ale_odometry_t> wheels_before(const Costly &costly, int k);
 
 /* Scan number k of a robot that stands in it. */
-ale_scan_t scan_of(const Costly &costly, int k, std::mt19937 &random);
+ale_scan_t scan_of(const Costly &costly, int k, Random &random);
 
 /* The known map around it; empty without walls. */
-std::unique_ptr<ale_map_t> map_of(const Costly &costly, std::mt19937 &random);
+std::unique_ptr<ale_map_t> map_of(const Costly &costly, Random &random);
 
 } // namespace bench
 
