@@ -96,18 +96,35 @@ static ale_options_result_t take_word(int option, words_t *words, FILE *out)
         fputs(help, out);
         return ALE_OPTIONS_DONE;
     case OPTION_VERSION:
+    default:
         fputs("ale-slamd " ALE_VERSION "\n", out);
         return ALE_OPTIONS_DONE;
-    default:
-        return ALE_OPTIONS_REFUSED; /* getopt has said why */
     }
+}
+
+/* What getopt_long did not take: in one line, as all programs say it. */
+static ale_options_result_t refuse(int option, const char *word)
+{
+    const int name = (int)strcspn(word, "=");
+    if (option == ':') {
+        fprintf(stderr, "ale-slamd: %s wants a value (see --help)\n", word);
+    } else if (optopt != 0 && word[name] == '=') {
+        fprintf(stderr, "ale-slamd: %.*s takes no value (see --help)\n", name, word);
+    } else {
+        fprintf(stderr, "ale-slamd: unknown option %s (see --help)\n", word);
+    }
+    return ALE_OPTIONS_REFUSED;
 }
 
 static ale_options_result_t read_words(int count, char **arguments, words_t *words, FILE *out)
 {
+    opterr = 0;
     optind = 0; /* GNU: start afresh */
-    for (int option = 0; (option = getopt_long(count, arguments, "", long_options, NULL)) != -1;) {
-        const ale_options_result_t result = take_word(option, words, out);
+    const char *word = arguments[1];
+    for (int option = 0; (option = getopt_long(count, arguments, "+:", long_options, NULL)) != -1;
+         word = arguments[optind]) {
+        const ale_options_result_t result =
+            option == ':' || option == '?' ? refuse(option, word) : take_word(option, words, out);
         if (result != ALE_OPTIONS_RUN) {
             return result;
         }

@@ -100,4 +100,14 @@ TEST(Options, WrongUseIsOneLineOnStderr)
     }
 }
 
+TEST(Options, WrongUseNamesTheWord)
+{
+    EXPECT_EQ(read({"--port", "/dev/x", "--nonsense"}).err,
+              "ale-slamd: unknown option --nonsense (see --help)\n");
+    EXPECT_EQ(read({"-x"}).err, "ale-slamd: unknown option -x (see --help)\n");
+    EXPECT_EQ(read({"--check-config", "--port"}).err, "ale-slamd: --port wants a value (see --help)\n");
+    EXPECT_EQ(read({"--help=3"}).err, "ale-slamd: --help takes no value (see --help)\n");
+    EXPECT_EQ(read({"stray", "--port", "/dev/x"}).err, "ale-slamd: what is \"stray\"? (see --help)\n");
+}
+
 } // namespace
