@@ -13,6 +13,7 @@ enum {
     SCORE_ANGLE_URAD = 120000,
     SCORE_SIGMAS = 1000,
     SHARED_PERCENT = 70, /* of either view of the pair must lie on its wall */
+    SECOND_PART = 2      /* the second pair must be half as long as the best */
 };
 
 static int32_t enclosed(uint32_t a_bam, uint32_t b_bam)
@@ -31,22 +32,50 @@ static int64_t length_of(const ale_view_t *v)
     return (int64_t)v->end_um - v->start_um;
 }
 
-/* The two views that fix a pose best: long, and far from parallel. */
-static bool choose_pair(const ale_view_t view[], uint32_t count, uint32_t pair[2])
+typedef struct {
+    uint32_t first;
+    uint32_t second;
+    int64_t shorter_um; /* 0: no pair */
+} pair_t;
+
+/* The two views that fix a pose best, without those of another pair: long, and far from parallel. */
+static pair_t choose_pair(const ale_view_t view[], uint32_t count, const pair_t *other)
 {
-    int64_t best = 0;
+    pair_t best = {0, 0, 0};
     for (uint32_t i = 0; i < count; i++) {
         for (uint32_t k = i + 1; k < count; k++) {
             const bool walls = view[i].kind == ALE_VIEW_WALL && view[k].kind == ALE_VIEW_WALL;
+            const bool taken =
+                other && (i == other->first || i == other->second || k == other->first || k == other->second);
             const int64_t shorter_um = ale_min64(length_of(&view[i]), length_of(&view[k]));
-            if (walls && shorter_um > best && is_open(enclosed(view[i].normal_bam, view[k].normal_bam))) {
-                best = shorter_um;
-                pair[0] = i;
-                pair[1] = k;
+            if (walls && !taken && shorter_um > best.shorter_um &&
+                is_open(enclosed(view[i].normal_bam, view[k].normal_bam))) {
+                best = (pair_t){i, k, shorter_um};
             }
         }
     }
-    return best > 0;
+    return best;
+}
+
+/* The best pair, and in every other round the best one beside it where that is worth it. */
+static pair_t pair_of_round(const ale_search_t *search, const ale_view_t view[], uint32_t count)
+{
+    const pair_t best = choose_pair(view, count, NULL);
+    if (search->rounds % 2 == 0 || best.shorter_um == 0) {
+        return best;
+    }
+    const pair_t second = choose_pair(view, count, &best);
+    return second.shorter_um * SECOND_PART >= best.shorter_um ? second : best;
+}
+
+int32_t ale_search_pair_q8(const ale_search_t *search, const ale_view_t view[], uint32_t count)
+{
+    const pair_t pair = pair_of_round(search, view, count);
+    int64_t shown_um = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        shown_um += view[i].kind == ALE_VIEW_WALL ? length_of(&view[i]) : 0;
+    }
+    return shown_um > 0 ? (int32_t)(pair.shorter_um * 256 / shown_um) : 0;
 }
 
 bool ale_pose_of_pair(const ale_view_t *a, const ale_view_t *b, const ale_wall_t *wall_a,
@@ -122,44 +151,65 @@ static void next_pair(ale_search_t *s, uint16_t count)
     }
 }
 
+/* The next pair of the map that encloses the angle of the views and is long enough for them, in at most
+ * *pairs steps; false: none up to the end of the round. */
+static bool next_candidate(ale_search_t *s, uint32_t round, const ale_local_map_t *map, const ale_view_t *a,
+                           const ale_view_t *b, int32_t *pairs, uint16_t wall[2])
+{
+    const int32_t angle_bam = enclosed(a->normal_bam, b->normal_bam);
+    for (; *pairs > 0 && s->rounds == round; --*pairs) {
+        const ale_wall_t *wall_a = &map->wall[s->first];
+        const ale_wall_t *wall_b = &map->wall[s->second];
+        if (is_too_short(wall_a, a)) {
+            next_first(s, map->count);
+            continue;
+        }
+        wall[0] = s->first;
+        wall[1] = s->second;
+        next_pair(s, map->count);
+        const int32_t in_map_bam = enclosed(wall_a->normal_bam, wall_b->normal_bam);
+        if (ale_abs64(ale_bam_diff((uint32_t)in_map_bam, (uint32_t)angle_bam)) < PAIR_ANGLE_BAM &&
+            !is_too_short(wall_b, b)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 uint32_t ale_search(ale_search_t *search, ale_local_map_t *map, const ale_view_t view[], uint32_t count,
                     ale_hypothesis_t out[ALE_MAX_HYPOTHESES])
 {
     const ale_gate_t gate = {SCORE_OFFSET_UM, SCORE_ANGLE_URAD, SCORE_SIGMAS, 0};
-    uint32_t pair[2] = {0, 0};
-    if (map->count < 2 || !choose_pair(view, count, pair)) {
+    const pair_t pair = pair_of_round(search, view, count);
+    if (map->count < 2 || pair.shorter_um == 0) {
         return 0;
     }
-    const ale_view_t *a = &view[pair[0]];
-    const ale_view_t *b = &view[pair[1]];
-    const int32_t angle_bam = enclosed(a->normal_bam, b->normal_bam);
+    const ale_view_t *a = &view[pair.first];
+    const ale_view_t *b = &view[pair.second];
     search->first = search->first < map->count ? search->first : 0;
     search->second = search->second < map->count ? search->second : 0;
     ale_local_map_focus(map, (ale_point_t){0, 0}, INT32_MAX);
     int32_t looks = ALE_SEARCH_LOOKS;
+    int32_t pairs = ALE_HYPOTHESIS_PAIRS;
+    const uint32_t round = search->rounds;
     uint32_t scored = 0;
-    uint32_t placed = 0;
-    for (uint32_t n = 0; n < ALE_HYPOTHESIS_PAIRS && placed < ALE_HYPOTHESIS_POSES &&
-                         scored < ALE_MAX_HYPOTHESES && looks > 0;
-         n++) {
-        const ale_wall_t *wall_a = &map->wall[search->first];
-        const ale_wall_t *wall_b = &map->wall[search->second];
-        if (is_too_short(wall_a, a)) {
-            next_first(search, map->count);
-            continue;
-        }
-        const int32_t in_map_bam = enclosed(wall_a->normal_bam, wall_b->normal_bam);
+    for (uint32_t placed = 0; placed < ALE_HYPOTHESIS_POSES && scored < ALE_MAX_HYPOTHESES; placed++) {
+        const ale_search_t before = *search;
+        uint16_t wall[2];
         ale_pose_t pose;
-        next_pair(search, map->count);
-        if (ale_abs64(ale_bam_diff((uint32_t)in_map_bam, (uint32_t)angle_bam)) >= PAIR_ANGLE_BAM ||
-            is_too_short(wall_b, b)) {
+        if (!next_candidate(search, round, map, a, b, &pairs, wall)) {
+            break;
+        }
+        if (!ale_pose_of_pair(a, b, &map->wall[wall[0]], &map->wall[wall[1]], &pose) ||
+            !lies_on(&map->wall[wall[0]], a, pose) || !lies_on(&map->wall[wall[1]], b, pose)) {
             continue;
         }
-        placed++;
-        if (ale_pose_of_pair(a, b, wall_a, wall_b, &pose) && lies_on(wall_a, a, pose) &&
-            lies_on(wall_b, b, pose)) {
-            out[scored++] = ale_hypothesis_at(map, view, count, pose, &gate, &looks);
+        out[scored] = ale_hypothesis_at(map, view, count, pose, &gate, &looks);
+        if (looks <= 0 && scored > 0) {
+            *search = before; /* what was scored in part only comes again */
+            break;
         }
+        scored++;
     }
     return scored;
 }

@@ -3,7 +3,9 @@
  *
  * A corner is two walls that meet at an angle: two views of the scan and two walls of the map that enclose
  * the same angle give a pose, which is scored by the length of the scan's lines that then lie on walls. The
- * pairs of the map are gone through a bounded number at a time, scan after scan, as long as it takes. */
+ * pairs of the map are gone through a bounded number at a time, call after call, as long as it takes: a round
+ * that is made with one scan proposes every place at which the pair of views lies on walls. Every other round
+ * takes another pair, for where one of its walls is in pieces in the map. */
 #ifndef ALE_TRACK_HYPOTHESIS_H
 #define ALE_TRACK_HYPOTHESIS_H
 
@@ -16,7 +18,7 @@
 
 enum {
     ALE_MAX_HYPOTHESES = 24,    /* scored in one scan, */
-    ALE_SEARCH_LOOKS = 12288,   /* or fewer: walls that scoring may look at; the last one is scored in part */
+    ALE_SEARCH_LOOKS = 12288,   /* or fewer: walls that scoring may look at */
     ALE_HYPOTHESIS_POSES = 256, /* computed in one scan */
     ALE_HYPOTHESIS_PAIRS = 4096 /* pairs of walls looked at in one scan */
 };
@@ -44,8 +46,12 @@ bool ale_pose_of_pair(const ale_view_t *a, const ale_view_t *b, const ale_wall_t
 ale_hypothesis_t ale_hypothesis_at(const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
                                    ale_pose_t pose, const ale_gate_t *gate, int32_t *looks);
 
-/* Goes on with the search for the views of this scan; returns how many hypotheses it made. The near list of
- * the map must hold all walls; it is focused on all of them. */
+/* Part of what the scan shows that each of the two views has which this round looks for, 256: all. A place
+ * that is not proposed does not explain as much. 0: no pair. */
+int32_t ale_search_pair_q8(const ale_search_t *search, const ale_view_t view[], uint32_t count);
+
+/* Goes on with the search for the views of this scan, up to the end of the round at most; returns how many
+ * hypotheses it made. The near list of the map must hold all walls; it is focused on all of them. */
 uint32_t ale_search(ale_search_t *search, ale_local_map_t *map, const ale_view_t view[], uint32_t count,
                     ale_hypothesis_t out[ALE_MAX_HYPOTHESES]);
 

@@ -179,7 +179,7 @@ static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
     const ale_motion_t predicted = p->motion;
     ale_pipeline_look(p, scan, predicted.velocity);
     if (p->tracker.state == ALE_STATE_LOST) {
-        ale_pipeline_search(p, ale_pose_between(before.pose, predicted.pose));
+        ale_pipeline_search(p, ale_pose_between(before.pose, predicted.pose), counted);
     } else {
         ale_pipeline_track(p, &before, &predicted, counted ? &wheels : NULL);
     }

@@ -46,10 +46,10 @@ static bool is_found(ale_pipeline_t *p)
     return ale_relocate(&p->relocation, &scene, &eye, &p->motion, &p->fit) && ale_tracker_believes(&p->fit);
 }
 
-void ale_pipeline_search(ale_pipeline_t *p, ale_pose_t way)
+void ale_pipeline_search(ale_pipeline_t *p, ale_pose_t way, bool counted)
 {
     p->broken = true;
-    ale_relocation_follow(&p->relocation, way);
+    ale_relocation_follow(&p->relocation, way, counted);
     const bool found = is_claim_due(p) ? is_where_claimed(p) : is_found(p);
     if (found) {
         settle(p);

@@ -27,7 +27,7 @@ void ale_pipeline_track(ale_pipeline_t *p, const ale_motion_t *before, const ale
                         const ale_wheel_motion_t *wheels);
 
 /* Looks for the place that fits, with bounded work a scan, and leaves the map alone. way: how the robot went
- * since the scan before. */
-void ale_pipeline_search(ale_pipeline_t *p, ale_pose_t way);
+ * since the scan before; counted: wheels told it. */
+void ale_pipeline_search(ale_pipeline_t *p, ale_pose_t way, bool counted);
 
 #endif

@@ -13,10 +13,12 @@ enum {
     HELD_LEAST_Q8 = 140,       /* places that explain less are dropped */
     ANSWER_SCANS = 8,          /* fits of the answer */
     ANSWER_Q8 = 205,           /* it explains 80 % */
-    MARGIN_Q8 = 36,            /* and 14 % more than any other place */
-    PEER_PART = 2,     /* that has stood the test for half as long: who comes later was not found before */
-    ANSWER_ROUNDS = 1, /* times all pairs of walls were tried */
-    SAME_UM = 250000,  /* places nearer than this are one */
+    MARGIN_Q8 = 36,            /* and 14 % more than any other place, */
+    TOLD_Q8 = 2 * MARGIN_Q8,   /* when rounds would have found those even if one in two missed them */
+    TOLD_WAY_UM = 5000000,     /* and for so far: wheels stray, and a place may be lost on the way */
+    TRAIL_LOOKS = 4096,        /* at walls, for all that is proposed in a scan */
+    TRAIL_SCANS = 4,           /* fits that what was seen before counts for */
+    SAME_UM = 250000,          /* places nearer than this are one */
     SAME_BAM = 150 * ALE_BAM_PER_MRAD,
     FIT_OFFSET_UM = 400000, /* how far a place may be off when it is fitted */
     FIT_ANGLE_URAD = 200000,
@@ -27,15 +29,24 @@ enum {
     FIT_SIGMA_URAD = 50000,
     HOLD_OFFSET_UM = 60000, /* a line lies on a wall when it is no farther from it */
     HOLD_ANGLE_URAD = 90000,
-    SLIDE_UM = 500000, /* along the longest wall in view, where the answer must explain less */
-    PINNED_Q8 = 20     /* by 8 %: in a corridor of long walls only all places along it are alike */
+    SLIDE_UM = 500000,     /* along the longest wall in view, where the answer must explain less */
+    PINNED_Q8 = 20,        /* by 8 %: in a corridor of long walls only all places along it are alike, */
+    TELLING_Q8 = PINNED_Q8 /* and a pair that is a smaller part of the scan does not tell them apart */
 };
 
 static const ale_gate_t hold = {HOLD_OFFSET_UM, HOLD_ANGLE_URAD, FIT_SIGMAS, 0};
 
 void ale_relocation_clear(ale_relocation_t *relocation)
 {
-    *relocation = (ale_relocation_t){.count = 0};
+    relocation->search = (ale_search_t){0, 0, 0};
+    ale_trail_clear(&relocation->trail);
+    relocation->searching = false;
+    relocation->crowded = false;
+    relocation->pair_q8 = 0;
+    relocation->way_um = 0;
+    relocation->count = 0;
+    relocation->next = 0;
+    relocation->next_wall = 0;
 }
 
 static bool is_same(ale_pose_t a, ale_pose_t b)
@@ -50,33 +61,111 @@ static void drop(ale_relocation_t *r, uint32_t index)
     r->place[index] = r->place[r->count];
 }
 
-/* A new place takes the room of the one that explains least, if it explains more. */
-static void enter(ale_relocation_t *r, const ale_hypothesis_t *h)
+static int32_t most_held_q8(const ale_relocation_t *r)
+{
+    int32_t most_q8 = 0;
+    for (uint32_t i = 0; i < r->count; i++) {
+        most_q8 = r->place[i].held_q8 > most_q8 ? r->place[i].held_q8 : most_q8;
+    }
+    return most_q8;
+}
+
+/* A new place takes the room of the one that explains least, if it explains more. Where the one without room
+ * could be a rival, the round tells nothing. */
+static void enter(ale_relocation_t *r, const ale_place_t *place)
 {
     uint32_t worst = 0;
     for (uint32_t i = 0; i < r->count; i++) {
-        if (is_same(r->place[i].pose, h->pose)) {
-            return;
-        }
         worst = r->place[i].held_q8 < r->place[worst].held_q8 ? i : worst;
     }
-    const int32_t held_q8 = (int32_t)(h->score_um * 256 / h->shown_um);
     if (r->count < ALE_PLACES) {
-        worst = r->count++;
-    } else if (r->place[worst].held_q8 >= held_q8) {
+        r->place[r->count++] = *place;
         return;
     }
-    r->place[worst] = (ale_place_t){.pose = h->pose, .held_q8 = held_q8};
+    const int32_t out_q8 = (int32_t)ale_min64(place->held_q8, r->place[worst].held_q8);
+    r->crowded = r->crowded || out_q8 > most_held_q8(r) - MARGIN_Q8;
+    if (r->place[worst].held_q8 < place->held_q8) {
+        r->place[worst] = *place;
+    }
+}
+
+static bool is_known(const ale_relocation_t *r, ale_pose_t pose)
+{
+    for (uint32_t i = 0; i < r->count; i++) {
+        if (is_same(r->place[i].pose, pose)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* What is looked for is seen from where the robot was then. */
+static void take_proposal(ale_relocation_t *r, const ale_scene_t *scene, const ale_hypothesis_t *h,
+                          int32_t *looks)
+{
+    const ale_pose_t to_now = ale_pose_between(ale_trail_newest(&r->trail)->from, (ale_pose_t){0, 0, 0});
+    ale_place_t place = {.pose = ale_pose_compose(h->pose, to_now),
+                         .held_q8 = (int32_t)(h->score_um * 256 / h->shown_um)};
+    if (place.held_q8 < HELD_LEAST_Q8 || is_known(r, place.pose)) {
+        return;
+    }
+    if (r->trail.count > 1) {
+        const int32_t before_q8 = ale_trail_explained_q8(&r->trail, scene->map, place.pose, looks);
+        place.held_q8 = before_q8 < place.held_q8 ? before_q8 : place.held_q8;
+        place.scans = TRAIL_SCANS;
+    }
+    if (place.held_q8 >= HELD_LEAST_Q8) {
+        enter(r, &place);
+    }
+}
+
+static void begin_round(ale_relocation_t *r, int32_t pair_q8)
+{
+    r->search.first = 0;
+    r->search.second = 0;
+    r->pair_q8 = pair_q8;
+    r->crowded = false;
+    r->searching = pair_q8 > 0;
+}
+
+/* A round is begun with this scan when none is under way, or only one that will tell nothing. Where nobody
+ * knows how the robot went, the round goes on with this scan. */
+static void choose_query(ale_relocation_t *r, const ale_scene_t *scene)
+{
+    const int32_t pair_q8 = ale_search_pair_q8(&r->search, scene->view, scene->view_count);
+    const bool lame = r->pair_q8 < TELLING_Q8 && pair_q8 >= TELLING_Q8;
+    const bool astray = r->trail.count == 0;
+    if (!r->searching || (lame && !astray)) {
+        begin_round(r, pair_q8);
+    } else if (astray) {
+        r->pair_q8 = pair_q8 < r->pair_q8 ? pair_q8 : r->pair_q8;
+    } else {
+        return;
+    }
+    ale_trail_keep(&r->trail, scene->view, scene->view_count);
+}
+
+static void end_round(ale_relocation_t *r)
+{
+    for (uint32_t i = 0; r->pair_q8 >= TELLING_Q8 && !r->crowded && i < r->count; i++) {
+        r->place[i].told_q8 = (int32_t)ale_min64(r->place[i].told_q8 + r->pair_q8, TOLD_Q8);
+    }
+    r->searching = false;
 }
 
 static void propose(ale_relocation_t *r, const ale_scene_t *scene)
 {
     ale_hypothesis_t found[ALE_MAX_HYPOTHESES];
-    const uint32_t count = ale_search(&r->search, scene->map, scene->view, scene->view_count, found);
+    choose_query(r, scene);
+    const ale_trail_scan_t *query = ale_trail_newest(&r->trail);
+    const uint32_t rounds = r->search.rounds;
+    const uint32_t count = ale_search(&r->search, scene->map, query->view, query->count, found);
+    int32_t looks = TRAIL_LOOKS;
     for (uint32_t i = 0; i < count; i++) {
-        if (found[i].score_um * 256 >= found[i].shown_um * HELD_LEAST_Q8) {
-            enter(r, &found[i]);
-        }
+        take_proposal(r, scene, &found[i], &looks);
+    }
+    if (r->search.rounds != rounds) {
+        end_round(r);
     }
 }
 
@@ -173,13 +262,11 @@ static ale_place_t *answer(ale_relocation_t *r)
             best = &r->place[i];
         }
     }
-    if (!best || best->held_q8 < ANSWER_Q8 || r->search.rounds < ANSWER_ROUNDS) {
+    if (!best || best->held_q8 < ANSWER_Q8 || best->told_q8 < TOLD_Q8) {
         return NULL;
     }
     for (uint32_t i = 0; i < r->count; i++) {
-        const ale_place_t *other = &r->place[i];
-        const bool peer = other->scans * PEER_PART >= best->scans || other->held_q8 >= best->held_q8;
-        if (other != best && peer && other->held_q8 > best->held_q8 - MARGIN_Q8) {
+        if (&r->place[i] != best && r->place[i].held_q8 > best->held_q8 - MARGIN_Q8) {
             return NULL;
         }
     }
@@ -219,8 +306,25 @@ static bool is_pinned(const ale_scene_t *scene, ale_pose_t place)
     return true;
 }
 
-void ale_relocation_follow(ale_relocation_t *relocation, ale_pose_t way)
+/* What rounds have told is forgotten on the way. */
+static void forget(ale_relocation_t *r, ale_pose_t way)
 {
+    r->way_um += ale_isqrt((uint64_t)((int64_t)way.x_um * way.x_um + (int64_t)way.y_um * way.y_um));
+    const int64_t forgotten_q8 = r->way_um * TOLD_Q8 / TOLD_WAY_UM;
+    r->way_um -= forgotten_q8 * TOLD_WAY_UM / TOLD_Q8;
+    for (uint32_t i = 0; i < r->count; i++) {
+        r->place[i].told_q8 = (int32_t)ale_max64(r->place[i].told_q8 - forgotten_q8, 0);
+    }
+}
+
+void ale_relocation_follow(ale_relocation_t *relocation, ale_pose_t way, bool counted)
+{
+    if (counted) {
+        ale_trail_follow(&relocation->trail, way);
+    } else {
+        ale_trail_clear(&relocation->trail);
+    }
+    forget(relocation, way);
     for (uint32_t i = 0; i < relocation->count; i++) {
         relocation->place[i].pose = ale_pose_compose(relocation->place[i].pose, way);
     }

@@ -78,6 +78,43 @@ ale_motion_t at(const reference::Pose &p, double sigma_m, double sigma_rad)
     ale_motion_widen(&m, convert::um(sigma_m), convert::um(sigma_rad));
     return m;
 }
+TEST(Hypothesis, EveryOtherRoundLooksForTheBestPairBesideTheFirst)
+{
+    std::mt19937 rng(11);
+    Scene s;
+    s.look({0.4, 0.3, -1.2}, 0, rng);
+    s.views[2].end_um -=
+        500000; // the west wall is the shortest of the four, and still half as long as the east one
+    const double east = s.views[0].end_um - s.views[0].start_um;
+    const double west = s.views[2].end_um - s.views[2].start_um;
+    double shown = 0;
+    for (int k = 0; k < 4; k++) {
+        shown += s.views[k].end_um - s.views[k].start_um;
+    }
+    for (const uint32_t rounds : {0U, 1U, 2U, 3U}) {
+        const ale_search_t search = {0, 0, rounds};
+        EXPECT_NEAR(ale_search_pair_q8(&search, s.views.data(), 4),
+                    256 * (rounds % 2 == 0 ? east : west) / shown, 1);
+        EXPECT_GT(ale_search_pair_q8(&search, s.views.data(), 2), 0) << "the only pair is taken again";
+        EXPECT_EQ(ale_search_pair_q8(&search, s.views.data(), 1), 0) << "one view is no pair";
+    }
+}
+
+TEST(Hypothesis, ACallEndsWithItsRound)
+{
+    std::mt19937 rng(11);
+    Scene s;
+    s.look({0.4, 0.3, -1.2}, 0, rng);
+    ale_local_map_approach(s.map.get(), {0, 0}, 10000000);
+    ale_search_t search = {0, 0, 0};
+    for (uint32_t round = 0; round < 4; round++) {
+        ale_hypothesis_t found[ALE_MAX_HYPOTHESES];
+        EXPECT_EQ(search.rounds, round);
+        EXPECT_GE(ale_search(&search, s.map.get(), s.views.data(), 4, found), 2U)
+            << "a rectangle looks the same after half a turn";
+    }
+}
+
 } // namespace
 
 TEST(Refine, FindsThePoseThatItsTwinFinds)
