@@ -59,10 +59,10 @@ def to_world(origin, line):
 
 
 def test_a_click_on_explore_makes_the_robot_map_the_arena(page, chain):
-    page.wait_for("document.body.dataset.control === 'yes'", 20)
+    page.wait_for("document.body.dataset.control === 'yes'")
     page.click("explore")
-    page.wait_for(f"{WORD} !== 'off'", 5)
-    page.wait_for(f"{WALLS} > 10", 60)
+    page.wait_for(f"{WORD} !== 'off'")
+    page.wait_for(f"{WALLS} > 10")
     page.wait_for(f"{WORD}.startsWith('finished')", LONGEST_S / SPEED)
     page.screenshot(chain.folder / "explored.png")
     lines = page.run("""

@@ -292,7 +292,7 @@ class Machine:
 def set_clock(machine):
     """Gives the machine the time of day, in the place of NTP: at the turn of a second, to some hundredths."""
     second = int(time.time()) + 2
-    time.sleep(second - time.time())
+    time.sleep(max(0, second - time.time()))
     machine.order(f"clock {second}")
 
 

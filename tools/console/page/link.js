@@ -24,7 +24,10 @@ export class Link {
     this.told = 0;
     this.posesSinceOpened = 0;
     this.socket.onmessage = (event) => this.#take(JSON.parse(event.data));
-    this.socket.onclose = () => setTimeout(() => this.open(), RETRY_MS);
+    this.socket.onclose = () => {
+      this.heardAt = -Infinity; // nothing more can come
+      setTimeout(() => this.open(), RETRY_MS);
+    };
   }
 
   send(message) {
