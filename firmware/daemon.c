@@ -9,6 +9,7 @@
 #include "explore_thread.h"
 #include "last_place.h"
 #include "lcm/bus.h"
+#include "map_drawer.h"
 #include "mapper_thread.h"
 #include "realtime/rt.h"
 #include "recorder.h"
@@ -29,6 +30,7 @@ struct ale_daemon {
     ale_estimator_t *estimator;
     ale_rt_task_t *estimate;
     ale_mapper_thread_t *mapper;
+    ale_map_drawer_t *drawer;
     ale_acquire_t *acquire;
     ale_telemetry_t *telemetry;
     ale_drive_t *drive;
@@ -91,7 +93,8 @@ static int start_tasks(ale_daemon_t *daemon)
         daemon->exchange.explore = ale_explore_start(config, &daemon->exchange);
     }
     daemon->mapper = ale_mapper_thread_start(&daemon->exchange);
-    if (daemon->estimate && daemon->mapper) {
+    daemon->drawer = ale_map_drawer_start(&daemon->exchange);
+    if (daemon->estimate && daemon->mapper && daemon->drawer) {
         daemon->acquire = ale_acquire_start(config, &daemon->exchange);
     }
     ale_rt_report_t report;
@@ -161,6 +164,7 @@ void ale_daemon_stop(ale_daemon_t *daemon)
     ale_acquire_stop(daemon->acquire);
     stop_estimate(daemon);
     ale_mapper_thread_stop(daemon->mapper);
+    ale_map_drawer_stop(daemon->drawer);
     ale_telemetry_stop(daemon->telemetry);
     ale_explore_stop(daemon->exchange.explore);
     ale_recorder_stop(daemon->recorder);

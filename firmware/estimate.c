@@ -4,8 +4,26 @@
 #include <string.h>
 
 #include "base/fixed.h"
+#include "base/trig.h"
 
 #define IDLE_NS 100000000
+
+/* What a scan has shown is worth telling when the robot has gone on so far, or turned; where it stays, now
+ * and then; and at first, so that walls are seen often enough to count. */
+enum {
+    SIGHTING_STEP_UM = 100000,
+    SIGHTING_TURN_BAM = 100 * ALE_BAM_PER_MRAD,
+    SIGHTINGS_AT_FIRST = 3,
+    SIGHTING_WAIT_US = 5000000
+};
+
+/* The last sighting that was handed over. */
+typedef struct {
+    uint32_t epoch;
+    uint32_t count; /* of this epoch */
+    ale_pose_t from;
+    int64_t stamp_us;
+} ale_told_t;
 
 struct ale_estimator {
     ale_exchange_t *exchange;
@@ -17,6 +35,7 @@ struct ale_estimator {
     uint32_t odometry_taken;
     bool corrected; /* since the last answer, by: */
     ale_pose_t correction;
+    ale_told_t told;
     bool map_waits;     /* changed since it was last handed over */
     int64_t map_ns;     /* when it was handed over */
     int64_t arrival_ns; /* of the scan at hand, by the clock of ale_rt_now_ns */
@@ -123,6 +142,27 @@ static void offer_keyframe(ale_estimator_t *estimator)
     }
 }
 
+static bool is_worth_telling(const ale_told_t *told, const ale_estimate_t *estimate)
+{
+    return told->epoch != estimate->epoch || told->count < SIGHTINGS_AT_FIRST ||
+           !ale_are_near(told->from, estimate->smooth, SIGHTING_STEP_UM, SIGHTING_TURN_BAM) ||
+           ale_abs64(estimate->stamp_us - told->stamp_us) > SIGHTING_WAIT_US;
+}
+
+static void offer_sighting(ale_estimator_t *estimator, const ale_estimate_t *estimate)
+{
+    ale_told_t *told = &estimator->told;
+    if (!is_worth_telling(told, estimate)) {
+        return;
+    }
+    ale_sighting_t *slot = ale_ring_reserve(estimator->exchange->sightings);
+    if (slot && ale_pipeline_sighting(estimator->pipeline, slot)) {
+        ale_ring_commit(estimator->exchange->sightings);
+        const uint32_t before = told->epoch == estimate->epoch ? told->count : 0;
+        *told = (ale_told_t){estimate->epoch, before + 1, estimate->smooth, estimate->stamp_us};
+    }
+}
+
 static void use_scan(ale_estimator_t *estimator, const ale_scan_record_t *record, ale_result_t *result)
 {
     const ale_scan_t *scan = &record->scan;
@@ -169,11 +209,13 @@ static void answer_oldest(ale_estimator_t *estimator, uint32_t waiting)
     estimator->overloaded += overload;
     ale_result_t *result = ale_ring_reserve(exchange->results);
     answer(estimator, record, !record->lost && !overload, result ? result : &estimator->spare);
+    const ale_estimate_t estimate = (result ? result : &estimator->spare)->estimate;
     if (result) {
         ale_ring_commit(exchange->results);
     }
     ale_ring_release(exchange->scans);
     offer_keyframe(estimator);
+    offer_sighting(estimator, &estimate);
     take_corrections(estimator);
 }
 

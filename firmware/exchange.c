@@ -4,6 +4,7 @@
 
 #include "base/fixed.h"
 #include "drive.h"
+#include "graph/mapper.h"
 #include "urg/urg_device.h"
 #include "wake.h"
 
@@ -19,6 +20,9 @@ int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock)
         .keyframes = ale_ring_create(sizeof(ale_keyframe_t), ALE_KEYFRAME_SLOTS),
         .corrections = ale_ring_create(sizeof(ale_correction_t), ALE_CORRECTION_SLOTS),
         .grid_corrections = ale_ring_create(sizeof(ale_correction_t), ALE_CORRECTION_SLOTS),
+        .sightings = ale_ring_create(sizeof(ale_sighting_t), ALE_SIGHTING_SLOTS),
+        .keyframe_poses = ale_snapshot_create(sizeof(ale_mapper_poses_t)),
+        .drawn_map = ale_snapshot_create(sizeof(ale_drawn_map_t)),
         .map = ale_snapshot_create(sizeof(ale_map_t)),
         .health = ale_snapshot_create(sizeof(ale_urg_health_t)),
         .requests = ale_ring_create(sizeof(ale_request_t), ALE_REQUEST_SLOTS),
@@ -32,7 +36,8 @@ int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock)
         .under_way = ale_wake_open(),
     };
     const bool complete = exchange->scans && exchange->odometry && exchange->results && exchange->keyframes &&
-                          exchange->corrections && exchange->grid_corrections && exchange->map &&
+                          exchange->corrections && exchange->grid_corrections && exchange->sightings &&
+                          exchange->keyframe_poses && exchange->drawn_map && exchange->map &&
                           exchange->health && exchange->requests && exchange->loaded_map &&
                           exchange->drive_orders && exchange->drive_scan && exchange->exploration &&
                           exchange->drive_again >= 0 && exchange->arrived && exchange->pulse &&
@@ -51,6 +56,9 @@ void ale_exchange_close(ale_exchange_t *exchange)
     ale_ring_destroy(exchange->keyframes);
     ale_ring_destroy(exchange->corrections);
     ale_ring_destroy(exchange->grid_corrections);
+    ale_ring_destroy(exchange->sightings);
+    ale_snapshot_destroy(exchange->keyframe_poses);
+    ale_snapshot_destroy(exchange->drawn_map);
     ale_snapshot_destroy(exchange->map);
     ale_snapshot_destroy(exchange->health);
     ale_ring_destroy(exchange->requests);

@@ -11,6 +11,8 @@
  *      ▲                      ▲ jobs  └──── scans with poses, on or off ───────────────────────►┘
  *      └── loaded map ── map keeper
  *   estimate ── keyframes ──► mapper ── corrections ──► estimate, exploration
+ *      └── sightings ──► drawer ◄── keyframe poses (newest) ──┘
+ *                          └── drawn map (newest) ──► telemetry
  *
  * Rings and snapshots have one writer and one reader each. Times are of the clock inside (clock.h). */
 #ifndef ALE_FIRMWARE_EXCHANGE_H
@@ -30,12 +32,16 @@
 #include "track/correction.h"
 #include "track/keyframe.h"
 #include "track/pipeline.h"
+#include "track/sighting.h"
 
 /* Several seconds of scans at 10 Hz, and of odometry at 100 Hz; requests are those of people. */
 enum { ALE_SCAN_SLOTS = 64, ALE_RESULT_SLOTS = 64, ALE_ODOMETRY_SLOTS = 512, ALE_REQUEST_SLOTS = 16 };
 
 /* Keyframes of several metres, should the mapper be at work on a large map. */
 enum { ALE_KEYFRAME_SLOTS = 16, ALE_CORRECTION_SLOTS = 4 };
+
+/* Sightings of several metres, should a large map be drawn just now. */
+enum { ALE_SIGHTING_SLOTS = 32 };
 
 typedef struct {
     bool lost;          /* the device sent it, it cannot be used: scan.stamp_us alone counts */
@@ -62,6 +68,12 @@ typedef struct {
     ale_scan_t scan; /* only when scans are published */
 } ale_result_t;
 
+/* The map as it was drawn anew. */
+typedef struct {
+    uint32_t epoch; /* 0: nothing was drawn yet */
+    ale_map_t map;
+} ale_drawn_map_t;
+
 typedef enum {
     ALE_REQUEST_RESET,
     ALE_REQUEST_RELOCATE, /* the robot is at `pose` of the map */
@@ -85,7 +97,10 @@ typedef struct {
     ale_ring_t *keyframes;             /* ale_keyframe_t: estimate to mapper */
     ale_ring_t *corrections;           /* ale_correction_t: mapper to estimate */
     ale_ring_t *grid_corrections;      /* the same: mapper to exploration, when there is one */
-    ale_snapshot_t *map;               /* ale_map_t: estimate to telemetry */
+    ale_ring_t *sightings;             /* ale_sighting_t: estimate to drawer */
+    ale_snapshot_t *keyframe_poses;    /* ale_mapper_poses_t: mapper to drawer */
+    ale_snapshot_t *drawn_map;         /* ale_drawn_map_t: drawer to telemetry */
+    ale_snapshot_t *map;               /* ale_map_t, the tracker's: estimate to telemetry */
     ale_snapshot_t *health;            /* ale_urg_health_t: acquire to telemetry */
     ale_ring_t *requests;              /* ale_request_t: telemetry to estimate */
     ale_snapshot_t *loaded_map;        /* ale_map_t: map keeper to estimate */

@@ -43,6 +43,13 @@ static void hand_out(ale_mapper_thread_t *thread)
     ale_ring_commit(exchange->corrections);
 }
 
+/* Where keyframes lie now, for the one who draws the map. */
+static void show_poses(ale_mapper_thread_t *thread)
+{
+    ale_mapper_poses(thread->mapper, ale_snapshot_back(thread->exchange->keyframe_poses));
+    ale_snapshot_publish(thread->exchange->keyframe_poses);
+}
+
 static void work_off(ale_mapper_thread_t *thread)
 {
     ale_ring_t *keyframes = thread->exchange->keyframes;
@@ -51,6 +58,7 @@ static void work_off(ale_mapper_thread_t *thread)
         ale_mapper_add(thread->mapper, ale_ring_at(keyframes, 0));
         ale_ring_release(keyframes);
         hand_out(thread);
+        show_poses(thread);
         tell(thread, ale_rt_now_ns() - start_ns);
     }
 }

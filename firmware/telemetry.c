@@ -10,6 +10,7 @@
 #include "explore_thread.h"
 #include "last_place.h"
 #include "map_keeper.h"
+#include "map_publisher.h"
 #include "recorder.h"
 #include "service.h"
 #include "statistics.h"
@@ -19,10 +20,6 @@
 #define NS_PER_S 1000000000
 #define STATUS_PERIOD_NS NS_PER_S
 #define NEWS_PERIOD_NS 50000000 /* between statuses that tell of commands */
-#define WHOLE_MAP_PERIOD_NS (10LL * NS_PER_S)
-#define PART_NS 1000000 /* between bursts of map parts */
-
-enum { PARTS_AT_ONCE = 8 };
 
 struct ale_telemetry {
     const ale_config_t *config;
@@ -36,15 +33,14 @@ struct ale_telemetry {
     ale_supervisor_t supervisor;
     ale_statistics_t statistics;
     const ale_urg_health_t *health;
-    const ale_map_t *map; /* being sent, or sent last; NULL before the first */
-    int16_t next_part;    /* of the map; all sent: its number of parts */
-    int64_t next_whole_map_ns;
+    ale_map_publisher_t map;
     int64_t next_status_ns;
     int64_t last_status_ns;
     bool news;     /* of commands, not yet in a status */
     bool refusals; /* not yet in a status: shown soon, but many of them do not make many statuses */
     int64_t next_keep_ns;
     ale_pose_t pose; /* in the map, newest */
+    uint32_t epoch;  /* of that map */
     ale_service_t service;
     ale_status_report_t report;
 };
@@ -109,6 +105,7 @@ static void send_result(ale_telemetry_t *telemetry, const ale_result_t *result)
     memcpy(report.stage_end_ns, result->stage_end_ns, sizeof report.stage_end_ns);
     ale_bus_send_pose(telemetry->bus, &report);
     telemetry->pose = result->estimate.map;
+    telemetry->epoch = result->estimate.epoch;
     const int64_t latency_us = ale_clock_now_us(clock) - result->arrival_us;
     ale_statistics_add(&telemetry->statistics, result, ale_clock_real_ns(clock, latency_us));
     if (telemetry->config->publish_bot_core) {
@@ -191,7 +188,7 @@ static void take_command(void *user, const uint8_t *bytes, size_t count)
     if (telemetry->news) {
         send_status(telemetry);
     }
-    if (!ale_commands_take(telemetry->commands, bytes, count, telemetry->map)) {
+    if (!ale_commands_take(telemetry->commands, bytes, count, ale_map_publisher_map(&telemetry->map))) {
         telemetry->refusals = true;
     }
     telemetry->news = ale_commands_news(telemetry->commands);
@@ -201,35 +198,9 @@ static void take_command(void *user, const uint8_t *bytes, size_t count)
 static void keep_map(ale_telemetry_t *telemetry)
 {
     ale_last_place_t *place = telemetry->exchange->last_place;
-    if (place && telemetry->map && telemetry->statistics.state != ALE_STATE_LOST) {
-        ale_last_place_offer(place, telemetry->map, &telemetry->pose);
-    }
-}
-
-static bool map_under_way(const ale_telemetry_t *telemetry)
-{
-    return telemetry->map && telemetry->next_part < ale_map_parts(telemetry->map);
-}
-
-/* A new map goes out whole, in bursts that leave room for poses; the same again every ten seconds, for those
- * who came later or missed a part. A newer one waits until the one under way is out. */
-static void send_map(ale_telemetry_t *telemetry, int64_t now_ns)
-{
-    if (!map_under_way(telemetry)) {
-        bool fresh = false;
-        const ale_map_t *newest = ale_snapshot_newest(telemetry->exchange->map, &fresh);
-        const bool again = telemetry->map && now_ns >= telemetry->next_whole_map_ns;
-        if (!fresh && !again) {
-            return;
-        }
-        telemetry->map = newest;
-        telemetry->next_part = 0;
-        telemetry->next_whole_map_ns = now_ns + WHOLE_MAP_PERIOD_NS;
-    }
-    const ale_clock_t *clock = &telemetry->exchange->clock;
-    const int64_t utime = ale_clock_to_utime(clock, ale_clock_now_us(clock));
-    for (int k = 0; k < PARTS_AT_ONCE && map_under_way(telemetry); k++) {
-        ale_bus_send_map_part(telemetry->bus, telemetry->map, utime, telemetry->next_part++);
+    const ale_map_t *map = ale_map_publisher_map(&telemetry->map);
+    if (place && map && telemetry->statistics.state != ALE_STATE_LOST) {
+        ale_last_place_offer(place, map, &telemetry->pose);
     }
 }
 
@@ -237,8 +208,8 @@ static void wait_for_work(ale_telemetry_t *telemetry)
 {
     ale_exchange_t *exchange = telemetry->exchange;
     int64_t wait_ns = ale_max64(telemetry->next_status_ns - ale_rt_now_ns(), 0);
-    if (map_under_way(telemetry)) {
-        wait_ns = ale_min64(wait_ns, PART_NS);
+    if (ale_map_publisher_is_busy(&telemetry->map)) {
+        wait_ns = ale_min64(wait_ns, ALE_MAP_PART_NS);
     }
     wait_ns = ale_exchange_result_wait_ns(exchange, wait_ns);
     if (ale_wake_wait_or_read(exchange->under_way, ale_bus_descriptor(telemetry->bus), wait_ns)) {
@@ -251,7 +222,7 @@ static void work(ale_telemetry_t *telemetry)
     send_results(telemetry);
     watch_scanner(telemetry);
     const int64_t now_ns = ale_rt_now_ns();
-    send_map(telemetry, now_ns);
+    ale_map_publisher_work(&telemetry->map, telemetry->epoch, now_ns);
     ale_commands_work(telemetry->commands);
     telemetry->news = ale_commands_news(telemetry->commands) || telemetry->news;
     if (telemetry->news || telemetry->refusals) {
@@ -283,6 +254,7 @@ static void run(ale_rt_task_t *self, void *user)
         work(telemetry);
     }
     work(telemetry);
+    ale_map_publisher_finish(&telemetry->map, telemetry->epoch);
     keep_map(telemetry);
     send_status(telemetry);
 }
@@ -317,6 +289,7 @@ ale_telemetry_t *ale_telemetry_start(const ale_config_t *config, const ale_keys_
     telemetry->config = config;
     telemetry->exchange = exchange;
     telemetry->bus = bus;
+    ale_map_publisher_init(&telemetry->map, exchange, bus);
     telemetry->realtime = *realtime;
     telemetry->boot = boot_nonce();
     ale_service_open(&telemetry->service);

@@ -1,5 +1,7 @@
 #include "graph/map_record.h"
 
+#include <algorithm>
+
 extern "C" {
 #include "base/fixed.h"
 #include "base/trig.h"
@@ -18,36 +20,38 @@ constexpr int64_t look_wait_us = 5000000;
 
 } // namespace
 
-bool MapRecord::is_worth_a_look(const ale_estimate_t &estimate) const
+bool MapRecord::is_worth_a_look(const ale_sighting_t &sighting) const
 {
-    return looks_.empty() ||
-           !ale_are_near(looks_.back().seen.robot, estimate.map, look_step_um, look_turn_bam) ||
-           ale_abs64(estimate.stamp_us - looks_.back().stamp_us) > look_wait_us;
+    return sights_.empty() || !ale_are_near(looked_from_, sighting.seen.robot, look_step_um, look_turn_bam) ||
+           ale_abs64(sighting.stamp_us - looked_us_) > look_wait_us;
 }
 
-void MapRecord::take(const ale_pipeline_t *pipeline, const ale_estimate_t &estimate)
+void MapRecord::take(const ale_sighting_t &sighting)
 {
-    if (estimate.epoch != epoch_) {
+    if (sighting.epoch != epoch_) {
         *this = MapRecord();
-        epoch_ = estimate.epoch;
+        epoch_ = sighting.epoch;
     }
-    ale_seen_t seen;
-    if (estimate.predicted || estimate.state == ALE_STATE_LOST || !ale_pipeline_seen(pipeline, &seen)) {
-        return;
+    const ale_seen_copy_t &seen = sighting.seen;
+    Sight sight{sighting.scan,
+                sighting.keyframe,
+                sighting.smooth,
+                seen.robot,
+                {sighting.line, sighting.line + sighting.line_count},
+                {sighting.corner, sighting.corner + sighting.corner_count},
+                nullptr};
+    if (is_worth_a_look(sighting)) {
+        sight.look = std::make_unique<ale_seen_copy_t>(seen);
+        looked_from_ = seen.robot;
+        looked_us_ = sighting.stamp_us;
     }
+    sights_.push_back(std::move(sight));
     sensor_ = ale_pose_between(seen.robot, seen.sensor);
-    if (is_worth_a_look(estimate)) {
-        looks_.push_back({estimate.scan, estimate.stamp_us, {}});
-        ale_seen_copy(&looks_.back().seen, &seen);
-    }
-    const auto look = static_cast<uint32_t>(looks_.size() - 1);
-    for (uint32_t i = 0; i < seen.view_count && seen.view[i].kind == ALE_VIEW_WALL; i++) {
-        lines_.push_back({estimate.scan, look, seen.view[i]});
-    }
-    const ale_features_t *features = ale_pipeline_features(pipeline);
-    for (int i = 0; i < features->corner_count; i++) {
-        corners_.push_back({estimate.scan, features->corner[i]});
-    }
+}
+
+void MapRecord::forget(const std::function<bool(const Sight &)> &is_spared)
+{
+    sights_.erase(std::remove_if(sights_.begin(), sights_.end(), is_spared), sights_.end());
 }
 
 } // namespace ale

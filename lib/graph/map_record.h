@@ -1,78 +1,68 @@
-// What the scans of a drive have shown, kept until it is over: from this the map is drawn anew.
+// What the scans of a drive have shown: from this the map is drawn anew.
 //
 //   MapRecord record;
-//   record.take(pipeline, estimate);        (after every scan)
+//   record.take(sighting);        (of every scan that counts)
 //
-// Lines and corners of all scans, about 1 kB a scan, and of some scans all beams (11 kB), a look: they say
-// where nothing stands.
+// Lines and corners of all of them, about 1 kB a scan, and of some all beams (11 kB), a look: they say where
+// nothing stands.
 #ifndef ALE_GRAPH_MAP_RECORD_H
 #define ALE_GRAPH_MAP_RECORD_H
 
 #include <cstdint>
-#include <deque>
+#include <functional>
+#include <memory>
 #include <vector>
 
 extern "C" {
-#include "extract/extract.h"
-#include "track/pipeline.h"
-#include "track/seen.h"
-#include "track/view.h"
+#include "track/sighting.h"
 }
 
 namespace ale
 {
 
-// A line or a corner as one scan showed it. look: index of the last look at or before the scan.
-struct LineSight {
+struct Sight {
     uint32_t scan;
-    uint32_t look;
-    ale_view_t view; // robot's frame
-};
-struct CornerSight {
-    uint32_t scan;
-    ale_corner_t corner; // sensor's frame
-};
-
-struct Look {
-    uint32_t scan;
-    int64_t stamp_us;
-    ale_seen_copy_t seen;
+    uint32_t keyframe;                     // that it belongs to
+    ale_pose_t smooth;                     // where it was taken
+    ale_pose_t tracked;                    // the same, in the map as it was then
+    std::vector<ale_view_t> lines;         // robot's frame
+    std::vector<ale_corner_t> corners;     // sensor's frame
+    std::unique_ptr<ale_seen_copy_t> look; // of some
 };
 
 class MapRecord
 {
   public:
-    // The scan that the pipeline has just answered. Lost and predicted ones are left out; a map begun anew
-    // forgets what was kept.
-    void take(const ale_pipeline_t *pipeline, const ale_estimate_t &estimate);
+    // Of a later scan than the last one. That of a map begun anew forgets what was kept.
+    void take(const ale_sighting_t &sighting);
+
+    // Forgets those for which this holds.
+    void forget(const std::function<bool(const Sight &)> &is_spared);
 
     // Scans ascending.
-    const std::vector<LineSight> &lines() const
+    const std::vector<Sight> &sights() const
     {
-        return lines_;
-    }
-    const std::vector<CornerSight> &corners() const
-    {
-        return corners_;
-    }
-    const std::deque<Look> &looks() const
-    {
-        return looks_;
+        return sights_;
     }
     // Of the laser on the robot.
     const ale_pose_t &sensor() const
     {
         return sensor_;
     }
+    // Of the map; 0 before the first sighting.
+    uint32_t epoch() const
+    {
+        return epoch_;
+    }
 
   private:
-    bool is_worth_a_look(const ale_estimate_t &estimate) const;
+    bool is_worth_a_look(const ale_sighting_t &sighting) const;
 
     uint32_t epoch_ = 0;
     ale_pose_t sensor_{};
-    std::vector<LineSight> lines_;
-    std::vector<CornerSight> corners_;
-    std::deque<Look> looks_;
+    std::vector<Sight> sights_;
+    ale_pose_t looked_from_{};
+    int64_t looked_us_ = 0;
 };
 
 } // namespace ale

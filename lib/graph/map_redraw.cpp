@@ -23,13 +23,12 @@ constexpr int64_t pose_urad = 6000;
 
 constexpr int64_t million = 1000000;
 
-PlacedLine placed(const LineSight &sight, ale_pose_t robot)
+PlacedLine placed(uint32_t scan, const ale_view_t &line, const ale_stand_t &robot)
 {
-    const ale_stand_t stand = ale_stand(robot);
-    const int64_t aside_um = ale_along(sight.view.centre, ale_tangent_bam(sight.view.normal_bam));
+    const int64_t aside_um = ale_along(line.centre, ale_tangent_bam(line.normal_bam));
     const int64_t swung_um = ale_mul_div(aside_um, pose_urad, million);
-    return {sight.scan, sight.look, ale_view_from(&sight.view, &stand),
-            pose_um * pose_um + swung_um * swung_um, pose_urad * pose_urad};
+    return {scan, ale_view_from(&line, &robot), pose_um * pose_um + swung_um * swung_um,
+            pose_urad * pose_urad};
 }
 
 // Offset and angle are told at the middle, where a map that is taken in puts the anchor.
@@ -49,15 +48,18 @@ ale_map_line_t line_of(const WallSpan &span)
 
 } // namespace
 
-void redraw_map(const MapRecord &record, const PoseOfScan &pose_of, ale_map_t *out)
+void redraw_map(const MapRecord &record, const PoseOfSight &pose_of, ale_map_t *out)
 {
     std::vector<PlacedLine> lines;
-    for (const LineSight &sight : record.lines()) {
-        lines.push_back(placed(sight, pose_of(sight.scan)));
-    }
     std::vector<PlacedLook> looks;
-    for (const Look &look : record.looks()) {
-        looks.push_back({&look, ale_pose_compose(pose_of(look.scan), record.sensor())});
+    for (const Sight &sight : record.sights()) {
+        const ale_stand_t robot = ale_stand(pose_of(sight));
+        for (const ale_view_t &line : sight.lines) {
+            lines.push_back(placed(sight.scan, line, robot));
+        }
+        if (sight.look) {
+            looks.push_back({sight.look.get(), ale_pose_compose(robot.pose, record.sensor())});
+        }
     }
     *out = {};
     for (const WallSpan &span : spans_of(group_lines(lines), lines, looks)) {

@@ -167,3 +167,12 @@ ale_mapper_pose_t ale_mapper_pose(const ale_mapper_t *mapper, uint32_t k)
     return {mapper->closer.nodes()[k].scan, ale::to_core(mapper->closer.nodes()[k].smooth),
             ale::to_core(mapper->closer.poses()[k])};
 }
+
+void ale_mapper_poses(const ale_mapper_t *mapper, ale_mapper_poses_t *out)
+{
+    out->epoch = mapper->epoch;
+    out->count = static_cast<uint32_t>(mapper->closer.nodes().size());
+    for (uint32_t k = 0; k < out->count; k++) {
+        out->pose[k] = ale_mapper_pose(mapper, k);
+    }
+}

@@ -48,6 +48,13 @@ typedef struct {
     ale_pose_t pose;   /* map frame, corrected by all loops so far */
 } ale_mapper_pose_t;
 
+/* All keyframes of a map that are held. */
+typedef struct {
+    uint32_t epoch; /* of the map; 0: none yet */
+    uint32_t count;
+    ale_mapper_pose_t pose[ALE_MAPPER_KEYFRAMES]; /* scans ascending */
+} ale_mapper_poses_t;
+
 /* Holds at most so many keyframes, 64..ALE_CORRECTION_SHIFTS (others are taken as the nearest of these). When
  * it is full a new keyframe takes the place of the most redundant one: that with most others near it. NULL:
  * out of memory. */
@@ -71,5 +78,6 @@ ale_mapper_statistics_t ale_mapper_statistics(const ale_mapper_t *mapper);
 
 /* The keyframes of this epoch that are held, in order: k < statistics.keyframes. */
 ale_mapper_pose_t ale_mapper_pose(const ale_mapper_t *mapper, uint32_t k);
+void ale_mapper_poses(const ale_mapper_t *mapper, ale_mapper_poses_t *out);
 
 #endif

@@ -115,27 +115,23 @@ void lead_to(ale_map_t *map, const Meeting &m)
 }
 
 // Corners as the tracker would have averaged them, had it known the poses.
-std::unique_ptr<ale_map_corners_t> averaged(const MapRecord &record, const PoseOfScan &pose_of)
+std::unique_ptr<ale_map_corners_t> averaged(const MapRecord &record, const PoseOfSight &pose_of)
 {
     auto corners = std::make_unique<ale_map_corners_t>();
     auto features = std::make_unique<ale_features_t>();
     ale_map_corners_clear(corners.get());
-    const std::vector<CornerSight> &seen = record.corners();
-    for (size_t k = 0; k < seen.size();) {
-        const uint32_t scan = seen[k].scan;
-        features->corner_count = 0;
-        for (; k < seen.size() && seen[k].scan == scan; k++) {
-            features->corner[features->corner_count++] = seen[k].corner;
-        }
+    for (const Sight &sight : record.sights()) {
+        std::copy(sight.corners.begin(), sight.corners.end(), features->corner);
+        features->corner_count = static_cast<uint16_t>(sight.corners.size());
         ale_map_corners_update(corners.get(), features.get(),
-                               ale_pose_compose(pose_of(scan), record.sensor()), scan, true);
+                               ale_pose_compose(pose_of(sight), record.sensor()), sight.scan, true);
     }
     return corners;
 }
 
 } // namespace
 
-void meet_corners(const MapRecord &record, const PoseOfScan &pose_of, ale_map_t *map)
+void meet_corners(const MapRecord &record, const PoseOfSight &pose_of, ale_map_t *map)
 {
     const std::unique_ptr<ale_map_corners_t> seen = averaged(record, pose_of);
     std::stable_sort(seen->corner, seen->corner + seen->count,

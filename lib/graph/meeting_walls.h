@@ -3,14 +3,14 @@
 #define ALE_GRAPH_MEETING_WALLS_H
 
 #include "graph/map_record.h"
-#include "graph/pose_of_scan.h"
+#include "graph/pose_of_sight.h"
 
 namespace ale
 {
 
 // Fills the corners of *map, and leads its lines to them. A corner that was seen too seldom, or that no two
 // lines of the map make, is left out. O(corners seen * corners of the map + corners * lines^2).
-void meet_corners(const MapRecord &record, const PoseOfScan &pose_of, ale_map_t *map);
+void meet_corners(const MapRecord &record, const PoseOfSight &pose_of, ale_map_t *map);
 
 } // namespace ale
 

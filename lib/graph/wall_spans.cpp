@@ -63,10 +63,10 @@ class Cells
 
     void look(const PlacedLook &from)
     {
-        const uint32_t *bearing_bam = ale_seen_bearings(&from.look->seen);
+        const uint32_t *bearing_bam = ale_seen_bearings(from.seen);
         for (size_t k = 0; k < cells_.size(); k++) {
             const ale_sight_t sight =
-                ale_wall_point_sight(&wall_, middle_um(k), &from.look->seen.scan, bearing_bam, from.sensor);
+                ale_wall_point_sight(&wall_, middle_um(k), &from.seen->scan, bearing_bam, from.sensor);
             cells_[k].there += sight == ALE_SIGHT_SUPPORTED;
             cells_[k].through += sight == ALE_SIGHT_THROUGH;
         }
@@ -135,7 +135,7 @@ bool may_see(const PlacedLook &from, const ale_wall_t &wall)
 {
     const ale_point_t at = {from.sensor.x_um, from.sensor.y_um};
     const int64_t height_um = ale_wall_offset(&wall, at);
-    const int64_t reach_um = from.look->seen.scan.range_max_um;
+    const int64_t reach_um = from.seen->scan.range_max_um;
     const int64_t t_um = ale_wall_along(&wall, at);
     return height_um > 0 && height_um < reach_um && t_um > wall.start_um - reach_um &&
            t_um < wall.end_um + reach_um;

@@ -16,7 +16,7 @@ namespace ale
 
 // A look, and where its laser was.
 struct PlacedLook {
-    const Look *look;
+    const ale_seen_copy_t *seen;
     ale_pose_t sensor;
 };
 

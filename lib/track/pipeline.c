@@ -96,9 +96,11 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
     ale_elders_clear(&pipeline->elders);
     pipeline->started = false;
     pipeline->looked = false;
+    pipeline->loaded = false;
     pipeline->epoch++;
     pipeline->corrections = 0;
     pipeline->keyframes = 0;
+    pipeline->keyframe_scan = 0;
     pipeline->broken = false;
     pipeline->moved = false;
     pipeline->claims = 0;
@@ -255,6 +257,7 @@ void ale_pipeline_load_map(ale_pipeline_t *pipeline, const ale_map_t *map, ale_p
 {
     ale_pipeline_reset(pipeline);
     ale_map_take_in(&pipeline->map, map);
+    pipeline->loaded = true;
     ale_motion_init(&pipeline->motion, 0, pose, START_SPEED_MM_S, START_TURN_MRAD_S);
     ale_smooth_init(&pipeline->smooth, pose);
     pipeline->tracker.state = ALE_STATE_LOST;

@@ -8,6 +8,7 @@
 #include "track/keyframe.h"
 #include "track/pipeline.h"
 #include "track/pipeline_state.h"
+#include "track/sighting.h"
 
 enum {
     LOOP_SIGMA_UM = 30000, /* how well a corrected pose lies to the walls that it comes back to */
@@ -49,8 +50,39 @@ bool ale_pipeline_keyframe(ale_pipeline_t *p, ale_keyframe_t *out)
     memcpy(out->bearing_bam, p->bearing_bam, sizeof out->bearing_bam);
     out->features = p->features;
     p->keyframe_smooth = p->smooth.pose;
+    p->keyframe_scan = out->scan;
     p->keyframes++;
     p->broken = false;
+    return true;
+}
+
+static void copy_lines(const ale_seen_t *seen, ale_sighting_t *out)
+{
+    out->line_count = 0;
+    for (uint32_t i = 0; i < seen->view_count; i++) {
+        if (seen->view[i].kind == ALE_VIEW_WALL) {
+            out->line[out->line_count++] = seen->view[i];
+        }
+    }
+}
+
+bool ale_pipeline_sighting(const ale_pipeline_t *p, ale_sighting_t *out)
+{
+    ale_seen_t seen;
+    const bool tied = p->keyframes > 0 && !p->broken;
+    if (!tied || p->frozen || p->loaded || p->tracker.state == ALE_STATE_LOST ||
+        !ale_pipeline_seen(p, &seen)) {
+        return false;
+    }
+    out->epoch = p->epoch;
+    out->scan = p->scans - 1;
+    out->keyframe = p->keyframe_scan;
+    out->stamp_us = p->scan.stamp_us;
+    out->smooth = p->smooth.pose;
+    copy_lines(&seen, out);
+    out->corner_count = (uint32_t)ale_min64(p->features.corner_count, ALE_CORNERS_PER_SCAN);
+    memcpy(out->corner, p->features.corner, out->corner_count * sizeof out->corner[0]);
+    ale_seen_copy(&out->seen, &seen);
     return true;
 }
 

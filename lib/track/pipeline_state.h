@@ -62,11 +62,13 @@ struct ale_pipeline {
     bool started; /* the first scan has set the origin */
     bool looked;  /* the last answer had a scan */
     bool frozen;  /* pure localisation: the map stays as it is */
+    bool loaded;  /* the map was begun by somebody else */
 
     /* between the pipeline and the mapper: see pipeline_mapper.c */
     uint32_t epoch;
     uint32_t corrections;
     uint32_t keyframes;
+    uint32_t keyframe_scan;
     ale_pose_t keyframe_smooth;
     bool broken; /* since the last keyframe: see ale_keyframe_t */
     bool moved;  /* the map pose was put elsewhere: how it settles there is no way of the robot */

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <thread>
@@ -134,6 +135,27 @@ TEST_F(Estimate, ACorrectionTakesEffectAtTheScanItIsDueAtAndIsToldWithIt)
         EXPECT_EQ(ale_ring_ready(exchange.corrections), k < 5 ? 1U : 0U);
     }
     EXPECT_EQ(result->correction.x_um, 300000);
+}
+
+TEST_F(Estimate, WhatScansHaveShownIsToldAtFirstAndThenWhenTheRobotHasGoneOnOrStoodForAWhile)
+{
+    const auto told_after = [&](int64_t stamp_us, double x) {
+        EXPECT_TRUE(push(stamp_us, false, x));
+        ale_estimator_step(estimator);
+        auto result = std::make_unique<ale_result_t>();
+        EXPECT_TRUE(pop(*result));
+        return ale_ring_ready(exchange.sightings);
+    };
+    for (int k = 1; k <= 10; k++) {
+        EXPECT_EQ(told_after(kPeriod * k, 0), std::min<uint32_t>(k, 3));
+    }
+    EXPECT_EQ(told_after(kPeriod * 11, 0.05), 3U);
+    EXPECT_EQ(told_after(kPeriod * 12, 0.15), 4U);
+    EXPECT_EQ(told_after(kPeriod * 13, 0.15), 4U);
+    EXPECT_EQ(told_after(kPeriod * 63, 0.15), 5U);
+    const auto *last = static_cast<ale_sighting_t *>(ale_ring_at(exchange.sightings, 4));
+    EXPECT_EQ(last->scan, 13U);
+    EXPECT_GE(last->line_count, 3U);
 }
 
 TEST_F(Estimate, ALostScanIsAnsweredByPrediction)

@@ -68,6 +68,7 @@ class Replay
 
     std::optional<Loops> loops_;
     std::optional<MapRecord> record_; /* when a map is asked for that may be drawn anew */
+    std::unique_ptr<ale_sighting_t> sighting_ = std::make_unique<ale_sighting_t>();
     std::vector<ScanPose> track_;
     StageClock clock_;
     ReplayCounts counts_;
@@ -192,8 +193,8 @@ void Replay::put_estimate(const ale_estimate_t &estimate)
     if (loops_) {
         loops_->after_scan(pipeline_.get(), estimate);
     }
-    if (record_) {
-        record_->take(pipeline_.get(), estimate);
+    if (record_ && ale_pipeline_sighting(pipeline_.get(), sighting_.get())) {
+        record_->take(*sighting_);
     }
     track_.push_back({estimate.stamp_us, estimate.map, estimate.velocity_x_um_s, estimate.velocity_y_um_s,
                       estimate.velocity_theta_urad_s, !estimate.predicted});
@@ -255,7 +256,7 @@ void Replay::draw_maps()
     ale_pipeline_copy_map(pipeline_.get(), map.get());
     if (record_) {
         redraw_map(
-            *record_, [this](uint32_t scan) { return track_[scan].robot; }, map.get());
+            *record_, [this](const Sight &sight) { return track_[sight.scan].robot; }, map.get());
     }
     if (!options_.save_map.empty()) {
         char error[ALE_MAP_FILE_ERROR];

@@ -27,7 +27,6 @@ inline ale::PlacedLine line(uint32_t scan, double normal_deg, double from_m, dou
     const uint32_t normal_bam = bam_of_degrees(normal_deg);
     const auto half_um = static_cast<int32_t>((to_m - from_m) * 5e5);
     placed.scan = scan;
-    placed.look = scan / 5;
     placed.view.centre =
         ale_plus(ale_polar(static_cast<int64_t>((from_m + to_m) * 5e5), ale_tangent_bam(normal_bam)),
                  ale_polar(static_cast<int64_t>(off_mm * 1000), normal_bam));

@@ -1,39 +1,27 @@
 // lib/graph/map_redraw: a drive in a made room, drawn anew, against the room.
 #include <gtest/gtest.h>
 
-#include "../track/room.h"
+#include "drawn_walls.hpp"
 #include "graph/map_redraw.h"
+#include "room_drive.hpp"
 
 namespace
 {
 
-constexpr double start_s = 1;
+using drawn_walls::distance_m;
+using drawn_walls::length_m;
 
-struct Drive {
+struct Drive : RoomDrive {
     ale::MapRecord record;
-    std::vector<ale_pose_t> truth; // by scan, in the frame of the room
-    std::vector<ale_estimate_t> estimates;
 
-    // `walls_at`: what stands there at a scan.
-    template <typename WallsAt> Drive(int scans, WallsAt walls_at)
+    template <typename WallsAt> Drive(int scans, WallsAt walls_at) : RoomDrive(scans, walls_at)
     {
-        std::mt19937 rng(7);
-        room::Sensor sensor;
-        sensor.noise = 0.008;
-        const ale_pipeline_config_t config = ale_pipeline_default_config();
-        const room::Pipeline pipeline = room::make(config);
-        for (int k = 0; k < scans; k++) {
-            const double t = start_s + 0.1 * k;
-            const ale_scan_t scan = room::scan_at(walls_at(k), sensor, room::path, t, rng);
-            ale_estimate_t estimate;
-            ale_pipeline_scan(pipeline.get(), &scan, &estimate);
-            record.take(pipeline.get(), estimate);
-            truth.push_back(convert::pose(room::path(t)));
-            estimates.push_back(estimate);
+        for (const auto &sighting : sightings) {
+            record.take(*sighting);
         }
     }
 
-    std::unique_ptr<ale_map_t> drawn(const ale::PoseOfScan &pose_of) const
+    std::unique_ptr<ale_map_t> drawn(const ale::PoseOfSight &pose_of) const
     {
         auto map = std::make_unique<ale_map_t>();
         ale::redraw_map(record, pose_of, map.get());
@@ -41,41 +29,9 @@ struct Drive {
     }
     std::unique_ptr<ale_map_t> drawn() const
     {
-        return drawn([this](uint32_t scan) { return truth[scan]; });
+        return drawn([this](const ale::Sight &sight) { return truth[sight.scan]; });
     }
 };
-
-double distance_m(const room::Wall &w, ale_point_t p)
-{
-    const Eigen::Vector2d a(w.x1, w.y1);
-    const Eigen::Vector2d d = Eigen::Vector2d(w.x2, w.y2) - a;
-    const Eigen::Vector2d q = Eigen::Vector2d(p.x_um, p.y_um) * 1e-6 - a;
-    const double u = std::min(1.0, std::max(0.0, q.dot(d) / d.squaredNorm()));
-    return (q - u * d).norm();
-}
-
-double distance_m(const std::vector<room::Wall> &walls, ale_point_t p)
-{
-    double least = 1e9;
-    for (const room::Wall &wall : walls) {
-        least = std::min(least, distance_m(wall, p));
-    }
-    return least;
-}
-
-double length_m(const ale_map_line_t &line)
-{
-    return std::hypot(line.end.x_um - line.start.x_um, line.end.y_um - line.start.y_um) * 1e-6;
-}
-
-double length_m(const ale_map_t &map)
-{
-    double sum = 0;
-    for (int k = 0; k < map.line_count; k++) {
-        sum += length_m(map.line[k]);
-    }
-    return sum;
-}
 
 const Drive &plain_drive()
 {
@@ -127,7 +83,8 @@ TEST(MapRedraw, TheMapFollowsThePoses)
     const Drive &drive = plain_drive();
     const ale_pose_t moved = convert::pose(reference::Pose(12, -7, 2));
     const auto here = drive.drawn();
-    const auto there = drive.drawn([&](uint32_t scan) { return ale_pose_compose(moved, drive.truth[scan]); });
+    const auto there = drive.drawn(
+        [&](const ale::Sight &sight) { return ale_pose_compose(moved, drive.truth[sight.scan]); });
     ASSERT_EQ(there->line_count, here->line_count);
     for (int k = 0; k < here->line_count; k++) {
         const ale_point_t p = ale_pose_apply(moved, here->line[k].start);
@@ -141,8 +98,9 @@ TEST(MapRedraw, WallsStaySingleWhereVisitsDoNotLieOnEachOther)
 {
     const Drive &drive = plain_drive();
     const ale_pose_t aside = convert::pose(reference::Pose(0.14, 0.14, 0));
-    const auto map = drive.drawn([&](uint32_t scan) {
-        return scan < 40 ? drive.truth[scan] : ale_pose_compose(aside, drive.truth[scan]);
+    const auto map = drive.drawn([&](const ale::Sight &sight) {
+        const ale_pose_t truth = drive.truth[sight.scan];
+        return sight.scan < 40 ? truth : ale_pose_compose(aside, truth);
     });
     EXPECT_LT(length_m(*map), length_m(*drive.drawn()) * 1.1);
 }
@@ -172,7 +130,7 @@ TEST(MapRedraw, WithoutScansThereIsNoMap)
 {
     ale_map_t map;
     ale::redraw_map(
-        ale::MapRecord(), [](uint32_t) { return ale_pose_t{}; }, &map);
+        ale::MapRecord(), [](const ale::Sight &) { return ale_pose_t{}; }, &map);
     EXPECT_EQ(map.line_count + map.corner_count, 0);
 }
 

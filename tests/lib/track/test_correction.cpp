@@ -9,6 +9,7 @@ extern "C" {
 #include "track/correction.h"
 #include "track/keyframe.h"
 #include "track/local_map.h"
+#include "track/sighting.h"
 }
 
 namespace
@@ -161,6 +162,50 @@ TEST(Correction, ARobotThatIsShownWhereItStandsGoesOnFromThere)
     const reference::Pose truth = room::since_start(room::path(1), room::path(1 + 0.1 * (d.next - 1)));
     EXPECT_LT((convert::pose(d.last.map) - truth).head<2>().norm(), 0.01);
     EXPECT_EQ(d.last.state, ALE_STATE_GOOD);
+}
+
+TEST(Sighting, ItHoldsWhatTheScanHasShownAndTheKeyframeItBelongsTo)
+{
+    Driven d;
+    d.drive(20);
+    auto sighting = std::make_unique<ale_sighting_t>();
+    ASSERT_TRUE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
+    EXPECT_EQ(sighting->scan, 19U);
+    EXPECT_EQ(sighting->epoch, d.last.epoch);
+    EXPECT_EQ(sighting->keyframe, d.keyframes.back());
+    EXPECT_EQ(sighting->stamp_us, d.last.stamp_us);
+    EXPECT_EQ(std::memcmp(&sighting->smooth, &d.last.smooth, sizeof(ale_pose_t)), 0);
+    EXPECT_EQ(std::memcmp(&sighting->seen.robot, &d.last.map, sizeof(ale_pose_t)), 0);
+    EXPECT_EQ(sighting->seen.scan.beams, 682);
+    EXPECT_EQ(sighting->line_count, ale_pipeline_features(d.pipeline.get())->line_count);
+    EXPECT_EQ(sighting->corner_count, ale_pipeline_features(d.pipeline.get())->corner_count);
+}
+
+TEST(Sighting, ThereIsNoneOfAScanThatWasLost)
+{
+    Driven d;
+    d.drive(20);
+    ale_pipeline_dropped(d.pipeline.get(), d.last.stamp_us + 100000, &d.last);
+    auto sighting = std::make_unique<ale_sighting_t>();
+    EXPECT_FALSE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
+}
+
+TEST(Sighting, ThereIsNoneForAMapThatIsFrozenOrWasLoaded)
+{
+    Driven d;
+    d.drive(20);
+    auto sighting = std::make_unique<ale_sighting_t>();
+    ale_pipeline_freeze_map(d.pipeline.get(), true);
+    EXPECT_FALSE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
+    ale_pipeline_freeze_map(d.pipeline.get(), false);
+    EXPECT_TRUE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
+    ale_pipeline_load_map(d.pipeline.get(), d.map().get(), d.last.map, true);
+    d.drive(10);
+    ASSERT_NE(d.last.state, ALE_STATE_LOST);
+    EXPECT_FALSE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
+    ale_pipeline_reset(d.pipeline.get());
+    d.drive(1);
+    EXPECT_TRUE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
 }
 
 } // namespace

@@ -1,0 +1,102 @@
+#include "map_drawer.h"
+
+#include <stdlib.h>
+
+#include "base/fixed.h"
+#include "estimate.h"
+#include "graph/live_map.h"
+#include "wake.h"
+
+#define LOOK_NS 50000000
+
+enum { IDLE_PARTS = 9 }; /* of a drawing's time, before the next one */
+
+struct ale_map_drawer {
+    ale_exchange_t *exchange;
+    ale_live_map_t *live;
+    int wanted; /* posted to end the wait */
+    ale_rt_task_t *task;
+    bool changed; /* since the last drawing */
+    int64_t next_ns;
+};
+
+static void take(ale_map_drawer_t *drawer)
+{
+    ale_ring_t *sightings = drawer->exchange->sightings;
+    for (uint32_t ready = ale_ring_ready(sightings); ready > 0; ready--) {
+        ale_live_map_take(drawer->live, ale_ring_at(sightings, 0));
+        ale_ring_release(sightings);
+        drawer->changed = true;
+    }
+}
+
+static void draw(ale_map_drawer_t *drawer)
+{
+    ale_exchange_t *exchange = drawer->exchange;
+    bool moved = false;
+    const ale_mapper_poses_t *poses = ale_snapshot_newest(exchange->keyframe_poses, &moved);
+    if (!drawer->changed && !moved) {
+        return;
+    }
+    const int64_t start_ns = ale_rt_now_ns();
+    ale_drawn_map_t *drawn = ale_snapshot_back(exchange->drawn_map);
+    if (ale_live_map_draw(drawer->live, poses, &drawn->map)) {
+        drawn->epoch = poses->epoch;
+        ale_snapshot_publish(exchange->drawn_map);
+    }
+    drawer->changed = false;
+    const int64_t now_ns = ale_rt_now_ns();
+    drawer->next_ns = now_ns + ale_max64(ALE_MAP_PERIOD_NS, IDLE_PARTS * (now_ns - start_ns));
+}
+
+static void run(ale_rt_task_t *self, void *user)
+{
+    ale_map_drawer_t *drawer = user;
+    while (!ale_rt_task_stopping(self)) {
+        take(drawer);
+        if (ale_rt_now_ns() >= drawer->next_ns) {
+            draw(drawer);
+        }
+        ale_wake_wait(drawer->wanted, LOOK_NS);
+    }
+    take(drawer);
+    draw(drawer);
+}
+
+ale_map_drawer_t *ale_map_drawer_start(ale_exchange_t *exchange)
+{
+    ale_map_drawer_t *drawer = calloc(1, sizeof *drawer);
+    if (!drawer) {
+        return NULL;
+    }
+    drawer->exchange = exchange;
+    drawer->live = ale_live_map_create();
+    drawer->wanted = ale_wake_open();
+    if (drawer->live && drawer->wanted >= 0) {
+        drawer->task = ale_rt_task_start(&(ale_rt_task_config_t){.name = "ale-drawer",
+                                                                 .kind = ALE_RT_BACKGROUND,
+                                                                 .body = run,
+                                                                 .user = drawer,
+                                                                 .heap_bytes = ALE_LIVE_MAP_HEAP_BYTES});
+    }
+    if (!drawer->task) {
+        ale_map_drawer_stop(drawer);
+        return NULL;
+    }
+    return drawer;
+}
+
+void ale_map_drawer_stop(ale_map_drawer_t *drawer)
+{
+    if (!drawer) {
+        return;
+    }
+    if (drawer->task) {
+        ale_rt_task_stop(drawer->task);
+        ale_wake_post(drawer->wanted);
+        ale_rt_task_join(drawer->task);
+    }
+    ale_wake_close(drawer->wanted);
+    ale_live_map_destroy(drawer->live);
+    free(drawer);
+}

@@ -1,0 +1,30 @@
+/* What one scan has shown, by value: handed from the estimate task to those who draw the map anew.
+ *
+ * It says where its scan was taken by the smooth pose, relative to the keyframe that it belongs to: when that
+ * is corrected, the sighting moves with it. */
+#ifndef ALE_TRACK_SIGHTING_H
+#define ALE_TRACK_SIGHTING_H
+
+#include <stdint.h>
+
+#include "base/pose.h"
+#include "extract/extract.h"
+#include "track/map_corner.h"
+#include "track/pipeline.h"
+#include "track/seen.h"
+#include "track/view.h"
+
+struct ale_sighting {
+    uint32_t epoch; /* of the map */
+    uint32_t scan;
+    uint32_t keyframe; /* the scan of the last one at or before this scan */
+    int64_t stamp_us;
+    ale_pose_t smooth;
+    uint32_t line_count;
+    ale_view_t line[ALE_MAX_VIEWS]; /* robot's frame */
+    uint32_t corner_count;
+    ale_corner_t corner[ALE_CORNERS_PER_SCAN]; /* sensor's frame */
+    ale_seen_copy_t seen;                      /* at its map pose */
+};
+
+#endif
