@@ -8,20 +8,21 @@
 
 #define IDLE_NS 100000000
 
-/* What a scan has shown is worth telling when the robot has gone on so far, or turned; where it stays, now
- * and then; and at first, so that walls are seen often enough to count. */
+/* What a scan has shown is worth telling when the robot has gone on so far, or turned. Where it stays: soon
+ * again, so that walls are seen often enough to count, and then now and then. */
 enum {
     SIGHTING_STEP_UM = 100000,
     SIGHTING_TURN_BAM = 100 * ALE_BAM_PER_MRAD,
-    SIGHTINGS_AT_FIRST = 3,
+    SIGHTINGS_SOON = 3,
+    SIGHTING_SOON_US = 300000,
     SIGHTING_WAIT_US = 5000000
 };
 
 /* The last sighting that was handed over. */
 typedef struct {
     uint32_t epoch;
-    uint32_t count; /* of this epoch */
     ale_pose_t from;
+    uint32_t count; /* from there */
     int64_t stamp_us;
 } ale_told_t;
 
@@ -142,24 +143,27 @@ static void offer_keyframe(ale_estimator_t *estimator)
     }
 }
 
-static bool is_worth_telling(const ale_told_t *told, const ale_estimate_t *estimate)
+static bool is_still_there(const ale_told_t *told, const ale_estimate_t *estimate)
 {
-    return told->epoch != estimate->epoch || told->count < SIGHTINGS_AT_FIRST ||
-           !ale_are_near(told->from, estimate->smooth, SIGHTING_STEP_UM, SIGHTING_TURN_BAM) ||
-           ale_abs64(estimate->stamp_us - told->stamp_us) > SIGHTING_WAIT_US;
+    return told->epoch == estimate->epoch &&
+           ale_are_near(told->from, estimate->smooth, SIGHTING_STEP_UM, SIGHTING_TURN_BAM);
 }
 
 static void offer_sighting(ale_estimator_t *estimator, const ale_estimate_t *estimate)
 {
     ale_told_t *told = &estimator->told;
-    if (!is_worth_telling(told, estimate)) {
+    const bool there = is_still_there(told, estimate);
+    const int64_t wait_us = told->count < SIGHTINGS_SOON ? SIGHTING_SOON_US : SIGHTING_WAIT_US;
+    if (there && ale_abs64(estimate->stamp_us - told->stamp_us) < wait_us) {
         return;
     }
     ale_sighting_t *slot = ale_ring_reserve(estimator->exchange->sightings);
     if (slot && ale_pipeline_sighting(estimator->pipeline, slot)) {
         ale_ring_commit(estimator->exchange->sightings);
-        const uint32_t before = told->epoch == estimate->epoch ? told->count : 0;
-        *told = (ale_told_t){estimate->epoch, before + 1, estimate->smooth, estimate->stamp_us};
+        *told = (ale_told_t){.epoch = estimate->epoch,
+                             .from = there ? told->from : estimate->smooth,
+                             .count = there ? told->count + 1 : 1,
+                             .stamp_us = estimate->stamp_us};
     }
 }
 

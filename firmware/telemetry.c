@@ -194,11 +194,12 @@ static void take_command(void *user, const uint8_t *bytes, size_t count)
     telemetry->news = ale_commands_news(telemetry->commands);
 }
 
-/* The newest map with the newest pose in it; while lost, what was kept before stays. */
+/* The newest pose with the map that it was found in, which is the tracker's; while lost, what was kept before
+ * stays. */
 static void keep_map(ale_telemetry_t *telemetry)
 {
     ale_last_place_t *place = telemetry->exchange->last_place;
-    const ale_map_t *map = ale_map_publisher_map(&telemetry->map);
+    const ale_map_t *map = ale_map_publisher_tracked(&telemetry->map);
     if (place && map && telemetry->statistics.state != ALE_STATE_LOST) {
         ale_last_place_offer(place, map, &telemetry->pose);
     }

@@ -91,6 +91,8 @@ TEST_F(MapPublisher, TheTrackersMapIsShownUntilThereIsADrawing)
     track(6);
     later();
     EXPECT_EQ(lines(), 3) << "whatever the tracker's does meanwhile";
+    EXPECT_EQ(ale_map_publisher_tracked(publisher.get())->line_count, 6)
+        << "which is there, too, for those who go on from it";
     draw(2);
     later();
     EXPECT_EQ(lines(), 2);
