@@ -105,12 +105,12 @@ def test_a_signal_ends_it_with_its_files_written(lcm_url, robot, tmp_path, numbe
     assert len(path.read_text().splitlines()) == 5
 
 
-def test_a_file_that_cannot_be_written_is_named(lcm_url, robot, tmp_path):
-    path = tmp_path / "absent" / "t.tum"
-    watch = Watch(lcm_url, "--until-silent", 0.3, "--trajectory", path)
-    robot.drive(2)
-    code, _, err = watch.end()
-    assert code == 1 and str(path) in err
+@pytest.mark.parametrize("option, name", [("--trajectory", "t.tum"), ("--csv", "t.csv"), ("--map", "m.png")])
+def test_a_file_that_cannot_be_written_is_named_before_anything_is_waited_for(lcm_url, tmp_path, option, name):
+    path = tmp_path / "absent" / name
+    watch = Watch(lcm_url, option, path)
+    code, lines, _ = watch.end()
+    assert code == 1 and str(path) in watch.messages and lines == []
 
 
 def test_missing_and_predicted_poses_are_counted(lcm_url, robot):

@@ -1,9 +1,14 @@
 /* ale-watch: what the robot publishes, as one line a second and as files at the end. */
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
+
+#include <unistd.h>
 
 #include "cli/interrupt.h"
 #include "cli/robot_files.h"
@@ -75,6 +80,27 @@ void watch_robot(const Options &options, console::LcmFeed &feed, watch::Record &
     }
 }
 
+/* A drive is long: that its files cannot be written is told before it. */
+void require_folder(const std::string &path)
+{
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    if (access(folder.empty() ? "." : folder.c_str(), W_OK) < 0) {
+        throw std::system_error(errno, std::generic_category(), path);
+    }
+}
+
+void require_folders(const Options &options)
+{
+    for (const std::string &path : options.maps) {
+        require_folder(path);
+    }
+    for (const std::string &path : {options.trajectory, options.csv}) {
+        if (!path.empty()) {
+            require_folder(path);
+        }
+    }
+}
+
 void write_files(const Options &options, const watch::Record &record)
 {
     if (!options.trajectory.empty()) {
@@ -90,6 +116,7 @@ void write_files(const Options &options, const watch::Record &record)
 
 void run(const Options &options)
 {
+    require_folders(options);
     console::LcmFeed feed(options.lcm_url);
     watch::Record record;
     record.subscribe(feed);
