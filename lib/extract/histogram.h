@@ -18,7 +18,7 @@ static inline uint32_t ale_histogram_bin(uint64_t v)
     return (octave << 2) + (uint32_t)(from_four >> octave) - 4;
 }
 
-/* The value below which percent of the samples lie. samples: the sum of bins, > 0. O(bins). */
+/* The value below which percent, > 0, of the samples lie. samples: the sum of bins, > 0. O(bins). */
 int64_t ale_histogram_quantile(const uint16_t bins[ALE_HISTOGRAM_BINS], int32_t samples, int32_t percent);
 
 #endif
