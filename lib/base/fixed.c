@@ -58,10 +58,31 @@ uint32_t ale_isqrt(uint64_t v)
     return (uint32_t)(root >> (shift / 2));
 }
 
+/* Products of 82 bits are made of two halves, each in 64 bits: a b = (a b_high) 2^20 + a b_low. */
+enum { HALF_BITS = 20, MIDDLE_FACTOR_BITS = 42, MIDDLE_BITS = 82 };
+
+static bool is_middle(uint64_t a, uint64_t b, unsigned shift)
+{
+    const unsigned bits = ale_bit_length(a);
+    return bits <= MIDDLE_FACTOR_BITS && bits + ale_bit_length(b) <= MIDDLE_BITS && shift > HALF_BITS &&
+           shift <= 62;
+}
+
+static uint64_t middle_mul_shift(uint64_t a, uint64_t b, unsigned shift)
+{
+    const uint64_t low = a * (b & (((uint64_t)1 << HALF_BITS) - 1)) + ((uint64_t)1 << (shift - 1));
+    return (a * (b >> HALF_BITS) + (low >> HALF_BITS)) >> (shift - HALF_BITS);
+}
+
 int64_t ale_wide_mul_shift(int64_t a, int64_t b, unsigned shift)
 {
     const bool negative = (a < 0) != (b < 0);
-    wide_t p = wide_multiply(magnitude(a), magnitude(b));
+    const uint64_t size_a = magnitude(a);
+    const uint64_t size_b = magnitude(b);
+    if (is_middle(size_a, size_b, shift)) {
+        return signed_saturated(middle_mul_shift(size_a, size_b, shift), negative);
+    }
+    wide_t p = wide_multiply(size_a, size_b);
     if (shift == 0) {
         return signed_saturated(p.high != 0 ? UINT64_MAX : p.low, negative);
     }

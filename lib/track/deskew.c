@@ -3,7 +3,13 @@
 #include "base/fixed.h"
 #include "base/trig.h"
 
-enum { BAM_PER_RAD = 683565276, NEAREST_UM = 10000, RESTING_UM = 20, KNOT_BEAMS = 64 };
+enum {
+    BAM_PER_RAD = 683565276,
+    NEAREST_UM = 10000,
+    RESTING_UM = 20,
+    KNOT_BITS = 6,
+    KNOT_BEAMS = 1 << KNOT_BITS
+};
 
 void ale_sensor_velocity(const int32_t robot_velocity[ALE_AXES], ale_pose_t sensor, int32_t out[ALE_AXES])
 {
@@ -29,8 +35,9 @@ static bool rests(const ale_scan_t *scan, const int32_t v[ALE_AXES])
  * sqrt(1 + z^2). */
 static void move_beam(int32_t *range_um, uint32_t *bearing_bam, ale_pose_t moved)
 {
-    const int64_t c = ale_cos_q30(*bearing_bam);
-    const int64_t s = ale_sin_q30(*bearing_bam);
+    const ale_direction_t d = ale_direction(*bearing_bam);
+    const int64_t c = d.cos_q30;
+    const int64_t s = d.sin_q30;
     const int64_t along_um = ale_round_shift(c * moved.x_um + s * moved.y_um, 30);
     const int64_t across_um = ale_round_shift(c * moved.y_um - s * moved.x_um, 30);
     const int64_t reach_um = ale_max64(*range_um + along_um, NEAREST_UM);
@@ -49,9 +56,9 @@ static void move_beam(int32_t *range_um, uint32_t *bearing_bam, ale_pose_t moved
 static ale_pose_t between_knots(ale_pose_t a, ale_pose_t b, int32_t step)
 {
     const int64_t turn = (int64_t)ale_bam_diff(b.theta_bam, a.theta_bam) * step;
-    return (ale_pose_t){a.x_um + (int32_t)ale_round_div(((int64_t)b.x_um - a.x_um) * step, KNOT_BEAMS),
-                        a.y_um + (int32_t)ale_round_div(((int64_t)b.y_um - a.y_um) * step, KNOT_BEAMS),
-                        a.theta_bam + (uint32_t)(uint64_t)ale_round_div(turn, KNOT_BEAMS)};
+    return (ale_pose_t){a.x_um + (int32_t)ale_round_shift(((int64_t)b.x_um - a.x_um) * step, KNOT_BITS),
+                        a.y_um + (int32_t)ale_round_shift(((int64_t)b.y_um - a.y_um) * step, KNOT_BITS),
+                        a.theta_bam + (uint32_t)(uint64_t)ale_round_shift(turn, KNOT_BITS)};
 }
 
 static ale_pose_t knot(const ale_scan_t *scan, const int32_t v[ALE_AXES], int32_t beam)

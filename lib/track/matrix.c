@@ -70,17 +70,28 @@ static int32_t normalise(const ale_factors_t *f, const int64_t b[ALE_STATES], in
     return gain;
 }
 
+/* What stands before it stays zero on the way down: the columns of an inverse have half of that way. */
+static int first_not_zero(const int64_t b[ALE_STATES])
+{
+    int i = 0;
+    while (i < ALE_STATES && b[i] == 0) {
+        i++;
+    }
+    return i;
+}
+
 void ale_matrix_solve(const ale_factors_t *factors, const int64_t b[ALE_STATES], int32_t shift,
                       int64_t x[ALE_STATES])
 {
     int64_t y[ALE_STATES];
     const int32_t gain = normalise(factors, b, y);
-    for (int i = 0; i < ALE_STATES; i++) {
-        for (int k = 0; k < i; k++) {
+    const int first = first_not_zero(b);
+    for (int i = first + 1; i < ALE_STATES; i++) {
+        for (int k = first; k < i; k++) {
             y[i] -= ale_mul_shift(factors->lower_q40[i][k], y[k], LOWER_BITS);
         }
     }
-    for (int i = 0; i < ALE_STATES; i++) {
+    for (int i = first; i < ALE_STATES; i++) {
         const int32_t bits = (int32_t)factors->reciprocal_bits[i] - UNIT_BITS;
         y[i] = ale_mul_shift(y[i], factors->reciprocal[i], (unsigned)bits);
     }
