@@ -53,20 +53,26 @@ void ale_lag_turn(ale_lag_t *lag, uint32_t turn_bam)
     }
 }
 
+/* How far the row has been walked: to its heading number `at`, `turned_urad` from the first to the one
+ * before. */
+typedef struct {
+    uint32_t at;
+    int64_t turned_urad;
+} walk_t;
+
 /* Heading at an instant that the row covers, urad from the row's first: cubic through two headings and their
- * turning (Hermite), exact while the robot's acceleration is constant. */
-static int64_t heading_urad(const ale_lag_t *lag, int64_t t_us)
+ * turning (Hermite), exact while the robot's acceleration is constant. A walk asks for later and later ones.
+ */
+static int64_t heading_urad(const ale_lag_t *lag, int64_t t_us, walk_t *walk)
 {
-    uint32_t k = 1;
-    int64_t base_urad = 0;
-    while (k + 1 < lag->count && heading_at(lag, k)->stamp_us < t_us) {
+    while (walk->at + 1 < lag->count && heading_at(lag, walk->at)->stamp_us < t_us) {
         const int32_t turn_bam =
-            ale_bam_diff(heading_at(lag, k)->theta_bam, heading_at(lag, k - 1)->theta_bam);
-        base_urad += ale_bam_to_nrad(turn_bam) / 1000;
-        k++;
+            ale_bam_diff(heading_at(lag, walk->at)->theta_bam, heading_at(lag, walk->at - 1)->theta_bam);
+        walk->turned_urad += ale_bam_to_nrad(turn_bam) / 1000;
+        walk->at++;
     }
-    const ale_heading_t *a = heading_at(lag, k - 1);
-    const ale_heading_t *b = heading_at(lag, k);
+    const ale_heading_t *a = heading_at(lag, walk->at - 1);
+    const ale_heading_t *b = heading_at(lag, walk->at);
     const int64_t dt_us = b->stamp_us - a->stamp_us;
     const int64_t u = ale_round_div((t_us - a->stamp_us) * (1 << 16), dt_us);
     const int64_t uu = ale_round_shift(u * u, 16);
@@ -74,7 +80,7 @@ static int64_t heading_urad(const ale_lag_t *lag, int64_t t_us)
     const int64_t way = ale_bam_to_nrad(ale_bam_diff(b->theta_bam, a->theta_bam)) / 1000;
     const int64_t va = ale_round_shift(a->turn_urad_tick * dt_us, ALE_TICK_BITS);
     const int64_t vb = ale_round_shift(b->turn_urad_tick * dt_us, ALE_TICK_BITS);
-    return base_urad +
+    return walk->turned_urad +
            ale_round_shift((3 * uu - 2 * uuu) * way + (uuu - 2 * uu + u) * va + (uuu - uu) * vb, 16);
 }
 
@@ -83,10 +89,12 @@ static void compare(const ale_lag_t *lag, const ale_odometry_t *a, const ale_odo
                     int64_t diff_urad[ALE_LAG_CANDIDATES])
 {
     const int64_t counted_urad = ale_bam_to_nrad(ale_bam_diff(b->pose.theta_bam, a->pose.theta_bam)) / 1000;
+    walk_t to_a = {1, 0};
+    walk_t to_b = {1, 0};
     for (int32_t k = 0; k < ALE_LAG_CANDIDATES; k++) {
         const int64_t shift_us = ALE_LAG_FIRST_US + (int64_t)k * ALE_LAG_STEP_US;
-        diff_urad[k] = heading_urad(lag, b->stamp_us + shift_us) - heading_urad(lag, a->stamp_us + shift_us) -
-                       counted_urad;
+        diff_urad[k] = heading_urad(lag, b->stamp_us + shift_us, &to_b) -
+                       heading_urad(lag, a->stamp_us + shift_us, &to_a) - counted_urad;
     }
 }
 
