@@ -14,21 +14,27 @@ enum {
     REPLACED = 4         /* new walls a scan that may take the place of old ones in a full map */
 };
 
+/* Variance of a look as one among independent ones. */
+static int64_t diluted(int64_t var, const ale_taking_t *taking)
+{
+    return ale_min64(var, INT64_MAX / taking->dilution) * taking->dilution;
+}
+
 static void sharpen(ale_wall_t *wall, const ale_view_t *view, const ale_fit_t *fit, const ale_match_t *match,
-                    uint32_t scan)
+                    const ale_taking_t *taking)
 {
     const int64_t var_offset = view->var_offset_um2 + ale_view_offset_var(view, &fit->motion.cov);
     const int64_t var_angle = view->var_angle_urad2 + ale_view_angle_var(&fit->motion.cov);
-    ale_wall_observe(wall, &match->error, var_offset, var_angle);
+    ale_wall_observe(wall, &match->error, diluted(var_offset, taking), diluted(var_angle, taking));
     ale_wall_extend(wall, match->error.t_um + view->start_um, match->error.t_um + view->end_um);
     wall->seen++;
-    wall->last_scan = scan;
+    wall->last_scan = taking->scan;
     wall->missed = 0;
 }
 
 /* The wall as the view shows it, moved by what the change of velocity says. */
-static void begin(ale_local_map_t *map, const ale_view_t *view, const ale_fit_t *fit, ale_drift_t here,
-                  uint32_t scan)
+static void begin(ale_local_map_t *map, const ale_view_t *view, const ale_fit_t *fit,
+                  const ale_taking_t *taking)
 {
     ale_wall_t wall;
     ale_view_rows_t rows;
@@ -46,22 +52,22 @@ static void begin(ale_local_map_t *map, const ale_view_t *view, const ale_fit_t 
     ale_wall_set_normal(&wall, wall.normal_bam + (uint32_t)ale_nrad_to_bam(angle_urad * 1000));
     wall.var_offset_um2 += ale_view_offset_var(view, &fit->motion.cov);
     wall.var_angle_urad2 += ale_view_angle_var(&fit->motion.cov);
-    wall.drift = ale_drift_of_new_wall(here, &fit->motion.cov);
-    wall.born = scan;
+    wall.drift = ale_drift_of_new_wall(taking->here, &fit->motion.cov);
+    wall.born = taking->scan;
     wall.seen = 1;
-    wall.last_scan = scan;
+    wall.last_scan = taking->scan;
     ale_local_map_add(map, &wall);
 }
 
 static void update_mark(ale_marks_t *marks, const ale_view_t *view, const ale_fit_t *fit,
-                        const ale_match_t *match, uint32_t scan, bool grow)
+                        const ale_match_t *match, const ale_taking_t *taking)
 {
     const ale_point_t p = ale_pose_apply(fit->motion.pose, view->centre);
     const uint32_t normal_bam = view->normal_bam + fit->motion.pose.theta_bam;
     const int64_t var_um2 = view->var_offset_um2 + ale_view_offset_var(view, &fit->motion.cov);
     if (match->mark != ALE_NO_MARK) {
-        ale_mark_observe(&marks->mark[match->mark], p, normal_bam, var_um2, scan);
-    } else if (grow && match->wall == ALE_NO_WALL) {
+        ale_mark_observe(&marks->mark[match->mark], p, normal_bam, diluted(var_um2, taking), taking->scan);
+    } else if (taking->grow && match->wall == ALE_NO_WALL) {
         const bool spot = view->kind == ALE_VIEW_SPOT;
         if (ale_marks_find(marks, p, normal_bam, spot, NEW_MARK_UM) == ALE_NO_MARK) {
             ale_marks_add(marks, &(ale_mark_t){.p = p,
@@ -69,8 +75,8 @@ static void update_mark(ale_marks_t *marks, const ale_view_t *view, const ale_fi
                                                .var_um2 = var_um2,
                                                .spot = spot,
                                                .seen = 1,
-                                               .last_scan = scan,
-                                               .born = scan});
+                                               .last_scan = taking->scan,
+                                               .born = taking->scan});
         }
     }
 }
@@ -86,7 +92,7 @@ static void tidy(ale_local_map_t *map, uint32_t count, const ale_fit_t *fit, int
 }
 
 void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t count, const ale_fit_t *fit,
-                    ale_drift_t here, uint32_t scan, bool grow)
+                    const ale_taking_t *taking)
 {
     int32_t looks = MAP_LOOKS;
     int room = REPLACED;
@@ -96,21 +102,22 @@ void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t coun
         const ale_match_t *match = &fit->match[i];
         const int64_t length_um = (int64_t)view[i].end_um - view[i].start_um;
         if (match->wall == ALE_NO_WALL && (view[i].kind != ALE_VIEW_WALL || length_um < ALE_WALL_LENGTH_UM)) {
-            update_mark(&map->marks, &view[i], fit, match, scan, grow);
+            update_mark(&map->marks, &view[i], fit, match, taking);
             continue;
         }
         if (view[i].kind != ALE_VIEW_WALL) {
-            map->wall[match->wall].last_scan = scan; /* it is there, but a piece is too short to sharpen it */
+            map->wall[match->wall].last_scan =
+                taking->scan; /* it is there, but a piece is too short to sharpen it */
             continue;
         }
         if (match->wall != ALE_NO_WALL) {
-            sharpen(&map->wall[match->wall], &view[i], fit, match, scan);
+            sharpen(&map->wall[match->wall], &view[i], fit, match, taking);
             continue;
         }
         const bool full = map->count == ALE_MAP_MAX_LINES;
-        if (grow && (!full || room-- > 0) &&
+        if (taking->grow && (!full || room-- > 0) &&
             ale_match_view(map, &view[i], &stand, NULL, &conflict, &looks).wall == ALE_NO_WALL) {
-            begin(map, &view[i], fit, here, scan);
+            begin(map, &view[i], fit, taking);
         }
     }
     map->version++;

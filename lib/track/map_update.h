@@ -13,9 +13,16 @@
 #include "track/local_map.h"
 #include "track/refine.h"
 
-/* Takes the views of a scan, matched at fit->motion, into the map. `here` is the drift at this place. grow =
- * false: no new walls. */
+/* How a scan goes into the map. */
+typedef struct {
+    uint32_t scan;     /* its number */
+    ale_drift_t here;  /* at this place */
+    uint32_t dilution; /* so many times the stated variance have its looks at what is known: see rest.h */
+    bool grow;         /* false: no new walls */
+} ale_taking_t;
+
+/* Takes the views of a scan, matched at fit->motion, into the map. */
 void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t count, const ale_fit_t *fit,
-                    ale_drift_t here, uint32_t scan, bool grow);
+                    const ale_taking_t *taking);
 
 #endif

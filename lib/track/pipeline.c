@@ -94,6 +94,7 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
     ale_relocation_clear(&pipeline->relocation);
     ale_witness_clear(&pipeline->witness);
     ale_elders_clear(&pipeline->elders);
+    ale_rest_clear(&pipeline->rest);
     pipeline->started = false;
     pipeline->looked = false;
     pipeline->loaded = false;

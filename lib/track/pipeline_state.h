@@ -16,6 +16,7 @@
 #include "track/refine.h"
 #include "track/registration.h"
 #include "track/relocation.h"
+#include "track/rest.h"
 #include "track/smooth_pose.h"
 #include "track/tracker.h"
 #include "track/view.h"
@@ -45,6 +46,7 @@ struct ale_pipeline {
     ale_relocation_t relocation;
     ale_witness_t witness;
     ale_elders_t elders;
+    ale_rest_t rest;
     ale_registration_t registration;
 
     /* the scan at hand */

@@ -61,7 +61,8 @@ static void take_in(ale_pipeline_t *p, bool grow)
         return;
     }
     const ale_pose_t sensor = ale_pose_compose(p->fit.motion.pose, p->config.sensor);
-    ale_map_update(&p->map, p->view, p->view_count, &p->fit, p->drift, p->scans, grow);
+    const ale_taking_t taking = {p->scans, p->drift, ale_rest_dilution(&p->rest), grow};
+    ale_map_update(&p->map, p->view, p->view_count, &p->fit, &taking);
     p->matched_corners = ale_map_corners_update(&p->map.corners, &p->features, sensor, p->scans, grow);
 }
 
@@ -109,7 +110,7 @@ static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_moti
     const int64_t offset_um = SLACK_UM + 2 * ale_max64(sigma_of(cov, 0), sigma_of(cov, 1));
     const ale_slack_t slack = {
         (int32_t)ale_min64(offset_um, counted ? SLACK_MOST_UM : 2 * SLACK_UM),
-        (int32_t)ale_min64(2 * sigma_of(cov, 2), counted ? SLACK_MOST_URAD : SLACK_URAD)};
+        (int32_t)ale_min64(2 * sigma_of(cov, 2), counted ? SLACK_MOST_URAD : SLACK_URAD), false};
     const bool doubt = ale_tracker_is_strange(&p->tracker, &p->fit);
     const ale_testimony_t heard = doubt ? ale_witness_hear(&p->witness, &now, slack) : (ale_testimony_t){0};
     ale_tracker_notice(&p->tracker, doubt ? &heard : NULL, counted);
@@ -173,7 +174,9 @@ static void match_again(ale_pipeline_t *p, const ale_motion_t *before, const ale
 static void leave_out_newcomers(ale_pipeline_t *p, const ale_motion_t *before)
 {
     const ale_seen_t now = seen(p, before);
-    p->view_count = ale_elders_drop_newcomers(&p->elders, &now, p->view, p->fit.match);
+    ale_rest_look(&p->rest, now.robot);
+    p->view_count = ale_elders_drop_newcomers(&p->elders, &p->map, &now, ale_rest_is_long(&p->rest), p->view,
+                                              p->fit.match);
     if (p->tracker.state == ALE_STATE_GOOD && !p->tracker.jumped) {
         ale_elders_keep(&p->elders, &now);
     }

@@ -6,6 +6,8 @@
 enum {
     TOLERANCE_UM = 120000, /* how far a point may lie before or behind its wall, and per mille of the range */
     TOLERANCE_PER_MILLE = 30,
+    SAME_PLACE_UM = 60000, /* the same where noise and slanting beams alone differ */
+    SAME_PLACE_PER_MILLE = 10,
     GRAZING_Q30 = 278000000, /* cosine of 75 degrees */
     BEAMS_ASIDE_MOST = 16,
     BAM_PER_RAD = 683565276,
@@ -35,10 +37,14 @@ static int32_t beam_towards(const ale_scan_t *scan, const uint32_t *bearing_bam,
     return beam;
 }
 
-static ale_sight_t beam_sight(const ale_scan_t *scan, int32_t beam, int64_t range_um, int64_t tolerance_um)
+static ale_sight_t beam_sight(const ale_scan_t *scan, int32_t beam, int64_t range_um, int64_t tolerance_um,
+                              bool same_place)
 {
-    if (beam < 0 || beam >= scan->beams || scan->flag[beam] != ALE_BEAM_VALID) {
+    if (beam < 0 || beam >= scan->beams) {
         return ALE_SIGHT_NONE;
+    }
+    if (scan->flag[beam] != ALE_BEAM_VALID) {
+        return same_place && scan->flag[beam] == ALE_BEAM_NO_RETURN ? ALE_SIGHT_THROUGH : ALE_SIGHT_NONE;
     }
     const int64_t beyond_um = scan->range_um[beam] - range_um;
     if (beyond_um > tolerance_um) {
@@ -71,11 +77,13 @@ static ale_sight_t point_sight(const ale_wall_t *wall, ale_point_t p, const ale_
         return ALE_SIGHT_NONE;
     }
     const int64_t slack_um = slack.offset_um + ale_mul_div(range_um, slack.angle_urad, 1000000);
-    const int64_t tolerance_um = TOLERANCE_UM + range_um * TOLERANCE_PER_MILLE / 1000 + slack_um;
+    const int64_t tolerance_um =
+        slack_um + (slack.same_place ? SAME_PLACE_UM + range_um * SAME_PLACE_PER_MILLE / 1000
+                                     : TOLERANCE_UM + range_um * TOLERANCE_PER_MILLE / 1000);
     const int32_t aside = beams_aside(scan, range_um, slack_um);
     ale_sight_t sum = ALE_SIGHT_THROUGH;
     for (int32_t beam = middle - aside; beam <= middle + aside; beam++) {
-        const ale_sight_t sight = beam_sight(scan, beam, range_um, tolerance_um);
+        const ale_sight_t sight = beam_sight(scan, beam, range_um, tolerance_um, slack.same_place);
         if (sight == ALE_SIGHT_SUPPORTED) {
             return sight;
         }
@@ -103,7 +111,7 @@ ale_sight_t ale_wall_sight(const ale_wall_t *wall, const ale_scan_t *scan, const
                            ale_pose_t sensor)
 {
     const ale_points_sight_t sum =
-        ale_wall_points_sight(wall, scan, bearing_bam, sensor, (ale_slack_t){0, 0});
+        ale_wall_points_sight(wall, scan, bearing_bam, sensor, (ale_slack_t){0, 0, false});
     if (sum.supported > 0) {
         return ALE_SIGHT_SUPPORTED;
     }
@@ -113,5 +121,6 @@ ale_sight_t ale_wall_sight(const ale_wall_t *wall, const ale_scan_t *scan, const
 ale_sight_t ale_wall_point_sight(const ale_wall_t *wall, int64_t t_um, const ale_scan_t *scan,
                                  const uint32_t *bearing_bam, ale_pose_t sensor)
 {
-    return point_sight(wall, ale_wall_point(wall, t_um), scan, bearing_bam, sensor, (ale_slack_t){0, 0});
+    return point_sight(wall, ale_wall_point(wall, t_um), scan, bearing_bam, sensor,
+                       (ale_slack_t){0, 0, false});
 }

@@ -5,6 +5,7 @@
 #ifndef ALE_TRACK_VISIBILITY_H
 #define ALE_TRACK_VISIBILITY_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "base/scan.h"
@@ -23,10 +24,13 @@ typedef struct {
     uint8_t through;
 } ale_points_sight_t;
 
-/* How far the sensor's pose may be off, beyond what is always allowed for. */
+/* How far the sensor's pose may be off, beyond what is always allowed for. same_place: the surface was seen
+ * from where the scan was taken; what a map errs need not be allowed for, and where it gave an answer then,
+ * no answer means that it is not there. */
 typedef struct {
     int32_t offset_um;
     int32_t angle_urad;
+    bool same_place;
 } ale_slack_t;
 
 ale_points_sight_t ale_wall_points_sight(const ale_wall_t *wall, const ale_scan_t *scan,

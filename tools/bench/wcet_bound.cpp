@@ -288,7 +288,7 @@ void witnesses(Parts &parts, Random &random, Crowd &crowd)
                              {0, 0, 0}, crowd.views.data(), static_cast<uint32_t>(crowd.views.size())};
     parts.measure("last scan kept", 1, [&] { ale_witness_keep(&pipeline->witness, &seen); });
     parts.measure("last scan heard", 1, [&] {
-        ale_witness_hear(&pipeline->witness, &seen, {200000, 100000});
+        ale_witness_hear(&pipeline->witness, &seen, {200000, 100000, false});
     });
     for (int64_t k = 0; k < 2 * ALE_ELDERS; k++) {
         scan.stamp_us += 10000000;
@@ -303,7 +303,8 @@ void witnesses(Parts &parts, Random &random, Crowd &crowd)
     parts.measure("an elder kept", 1, [&] { ale_elders_keep(&pipeline->elders, &seen); });
     std::vector<ale_match_t> match(ALE_MAX_VIEWS, {ALE_NO_WALL, ALE_NO_MARK, {}});
     parts.measure("elders asked", 1, [&] {
-        ale_elders_drop_newcomers(&pipeline->elders, &seen, crowd.views.data(), match.data());
+        ale_elders_drop_newcomers(&pipeline->elders, &pipeline->map, &seen, false, crowd.views.data(),
+                                  match.data());
     });
     ale_fade_t fade = {0};
     ale_local_map_approach(crowd.map.get(), {0, 0}, 30000000);

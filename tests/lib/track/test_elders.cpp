@@ -46,6 +46,9 @@ class Elders : public testing::Test
     void SetUp() override
     {
         ale_elders_clear(elders.get());
+        map->wall[7].start_um = -1000000;
+        map->wall[7].end_um = 1000000;
+        map->wall[7].seen = 1000;
     }
     ale_seen_t seen(const ale_scan_t &scan) const
     {
@@ -69,12 +72,14 @@ class Elders : public testing::Test
         match[1].wall = 7;
         views = 2;
         const ale_seen_t now = seen(*scan);
-        const uint32_t left = ale_elders_drop_newcomers(elders.get(), &now, view, match);
+        const uint32_t left = ale_elders_drop_newcomers(elders.get(), map.get(), &now, rests, view, match);
         EXPECT_EQ(match[left - 1].wall, 7) << "what has a wall stays, with its match";
         EXPECT_EQ(view[left - 1].centre.x_um, 4000000);
         return left == 2;
     }
 
+    std::unique_ptr<ale_local_map_t> map = std::make_unique<ale_local_map_t>();
+    bool rests = false;
     std::unique_ptr<ale_elders_t> elders = std::make_unique<ale_elders_t>();
     ale_pose_t robot = {0, 0, 0};
     ale_view_t view[2] = {};
@@ -89,6 +94,43 @@ TEST_F(Elders, WhatHasComeBeginsNoWall)
     EXPECT_TRUE(may_begin(4, 30)) << "always there";
     EXPECT_TRUE(may_begin(5, 30)) << "was hidden";
     EXPECT_TRUE(may_begin(2, 30, 3)) << "is in the map already";
+}
+
+TEST_F(Elders, ARobotAtRestTellsWhoStandsBeforeAWall)
+{
+    keep(2.15, 0, 30);
+    EXPECT_TRUE(may_begin(2, 30)) << "on the way a map may err by as much";
+    rests = true;
+    EXPECT_FALSE(may_begin(2, 30));
+    EXPECT_TRUE(may_begin(2.1, 30));
+}
+
+TEST_F(Elders, ARobotAtRestAsksForYoungAndGrowingWallsToo)
+{
+    keep(4, 0, 30);
+    rests = true;
+    map->wall[3] = {};
+    map->wall[3].start_um = -150000;
+    map->wall[3].end_um = 150000;
+    map->wall[3].seen = 5;
+    EXPECT_FALSE(may_begin(2, 30, 3)) << "young";
+    map->wall[3].seen = 500;
+    EXPECT_TRUE(may_begin(2, 30, 3));
+    map->wall[3].end_um = 50000;
+    EXPECT_FALSE(may_begin(2, 30, 3)) << "longer than the wall";
+}
+
+TEST_F(Elders, WhereNothingAnsweredBeforeSomethingHasCome)
+{
+    const auto scan = round_room(4, 0);
+    for (int k = 0; k < scan->beams; k++) {
+        scan->flag[k] = ALE_BEAM_NO_RETURN;
+    }
+    const ale_seen_t before = seen(*scan);
+    ale_elders_keep(elders.get(), &before);
+    EXPECT_TRUE(may_begin(2, 30)) << "on the way it may have been dark";
+    rests = true;
+    EXPECT_FALSE(may_begin(2, 30));
 }
 
 TEST_F(Elders, WithoutAnElderEverythingMayBegin)

@@ -9,9 +9,9 @@ ale_testimony_t hear(const Look &first, const Look &second)
 {
     const auto witness = std::make_unique<ale_witness_t>();
     ale_witness_clear(witness.get());
-    EXPECT_EQ(ale_witness_hear(witness.get(), &second.seen, {0, 0}).denied_um, 0);
+    EXPECT_EQ(ale_witness_hear(witness.get(), &second.seen, {0, 0, false}).denied_um, 0);
     ale_witness_keep(witness.get(), &first.seen);
-    return ale_witness_hear(witness.get(), &second.seen, {0, 0});
+    return ale_witness_hear(witness.get(), &second.seen, {0, 0, false});
 }
 } // namespace
 
