@@ -265,13 +265,14 @@ void matching(Parts &parts, Random &random, Crowd &crowd)
     for (int k = 0; k < ALE_MAX_VIEWS; k++) {
         fit->match[k] = {ALE_NO_WALL, ALE_NO_MARK, {}};
     }
-    parts.measure("walls and marks of the map", 1, [&] {
-        ale_map_update(crowd.map.get(), scene.view, scene.view_count, fit.get(), {0, 0}, 1, true);
-    });
+    ale_taking_t taking = {1, {0, 0}, 1, true};
+    const auto take_in = [&] {
+        ale_map_update(crowd.map.get(), scene.view, scene.view_count, fit.get(), &taking);
+    };
+    parts.measure("walls and marks of the map", 1, take_in);
     ale_refine(&predicted, &scene, &gates.at("first"), fit.get());
-    parts.measure("walls and marks of the map", 1, [&] {
-        ale_map_update(crowd.map.get(), scene.view, scene.view_count, fit.get(), {0, 0}, 2, true);
-    });
+    taking.scan = 2;
+    parts.measure("walls and marks of the map", 1, take_in);
 }
 
 void witnesses(Parts &parts, Random &random, Crowd &crowd)
