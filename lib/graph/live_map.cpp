@@ -8,6 +8,7 @@ extern "C" {
 
 #include "graph/line_ids.h"
 #include "graph/map_redraw.h"
+#include "graph/wall_groups.h"
 
 namespace
 {
@@ -15,9 +16,10 @@ namespace
 // A keyframe's surroundings are told by so many scans: more come only where the robot stays.
 constexpr size_t scans_of_a_keyframe = 16;
 
+// With the place that its lines take in a drawing.
 size_t bytes_of(const ale::Sight &sight)
 {
-    return sizeof sight + sight.lines.size() * sizeof(ale_view_t) +
+    return sizeof sight + sight.lines.size() * (sizeof(ale_view_t) + sizeof(ale::PlacedLine)) +
            sight.corners.size() * sizeof(ale_corner_t) + (sight.look ? sizeof(ale_seen_copy_t) : 0);
 }
 
@@ -156,4 +158,9 @@ bool ale_live_map_draw(ale_live_map_t *live, const ale_mapper_poses_t *poses, al
 uint32_t ale_live_map_epoch(const ale_live_map_t *live)
 {
     return live->record.epoch();
+}
+
+uint32_t ale_live_map_bytes(const ale_live_map_t *live)
+{
+    return static_cast<uint32_t>(bytes_of(live->record));
 }

@@ -5,9 +5,9 @@
  *   if (ale_live_map_draw(live, &poses, map)) ...     (now and then)
  *   ale_live_map_destroy(live);
  *
- * For an ordinary thread of its own: a drawing of a large map takes seconds. Not thread-safe. Memory is
- * bounded by ALE_LIVE_MAP_BYTES for the record and as much as that for a drawing: what the mapper has thinned
- * out is forgotten, and a full record gives up the oldest scan of the keyframe of which it holds most. */
+ * For an ordinary thread of its own: a drawing of a large map takes a second. Not thread-safe. Memory is
+ * bounded: what the mapper has thinned out is forgotten, and a full record gives up the oldest scan of the
+ * keyframe of which it holds most. */
 #ifndef ALE_GRAPH_LIVE_MAP_H
 #define ALE_GRAPH_LIVE_MAP_H
 
@@ -17,9 +17,10 @@
 #include "graph/mapper.h"
 #include "track/sighting.h"
 
+/* What is recorded at most, with what a drawing makes of its lines. */
 enum { ALE_LIVE_MAP_BYTES = 32 * 1024 * 1024 };
 
-/* What is recorded and drawn, working memory included. */
+/* The same with all that a drawing needs. */
 enum { ALE_LIVE_MAP_HEAP_BYTES = 52 * 1024 * 1024 };
 
 typedef struct ale_live_map ale_live_map_t;
@@ -38,5 +39,8 @@ bool ale_live_map_draw(ale_live_map_t *live, const ale_mapper_poses_t *poses, al
 
 /* The epoch of what it draws; 0: nothing yet. */
 uint32_t ale_live_map_epoch(const ale_live_map_t *live);
+
+/* What is recorded now: ALE_LIVE_MAP_BYTES at most. O(sightings). */
+uint32_t ale_live_map_bytes(const ale_live_map_t *live);
 
 #endif

@@ -1,6 +1,7 @@
 #include "graph/map_redraw.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "graph/meeting_walls.h"
 #include "graph/wall_groups.h"
@@ -51,6 +52,8 @@ ale_map_line_t line_of(const WallSpan &span)
 void redraw_map(const MapRecord &record, const PoseOfSight &pose_of, ale_map_t *out)
 {
     std::vector<PlacedLine> lines;
+    lines.reserve(std::accumulate(record.sights().begin(), record.sights().end(), size_t{0},
+                                  [](size_t sum, const Sight &sight) { return sum + sight.lines.size(); }));
     std::vector<PlacedLook> looks;
     for (const Sight &sight : record.sights()) {
         const ale_stand_t robot = ale_stand(pose_of(sight));

@@ -138,6 +138,22 @@ TEST(LiveMap, WhereTheRobotStaysTheOldestScansGoAndWhatIsGoneWithThem)
     EXPECT_EQ(screen_m(*drawn(live.get(), *drive.keyframes)), 0);
 }
 
+TEST(LiveMap, WhateverIsSeenTheRecordIsBounded)
+{
+    const LiveMap live(ale_live_map_create());
+    auto sighting = std::make_unique<ale_sighting_t>(*plain_drive().sightings[0]);
+    uint32_t most = 0;
+    for (uint32_t scan = 0; scan < 3000; scan++) {
+        sighting->scan = scan;
+        sighting->keyframe = scan / 2 * 2;
+        sighting->stamp_us += 6000000; // long enough for all its beams to be kept
+        ASSERT_EQ(ale_live_map_take(live.get(), sighting.get()), 0);
+        most = std::max(most, ale_live_map_bytes(live.get()));
+    }
+    EXPECT_LE(most, static_cast<uint32_t>(ALE_LIVE_MAP_BYTES));
+    EXPECT_GT(most, ALE_LIVE_MAP_BYTES - 32768U) << "it was full";
+}
+
 TEST(LiveMap, ANewMapForgetsTheOldOne)
 {
     const RoomDrive &drive = plain_drive();
