@@ -224,9 +224,12 @@ static void start(const ale_motion_t *predicted, ale_fit_t *fit)
 
 void ale_refine_reject(const ale_motion_t *predicted, const ale_scene_t *scene, ale_fit_t *fit)
 {
-    const ale_gate_t none = {0, 0, 0, 0};
     start(predicted, fit);
-    gather(scene, &predicted->cov, &none, fit);
+    clear_sums(fit);
+    for (uint32_t i = 0; i < scene->view_count; i++) {
+        fit->match[i] = (ale_match_t){.wall = ALE_NO_WALL, .mark = ALE_NO_MARK};
+        fit->shown_um += (int64_t)scene->view[i].end_um - scene->view[i].start_um;
+    }
 }
 
 /* How far from the robot a wall may be that one of the views shows: what the gates and a step of the pose
