@@ -67,6 +67,12 @@ void NormalEquations::add(const HeadingPrior &prior, double e, double weight)
     building_ += omega * e;
 }
 
+void NormalEquations::add(const PosePull &pull)
+{
+    h_.add_diagonal(pull.pose, pull.information);
+    x_.segment<3>(Eigen::Index{3} * pull.pose) += pull.pull;
+}
+
 bool NormalEquations::solve()
 {
     if (!h_.factorise()) {

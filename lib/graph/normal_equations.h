@@ -39,6 +39,7 @@ class NormalEquations
     void add(size_t k, const GraphEdge &edge, const LinearisedEdge &linearised, double weight);
     // e: heading of the pose minus what the prior says.
     void add(const HeadingPrior &prior, double e, double weight);
+    void add(const PosePull &pull);
 
     // False: singular.
     bool solve();

@@ -84,6 +84,7 @@ void PoseGraph::clear()
     edges_.clear();
     headings_.building = 0;
     headings_.priors.clear();
+    pulls_.clear();
 }
 
 int PoseGraph::add_pose(const Pose &pose)
@@ -187,6 +188,9 @@ double PoseGraph::linearise(NormalEquations *equations, double kernel) const
         const double chi2 = e * e * prior.information;
         equations->add(prior, e, kernel_weight(chi2, kernel));
         sum += robust_cost(chi2, kernel);
+    }
+    for (const PosePull &pull : pulls_) {
+        equations->add(pull);
     }
     return sum;
 }

@@ -45,6 +45,14 @@ struct BuildingHeadings {
     std::vector<HeadingPrior> priors;
 };
 
+// What draws a pose where it is seen to lie, as it stands now: minus the gradient of what its scan misses the
+// map by, and the information, by increments of (x, y, theta).
+struct PosePull {
+    int pose;
+    Eigen::Matrix3d information;
+    Eigen::Vector3d pull;
+};
+
 struct GraphReport {
     int iterations;
     double chi2; // weighted, robust edges scaled
@@ -81,6 +89,11 @@ class PoseGraph
     {
         return headings_;
     }
+    // In place of those before. They hold for one iteration: what pulls must be asked anew at the new poses.
+    void set_pulls(std::vector<PosePull> pulls)
+    {
+        pulls_ = std::move(pulls);
+    }
     // A wider kernel lets go of robust edges later: for a graph whose poses are not near the truth yet.
     GraphReport optimise(int max_iterations, double kernel = robust_kernel);
 
@@ -114,6 +127,7 @@ class PoseGraph
     std::vector<Pose> poses_;
     std::vector<GraphEdge> edges_;
     BuildingHeadings headings_;
+    std::vector<PosePull> pulls_;
 };
 
 } // namespace ale

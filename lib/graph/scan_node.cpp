@@ -97,14 +97,42 @@ void add_walls(const ale_features_t &features, const Pose &sensor, Node *node)
     }
 }
 
+// A scan as it was straightened, with what was found in it.
+struct Sight {
+    const ale_scan_t &scan;
+    const uint32_t *bearing_bam; // NULL: regular
+    const ale_features_t &features;
+    Pose sensor;
+};
+
+// Hands over points at least node_point_spacing_m apart, and whether their normal is vague.
+template <class Put> void each_point(const Sight &sight, const Put &put)
+{
+    const Eigen::Matrix2d turn = rotation(sight.sensor.theta);
+    const Beams beams = beams_of(sight.scan, sight.bearing_bam);
+    const std::vector<int> line = lines_of(sight.features, beams.p.size());
+    Eigen::Vector2d last(1e9, 1e9);
+    for (size_t k = 0; k < beams.p.size(); k++) {
+        if (!beams.valid[k] || (beams.p[k] - last).norm() < node_point_spacing_m) {
+            continue;
+        }
+        last = beams.p[k];
+        const ale_line_t *on = line[k] < 0 ? nullptr : &sight.features.line[line[k]];
+        const Eigen::Vector2d p = on ? on_line(*on, beams.p[k]) : beams.p[k];
+        Eigen::Vector2d normal = on ? line_normal(*on, beams.p[k]) : neighbourhood_normal(beams, k, close);
+        const bool vague = normal.isZero();
+        if (vague) {
+            normal = neighbourhood_normal(beams, k, far_apart);
+        }
+        put(SurfacePoint{apply(sight.sensor, p), turn * normal}, vague);
+    }
+}
+
 } // namespace
 
 Node node_of(const ale_keyframe_t &keyframe)
 {
     const Pose sensor = from_core(keyframe.sensor);
-    const Eigen::Matrix2d turn = rotation(sensor.theta);
-    const Beams beams = beams_of(keyframe.taken, keyframe.straightened ? keyframe.bearing_bam : nullptr);
-    const std::vector<int> line = lines_of(keyframe.features, beams.p.size());
     Node node{keyframe.scan,
               from_core(keyframe.smooth),
               from_core(keyframe.map),
@@ -117,26 +145,28 @@ Node node_of(const ale_keyframe_t &keyframe)
               {},
               {sensor.x, sensor.y}};
     add_walls(keyframe.features, sensor, &node);
-    Eigen::Vector2d last(1e9, 1e9);
-    for (size_t k = 0; k < beams.p.size(); k++) {
-        if (!beams.valid[k] || (beams.p[k] - last).norm() < node_point_spacing_m) {
-            continue;
-        }
-        last = beams.p[k];
-        const ale_line_t *on = line[k] < 0 ? nullptr : &keyframe.features.line[line[k]];
-        const Eigen::Vector2d p = on ? on_line(*on, beams.p[k]) : beams.p[k];
-        Eigen::Vector2d normal = on ? line_normal(*on, beams.p[k]) : neighbourhood_normal(beams, k, close);
-        const bool vague = normal.isZero();
-        if (vague) {
-            normal = neighbourhood_normal(beams, k, far_apart);
-        }
-        node.points.push_back({apply(sensor, p), turn * normal});
-        node.vague.push_back(vague);
-    }
+    each_point(
+        {keyframe.taken, keyframe.straightened ? keyframe.bearing_bam : nullptr, keyframe.features, sensor},
+        [&node](const SurfacePoint &point, bool vague) {
+            node.points.push_back(point);
+            node.vague.push_back(vague);
+        });
     for (int k = 0; k < keyframe.features.corner_count; k++) {
         node.corners.push_back(corner_of(keyframe.features.corner[k], sensor));
     }
     return node;
+}
+
+std::vector<SurfacePoint> surface_of(const ale_seen_t &seen, const ale_features_t &features)
+{
+    std::vector<SurfacePoint> points;
+    const Pose sensor = from_core(ale_pose_between(seen.robot, seen.sensor));
+    each_point({*seen.scan, seen.bearing_bam, features, sensor}, [&points](const SurfacePoint &point, bool) {
+        if (!point.normal.isZero()) {
+            points.push_back(point);
+        }
+    });
+    return points;
 }
 
 } // namespace ale

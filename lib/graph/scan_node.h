@@ -6,6 +6,7 @@
 
 extern "C" {
 #include "track/keyframe.h"
+#include "track/seen.h"
 }
 
 namespace ale
@@ -17,6 +18,9 @@ constexpr double node_point_spacing_m = 0.04;
 // Points of a line lie on it and carry its normal; other points the normal of their neighbourhood, if it has
 // one. path_m is left 0, `tracked` is the pose in the keyframe.
 Node node_of(const ale_keyframe_t &keyframe);
+
+// The same points of any scan, those alone that have a normal; robot's frame.
+std::vector<SurfacePoint> surface_of(const ale_seen_t &seen, const ale_features_t &features);
 
 } // namespace ale
 

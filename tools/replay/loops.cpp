@@ -4,6 +4,9 @@
 #include <ctime>
 #include <new>
 
+#include "graph/scan_alignment.h"
+#include "graph/scan_node.h"
+
 extern "C" {
 #include "base/fixed.h"
 #include "base/trig.h"
@@ -41,6 +44,16 @@ ale_pose_t placed(const ale_mapper_pose_t &keyframe, const ale_pose_t &smooth)
     return ale_pose_compose(ale_pose_shift(keyframe.smooth, keyframe.pose), smooth);
 }
 
+/* None: nothing was seen, or from nobody knows where. */
+std::vector<SurfacePoint> surface_seen(const ale_pipeline_t *pipeline, const ale_estimate_t &estimate)
+{
+    ale_seen_t seen;
+    if (estimate.predicted || estimate.state == ALE_STATE_LOST || !ale_pipeline_seen(pipeline, &seen)) {
+        return {};
+    }
+    return surface_of(seen, *ale_pipeline_features(pipeline));
+}
+
 } // namespace
 
 Loops::Loops()
@@ -64,6 +77,7 @@ void Loops::before_scan(ale_pipeline_t *pipeline, const Taken &taken)
 void Loops::after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate)
 {
     tracked_.push_back({estimate.smooth, estimate.map});
+    seen_.push_back(surface_seen(pipeline, estimate));
     if (!ale_pipeline_keyframe(pipeline, keyframe_.get())) {
         return;
     }
@@ -105,6 +119,32 @@ void Loops::finish(ale_pipeline_t *pipeline)
     for (uint32_t k = 0; k < count; k++) {
         keyframes_.push_back(ale_mapper_pose(mapper_.get(), k));
     }
+    align();
+}
+
+/* Every scan, and not the keyframes alone, laid on what all have seen; from the first keyframe of the map on.
+ */
+void Loops::align()
+{
+    const auto count = static_cast<uint32_t>(tracked_.size());
+    for (uint32_t scan = 0; scan < count; scan++) {
+        corrected_.push_back(bent(scan));
+    }
+    if (keyframes_.empty()) {
+        return;
+    }
+    const uint32_t first = keyframes_.front().scan;
+    std::vector<AlignedScan> scans;
+    for (uint32_t scan = first; scan < count; scan++) {
+        scans.push_back(
+            {from_core(corrected_[scan]), scan > first && tied(scan - 1, scan), std::move(seen_[scan])});
+    }
+    ScanAlignment alignment(std::move(scans));
+    while (alignment.step()) {
+    }
+    for (uint32_t scan = first; scan < count; scan++) {
+        corrected_[scan] = to_core(alignment.poses()[scan - first]);
+    }
 }
 
 /* Whether the way as tracked leads from one scan to the other. */
@@ -114,9 +154,9 @@ bool Loops::tied(uint32_t scan, uint32_t later) const
     return next == breaks_.end() || *next > later;
 }
 
-/* The mapper holds not every keyframe that it was given: between two of them there may be any distance, and a
- * break. */
-ale_pose_t Loops::corrected(uint32_t scan) const
+/* The way as tracked, bent to meet the keyframes before and after it. The mapper holds not every keyframe
+ * that it was given: between two of them there may be any distance, and a break. */
+ale_pose_t Loops::bent(uint32_t scan) const
 {
     const Tracked &tracked = tracked_[scan];
     const auto after = std::upper_bound(

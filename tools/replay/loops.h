@@ -9,6 +9,8 @@
 #include <memory>
 #include <vector>
 
+#include "graph/node.h"
+
 extern "C" {
 #include "graph/mapper.h"
 #include "track/pipeline.h"
@@ -31,13 +33,15 @@ class Loops
     /* After the pipeline has answered it. */
     void after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate);
 
-    /* After the last scan: the graph is drawn tight, what is still under way takes effect, and every scan's
-     * pose is known. */
+    /* After the last scan: the graph is drawn tight, what is still under way takes effect, every scan is laid
+     * on what all have seen, and its pose is known. */
     void finish(ale_pipeline_t *pipeline);
 
-    /* Map pose of a scan, corrected by all loops; after finish(). Between two keyframes the way as tracked is
-     * bent to meet both. */
-    ale_pose_t corrected(uint32_t scan) const;
+    /* Map pose of a scan, corrected by all loops and laid on what all scans have seen; after finish(). */
+    ale_pose_t corrected(uint32_t scan) const
+    {
+        return corrected_[scan];
+    }
 
     ale_mapper_statistics_t statistics() const
     {
@@ -60,6 +64,8 @@ class Loops
         }
     };
 
+    ale_pose_t bent(uint32_t scan) const;
+    void align();
     bool tied(uint32_t scan, uint32_t later) const;
     void take_correction();
     void refine();
@@ -67,9 +73,11 @@ class Loops
     std::unique_ptr<ale_mapper_t, Destroy> mapper_;
     std::unique_ptr<ale_keyframe_t> keyframe_;
     std::deque<std::unique_ptr<ale_correction_t>> due_;
-    std::vector<Tracked> tracked_;             /* by scan */
-    std::vector<ale_mapper_pose_t> keyframes_; /* after finish() */
-    std::vector<uint32_t> breaks_;             /* scans that nothing ties to those before them */
+    std::vector<Tracked> tracked_;                /* by scan */
+    std::vector<ale_mapper_pose_t> keyframes_;    /* after finish() */
+    std::vector<std::vector<SurfacePoint>> seen_; /* by scan; until finish() */
+    std::vector<ale_pose_t> corrected_;           /* by scan; after finish() */
+    std::vector<uint32_t> breaks_;                /* scans that nothing ties to those before them */
     int64_t longest_ns_ = 0;
 };
 

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <random>
 
+#include <Eigen/Cholesky>
+
 #include <gtest/gtest.h>
 
 #include "graph/pose_graph.h"
@@ -86,6 +88,52 @@ TEST(PoseGraph, ALoopThatContradictsAllOthersLosesItsWeight)
     graph.optimise(20);
     EXPECT_LT(largest_error(truth, graph.poses()), 0.05);
     EXPECT_GT(graph.residual2(graph.edges().back()), 1000);
+}
+
+// One iteration of two tied poses and what pulls them, by a dense solution with numerical derivatives.
+TEST(PoseGraph, WhatPullsAPoseIsWeighedAgainstTheWay)
+{
+    const ale::Pose start[] = {{0, 0, 0.2}, {1, 0.3, 0.5}, {1.9, 0.8, 0.9}};
+    const Eigen::Matrix3d information = Eigen::Vector3d(1e4, 4e4, 9e4).asDiagonal();
+    Eigen::Matrix3d seen;
+    seen << 5e4, 1e4, 2e3, 1e4, 3e4, -1e3, 2e3, -1e3, 8e4;
+    const Eigen::Vector3d pull(300, -200, 150);
+    ale::PoseGraph graph;
+    Eigen::MatrixXd h = Eigen::MatrixXd::Zero(9, 9);
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(9);
+    for (const ale::Pose &pose : start) {
+        graph.add_pose(pose);
+    }
+    for (int k = 0; k < 2; k++) {
+        const ale::Pose way{1, 0.1, 0.3};
+        graph.add_edge({k, k + 1, way, information, false});
+        const auto error = [&](const Eigen::VectorXd &step) {
+            const auto moved = [&](int i) {
+                return ale::Pose{start[i].x + step(3 * i), start[i].y + step(3 * i + 1),
+                                 start[i].theta + step(3 * i + 2)};
+            };
+            const ale::Pose e = ale::between(way, ale::between(moved(k), moved(k + 1)));
+            return Eigen::Vector3d(e.x, e.y, e.theta);
+        };
+        Eigen::MatrixXd j(3, 9);
+        for (int i = 0; i < 9; i++) {
+            const Eigen::VectorXd step = 1e-4 * Eigen::VectorXd::Unit(9, i);
+            j.col(i) = (error(step) - error(-step)) / 2e-4;
+        }
+        h += j.transpose() * information * j;
+        b -= j.transpose() * information * error(Eigen::VectorXd::Zero(9));
+    }
+    h.block<3, 3>(6, 6) += seen;
+    b.tail<3>() += pull;
+    graph.set_pulls({{2, seen, pull}});
+    graph.optimise(1);
+    const Eigen::VectorXd step = h.bottomRightCorner<6, 6>().ldlt().solve(b.tail<6>());
+    for (int k = 1; k < 3; k++) {
+        const ale::Pose &pose = graph.poses()[static_cast<size_t>(k)];
+        EXPECT_NEAR(pose.x - start[k].x, step(3 * k - 3), 1e-6);
+        EXPECT_NEAR(pose.y - start[k].y, step(3 * k - 2), 1e-6);
+        EXPECT_NEAR(pose.theta - start[k].theta, step(3 * k - 1), 1e-6);
+    }
 }
 
 // A ring of poses whose measured motions err, closed by one loop.
