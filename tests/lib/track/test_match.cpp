@@ -28,8 +28,10 @@ class Scene
         ale_local_map_clear(map.get());
         for (int k = 0; k < 24; k++) {
             const double facing = std::floor(uniform(0, 8)) * reference::pi / 4 + uniform(-0.05, 0.05);
-            const ale_view_t view =
-                piece(uniform(-4, 4), uniform(-4, 4), facing, uniform(0.2, 3), 1e-3, 2e-3);
+            const double length = uniform(0.2, 3);
+            const double y = uniform(-4, 4);
+            const double x = uniform(-4, 4);
+            const ale_view_t view = piece(x, y, facing, length, 1e-3, 2e-3);
             ale_wall_t wall;
             ale_wall_from_view(&wall, &view);
             wall.cov_um_urad = static_cast<int64_t>(uniform(-0.8, 0.8) * 1e3 * 2e3);
@@ -46,6 +48,15 @@ class Scene
     double uniform(double low, double high)
     {
         return std::uniform_real_distribution<double>(low, high)(random);
+    }
+
+    /* Drawn in an order of its own, not in the one in which a compiler evaluates arguments. */
+    Pose somewhere()
+    {
+        const double theta = uniform(-3, 3);
+        const double y = uniform(-2, 2);
+        const double x = uniform(-2, 2);
+        return {x, y, theta};
     }
 
     static ale_view_t piece(double x, double y, double normal, double length, double sigma,
@@ -72,8 +83,9 @@ class Scene
         const Eigen::Vector2d p =
             w.centre + tangent * uniform(-0.3, 0.3) * length + normal * uniform(-spread, spread);
         const Eigen::Vector2d local = reference::rotation(-pose[2]) * (p - pose.head<2>());
-        return piece(local.x(), local.y(), w.normal - pose[2] + uniform(-spread_angle, spread_angle),
-                     length * uniform(0.3, 1), 3e-3, 5e-3);
+        const double seen_length = length * uniform(0.3, 1);
+        const double facing = w.normal - pose[2] + uniform(-spread_angle, spread_angle);
+        return piece(local.x(), local.y(), facing, seen_length, 3e-3, 5e-3);
     }
 
     static WallPiece in_double(const ale_view_t &v)
@@ -127,8 +139,7 @@ TEST(Match, TheWallThatAViewShowsIsThatOfTheTwin)
     for (unsigned seed = 0; seed < 100; seed++) {
         Scene scene(seed);
         for (size_t k = 0; k < scene.walls.size(); k++) {
-            const ale_pose_t pose =
-                convert::pose(Pose(scene.uniform(-2, 2), scene.uniform(-2, 2), scene.uniform(-3, 3)));
+            const ale_pose_t pose = convert::pose(scene.somewhere());
             const ale_view_t view = scene.seen(k, convert::pose(pose), 0.3, 0.15);
             Eigen::Matrix3d exact;
             const ale_matrix_t cov = pose_covariance(scene, exact);
@@ -158,7 +169,7 @@ TEST(Hypothesis, ThePoseOfAPairIsThatOfTheTwin)
     for (unsigned seed = 0; seed < 100; seed++) {
         Scene scene(seed);
         for (size_t k = 0; k + 1 < scene.walls.size(); k++) {
-            const Pose truth(scene.uniform(-2, 2), scene.uniform(-2, 2), scene.uniform(-3, 3));
+            const Pose truth = scene.somewhere();
             const ale_view_t a = scene.seen(k, truth, 0.02, 0.01);
             const ale_view_t b = scene.seen(k + 1, truth, 0.02, 0.01);
             if (std::fabs(std::sin(scene.walls[k].normal - scene.walls[k + 1].normal)) < 0.5) {
@@ -185,7 +196,7 @@ TEST(Hypothesis, TheSearchFindsThePlaceAndTheScoresOfTheTwin)
     int compared = 0;
     for (unsigned seed = 0; seed < 160; seed++) {
         Scene scene(seed);
-        const Pose truth(scene.uniform(-2, 2), scene.uniform(-2, 2), scene.uniform(-3, 3));
+        const Pose truth = scene.somewhere();
         std::vector<ale_view_t> views;
         std::vector<WallPiece> lines;
         for (const size_t k : {0U, 3U, 6U, 9U, 12U, 15U, 18U, 21U}) {
