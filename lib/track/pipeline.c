@@ -119,15 +119,22 @@ void ale_pipeline_odometry(ale_pipeline_t *pipeline, const ale_odometry_t *sampl
     }
 }
 
+void ale_pipeline_go_on(const ale_pipeline_t *p, ale_motion_t *motion, int64_t stamp_us,
+                        const ale_wheel_motion_t *wheels)
+{
+    const ale_liveliness_t *l = &p->liveliness[wheels != NULL];
+    if (ale_pace_believes(&p->pace, stamp_us - motion->stamp_us)) {
+        ale_motion_predict(motion, stamp_us, wheels, l);
+    } else {
+        ale_motion_jump(motion, stamp_us, wheels, l);
+    }
+}
+
 /* The way from the last scan to this instant, by wheels where there are some. */
 static bool predict(ale_pipeline_t *p, int64_t stamp_us, ale_wheel_motion_t *wheels)
 {
     const bool known = ale_wheel_motion(&p->wheels, &p->lag, &p->scale, p->motion.stamp_us, stamp_us, wheels);
-    if (ale_pace_believes(&p->pace, stamp_us - p->motion.stamp_us)) {
-        ale_motion_predict(&p->motion, stamp_us, known ? wheels : NULL, &p->liveliness[known]);
-    } else {
-        ale_motion_jump(&p->motion, stamp_us, known ? wheels : NULL, &p->liveliness[known]);
-    }
+    ale_pipeline_go_on(p, &p->motion, stamp_us, known ? wheels : NULL);
     return known;
 }
 

@@ -1,5 +1,6 @@
 /* The first part of a scan's way: from raw ranges to what they show. */
 #include <stddef.h>
+#include <string.h>
 
 #include "base/fixed.h"
 #include "track/deskew.h"
@@ -40,6 +41,7 @@ void ale_pipeline_look(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t v
     int32_t sensor_velocity[ALE_AXES];
     p->scan = *raw;
     p->looked = true;
+    memcpy(p->velocity, velocity, sizeof p->velocity);
     ale_scan_mask(&p->scan, p->config.blind, p->config.blind_count);
     ale_sensor_velocity(velocity, p->config.sensor, sensor_velocity);
     p->straightened = ale_deskew(&p->scan, sensor_velocity, p->bearing_bam);

@@ -41,7 +41,7 @@ static bool is_found(ale_pipeline_t *p)
 {
     const ale_point_t anywhere = {0, 0};
     ale_local_map_approach(&p->map, anywhere, WHOLE_MAP_UM);
-    const ale_scene_t scene = {&p->map, p->view, p->view_count};
+    const ale_scene_t scene = ale_pipeline_scene(p);
     const ale_eye_t eye = {&p->scan, ale_pipeline_bearings(p), p->config.sensor};
     return ale_relocate(&p->relocation, &scene, &eye, &p->motion, &p->fit) && ale_tracker_believes(&p->fit);
 }

@@ -59,7 +59,8 @@ struct ale_pipeline {
     ale_fit_t other; /* of the same scan, from another pose */
     uint32_t view_count;
     uint16_t matched_corners;
-    bool straightened; /* bearing_bam holds */
+    int32_t velocity[ALE_AXES]; /* that it was straightened with */
+    bool straightened;          /* bearing_bam holds */
 
     bool started; /* the first scan has set the origin */
     bool looked;  /* the last answer had a scan */

@@ -9,11 +9,18 @@
 
 enum { ALE_SCAN_PERIOD_MAX_US = 2000000 }; /* scans farther apart say nothing of speed */
 
+/* How a motion goes on to stamp_us; wheels NULL: by its velocity alone. */
+void ale_pipeline_go_on(const ale_pipeline_t *p, ale_motion_t *motion, int64_t stamp_us,
+                        const ale_wheel_motion_t *wheels);
+
 /* Straightens the scan with a velocity, extracts, and turns lines and what is left into views. O(beams). */
 void ale_pipeline_look(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t velocity[ALE_AXES]);
 
 /* Bearings of the scan at hand, NULL when they are regular. */
 const uint32_t *ale_pipeline_bearings(const ale_pipeline_t *p);
+
+/* What the scan at hand shows, to be held against the map. */
+ale_scene_t ale_pipeline_scene(ale_pipeline_t *p);
 
 /* Fits the views to the walls within reach, from a predicted motion. The result is p->fit. */
 void ale_pipeline_match(ale_pipeline_t *p, const ale_motion_t *predicted, int32_t reach_um);

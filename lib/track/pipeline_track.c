@@ -2,6 +2,7 @@
 #include <stddef.h>
 
 #include "base/fixed.h"
+#include "base/trig.h"
 #include "track/map_update.h"
 #include "track/pipeline_steps.h"
 
@@ -22,19 +23,26 @@ enum {
     SLACK_URAD = 30000,
     SLACK_MOST_UM = 200000, /* a way that may be off by more says nothing of what was seen where */
     SLACK_MOST_URAD = 100000,
-    REJECT_PARTS = 10 /* less than this part of what is shown, found in the map, is found by chance */
+    APART_SIGMAS = 3, /* of the wheels: nearer than that, least squares finds it from where they say */
+    CHANCE_PARTS = 10 /* less than this part of what is shown, found in the map, may be found by chance */
 };
 
+static const ale_gate_t acquire_gate = {ACQUIRE_OFFSET_UM, ACQUIRE_ANGLE_URAD, ACQUIRE_SIGMAS,
+                                        ACQUIRE_PIECE_UM};
 static const ale_gate_t narrow_gate = {60000, 200000, 4, 50000};
 static const ale_gate_t register_gate = {250000, 200000, 6, 100000};
 
+ale_scene_t ale_pipeline_scene(ale_pipeline_t *p)
+{
+    return (ale_scene_t){&p->map, p->view, p->view_count, p->velocity};
+}
+
 void ale_pipeline_match(ale_pipeline_t *p, const ale_motion_t *predicted, int32_t reach_um)
 {
-    const ale_gate_t gate = {ACQUIRE_OFFSET_UM, ACQUIRE_ANGLE_URAD, ACQUIRE_SIGMAS, ACQUIRE_PIECE_UM};
-    const ale_scene_t scene = {&p->map, p->view, p->view_count};
+    const ale_scene_t scene = ale_pipeline_scene(p);
     const ale_point_t centre = {predicted->pose.x_um, predicted->pose.y_um};
     ale_local_map_approach(&p->map, centre, reach_um);
-    ale_refine(predicted, &scene, &gate, &p->fit);
+    ale_refine(predicted, &scene, &acquire_gate, &p->fit);
 }
 
 /* What a good scan teaches about the wheels: their lag from turns, their scale from the way. */
@@ -115,7 +123,7 @@ static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_moti
     const ale_testimony_t heard = doubt ? ale_witness_hear(&p->witness, &now, slack) : (ale_testimony_t){0};
     ale_tracker_notice(&p->tracker, doubt ? &heard : NULL, counted);
     if (p->tracker.jumped) {
-        const ale_scene_t scene = {&p->map, p->view, p->view_count};
+        const ale_scene_t scene = ale_pipeline_scene(p);
         ale_refine_reject(predicted, &scene, &p->fit);
         p->motion = *predicted;
     } else {
@@ -135,13 +143,39 @@ static void anchor(ale_pipeline_t *p)
     }
 }
 
+static int64_t turn_urad(ale_pose_t way)
+{
+    return ale_abs64(ale_bam_to_nrad((int32_t)way.theta_bam)) / 1000;
+}
+
+/* How far two poses lie apart. */
+typedef struct {
+    int64_t way_um;
+    int64_t turn_urad;
+} apart_t;
+
+static apart_t apart(ale_pose_t a, ale_pose_t b)
+{
+    const ale_pose_t way = ale_pose_between(a, b);
+    return (apart_t){ale_max64(ale_abs64(way.x_um), ale_abs64(way.y_um)), turn_urad(way)};
+}
+
+/* Whether a pose is nearer to one prediction than to another; a radian counts as a metre. */
+static bool is_nearer(ale_pose_t pose, const ale_motion_t *one, const ale_motion_t *other)
+{
+    const apart_t a = apart(pose, one->pose);
+    const apart_t b = apart(pose, other->pose);
+    return a.way_um + a.turn_urad < b.way_um + b.turn_urad;
+}
+
 /* Where the last scan says that the robot is, to be fitted from there. */
 static bool register_scan(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted,
-                          ale_pose_t *from)
+                          const apart_t *beyond, ale_pose_t *from)
 {
     const ale_matrix_t *cov = &predicted->cov;
-    const int64_t reach_um = REGISTER_UM + 5 * ale_max64(sigma_of(cov, 0), sigma_of(cov, 1));
-    const int64_t reach_urad = REGISTER_URAD + 5 * sigma_of(cov, 2);
+    const int64_t reach_um =
+        REGISTER_UM + ale_max64(5 * ale_max64(sigma_of(cov, 0), sigma_of(cov, 1)), beyond->way_um);
+    const int64_t reach_urad = REGISTER_URAD + ale_max64(5 * sigma_of(cov, 2), beyond->turn_urad);
     /* on the way that is smooth, as the witness is */
     const ale_pose_t guess =
         ale_pose_compose(p->smooth.pose, ale_pose_between(before->pose, predicted->pose));
@@ -156,18 +190,48 @@ static bool register_scan(ale_pipeline_t *p, const ale_motion_t *before, const a
     return true;
 }
 
-/* The map explains too little of the scan: once more from where the last scan says that the robot is, or,
- * since wide gates may have caught the wrong walls, with narrow ones. What only little speaks for is not
- * believed. */
-static void match_again(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted)
+/* How the robot went on if its wheels slip, which then tell nothing: as before. False when that is hardly
+ * known, or about where the wheels put it. */
+static bool go_on_as_before(const ale_pipeline_t *p, const ale_motion_t *before,
+                            const ale_motion_t *predicted, ale_motion_t *out)
 {
-    const ale_scene_t scene = {&p->map, p->view, p->view_count};
+    const ale_matrix_t *cov = &predicted->cov;
+    *out = *before;
+    ale_pipeline_go_on(p, out, predicted->stamp_us, NULL);
+    const ale_pose_t way = ale_pose_between(predicted->pose, out->pose);
+    const bool elsewhere = ale_abs64(way.x_um) > APART_SIGMAS * sigma_of(cov, 0) ||
+                           ale_abs64(way.y_um) > APART_SIGMAS * sigma_of(cov, 1) ||
+                           turn_urad(way) > APART_SIGMAS * sigma_of(cov, 2);
+    return elsewhere && sigma_of(&out->cov, 0) < SLACK_MOST_UM && sigma_of(&out->cov, 1) < SLACK_MOST_UM &&
+           sigma_of(&out->cov, 2) < SLACK_MOST_URAD;
+}
+
+/* The map explains too little of the scan: once more from where the last scan says that the robot is, or,
+ * since wide gates may have caught the wrong walls, with narrow ones. If wheels may have slipped, the last
+ * scan decides whether they are believed; when it says nothing, the map does. What only little speaks for is
+ * not believed. Returns whether wheels count; if they slipped, *predicted becomes the motion without them. */
+static bool match_again(ale_pipeline_t *p, const ale_motion_t *before, bool counted, ale_motion_t *predicted)
+{
+    const ale_scene_t scene = ale_pipeline_scene(p);
+    const int64_t found_um = p->fit.matched_um;
+    ale_motion_t as_before;
+    const bool may_slip = counted && go_on_as_before(p, before, predicted, &as_before);
+    const apart_t beyond = may_slip ? apart(predicted->pose, as_before.pose) : (apart_t){0, 0};
     ale_pose_t from = predicted->pose;
-    const bool registered = register_scan(p, before, predicted, &from);
-    ale_refine_again(predicted, from, &scene, registered ? &register_gate : &narrow_gate, &p->other, &p->fit);
-    if (p->fit.matched_um * REJECT_PARTS < p->fit.shown_um) {
+    const bool registered = register_scan(p, before, predicted, &beyond, &from);
+    const bool slips = may_slip && (!registered || is_nearer(from, &as_before, predicted));
+    const ale_motion_t *prior = slips ? &as_before : predicted;
+    const ale_gate_t *unguided = slips ? &acquire_gate : &narrow_gate;
+    ale_refine_again(prior, registered ? from : prior->pose, &scene, registered ? &register_gate : unguided,
+                     &p->other, &p->fit);
+    const bool slipped = slips && p->fit.matched_um > found_um;
+    if (slipped) {
+        *predicted = as_before;
+    }
+    if (p->fit.matched_um * CHANCE_PARTS < p->fit.shown_um) {
         ale_refine_reject(predicted, &scene, &p->fit);
     }
+    return counted && !slipped;
 }
 
 /* What has come while the robot stood begins no wall. */
@@ -185,16 +249,18 @@ static void leave_out_newcomers(ale_pipeline_t *p, const ale_motion_t *before)
 void ale_pipeline_track(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted,
                         const ale_wheel_motion_t *wheels)
 {
+    ale_motion_t prior = *predicted;
+    bool counted = wheels != NULL;
     ale_pipeline_match(p, predicted, p->scan.range_max_um);
     if (ale_tracker_doubts(&p->fit)) {
-        match_again(p, before, predicted);
+        counted = match_again(p, before, counted, &prior);
     }
     p->motion = p->fit.motion;
-    notice(p, before, predicted, wheels != NULL);
+    notice(p, before, &prior, counted);
     p->drift = ale_drift_here(&p->map, p->view, p->view_count, &p->fit, p->drift);
     if (!p->tracker.jumped) {
-        ale_liveliness_learn(&p->liveliness[wheels != NULL], predicted, &p->motion);
-        teach_wheels(p, before, wheels);
+        ale_liveliness_learn(&p->liveliness[counted], &prior, &p->motion);
+        teach_wheels(p, before, counted ? wheels : NULL);
     }
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);
     anchor(p);

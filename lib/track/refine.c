@@ -207,24 +207,27 @@ static int64_t step(const ale_matrix_t *prior, int64_t total[ALE_STATES], ale_fi
         total[i] += delta[i];
         size = ale_max64(size, ale_abs64(delta[i]));
     }
-    for (int i = 0; i < 3; i++) {
-        fit->velocity_change[i] = total[i + 3];
-    }
     ale_matrix_invert(&factors, ALE_MATRIX_BITS, &fit->motion.cov);
     return size;
 }
 
-static void start(const ale_motion_t *predicted, ale_fit_t *fit)
+static void note_velocity_change(const ale_motion_t *predicted, const ale_scene_t *scene, ale_fit_t *fit)
+{
+    const int32_t *straightened = scene->velocity ? scene->velocity : predicted->velocity;
+    for (int i = 0; i < ALE_AXES; i++) {
+        fit->velocity_change[i] = (int64_t)fit->motion.velocity[i] - straightened[i];
+    }
+}
+
+static void start(const ale_motion_t *predicted, const ale_scene_t *scene, ale_fit_t *fit)
 {
     fit->motion = *predicted;
-    for (int i = 0; i < 3; i++) {
-        fit->velocity_change[i] = 0;
-    }
+    note_velocity_change(predicted, scene, fit);
 }
 
 void ale_refine_reject(const ale_motion_t *predicted, const ale_scene_t *scene, ale_fit_t *fit)
 {
-    start(predicted, fit);
+    start(predicted, scene, fit);
     clear_sums(fit);
     for (uint32_t i = 0; i < scene->view_count; i++) {
         fit->match[i] = (ale_match_t){.wall = ALE_NO_WALL, .mark = ALE_NO_MARK};
@@ -252,12 +255,16 @@ static void fit_from(const ale_motion_t *predicted, const ale_scene_t *scene,
     const ale_pose_t ahead = ale_pose_between(predicted->pose, out->motion.pose);
     int64_t total[ALE_STATES] = {ahead.x_um, ahead.y_um, ale_bam_to_nrad((int32_t)ahead.theta_bam) / 1000};
     int64_t size = INT64_MAX;
+    ale_factors_t factors;
+    ale_matrix_factor(&predicted->cov, &factors);
+    ale_matrix_invert(&factors, ALE_MATRIX_BITS, &out->prior);
     ale_local_map_focus(scene->map, (ale_point_t){out->motion.pose.x_um, out->motion.pose.y_um},
                         reach_um(scene));
     for (out->iterations = 0; out->iterations < ALE_REFINE_ITERATIONS && size > CONVERGED_UM;
          out->iterations++) {
         gather(scene, out->iterations == 0 ? &predicted->cov : &out->motion.cov, gates[out->iterations], out);
         size = step(&out->prior, total, out);
+        note_velocity_change(predicted, scene, out);
     }
     /* errors at the pose that was found, for the map */
     gather(scene, &out->motion.cov, out->iterations > 2 ? NULL : &later, out);
@@ -269,10 +276,7 @@ void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const a
     const ale_gate_t second = {(gate->offset_um + LATER_OFFSET_UM) / 3, gate->angle_urad, LATER_SIGMAS,
                                gate->piece_um};
     const ale_gate_t *const wide[ALE_REFINE_ITERATIONS] = {gate, &second, &later};
-    ale_factors_t factors;
-    ale_matrix_factor(&predicted->cov, &factors);
-    ale_matrix_invert(&factors, ALE_MATRIX_BITS, &out->prior);
-    start(predicted, out);
+    start(predicted, scene, out);
     fit_from(predicted, scene, wide, out);
 }
 
@@ -280,8 +284,7 @@ void ale_refine_again(const ale_motion_t *predicted, ale_pose_t from, const ale_
                       const ale_gate_t *gate, ale_fit_t *other, ale_fit_t *fit)
 {
     const ale_gate_t *const gates[ALE_REFINE_ITERATIONS] = {gate, &later, &later};
-    start(predicted, other);
-    other->prior = fit->prior;
+    start(predicted, scene, other);
     other->motion.pose = from;
     fit_from(predicted, scene, gates, other);
     if (other->matched_um >= fit->matched_um) {

@@ -25,7 +25,8 @@ enum { ALE_REFINE_ITERATIONS = 3 };
 typedef struct {
     ale_local_map_t *map; /* near list prepared; fits focus it */
     const ale_view_t *view;
-    uint32_t view_count; /* ALE_MAX_VIEWS at most */
+    uint32_t view_count;     /* ALE_MAX_VIEWS at most */
+    const int32_t *velocity; /* that the scan was straightened with; NULL: the predicted one */
 } ale_scene_t;
 
 typedef struct {
@@ -53,8 +54,8 @@ void ale_view_rows(const ale_view_t *view, uint32_t pose_theta_bam, uint32_t wal
 void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
                 ale_fit_t *out);
 
-/* Fits once more, from another pose and with another gate to begin with, and keeps what explains more. The
- * prediction weighs as before. other: working memory. */
+/* Fits once more, from another pose, with another gate to begin with and perhaps another prediction, and
+ * keeps what explains more. other: working memory. */
 void ale_refine_again(const ale_motion_t *predicted, ale_pose_t from, const ale_scene_t *scene,
                       const ale_gate_t *gate, ale_fit_t *other, ale_fit_t *fit);
 

@@ -9,6 +9,7 @@ enum {
     DOUBT_PERCENT = 60,        /* of what is shown is found in the map: no question; */
     STRANGE_PERCENT = 35,      /* less than this is found: has the scene changed? */
     DENIED_LEAST_UM = 1000000, /* surfaces that must be gone before a change is called one, */
+    SHOWN_LEAST_UM = 2000000,  /* two scans that show less of each other than this cannot be compared */
     DENIED_PERCENT = 20,       /* and the part of all that both scans looked at */
     CONFIRM_PERCENT = 20,      /* two scans confirm this much of each other at the least, */
     CLOSE_PERCENT = 45,        /* this much when taken side by side, */
@@ -81,7 +82,7 @@ void ale_tracker_notice(ale_tracker_t *tracker, const ale_testimony_t *heard, bo
     const int64_t told_um = heard ? heard->denied_um + heard->confirmed_um : 0;
     const bool denied =
         heard && heard->denied_um > DENIED_LEAST_UM && heard->denied_um * 100 > told_um * DENIED_PERCENT;
-    tracker->jumped = heard && heard->shown_um > DENIED_LEAST_UM &&
+    tracker->jumped = heard && heard->shown_um > SHOWN_LEAST_UM &&
                       (denied || !is_confirmed(tracker, heard) || is_adrift(tracker, counted));
 }
 

@@ -245,8 +245,8 @@ const std::map<std::string, ale_gate_t> gates = {{"first", {600000, 300000, 4, 1
 void matching(Parts &parts, Random &random, Crowd &crowd)
 {
     const ale_motion_t predicted = any_motion(random);
-    const ale_scene_t scene = {crowd.map.get(), crowd.views.data(),
-                               static_cast<uint32_t>(crowd.views.size())};
+    const ale_scene_t scene = {crowd.map.get(), crowd.views.data(), static_cast<uint32_t>(crowd.views.size()),
+                               nullptr};
     auto fit = std::make_unique<ale_fit_t>();
     auto other = std::make_unique<ale_fit_t>();
     parts.measure("near walls listed", 2, [&] {

@@ -1,4 +1,4 @@
-// lib/track/pipeline_track.c: a robot that stands among people who walk.
+// lib/track/pipeline_track.c: a robot that stands among people who walk, and one whose wheels slip.
 #include <gtest/gtest.h>
 
 #include "room.h"
@@ -106,6 +106,33 @@ TEST(PipelineTrack, AtRestAmongWalkingPeopleItStaysAndTheirBodiesAreNoWalls)
         const reference::Pose middle = reference::compose(robot, (a + b) / 2);
         EXPECT_LT(from_nearest_wall(middle.head<2>()), 0.05) << "line " << i;
     }
+}
+
+/* It drives into something, climbs up, and one wheel spins in the air: 4 rad/s are counted, none is turned.
+ */
+TEST(PipelineTrack, AWheelThatSpinsTurnsTheRobotInNoMap)
+{
+    const double drives_s = 2.5;
+    const auto path = [&](double t) { return reference::Pose(0.4 * std::min(t, drives_s), 0, 0); };
+    std::mt19937 rng(4);
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    room::Sensor sensor;
+    sensor.noise = 0.004;
+    ale_estimate_t e = {};
+    for (int k = 0; k < 35; k++) {
+        const double t = 0.1 * k;
+        const double spun_rad = -4 * std::max(t - drives_s, 0.0);
+        const reference::Pose counted(0.4 * std::min(t, drives_s), 0, spun_rad);
+        const ale_odometry_t wheels = {std::llround(t * 1e6), convert::pose(counted)};
+        ale_pipeline_odometry(p.get(), &wheels);
+        const ale_scan_t scan = room::scan_at(room::l_shape(), sensor, path, t, rng);
+        ale_pipeline_scan(p.get(), &scan, &e);
+        ASSERT_NE(e.state, ALE_STATE_LOST) << t;
+    }
+    const reference::Pose truth = room::since_start(path(0), path(drives_s));
+    const reference::Pose error = reference::compose(reference::inverse(truth), convert::pose(e.map));
+    EXPECT_LT(error.head<2>().norm(), 0.01);
+    EXPECT_LT(std::abs(error[2]), 0.01);
 }
 
 } // namespace

@@ -63,7 +63,7 @@ struct Scene {
     ale_fit_t fit(const ale_motion_t &predicted)
     {
         const ale_gate_t gate = {600000, 300000, 4, 100000};
-        const ale_scene_t scene = {map.get(), views.data(), static_cast<uint32_t>(views.size())};
+        const ale_scene_t scene = {map.get(), views.data(), static_cast<uint32_t>(views.size()), nullptr};
         ale_local_map_approach(map.get(), {0, 0}, 10000000);
         ale_fit_t out;
         ale_refine(&predicted, &scene, &gate, &out);
