@@ -11,7 +11,7 @@ void ale_map_publisher_init(ale_map_publisher_t *publisher, ale_exchange_t *exch
 {
     publisher->exchange = exchange;
     publisher->bus = bus;
-    publisher->tracked = NULL;
+    publisher->tracked_is_new = false;
     publisher->drawn = false;
     publisher->begun = false;
     publisher->shown.version = 0;
@@ -30,22 +30,25 @@ const ale_map_t *ale_map_publisher_map(const ale_map_publisher_t *publisher)
     return publisher->begun ? &publisher->shown : NULL;
 }
 
-const ale_map_t *ale_map_publisher_tracked(const ale_map_publisher_t *publisher)
+const ale_map_t *ale_map_publisher_tracked(ale_map_publisher_t *publisher)
 {
-    return publisher->tracked;
+    bool fresh = false;
+    const ale_map_t *tracked = ale_snapshot_newest(publisher->exchange->map, &fresh);
+    publisher->tracked_is_new = publisher->tracked_is_new || fresh;
+    return tracked;
 }
 
 /* The map to be shown, when it is another than before. */
 static const ale_map_t *another_map(ale_map_publisher_t *publisher, uint32_t epoch)
 {
     bool fresh_drawing = false;
-    bool fresh = false;
     const ale_drawn_map_t *drawing = ale_snapshot_newest(publisher->exchange->drawn_map, &fresh_drawing);
-    publisher->tracked = ale_snapshot_newest(publisher->exchange->map, &fresh);
+    const ale_map_t *tracked = ale_map_publisher_tracked(publisher);
     const bool drawn = drawing->epoch != 0 && drawing->epoch == epoch;
-    const bool other = drawn != publisher->drawn || (drawn ? fresh_drawing : fresh);
+    const bool other = drawn != publisher->drawn || (drawn ? fresh_drawing : publisher->tracked_is_new);
     publisher->drawn = drawn;
-    return !other ? NULL : drawn ? &drawing->map : publisher->tracked;
+    publisher->tracked_is_new = false;
+    return !other ? NULL : drawn ? &drawing->map : tracked;
 }
 
 static void show(ale_map_publisher_t *publisher, const ale_map_t *map)

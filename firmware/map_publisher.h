@@ -15,11 +15,11 @@
 typedef struct {
     ale_exchange_t *exchange;
     ale_bus_t *bus;
-    const ale_map_t *tracked; /* the tracker's */
-    bool drawn;               /* what is shown is not the tracker's */
-    bool begun;               /* something is shown */
-    ale_map_t shown;          /* its version is this one's, so that it grows whoever made the map */
-    int16_t next_part;        /* all sent: the number of parts */
+    bool tracked_is_new; /* the tracker's map came in since it was last asked for what to show */
+    bool drawn;          /* what is shown is not the tracker's */
+    bool begun;          /* something is shown */
+    ale_map_t shown;     /* its version is this one's, so that it grows whoever made the map */
+    int16_t next_part;   /* all sent: the number of parts */
     int64_t next_ns;
     int64_t next_whole_ns;
 } ale_map_publisher_t;
@@ -40,9 +40,9 @@ void ale_map_publisher_finish(ale_map_publisher_t *publisher, uint32_t epoch);
  */
 const ale_map_t *ale_map_publisher_map(const ale_map_publisher_t *publisher);
 
-/* The tracker's map, a second old at most: what the newest pose was found in. NULL before the first work.
- * Valid as long.
+/* The tracker's newest map, a second old at most: what the newest pose was found in. Empty before the first.
+ * Valid until the next call of this or of work.
  */
-const ale_map_t *ale_map_publisher_tracked(const ale_map_publisher_t *publisher);
+const ale_map_t *ale_map_publisher_tracked(ale_map_publisher_t *publisher);
 
 #endif

@@ -199,9 +199,8 @@ static void take_command(void *user, const uint8_t *bytes, size_t count)
 static void keep_map(ale_telemetry_t *telemetry)
 {
     ale_last_place_t *place = telemetry->exchange->last_place;
-    const ale_map_t *map = ale_map_publisher_tracked(&telemetry->map);
-    if (place && map && telemetry->statistics.state != ALE_STATE_LOST) {
-        ale_last_place_offer(place, map, &telemetry->pose);
+    if (place && telemetry->statistics.state != ALE_STATE_LOST) {
+        ale_last_place_offer(place, ale_map_publisher_tracked(&telemetry->map), &telemetry->pose);
     }
 }
 

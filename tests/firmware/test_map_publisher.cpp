@@ -98,6 +98,17 @@ TEST_F(MapPublisher, TheTrackersMapIsShownUntilThereIsADrawing)
     EXPECT_EQ(lines(), 2);
 }
 
+TEST_F(MapPublisher, TheTrackersNewestMapIsThereBeforeItIsItsTurnToBeShown)
+{
+    track(4);
+    work();
+    track(5);
+    EXPECT_EQ(ale_map_publisher_tracked(publisher.get())->line_count, 5);
+    EXPECT_EQ(lines(), 4);
+    later();
+    EXPECT_EQ(lines(), 5) << "although somebody had asked for it before";
+}
+
 TEST_F(MapPublisher, ADrawingOfAMapThatWasLeftIsNotShown)
 {
     draw(3);

@@ -68,9 +68,9 @@ def driven(chain):
                and math.dist((poses[-1].map_x, poses[-1].map_y), end) < 0.1, 180, "a robot that stands at its way's end")
     standing = len(poses)
     wait_until(lambda: near(kept_pose(chain.folder), poses[-1]), 180, "the pose in which it stands to be kept")
-    # And once more, with what it sees from there: twice the period at least.
+    # And once more, with what it sees from there: thrice the period at least, the map being a period old at most.
     first = (chain.folder / "kept.map").stat().st_mtime_ns
-    wait_until(lambda: len(poses) > standing + 2 * SPEED * 10 and (chain.folder / "kept.map").stat().st_mtime_ns != first, 180,
+    wait_until(lambda: len(poses) > standing + 3 * SPEED * 10 and (chain.folder / "kept.map").stat().st_mtime_ns != first, 180,
                "the map to be kept again")
     return chain, firmware
 

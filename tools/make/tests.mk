@@ -31,14 +31,14 @@ TEST_FLAGS = -std=c++17 -fno-strict-aliasing -g1 $(WARNINGS) -MMD -MP $(CXXFLAGS
 TWIN_FLAGS = $(TEST_FLAGS) -O1
 PRELUDE = $(TEST_OBJ)/prelude.hpp
 PRELUDE_FLAGS = $(filter-out -Werror,$(TEST_FLAGS)) -Wno-sign-conversion -O0 -fpch-instantiate-templates -Xclang -fno-pch-timestamp
-# ccache must be told that a precompiled header is known by its contents.
+# ccache must be told that a precompiled header is known by its contents; the header itself names the folder it was made in.
 export CCACHE_SLOPPINESS = pch_defines,time_macros
 
 $(PRELUDE).pch: tests/prelude.hpp
 	$(call say,c++,$<)
 	@mkdir -p $(@D)
 	$(Q)cp $< $(PRELUDE)
-	$(Q)$(TEST_CXX) $(PRELUDE_FLAGS) -x c++-header $(PRELUDE) -o $@
+	$(Q)CCACHE_DISABLE=1 $(TEST_CXX) $(PRELUDE_FLAGS) -x c++-header $(PRELUDE) -o $@
 # Message types are system headers, which no .d file names.
 $(TEST_OBJ)/%.cpp.o: %.cpp $(LCM_FILES) $(PRELUDE).pch | $(LCM_STAMP)
 	$(call say,c++,$<)
