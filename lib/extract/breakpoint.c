@@ -11,9 +11,11 @@ enum {
     GRID = 9,         /* places at which a run is tried for a break */
     MEETING_UNIT = 1 << 20, /* so that the difference of two lines times a point fits int64 */
     MEETING_LOSS_Q8 =
-        6 * 256,         /* own variances that a break where the lines meet may fit worse than the best */
-    SUSPICIOUS_Q8 = 236, /* a run that has no more than its noise is not tried */
-    PROMISING_Q8 = 100   /* part of the gain wanted that a place of the grid must show */
+        6 * 256,             /* own variances that a break where the lines meet may fit worse than the best */
+    MOST_MEETINGS = 3,       /* times that lines which part where they met are asked where they meet */
+    SUSPICIOUS_Q8 = 236,     /* chi square of a degree of freedom, */
+    SUSPICIOUS_SUM_Q8 = 768, /* and in all, from which on a run is tried: less is no more than its noise */
+    PROMISING_Q8 = 100       /* part of the gain wanted that a place of the grid must show */
 };
 
 int32_t ale_reading_direction(const ale_extractor_t *e, int32_t first, int32_t last)
@@ -149,20 +151,17 @@ typedef struct {
 } placing_t;
 
 /* The meeting point of the lines that part at a place is known better than the least joint chi square, which
- * is nearly the same over many points where a wall bends a little. It is taken unless it fits worse. */
+ * is nearly the same over many points where a wall bends a little. It is taken unless it fits worse. Whether
+ * the break has moved. */
 static bool move_to_meeting(const ale_extractor_t *e, const pair_t *pair, const ale_break_range_t *range,
                             placing_t *best)
 {
     const int32_t meeting = meeting_point(e, pair, best->split, range);
-    if (meeting < 0) {
+    if (meeting < 0 || meeting == best->split ||
+        joint_chi_q8(e, pair, meeting) > best->chi_q8 + MEETING_LOSS_Q8) {
         return false;
     }
-    if (meeting != best->split) {
-        if (joint_chi_q8(e, pair, meeting) > best->chi_q8 + MEETING_LOSS_Q8) {
-            return false;
-        }
-        best->split = meeting;
-    }
+    best->split = meeting;
     return true;
 }
 
@@ -203,7 +202,10 @@ int32_t ale_break_place(const ale_extractor_t *e, ale_segment_t both, int64_t va
             came_from = centre;
         }
     }
-    move_to_meeting(e, &pair, range, &best);
+    bool moved = true;
+    for (int32_t k = 0; moved && k < MOST_MEETINGS; k++) {
+        moved = move_to_meeting(e, &pair, range, &best);
+    }
     return best.split;
 }
 
@@ -255,7 +257,7 @@ static parting_t part_at(const ale_extractor_t *e, const ale_run_t *run, int32_t
 
 bool ale_break_suspicious(const ale_run_fit_t *one)
 {
-    return ale_fit_chi_q8(one) >= (int64_t)(one->n - 2) * SUSPICIOUS_Q8;
+    return ale_fit_chi_q8(one) >= (int64_t)(one->n - 2) * SUSPICIOUS_Q8 + SUSPICIOUS_SUM_Q8;
 }
 
 int32_t ale_break_find(const ale_extractor_t *e, ale_run_t *run, int32_t direction)

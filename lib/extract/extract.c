@@ -18,6 +18,7 @@
 
 enum {
     HIGH_Z = 4,
+    MOST_ROUNDS = 2, /* of splitting, joining and placing, where a round changes something */
     LOW_Z = 3,
     CLUTTER_LONGER = 4, /* thirds of the fewest points of a line, where there is clutter */
     ROUGH_OWN_Q2 = 6,   /* own variances that a line may have beyond its bound: the measured noise errs too */
@@ -233,6 +234,22 @@ static void search_runs(ale_extractor_t *e, const ale_scan_t *scan)
     }
 }
 
+/* A break that was missed spoils those beside it: once it is found, and they are placed anew, others show.
+ * Not so where neighbours share an error, whose waves every further round would follow. */
+static void split_runs(ale_extractor_t *e)
+{
+    const int32_t rounds = e->shared_scale_q8 > 256 || ale_costly(e) ? 1 : MOST_ROUNDS;
+    bool changed = true;
+    for (int32_t round = 0; changed && round < rounds; round++) {
+        const bool split = ale_runs_split(e);
+        changed = ale_merge_runs(e) || split;
+        ale_runs_place(e, round == 0 ? ALE_BREAK_FINE_STEP : ALE_BREAK_WIDE_STEP);
+        if (changed) {
+            ale_scan_noise_refine_own(e);
+        }
+    }
+}
+
 /* What the search found, made good on the raw points. Of clutter only the most needed, for the time is
  * bounded. */
 static void improve_runs(ale_extractor_t *e)
@@ -247,9 +264,7 @@ static void improve_runs(ale_extractor_t *e)
     ale_runs_place(e, ALE_BREAK_WIDE_STEP);
     ale_scan_noise_refine_own(e); /* each run now has the points that are its own */
     ale_curve_find(e);
-    ale_runs_split(e);
-    ale_merge_runs(e);
-    ale_runs_place(e, ALE_BREAK_FINE_STEP);
+    split_runs(e);
     ale_curve_find(e);
 }
 

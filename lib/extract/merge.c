@@ -42,8 +42,9 @@ static void join_with_next(ale_extractor_t *e, int32_t k)
     e->run_count--;
 }
 
-void ale_merge_runs(ale_extractor_t *e)
+bool ale_merge_runs(ale_extractor_t *e)
 {
+    const int32_t before = e->run_count;
     int64_t ratio[ALE_MAX_RUNS];
     for (int32_t k = 0; k + 1 < e->run_count; k++) {
         ratio[k] = ratio_at(e, k);
@@ -54,7 +55,7 @@ void ale_merge_runs(ale_extractor_t *e)
             best = ratio[k] < ratio[best] ? k : best;
         }
         if (ratio[best] >= 256) {
-            return;
+            break;
         }
         join_with_next(e, best);
         for (int32_t k = best; k + 1 < e->run_count; k++) {
@@ -64,4 +65,5 @@ void ale_merge_runs(ale_extractor_t *e)
             ratio[k] = ratio_at(e, k);
         }
     }
+    return e->run_count < before;
 }

@@ -4,8 +4,9 @@
 
 #include "extract/workspace.h"
 
-/* Joins neighbouring runs, the least different first, while one line explains both as well as two do. */
-void ale_merge_runs(ale_extractor_t *e);
+/* Joins neighbouring runs, the least different first, while one line explains both as well as two do.
+ * Whether there were any. */
+bool ale_merge_runs(ale_extractor_t *e);
 
 /* What two lines a and b explain better than the one line through the points of both, over what noise alone
  * would give, Q8: joined below 256. on_one_surface: no jump lies between them, so that a shared error reaches

@@ -6,13 +6,15 @@ _Static_assert(ALE_POINT_MAX_Q4 *ALE_POINT_MAX_Q4 <= INT64_MAX / 2 / ALE_MAX_BEA
                "twice the centred moments of the largest scan must fit int64");
 
 enum {
-    MOST_RELATIVE_Q36 = 1 << 29, /* no error is believed to exceed 9 % of the range */
-    OWN_SCALED_BITS = 37,
-    MEAN_SHIFT = 2,      /* of a mean's mm */
-    DIRECTION_SHIFT = 8, /* of the scatter, so that its product with two means fits int64 */
-    NORMAL_SHIFT = 14,   /* of the scatter, so that a normal times the mean times another normal fits int64 */
-    SCATTER_BITS = 32,   /* centred moments are scaled to this many bits: their products fit int64 */
-    ROUND = 8,           /* a run is round when its width is more than this part of its length, squared */
+    MOST_RELATIVE_Q36 = 1 << 29,       /* no error is believed to exceed 9 % of the range */
+    INVERSE2_SHIFT = 34,               /* from Q88 */
+    MOST_INVERSE2_Q54 = (1 << 26) - 1, /* of ranges from 16 mm on, */
+    OWN_BITS = 37,                     /* and of the own variance: their product fits int64 */
+    MEAN_SHIFT = 2,                    /* of a mean's mm */
+    DIRECTION_SHIFT = 8,               /* of the scatter, so that its product with two means fits int64 */
+    NORMAL_SHIFT = 14, /* of the scatter, so that a normal times the mean times another normal fits int64 */
+    SCATTER_BITS = 32, /* centred moments are scaled to this many bits: their products fit int64 */
+    ROUND = 8,         /* a run is round when its width is more than this part of its length, squared */
     STEPS_OF_ROUND = 4,
     VAR_FLOOR_Q8 = 16 /* (0.25 mm)^2: no range is known better than its quantum of 1 mm */
 };
@@ -21,10 +23,7 @@ void ale_moments_build(ale_extractor_t *e)
 {
     ale_moments_t total = {0};
     int64_t inverse_total = 0;
-    /* own_mm2 / range^2 from 2^44 / range: its square >> 34, times this, >> 26, is Q36 */
-    const int64_t own_scaled =
-        ale_min64(((e->noise.own_mm2_q36 >> 10) * 15625) >> 12, (int64_t)1 << OWN_SCALED_BITS);
-    const int64_t own_relative = e->noise.own_relative_q36;
+    e->noise.own_um2_q8 = ale_min64(((e->noise.own_mm2_q36 >> 10) * 15625) >> 12, (int64_t)1 << OWN_BITS);
     for (int32_t i = 0; i < e->count; i++) {
         e->sum[i] = total;
         e->inverse_sum[i] = inverse_total;
@@ -36,7 +35,7 @@ void ale_moments_build(ale_extractor_t *e)
         total.xx += x * x;
         total.yy += y * y;
         total.xy += x * y;
-        total.noise_q36 += ((inverse * inverse >> 34) * own_scaled >> 26) + own_relative;
+        total.inverse2_q54 += inverse * inverse >> INVERSE2_SHIFT;
         inverse_total += inverse;
     }
     e->sum[e->count] = total;
@@ -57,7 +56,7 @@ static inline ale_moments_t sums_of(const ale_extractor_t *e, int32_t first, int
     const ale_moments_t *p = &e->sum[first];
     const ale_moments_t *q = &e->sum[last + 1];
     const ale_moments_t s = {q->x - p->x,   q->y - p->y,   q->xx - p->xx,
-                             q->yy - p->yy, q->xy - p->xy, q->noise_q36 - p->noise_q36};
+                             q->yy - p->yy, q->xy - p->xy, q->inverse2_q54 - p->inverse2_q54};
     return s;
 }
 
@@ -113,9 +112,11 @@ typedef struct {
     int64_t range2;
 } noise_at_t;
 
-static inline noise_at_t noise_of(int64_t n, const ale_moments_t *s)
+static inline noise_at_t noise_of(const ale_scan_noise_t *noise, int64_t n, const ale_moments_t *s)
 {
-    const noise_at_t at = {ale_min64(s->noise_q36 / n, MOST_RELATIVE_Q36),
+    const int64_t inverse2_q54 = ale_min64(s->inverse2_q54 / n, MOST_INVERSE2_Q54);
+    const int64_t own_q36 = (inverse2_q54 * noise->own_um2_q8 >> 26) + noise->own_relative_q36;
+    const noise_at_t at = {ale_min64(own_q36, MOST_RELATIVE_Q36),
                            (s->xx + s->yy) / (n << (2 * ALE_POINT_SHIFT))};
     return at;
 }
@@ -149,7 +150,7 @@ bool ale_moments_fit_unless_gross(const ale_extractor_t *e, int32_t first, int32
     const int64_t n = last + 1 - first;
     const ale_moments_t s = sums_of(e, first, last);
     const scatter_t m = scatter_of(n, s);
-    const noise_at_t at = noise_of(n, &s);
+    const noise_at_t at = noise_of(noise, n, &s);
     const int64_t var_q8 = scaled_var_q8(noise, (at.range2 + 1) * (at.own_q36 + noise->bearing_rad2_q36));
     const int64_t shared_q8 =
         (noise->shared_mm2_q36 >> 28) + ((at.range2 + 1) * noise->shared_relative_q36 >> 28) + 1;
@@ -172,7 +173,7 @@ ale_run_fit_t ale_moments_fit(const ale_extractor_t *e, int32_t first, int32_t l
     const int64_t n = last + 1 - first;
     const ale_moments_t s = sums_of(e, first, last);
     const scatter_t m = scatter_of(n, s);
-    return fit_of(&e->noise, n, s, &m, noise_of(n, &s));
+    return fit_of(&e->noise, n, s, &m, noise_of(&e->noise, n, &s));
 }
 
 ale_spread_t ale_moments_spread(const ale_extractor_t *e, int32_t first, int32_t last)
@@ -181,7 +182,7 @@ ale_spread_t ale_moments_spread(const ale_extractor_t *e, int32_t first, int32_t
     const ale_moments_t s = sums_of(e, first, last);
     const scatter_t m = scatter_of(n, s);
     const ale_spread_t spread = {
-        .fit = fit_of(&e->noise, n, s, &m, noise_of(n, &s)),
+        .fit = fit_of(&e->noise, n, s, &m, noise_of(&e->noise, n, &s)),
         .a = m.a,
         .b = m.b,
         .c = m.c,

@@ -22,6 +22,8 @@ static inline void ale_run_changed(ale_run_t *run)
 {
     run->fit.n = 0;
     run->no_arc = false;
+    run->no_break = false;
+    run->settled = false;
 }
 
 /* The fit of a run, computed when it is asked for the first time. */

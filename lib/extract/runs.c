@@ -7,7 +7,8 @@
 
 enum {
     MAX_GAP_POINTS = 8,
-    COSTLY_STEP = 4, /* to the next try, where a costly scan has no line */
+    SETTLED_PART = 10, /* of its points that a run may gain or lose, and its breaks need not be placed anew */
+    COSTLY_STEP = 4,   /* to the next try, where a costly scan has no line */
     MIN_SPLIT_POINTS = 16,
     TRIM_MOST = 3,            /* points given up at one end, */
     TRIM_SUSPICIOUS_Q8 = 333, /* where a run has more than its noise: chi square of a degree of freedom. */
@@ -28,6 +29,8 @@ static void add_run(ale_extractor_t *e, int32_t a, int32_t b, const ale_run_fit_
     run->last = (uint16_t)(a < b ? b : a);
     run->curved = false;
     run->no_arc = false;
+    run->no_break = false;
+    run->settled = false;
     run->fit = *fit;
 }
 
@@ -97,20 +100,37 @@ static void move_break(ale_run_t *a, ale_run_t *b, int32_t split)
     }
 }
 
+/* A run whose ends hardly move keeps its line, and so its neighbours their breaks. */
+static void move_ends(ale_run_t *run, int32_t first, int32_t last)
+{
+    const int64_t moved = ale_abs64(first - run->first) + ale_abs64(last - run->last);
+    if (moved > 0) {
+        run->first = (uint16_t)first;
+        run->last = (uint16_t)last;
+        ale_run_changed(run);
+    }
+    run->settled = moved * SETTLED_PART <= last + 1 - first;
+}
+
+static bool may_move(const ale_extractor_t *e, const ale_run_t *a, const ale_run_t *b)
+{
+    return !(a->settled && b->settled) && !a->curved && !b->curved && b->first - a->last <= MAX_GAP_POINTS &&
+           ale_segment_joins(e, a->last, b->first);
+}
+
 void ale_runs_place(ale_extractor_t *e, int32_t widest_step)
 {
     int32_t split[ALE_MAX_RUNS];
     for (int32_t k = 0; k + 1 < e->run_count; k++) {
         ale_run_t *a = &e->run[k];
         ale_run_t *b = &e->run[k + 1];
-        const bool meet = b->first - a->last <= MAX_GAP_POINTS && !a->curved && !b->curved &&
-                          ale_segment_joins(e, a->last, b->first);
-        split[k] = meet ? break_between(e, a, b, widest_step) : -1;
+        split[k] = may_move(e, a, b) ? break_between(e, a, b, widest_step) : -1;
     }
-    for (int32_t k = 0; k + 1 < e->run_count; k++) {
-        if (split[k] >= 0) {
-            move_break(&e->run[k], &e->run[k + 1], split[k]);
-        }
+    for (int32_t k = 0; k < e->run_count; k++) {
+        ale_run_t *run = &e->run[k];
+        const bool begins = k > 0 && split[k - 1] >= 0;
+        const bool ends = k + 1 < e->run_count && split[k] >= 0;
+        move_ends(run, begins ? split[k - 1] + 1 : run->first, ends ? split[k] : run->last);
     }
 }
 
@@ -128,7 +148,7 @@ static int32_t suspicious_runs(ale_extractor_t *e, int32_t fewest)
     int32_t count = 0;
     for (int32_t k = 0; k < e->run_count; k++) {
         const ale_run_t *run = &e->run[k];
-        count += !run->curved && run->last + 1 - run->first >= fewest &&
+        count += !run->curved && !run->no_break && run->last + 1 - run->first >= fewest &&
                  ale_break_suspicious(ale_fit_of_run(e, &e->run[k]));
     }
     return count;
@@ -146,21 +166,24 @@ static int32_t fewest_to_split(ale_extractor_t *e)
     return fewest;
 }
 
-void ale_runs_split(ale_extractor_t *e)
+bool ale_runs_split(ale_extractor_t *e)
 {
     const int32_t fewest = fewest_to_split(e);
+    const int32_t before = e->run_count;
     int32_t k = 0;
     while (k < e->run_count && e->run_count < ALE_MAX_RUNS) {
         ale_run_t *run = &e->run[k];
-        const int32_t split = run->curved || run->last + 1 - run->first < fewest
-                                  ? -1
-                                  : ale_break_find(e, run, ale_reading_direction(e, run->first, run->last));
-        if (split >= 0) {
-            insert_run(e, k, split);
-            k++;
+        if (!run->curved && !run->no_break && run->last + 1 - run->first >= fewest) {
+            const int32_t split = ale_break_find(e, run, ale_reading_direction(e, run->first, run->last));
+            run->no_break = true;
+            if (split >= 0) {
+                insert_run(e, k, split);
+                k++;
+            }
         }
         k++;
     }
+    return e->run_count > before;
 }
 
 /* How many points to give up at one end: what they bring beyond what noise would is most. */

@@ -13,11 +13,12 @@ void ale_runs_drop_short(ale_extractor_t *e, int32_t fewest);
 /* The points have moved: their runs are to be fitted anew. */
 void ale_runs_forget_fits(ale_extractor_t *e);
 
-/* Splits the runs that two lines explain better than one. O(lines log points) fits. */
-void ale_runs_split(ale_extractor_t *e);
+/* Splits the runs that two lines explain better than one, and that are not known to be whole. Whether there
+ * was one. O(lines log points) fits. */
+bool ale_runs_split(ale_extractor_t *e);
 
-/* Places the breaks between neighbouring runs by the best joint fit, all from the same state. widest_step:
- * see breakpoint.h. */
+/* Places the breaks between neighbouring runs by the best joint fit, all from the same state, but for those
+ * between runs that are settled. widest_step: see breakpoint.h. */
 void ale_runs_place(ale_extractor_t *e, int32_t widest_step);
 
 /* Gives up the outer points of a run that the rest of it does not explain: where a surface ends a beam may

@@ -166,9 +166,11 @@ enum {
     MIN_BLOCKS = 12,
     RATIO_Q8 = 2 * 256, /* of what own noise gives: up to 1.4 are measured where there is no shared error */
     SHARED_LEAST_Q8 = 3 * 256, /* once there is a shared error it is at least so large, */
-    SHARED_MOST_Q8 = 16 * 256, /* and at most */
+    SHARED_MOST_Q8 = 4 * 256,  /* and at most: one scan knows it no better */
+    SHARED_NONE_Q8 = 64,       /* where there is none some of it is left, for what the blocks do not show */
     OWN_PRIOR_POINTS = 100,    /* weight of the second differences beside the residuals of the runs */
     OWN_RUN_POINTS = 20,
+    CALMER_Q16 = 64000, /* change of the own variance from which on breaks may show that did not before */
     LEAST_OWN_SCALE_Q16 = 180 << 8, /* the second differences are not so far off */
     MOST_OWN_SCALE_Q16 = 360 << 8
 };
@@ -204,20 +206,28 @@ static void count_block(const ale_extractor_t *e, int32_t start, int64_t curvatu
     }
 }
 
-/* The shared variance in units of the configured one, Q8: 256 where blocks show no more than own noise. */
+/* The shared variance in units of the configured one, Q8: up to 256 where blocks show no more than own noise.
+ */
 static int64_t shared_scale_q8(const ale_extractor_t *e, const uint16_t *bins, int32_t samples,
                                int64_t range_mm)
 {
     const int64_t range_mm2 = range_mm * range_mm;
     const int64_t own_q20 = (e->noise.own_mm2_q36 + e->noise.own_relative_q36 * range_mm2) >> 16;
     const int64_t model_q20 = (e->shared_prior_mm2_q36 + e->shared_prior_relative_q36 * range_mm2) >> 16;
-    /* the median of chi square of one degree is 0.455 */
-    const int64_t ratio_q8 = ale_histogram_quantile(bins, samples, 50) * 1000 / 455;
+    /* three quarters of chi square of one degree are below 1.323 */
+    const int64_t ratio_q8 = ale_histogram_quantile(bins, samples, PERCENT) * 1000 / 1323;
     if (ratio_q8 <= RATIO_Q8) {
-        return 256;
+        return ale_clamp64(2 * ratio_q8 - (int64_t)3 * 256, SHARED_NONE_Q8, 256);
     }
     const int64_t excess_q8 = (ratio_q8 - 256) * 6 * 256 / ((int64_t)BLOCK * SHARED_GAIN_Q8);
     return ale_clamp64(excess_q8 * own_q20 / ale_max64(model_q20, 1), SHARED_LEAST_Q8, SHARED_MOST_Q8);
+}
+
+static void scale_shared_of_runs(ale_extractor_t *e)
+{
+    for (int32_t k = 0; k < e->run_count; k++) {
+        e->run[k].fit.shared_q8 = (e->run[k].fit.shared_q8 * e->shared_scale_q8) >> 8;
+    }
 }
 
 bool ale_scan_noise_measure_shared(ale_extractor_t *e, const ale_scan_t *scan)
@@ -237,18 +247,20 @@ bool ale_scan_noise_measure_shared(ale_extractor_t *e, const ale_scan_t *scan)
         }
     }
     e->shared_scale_q8 = samples < MIN_BLOCKS ? 256 : shared_scale_q8(e, bins, samples, range_mm / samples);
-    e->shared_absent = samples >= MIN_BLOCKS && e->shared_scale_q8 == 256;
+    e->shared_absent = samples >= MIN_BLOCKS && e->shared_scale_q8 <= 256;
     e->noise.shared_mm2_q36 = (e->shared_prior_mm2_q36 * e->shared_scale_q8) >> 8;
     e->noise.shared_relative_q36 = (e->shared_prior_relative_q36 * e->shared_scale_q8) >> 8;
+    if (e->shared_absent) {
+        scale_shared_of_runs(e);
+    }
     return e->shared_scale_q8 > 256;
 }
 
-void ale_scan_noise_refine_own(ale_extractor_t *e)
+/* The own variance in units of the one that the second differences show, by the residuals of the runs; Q16.
+ */
+static int64_t own_scale_q16(ale_extractor_t *e)
 {
-    if (e->shared_scale_q8 > 256) {
-        return;
-    }
-    int64_t chi_q8 = (int64_t)OWN_PRIOR_POINTS * 256;
+    int64_t chi_q8 = 0;
     int64_t freedom = OWN_PRIOR_POINTS;
     for (int32_t k = 0; k < e->run_count; k++) {
         const ale_run_fit_t *fit = ale_fit_of_run(e, &e->run[k]);
@@ -258,8 +270,21 @@ void ale_scan_noise_refine_own(ale_extractor_t *e)
             freedom += fit->n - 2;
         }
     }
-    e->noise.own_scale_q16 = ale_clamp64((chi_q8 << 8) / freedom, LEAST_OWN_SCALE_Q16, MOST_OWN_SCALE_Q16);
+    const int64_t sum_q8 = ((chi_q8 * e->noise.own_scale_q16) >> 16) + (int64_t)OWN_PRIOR_POINTS * 256;
+    return ale_clamp64((sum_q8 << 8) / freedom, LEAST_OWN_SCALE_Q16, MOST_OWN_SCALE_Q16);
+}
+
+void ale_scan_noise_refine_own(ale_extractor_t *e)
+{
+    if (e->shared_scale_q8 > 256) {
+        return;
+    }
+    const int64_t scale_q16 = own_scale_q16(e);
+    const int64_t change_q16 = (scale_q16 << 16) / e->noise.own_scale_q16;
+    e->noise.own_scale_q16 = scale_q16;
     for (int32_t k = 0; k < e->run_count; k++) {
-        e->run[k].fit.var_q8 = ale_max64((e->run[k].fit.var_q8 * e->noise.own_scale_q16) >> 16, 1);
+        ale_run_t *run = &e->run[k];
+        run->fit.var_q8 = ale_max64((run->fit.var_q8 * change_q16) >> 16, 1);
+        run->no_break = run->no_break && change_q16 >= CALMER_Q16;
     }
 }

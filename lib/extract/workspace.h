@@ -42,7 +42,7 @@ typedef struct {
     int64_t xx;
     int64_t yy;
     int64_t xy;
-    int64_t noise_q36; /* own variance of the range over the square of the range */
+    int64_t inverse2_q54; /* 1 / range^2, um */
 } ale_moments_t;
 
 /* A total-least-squares line through a run, as far as decisions need it. */
@@ -72,6 +72,8 @@ typedef struct {
     uint16_t last;
     bool curved;
     bool no_arc;       /* looked at: lines explain it better than a circle */
+    bool no_break;     /* looked at: one line explains it as well as two */
+    bool settled;      /* its ends have hardly moved when they were placed */
     ale_run_fit_t fit; /* see ale_fit_of_run */
 } ale_run_t;
 
@@ -80,6 +82,7 @@ typedef struct {
 typedef struct {
     int64_t own_mm2_q36;
     int64_t own_relative_q36;
+    int64_t own_um2_q8;    /* own_mm2, as the moments need it */
     int64_t own_scale_q16; /* correction of both, from residuals */
     int64_t shared_mm2_q36;
     int64_t shared_relative_q36;

@@ -196,9 +196,10 @@ std::vector<Run> joined(const std::vector<Run> &runs, const std::vector<int> &cu
     std::vector<Run> result;
     for (size_t k = 0; k < runs.size(); k++) {
         if (k > 0 && curve_of[k] != 0 && curve_of[k] == curve_of[k - 1]) {
-            result.back().last = runs[k].last;
+            result.back() = {result.back().first, runs[k].last, true};
         } else {
-            result.push_back({runs[k].first, runs[k].last, runs[k].curved || curve_of[k] != 0});
+            result.push_back(runs[k]);
+            result.back().curved = runs[k].curved || curve_of[k] != 0;
         }
     }
     return result;

@@ -22,6 +22,7 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double rough_own = 1.5;   // the measured noise errs too
 constexpr double rough_shared = 12; // shared variances that a long wall may be wavy by,
 constexpr double rough_reaches = 4; // and the reaches of the shared error from which on it is a long one
+constexpr double calmer = 64000.0 / 65536; // change of the own noise from which on breaks may show
 constexpr double most_sigma_alpha = 8 * pi / 180;
 constexpr int corner_gap = 5;        // beams
 constexpr double corner_reach = 150; // mm
@@ -99,12 +100,40 @@ std::vector<Run> improved_clutter(const Prepared &p, const std::vector<Run> &run
     return merged_runs(p.points, p.noise, p.segments, longer, decisions);
 }
 
-// By residuals, which a shared error would be part of.
-void refine_own_noise(Prepared &p, const std::vector<Run> &runs, Decisions &decisions)
+// By residuals, which a shared error would be part of. Where it has become less runs are tried for a break
+// again.
+void refine_own_noise(Prepared &p, std::vector<Run> &runs, Decisions &decisions)
 {
-    if (!p.shared_found) {
-        p.noise.own_scale = own_scale(p.points, p.noise, runs, decisions);
+    if (p.shared_found) {
+        return;
     }
+    const double before = p.noise.own_scale;
+    p.noise.own_scale = own_scale(p.points, p.noise, runs, decisions);
+    if (p.noise.own_scale < calmer * before) {
+        for (Run &run : runs) {
+            run.no_break = false;
+        }
+    }
+}
+
+// Until a round changes nothing, two at most.
+std::vector<Run> split_in_rounds(Prepared &p, std::vector<Run> runs, Decisions &decisions)
+{
+    const int rounds = p.shared_found || p.noise.costly ? 1 : 2;
+    bool changed = true;
+    for (int round = 0; changed && round < rounds; round++) {
+        const size_t before = runs.size();
+        runs = split_runs(p.points, p.noise, p.segments, runs, decisions);
+        const size_t split = runs.size();
+        runs = merged_runs(p.points, p.noise, p.segments, runs, decisions);
+        changed = split > before || runs.size() < split;
+        runs =
+            placed_runs(p.points, p.noise, p.segments, runs, round == 0 ? fine_step : wide_step, decisions);
+        if (changed) {
+            refine_own_noise(p, runs, decisions);
+        }
+    }
+    return runs;
 }
 
 std::vector<Run> improved_runs(Prepared &p, const ExtractionSettings &settings, std::vector<Run> runs,
@@ -114,18 +143,12 @@ std::vector<Run> improved_runs(Prepared &p, const ExtractionSettings &settings, 
         refine_own_noise(p, runs, decisions);
         return improved_clutter(p, runs, settings.least_points * 4 / 3, decisions);
     }
-    for (const bool split : {false, true}) {
-        if (split) {
-            runs = split_runs(p.points, p.noise, p.segments, runs, decisions);
-        }
-        runs = merged_runs(p.points, p.noise, p.segments, runs, decisions);
-        runs = placed_runs(p.points, p.noise, p.segments, runs, split ? fine_step : wide_step, decisions);
-        if (!split) {
-            refine_own_noise(p, runs, decisions);
-        }
-        runs = with_curves(p.points, p.noise, p.segments, runs, decisions);
-    }
-    return runs;
+    runs = merged_runs(p.points, p.noise, p.segments, runs, decisions);
+    runs = placed_runs(p.points, p.noise, p.segments, runs, wide_step, decisions);
+    refine_own_noise(p, runs, decisions);
+    runs = with_curves(p.points, p.noise, p.segments, runs, decisions);
+    runs = split_in_rounds(p, runs, decisions);
+    return with_curves(p.points, p.noise, p.segments, runs, decisions);
 }
 
 // How many of n points err together in the slope of their line: the quadratic form of the correlations

@@ -17,7 +17,10 @@ constexpr int widest_gap = 8; // points between runs that meet
 constexpr int grid = 9;
 constexpr int least_to_split = 16;
 constexpr size_t most_tried = 12;          // runs that are tried for a break
-constexpr double suspicious = 236.0 / 256; // of the chi square that noise alone makes
+constexpr double suspicious = 236.0 / 256; // of the chi square that noise alone makes,
+constexpr double suspicious_sum = 3;       // and beyond it
+constexpr int most_meetings = 3;
+constexpr int settled_part = 10; // of its points that a settled run may gain or lose
 constexpr double promising = 100.0 / 256;
 
 // Points that a run may give away at one end while the other end gives some too.
@@ -51,16 +54,16 @@ int meeting_point(const ScanPoints &points, const NoiseOfScan &noise, Run both, 
     return meeting;
 }
 
-bool meet(const std::vector<Run> &segments, Run a, Run b)
+bool may_move(const std::vector<Run> &segments, Run a, Run b)
 {
-    return b.first - a.last <= widest_gap && !a.curved && !b.curved &&
+    return !(a.settled && b.settled) && b.first - a.last <= widest_gap && !a.curved && !b.curved &&
            on_one_surface(segments, a.last, b.first);
 }
 
 bool is_suspicious(const ScanPoints &points, const NoiseOfScan &noise, Run run, Decisions &decisions)
 {
     const RunFit one = fit_run(points, noise, run.first, run.last);
-    return !run.curved && !decisions.below(one.chi(), suspicious * (run.points() - 2));
+    return !run.curved && !decisions.below(one.chi(), suspicious * (run.points() - 2) + suspicious_sum);
 }
 
 // Of many suspicious runs only the longest are tried: the fewest points that they have.
@@ -71,7 +74,7 @@ int least_points_to_try(const ScanPoints &points, const NoiseOfScan &noise, cons
     const auto tried = [&](int least) {
         Decisions ignored;
         return static_cast<size_t>(std::count_if(runs.begin(), runs.end(), [&](const Run &run) {
-            return run.points() >= least && is_suspicious(points, noise, run, ignored);
+            return !run.no_break && run.points() >= least && is_suspicious(points, noise, run, ignored);
         }));
     };
     int least = least_to_split;
@@ -140,8 +143,14 @@ int placed_break(const ScanPoints &points, const NoiseOfScan &noise, Run a, Run 
             }
         }
     }
-    const int meeting = meeting_point(points, noise, {a.first, b.last}, best, range);
-    return meeting >= 0 && decisions.below(chi_at(meeting), least + meeting_loss) ? meeting : best;
+    for (int k = 0; k < most_meetings; k++) {
+        const int meeting = meeting_point(points, noise, {a.first, b.last}, best, range);
+        if (meeting < 0 || meeting == best || !decisions.below(chi_at(meeting), least + meeting_loss)) {
+            break;
+        }
+        best = meeting;
+    }
+    return best;
 }
 
 std::vector<Run> placed_runs(const ScanPoints &points, const NoiseOfScan &noise,
@@ -150,12 +159,17 @@ std::vector<Run> placed_runs(const ScanPoints &points, const NoiseOfScan &noise,
 {
     const std::vector<Run> before = runs;
     for (size_t k = 0; k + 1 < runs.size(); k++) {
-        if (meet(segments, before[k], before[k + 1])) {
+        if (may_move(segments, before[k], before[k + 1])) {
             const BreakRange range = range_between(points, before[k], before[k + 1], widest_step);
             const int split = placed_break(points, noise, before[k], before[k + 1], range, decisions);
             runs[k].last = split;
             runs[k + 1].first = split + 1;
         }
+    }
+    for (size_t k = 0; k < runs.size(); k++) {
+        const int moved = std::abs(runs[k].first - before[k].first) + std::abs(runs[k].last - before[k].last);
+        runs[k].no_break = before[k].no_break && moved == 0;
+        runs[k].settled = moved * settled_part <= runs[k].points();
     }
     return runs;
 }
@@ -203,10 +217,13 @@ std::vector<Run> split_runs(const ScanPoints &points, const NoiseOfScan &noise,
     std::vector<Run> split_runs;
     const int least = least_points_to_try(points, noise, runs);
     for (const Run &run : runs) {
-        const bool tried = run.points() >= least && is_suspicious(points, noise, run, decisions);
-        const int split = tried ? found_break(points, noise, segments, run, decisions) : -1;
+        const bool tried = !run.no_break && run.points() >= least;
+        const int split = tried && is_suspicious(points, noise, run, decisions)
+                              ? found_break(points, noise, segments, run, decisions)
+                              : -1;
         if (split < 0) {
             split_runs.push_back(run);
+            split_runs.back().no_break = run.no_break || (tried && !run.curved);
         } else {
             split_runs.push_back({run.first, split});
             split_runs.push_back({split + 1, run.last});

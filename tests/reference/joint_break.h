@@ -25,8 +25,9 @@ struct BreakRange {
 };
 
 // The break of least joint chi square by a pattern search from range.start: up to four steps of the widest
-// width to the better side, then of half of it, down to 1. From there to where the lines through both runs
-// meet, unless that has a chi square larger by more than 6. Where no break is allowed: range.start.
+// width to the better side, then of half of it, down to 1. From there to where the lines that part there
+// meet, unless that has a chi square larger by more than 6, and up to twice more from there. Where no break
+// is allowed: range.start.
 int placed_break(const ScanPoints &points, const NoiseOfScan &noise, Run a, Run b, const BreakRange &range,
                  Decisions &decisions);
 
@@ -39,7 +40,7 @@ int best_break(const ScanPoints &points, const NoiseOfScan &noise, Run a, Run b,
 // Breaks where two runs may part: both keep enough points, whatever their other ends do.
 BreakRange range_between(const ScanPoints &points, Run a, Run b, int widest_step);
 
-// Places the breaks between runs that meet on one surface, all from the same state.
+// Places the breaks between runs that meet on one surface and are not both settled, all from the same state.
 std::vector<Run> placed_runs(const ScanPoints &points, const NoiseOfScan &noise,
                              const std::vector<Run> &segments, std::vector<Run> runs, int widest_step,
                              Decisions &decisions);
@@ -55,7 +56,7 @@ CoarseBreak coarse_break(const ScanPoints &points, Run run, int direction, Decis
 int found_break(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &segments, Run run,
                 Decisions &decisions);
 
-// Splits the runs that have such a break; of many that may only the longest.
+// Splits the runs that have such a break and are not known to have none; of many that may only the longest.
 std::vector<Run> split_runs(const ScanPoints &points, const NoiseOfScan &noise,
                             const std::vector<Run> &segments, const std::vector<Run> &runs,
                             Decisions &decisions);

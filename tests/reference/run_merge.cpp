@@ -60,7 +60,7 @@ std::vector<Run> merged_runs(const ScanPoints &points, const NoiseOfScan &noise,
         if (second < 1) {
             decisions.below(least, second);
         }
-        runs[best].last = runs[best + 1].last;
+        runs[best] = {runs[best].first, runs[best + 1].last};
         runs.erase(runs.begin() + static_cast<long>(best) + 1);
     }
 }

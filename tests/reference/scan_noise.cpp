@@ -18,7 +18,7 @@ constexpr double counts_per_mm = 16000; // the bins count sixteenths of a microm
 constexpr double least_sigma = 0.4;     // mm
 constexpr double most_sigma = 100;
 const double quartile_of_difference = 1.1503 * std::sqrt(6); // of |d| for a deviation of 1
-constexpr double median_of_chi_square = 0.455;
+constexpr double quartile_of_chi_square = 1.323;             // of one degree of freedom
 
 constexpr int block = 8; // beams
 constexpr int stride = 6;
@@ -26,7 +26,8 @@ constexpr size_t least_blocks = 12;
 constexpr double shared_gain = 299.0 / 256; // of three block means, for an error correlated over 12 beams
 constexpr double plain_ratio = 2;           // own noise alone gives up to this
 constexpr double least_scale = 3;
-constexpr double most_scale = 16;
+constexpr double most_scale = 4;
+constexpr double least_remainder = 0.25; // where there is none
 
 double bin_edge(int bin)
 {
@@ -168,11 +169,11 @@ SharedNoise shared_noise(const ScanPoints &points, const NoiseOfScan &noise, con
         return {1, false};
     }
     range /= static_cast<double>(ratio.size());
-    const double median = binned_quantile(ratio, 0.5) / 256 / median_of_chi_square;
-    if (decisions.below(median, plain_ratio)) {
-        return {1, true};
+    const double quartile = binned_quantile(ratio, 0.75) / 256 / quartile_of_chi_square;
+    if (decisions.below(quartile, plain_ratio)) {
+        return {std::clamp(2 * quartile - 3, least_remainder, 1.0), true};
     }
-    const double shared = (median - 1) * noise.own(range) * 6 / block / shared_gain;
+    const double shared = (quartile - 1) * noise.own(range) * 6 / block / shared_gain;
     return {std::clamp(shared / noise.shared(range), least_scale, most_scale), false};
 }
 
@@ -184,7 +185,7 @@ double own_scale(const ScanPoints &points, const NoiseOfScan &noise, const std::
     for (const Run &run : runs) {
         const RunFit fit = fit_run(points, noise, run.first, run.last);
         if (fit.n >= 20 && decisions.below(fit.chi(), chi_limit(fit.n, chi_high_z))) {
-            chi += fit.chi();
+            chi += fit.chi() * noise.own_scale;
             freedom += fit.n - 2;
         }
     }

@@ -17,7 +17,7 @@ double binned_quantile(const std::vector<double> &values, double share);
 NoiseOfScan own_noise(const ScanPoints &points, const NoiseOfScan &prior, double step);
 
 // The shared part in units of the prior's, from second differences of blocks of eight beams: 1 where there
-// is no more than that, or too little to tell.
+// is too little to tell, up to 1 where there is none.
 struct SharedNoise {
     double scale;
     bool absent; // measured, and there is none

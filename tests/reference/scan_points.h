@@ -21,6 +21,8 @@ struct Run {
     int first;
     int last;
     bool curved = false;
+    bool no_break = false; // looked at: one line explains it as well as two
+    bool settled = false;  // its ends have hardly moved when they were placed
 
     int points() const
     {

@@ -82,7 +82,7 @@ inline std::vector<reference::Run> runs_of(const ale_extractor_t &e)
 {
     std::vector<reference::Run> runs;
     for (int k = 0; k < e.run_count; k++) {
-        runs.push_back({e.run[k].first, e.run[k].last, e.run[k].curved});
+        runs.push_back({e.run[k].first, e.run[k].last, e.run[k].curved, e.run[k].no_break, e.run[k].settled});
     }
     return runs;
 }
@@ -95,6 +95,8 @@ inline void set_runs(ale_extractor_t *e, const std::vector<reference::Run> &runs
         e->run[k].first = static_cast<uint16_t>(runs[k].first);
         e->run[k].last = static_cast<uint16_t>(runs[k].last);
         e->run[k].curved = runs[k].curved;
+        e->run[k].no_break = runs[k].no_break;
+        e->run[k].settled = runs[k].settled;
     }
 }
 
