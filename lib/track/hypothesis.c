@@ -38,17 +38,22 @@ typedef struct {
     int64_t shorter_um; /* 0: no pair */
 } pair_t;
 
+/* Length of a view that may belong to a pair; of those that may not: 0. */
+static int64_t usable_um(const ale_view_t view[], uint32_t i, const pair_t *other)
+{
+    const bool taken = other && (i == other->first || i == other->second);
+    return view[i].kind == ALE_VIEW_WALL && !taken ? length_of(&view[i]) : 0;
+}
+
 /* The two views that fix a pose best, without those of another pair: long, and far from parallel. */
 static pair_t choose_pair(const ale_view_t view[], uint32_t count, const pair_t *other)
 {
     pair_t best = {0, 0, 0};
     for (uint32_t i = 0; i < count; i++) {
-        for (uint32_t k = i + 1; k < count; k++) {
-            const bool walls = view[i].kind == ALE_VIEW_WALL && view[k].kind == ALE_VIEW_WALL;
-            const bool taken =
-                other && (i == other->first || i == other->second || k == other->first || k == other->second);
-            const int64_t shorter_um = ale_min64(length_of(&view[i]), length_of(&view[k]));
-            if (walls && !taken && shorter_um > best.shorter_um &&
+        const int64_t length_um = usable_um(view, i, other);
+        for (uint32_t k = i + 1; length_um > best.shorter_um && k < count; k++) {
+            const int64_t shorter_um = ale_min64(length_um, length_of(&view[k]));
+            if (shorter_um > best.shorter_um && usable_um(view, k, other) > 0 &&
                 is_open(enclosed(view[i].normal_bam, view[k].normal_bam))) {
                 best = (pair_t){i, k, shorter_um};
             }

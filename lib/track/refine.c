@@ -266,18 +266,28 @@ static void fit_from(const ale_motion_t *predicted, const ale_scene_t *scene,
         size = step(&out->prior, total, out);
         note_velocity_change(predicted, scene, out);
     }
-    /* errors at the pose that was found, for the map */
-    gather(scene, &out->motion.cov, out->iterations > 2 ? NULL : &later, out);
 }
 
-void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
-                ale_fit_t *out)
+void ale_refine_look(const ale_scene_t *scene, ale_fit_t *fit)
+{
+    gather(scene, &fit->motion.cov, fit->iterations > 2 ? NULL : &later, fit);
+}
+
+void ale_refine_pose(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
+                     ale_fit_t *out)
 {
     const ale_gate_t second = {(gate->offset_um + LATER_OFFSET_UM) / 3, gate->angle_urad, LATER_SIGMAS,
                                gate->piece_um};
     const ale_gate_t *const wide[ALE_REFINE_ITERATIONS] = {gate, &second, &later};
     start(predicted, scene, out);
     fit_from(predicted, scene, wide, out);
+}
+
+void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
+                ale_fit_t *out)
+{
+    ale_refine_pose(predicted, scene, gate, out);
+    ale_refine_look(scene, out);
 }
 
 void ale_refine_again(const ale_motion_t *predicted, ale_pose_t from, const ale_scene_t *scene,
@@ -287,6 +297,7 @@ void ale_refine_again(const ale_motion_t *predicted, ale_pose_t from, const ale_
     start(predicted, scene, other);
     other->motion.pose = from;
     fit_from(predicted, scene, gates, other);
+    ale_refine_look(scene, other);
     if (other->matched_um >= fit->matched_um) {
         *fit = *other;
     }

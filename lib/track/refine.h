@@ -54,6 +54,12 @@ void ale_view_rows(const ale_view_t *view, uint32_t pose_theta_bam, uint32_t wal
 void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
                 ale_fit_t *out);
 
+/* The two halves of it: out->motion, for one of many poses that are tried, of which no more is asked; and
+ * what the views show from there, with their errors, while the map is focused on what that fit looked at. */
+void ale_refine_pose(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
+                     ale_fit_t *out);
+void ale_refine_look(const ale_scene_t *scene, ale_fit_t *fit);
+
 /* Fits once more, from another pose, with another gate to begin with and perhaps another prediction, and
  * keeps what explains more. other: working memory. */
 void ale_refine_again(const ale_motion_t *predicted, ale_pose_t from, const ale_scene_t *scene,

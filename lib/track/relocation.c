@@ -23,7 +23,8 @@ enum {
     FIT_OFFSET_UM = 400000, /* how far a place may be off when it is fitted */
     FIT_ANGLE_URAD = 200000,
     FIT_SIGMAS = 4,
-    FIT_VIEWS = 96,    /* views that are fitted in a scan: one fit of a rich scan, several of a plain one */
+    FIT_WORK = 104,    /* of the fits of a scan, in views: one of the richest, up to four of a plain one; */
+    FIT_BESIDE = 12,   /* a fit asks for as much beside its views */
     SIGHT_WALLS = 384, /* of the map that are asked in one fit, in turn */
     FIT_SIGMA_UM = 100000,
     FIT_SIGMA_URAD = 50000,
@@ -215,7 +216,7 @@ static void fit_place(ale_place_t *place, const ale_scene_t *scene, const ale_ey
     ale_motion_t there = *predicted;
     there.pose = place->pose;
     ale_motion_widen(&there, FIT_SIGMA_UM, FIT_SIGMA_URAD);
-    ale_refine(&there, scene, &gate, fit);
+    ale_refine_pose(&there, scene, &gate, fit);
     place->pose = fit->motion.pose;
     const ale_hypothesis_t h =
         ale_hypothesis_at(scene->map, scene->view, scene->view_count, place->pose, &hold, &looks);
@@ -239,7 +240,7 @@ static bool is_double(const ale_relocation_t *r, uint32_t index)
 static void fit_some(ale_relocation_t *r, const ale_scene_t *scene, const ale_eye_t *eye,
                      const ale_motion_t *predicted, ale_fit_t *fit)
 {
-    const int64_t fits = ale_clamp64(FIT_VIEWS / (scene->view_count + 1), 1, ALE_PLACES_FITTED);
+    const int64_t fits = ale_clamp64(FIT_WORK / (scene->view_count + FIT_BESIDE), 1, ALE_PLACES_FITTED);
     for (uint32_t n = 0; n < fits && n < r->count; n++) {
         r->next = r->next < r->count ? r->next : 0;
         ale_place_t *place = &r->place[r->next];
@@ -347,5 +348,6 @@ bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const 
         place->scans = 0;
         return false;
     }
+    ale_refine_look(scene, fit);
     return true;
 }
