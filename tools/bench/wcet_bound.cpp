@@ -279,16 +279,23 @@ void matching(Parts &parts, Random &random, Crowd &crowd)
     parts.measure("walls and marks of the map", 1, take_in);
 }
 
+/* Scans with the ranges of a robot that sees through every wall. */
+ale_scan_t far_scan(Random &random)
+{
+    ale_scan_t scan = any_scan(random);
+    for (uint16_t k = 0; k < scan.beams; k++) {
+        ale_scan_set_range(&scan, k, 25000000);
+    }
+    return scan;
+}
+
 void witnesses(Parts &parts, Random &random, Crowd &crowd)
 {
     auto pipeline = std::make_unique<ale_pipeline>();
     std::vector<uint32_t> bearing(ALE_MAX_BEAMS);
-    ale_scan_t scan = any_scan(random);
+    ale_scan_t scan = far_scan(random); /* nothing to confirm, every beam is asked */
     const int32_t velocity[ALE_AXES] = {40000, 20000, 60000};
     ale_deskew(&scan, velocity, bearing.data());
-    for (uint16_t k = 0; k < scan.beams; k++) {
-        ale_scan_set_range(&scan, k, 25000000); /* nothing to confirm, every beam is asked */
-    }
     const ale_seen_t seen = {&scan,     bearing.data(),     {0, 0, 0},
                              {0, 0, 0}, crowd.views.data(), static_cast<uint32_t>(crowd.views.size())};
     parts.measure("last scan kept", 1, [&] { ale_witness_keep(&pipeline->witness, &seen); });
@@ -316,6 +323,31 @@ void witnesses(Parts &parts, Random &random, Crowd &crowd)
     parts.measure("fading", 1, [&] {
         ale_fade(&fade, crowd.map.get(), &scan, bearing.data(), {0, 0, 0}, 1000000, true);
     });
+}
+
+/* Lost, with as many places as are kept, all near enough to be fitted to what is there, and with scans of the
+ * way that what is proposed is held against. The poorer a scan, the more places are fitted to it. */
+void relocation(Parts &parts, Random &random, Crowd &crowd)
+{
+    const ale_scan_t scan = far_scan(random);
+    const ale_eye_t eye = {&scan, nullptr, {0, 0, 0}};
+    auto memory = std::make_unique<ale_relocation_t>();
+    auto fit = std::make_unique<ale_fit_t>();
+    ale_relocation_clear(memory.get());
+    for (uint32_t views = 4; views <= ALE_MAX_VIEWS; views += 2) {
+        const ale_scene_t scene = {crowd.map.get(), crowd.views.data(), views, nullptr};
+        ale_relocation_follow(memory.get(), {60 * centimetre_um, 0, 0}, true);
+        memory->count = ALE_PLACES;
+        for (ale_place_t &place : memory->place) {
+            place = {any_motion(random).pose, 200, 0, 4};
+        }
+        const ale_motion_t predicted = any_motion(random);
+        crowd.map->near_radius_um = 0;
+        parts.measure("lost: places sought and fitted", 1, [&] {
+            ale_local_map_approach(crowd.map.get(), {0, 0}, 2000000000);
+            ale_relocate(memory.get(), &scene, &eye, &predicted, fit.get());
+        });
+    }
 }
 
 void corners(Parts &parts, Random &random)
@@ -383,23 +415,30 @@ void always(Parts &parts)
 
 } // namespace
 
-std::vector<BoundPart> bound_parts(InstructionCounter &counter)
+Bound bound_of_a_scan(InstructionCounter &counter)
 {
-    Parts parts(counter);
-    looking(parts);
+    Parts any_scan(counter);
+    Parts tracked(counter);
+    Parts lost(counter);
+    looking(any_scan);
+    wheels(any_scan);
+    always(any_scan);
     for (unsigned seed = 0; seed < seeds; seed++) {
         Random random(seed);
         for (const uint8_t kind : {ALE_VIEW_WALL, ALE_VIEW_PIECE, ALE_VIEW_SPOT}) {
             Crowd crowd(random, kind, seed % 2 == 1, seed % 4 < 2 ? ALE_MAP_MAX_LINES : ALE_MAX_VIEWS);
-            matching(parts, random, crowd);
-            witnesses(parts, random, crowd);
+            matching(tracked, random, crowd);
+            witnesses(tracked, random, crowd);
         }
     }
+    for (unsigned seed = 0; seed < seeds; seed++) {
+        Random random(seed);
+        Crowd crowd(random, ALE_VIEW_WALL, seed % 2 == 1, seed % 4 < 2 ? ALE_MAP_MAX_LINES : ALE_MAX_VIEWS);
+        relocation(lost, random, crowd);
+    }
     Random random(5);
-    corners(parts, random);
-    wheels(parts);
-    always(parts);
-    return parts.take();
+    corners(tracked, random);
+    return {any_scan.take(), tracked.take(), lost.take()};
 }
 
 } // namespace bench

@@ -18,8 +18,15 @@ struct BoundPart {
     uint64_t each; /* instructions */
 };
 
+/* A scan is either tracked or looked at while lost. */
+struct Bound {
+    std::vector<BoundPart> any_scan;
+    std::vector<BoundPart> tracked;
+    std::vector<BoundPart> lost;
+};
+
 /* The same parts and counts in every run. */
-std::vector<BoundPart> bound_parts(InstructionCounter &counter);
+Bound bound_of_a_scan(InstructionCounter &counter);
 
 } // namespace bench
 
