@@ -302,7 +302,7 @@ void witnesses(Parts &parts, Random &random, Crowd &crowd)
     parts.measure("last scan heard", 1, [&] {
         ale_witness_hear(&pipeline->witness, &seen, {200000, 100000, false});
     });
-    for (int64_t k = 0; k < 2 * ALE_ELDERS; k++) {
+    for (int k = 0; k < 2 * ALE_ELDERS; k++) {
         scan.stamp_us += 10000000;
         ale_elders_keep(&pipeline->elders, &seen);
     }
