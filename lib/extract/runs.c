@@ -120,17 +120,19 @@ static bool may_move(const ale_extractor_t *e, const ale_run_t *a, const ale_run
 
 void ale_runs_place(ale_extractor_t *e, int32_t widest_step)
 {
-    int32_t split[ALE_MAX_RUNS];
-    for (int32_t k = 0; k + 1 < e->run_count; k++) {
-        ale_run_t *a = &e->run[k];
-        ale_run_t *b = &e->run[k + 1];
-        split[k] = may_move(e, a, b) ? break_between(e, a, b, widest_step) : -1;
+    int32_t split_before[ALE_MAX_RUNS + 1]; /* each run; and at last, after them all */
+    split_before[0] = -1;
+    split_before[e->run_count] = -1;
+    for (int32_t k = 1; k < e->run_count; k++) {
+        ale_run_t *a = &e->run[k - 1];
+        ale_run_t *b = &e->run[k];
+        split_before[k] = may_move(e, a, b) ? break_between(e, a, b, widest_step) : -1;
     }
     for (int32_t k = 0; k < e->run_count; k++) {
         ale_run_t *run = &e->run[k];
-        const bool begins = k > 0 && split[k - 1] >= 0;
-        const bool ends = k + 1 < e->run_count && split[k] >= 0;
-        move_ends(run, begins ? split[k - 1] + 1 : run->first, ends ? split[k] : run->last);
+        const int32_t begin = split_before[k];
+        const int32_t end = split_before[k + 1];
+        move_ends(run, begin >= 0 ? begin + 1 : run->first, end >= 0 ? end : run->last);
     }
 }
 
