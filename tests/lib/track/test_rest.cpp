@@ -35,7 +35,8 @@ TEST(Rest, the_first_looks_count_whole)
 
 TEST(Rest, an_hour_counts_like_a_few_seconds)
 {
-    EXPECT_NEAR(worth(36000), ALE_REST_WHOLE * (1 + std::log(36000.0 / ALE_REST_WHOLE)), ALE_REST_WHOLE);
+    const double whole = ALE_REST_WHOLE;
+    EXPECT_NEAR(worth(36000), whole * (1 + std::log(36000 / whole)), whole);
     EXPECT_LT(worth(864000) - worth(36000), 90) << "a day hardly more";
 }
 
