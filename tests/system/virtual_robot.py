@@ -26,6 +26,7 @@ from waiting import wait_until
 
 CACHE = BUILD / "hil-vm"
 DEPLOYED = ROOT / "firmware" / "deploy" / "ale-slamd.ini"
+SLOW_MACHINE = b"\n[map]\ndraw = no\n"  # an emulated processor takes a second for what a real one does in ten milliseconds
 LCM_GROUP = "239.255.76.67"
 LCM_PORT = 7667
 # To the group's own address of Ethernet, from an address of the kind that anyone may give.
@@ -98,7 +99,7 @@ def initramfs(path, module):
     """A compressed archive (cpio, newc) that the kernel unpacks as its root."""
     firmware = BINARIES / "ale-slamd"
     files = {"init": (INIT.encode(), 0o755), "e1000.ko": (module.read_bytes(), 0o644),
-             "etc/ale-slamd.ini": (DEPLOYED.read_bytes(), 0o644),
+             "etc/ale-slamd.ini": (DEPLOYED.read_bytes() + SLOW_MACHINE, 0o644),
              "bin/ale-slamd": (firmware.read_bytes(), 0o755),
              "bin/busybox": (pathlib.Path("/bin/busybox").read_bytes(), 0o755)}
     for library in libraries(firmware):
