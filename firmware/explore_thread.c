@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "background.h"
 #include "drive_desk.h"
 #include "plan/explorer.h"
-#include "realtime/rt.h"
 #include "ring.h"
 #include "snapshot.h"
 #include "wake.h"
@@ -36,8 +36,7 @@ struct ale_explore {
     ale_exchange_t *exchange;
     ale_ring_t *seen;
     ale_snapshot_t *doing;
-    int news; /* descriptor (wake.h) */
-    ale_rt_task_t *task;
+    ale_background_t thread;
     /* Counts requests; odd: on. */
     atomic_uint request;
     uint32_t heard; /* the request that is being obeyed */
@@ -112,7 +111,7 @@ static void run(ale_rt_task_t *self, void *user)
 {
     ale_explore_t *explore = user;
     while (!ale_rt_task_stopping(self)) {
-        ale_wake_wait(explore->news, IDLE_NS);
+        ale_background_wait(&explore->thread, IDLE_NS);
         hear_request(explore);
         if (!ale_explorer_is_at_it(&explore->explorer)) {
             take_corrections(explore, atomic_load_explicit(&explore->known, memory_order_acquire));
@@ -125,14 +124,6 @@ static void run(ale_rt_task_t *self, void *user)
     publish_wish(explore, (ale_velocity_t){0, 0}, 0);
 }
 
-static void destroy(ale_explore_t *explore)
-{
-    ale_ring_destroy(explore->seen);
-    ale_snapshot_destroy(explore->doing);
-    ale_wake_close(explore->news);
-    free(explore);
-}
-
 ale_explore_t *ale_explore_start(const ale_config_t *config, ale_exchange_t *exchange)
 {
     ale_explore_t *explore = calloc(1, sizeof *explore);
@@ -142,15 +133,11 @@ ale_explore_t *ale_explore_start(const ale_config_t *config, ale_exchange_t *exc
     explore->exchange = exchange;
     explore->seen = ale_ring_create(sizeof(seen_t), SCAN_SLOTS);
     explore->doing = ale_snapshot_create(sizeof(doing_t));
-    explore->news = ale_wake_open();
     const ale_explorer_config_t explorer = ale_config_explorer(config);
     ale_explorer_init(&explore->explorer, &explorer);
-    if (explore->seen && explore->doing && explore->news >= 0) {
-        explore->task = ale_rt_task_start(&(ale_rt_task_config_t){
-            .name = "ale-explore", .kind = ALE_RT_BACKGROUND, .body = run, .user = explore});
-    }
-    if (!explore->task) {
-        destroy(explore);
+    if (!explore->seen || !explore->doing ||
+        ale_background_start(&explore->thread, "ale-explore", run, explore, 0) < 0) {
+        ale_explore_stop(explore);
         return NULL;
     }
     return explore;
@@ -161,10 +148,10 @@ void ale_explore_stop(ale_explore_t *explore)
     if (!explore) {
         return;
     }
-    ale_rt_task_stop(explore->task);
-    ale_wake_post(explore->news);
-    ale_rt_task_join(explore->task);
-    destroy(explore);
+    ale_background_stop(&explore->thread);
+    ale_ring_destroy(explore->seen);
+    ale_snapshot_destroy(explore->doing);
+    free(explore);
 }
 
 void ale_explore_request(ale_explore_t *explore, bool on)
@@ -172,7 +159,7 @@ void ale_explore_request(ale_explore_t *explore, bool on)
     const uint32_t request = atomic_load_explicit(&explore->request, memory_order_relaxed);
     const uint32_t step = (request % 2 == 1) == on ? 2 : 1;
     atomic_store_explicit(&explore->request, request + step, memory_order_release);
-    ale_wake_post(explore->news);
+    ale_background_wake(&explore->thread);
 }
 
 static doing_t newest_doing(ale_explore_t *explore)
@@ -200,7 +187,7 @@ void ale_explore_take(ale_explore_t *explore, const ale_scan_t *scan, const ale_
         seen->scan = *scan;
         seen->estimate = *estimate;
         ale_ring_commit(explore->seen);
-        ale_wake_post(explore->news);
+        ale_background_wake(&explore->thread);
     }
 }
 

@@ -4,10 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "realtime/rt.h"
+#include "background.h"
 #include "snapshot.h"
 #include "store/map_file.h"
-#include "wake.h"
 
 enum { LOOK_NS = 500000000 };
 
@@ -19,8 +18,7 @@ typedef struct {
 struct ale_last_place {
     const char *path;
     ale_snapshot_t *offered; /* kept_t */
-    int wake;                /* event descriptor */
-    ale_rt_task_t *task;
+    ale_background_t thread;
     bool failed; /* and said so */
 };
 
@@ -43,17 +41,10 @@ static void run(ale_rt_task_t *self, void *user)
 {
     ale_last_place_t *place = user;
     while (!ale_rt_task_stopping(self)) {
-        ale_wake_wait(place->wake, LOOK_NS);
+        ale_background_wait(&place->thread, LOOK_NS);
         save_newest(place);
     }
     save_newest(place);
-}
-
-static void destroy(ale_last_place_t *place)
-{
-    ale_snapshot_destroy(place->offered);
-    ale_wake_close(place->wake);
-    free(place);
 }
 
 ale_last_place_t *ale_last_place_start(const char *path)
@@ -64,13 +55,8 @@ ale_last_place_t *ale_last_place_start(const char *path)
     }
     place->path = path;
     place->offered = ale_snapshot_create(sizeof(kept_t));
-    place->wake = ale_wake_open();
-    if (place->offered && place->wake >= 0) {
-        place->task = ale_rt_task_start(&(ale_rt_task_config_t){
-            .name = "ale-last-place", .kind = ALE_RT_BACKGROUND, .body = run, .user = place});
-    }
-    if (!place->task) {
-        destroy(place);
+    if (!place->offered || ale_background_start(&place->thread, "ale-last-place", run, place, 0) < 0) {
+        ale_last_place_stop(place);
         return NULL;
     }
     return place;
@@ -79,10 +65,9 @@ ale_last_place_t *ale_last_place_start(const char *path)
 void ale_last_place_stop(ale_last_place_t *place)
 {
     if (place) {
-        ale_rt_task_stop(place->task);
-        ale_wake_post(place->wake);
-        ale_rt_task_join(place->task);
-        destroy(place);
+        ale_background_stop(&place->thread);
+        ale_snapshot_destroy(place->offered);
+        free(place);
     }
 }
 
@@ -95,5 +80,5 @@ void ale_last_place_offer(ale_last_place_t *place, const ale_map_t *map, const a
     kept->map = *map;
     kept->pose = *pose;
     ale_snapshot_publish(place->offered);
-    ale_wake_post(place->wake);
+    ale_background_wake(&place->thread);
 }

@@ -2,10 +2,10 @@
 
 #include <stdlib.h>
 
+#include "background.h"
 #include "base/fixed.h"
 #include "estimate.h"
 #include "graph/live_map.h"
-#include "wake.h"
 
 #define LOOK_NS 50000000
 
@@ -14,8 +14,7 @@ enum { IDLE_PARTS = 9 }; /* of a drawing's time, before the next one */
 struct ale_map_drawer {
     ale_exchange_t *exchange;
     ale_live_map_t *live;
-    int wanted; /* posted to end the wait */
-    ale_rt_task_t *task;
+    ale_background_t thread;
     bool changed; /* since the last drawing */
     int64_t next_ns;
 };
@@ -57,7 +56,7 @@ static void run(ale_rt_task_t *self, void *user)
         if (ale_rt_now_ns() >= drawer->next_ns) {
             draw(drawer);
         }
-        ale_wake_wait(drawer->wanted, LOOK_NS);
+        ale_background_wait(&drawer->thread, LOOK_NS);
     }
     take(drawer);
     draw(drawer);
@@ -71,15 +70,8 @@ ale_map_drawer_t *ale_map_drawer_start(ale_exchange_t *exchange)
     }
     drawer->exchange = exchange;
     drawer->live = ale_live_map_create();
-    drawer->wanted = ale_wake_open();
-    if (drawer->live && drawer->wanted >= 0) {
-        drawer->task = ale_rt_task_start(&(ale_rt_task_config_t){.name = "ale-drawer",
-                                                                 .kind = ALE_RT_BACKGROUND,
-                                                                 .body = run,
-                                                                 .user = drawer,
-                                                                 .heap_bytes = ALE_LIVE_MAP_HEAP_BYTES});
-    }
-    if (!drawer->task) {
+    if (!drawer->live ||
+        ale_background_start(&drawer->thread, "ale-drawer", run, drawer, ALE_LIVE_MAP_HEAP_BYTES) < 0) {
         ale_map_drawer_stop(drawer);
         return NULL;
     }
@@ -91,12 +83,7 @@ void ale_map_drawer_stop(ale_map_drawer_t *drawer)
     if (!drawer) {
         return;
     }
-    if (drawer->task) {
-        ale_rt_task_stop(drawer->task);
-        ale_wake_post(drawer->wanted);
-        ale_rt_task_join(drawer->task);
-    }
-    ale_wake_close(drawer->wanted);
+    ale_background_stop(&drawer->thread);
     ale_live_map_destroy(drawer->live);
     free(drawer);
 }

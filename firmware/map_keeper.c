@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "background.h"
 #include "store/map_file.h"
 #include "wake.h"
 
@@ -18,8 +19,7 @@ typedef enum { IDLE, ORDERED, DONE } turn_t;
 struct ale_map_keeper {
     const ale_config_t *config;
     ale_exchange_t *exchange;
-    ale_rt_task_t *task;
-    int ordered; /* descriptor (wake.h) */
+    ale_background_t thread;
     atomic_int turn;
     bool load;
     char name[ALE_COMMAND_ARG_BYTES];
@@ -78,7 +78,7 @@ static void run(ale_rt_task_t *self, void *user)
 {
     ale_map_keeper_t *keeper = user;
     while (!ale_rt_task_stopping(self)) {
-        ale_wake_wait(keeper->ordered, LOOK_NS);
+        ale_background_wait(&keeper->thread, LOOK_NS);
         work(keeper);
     }
     work(keeper);
@@ -92,15 +92,9 @@ ale_map_keeper_t *ale_map_keeper_start(const ale_config_t *config, ale_exchange_
     }
     keeper->config = config;
     keeper->exchange = exchange;
-    keeper->ordered = ale_wake_open();
     atomic_init(&keeper->turn, IDLE);
-    if (keeper->ordered >= 0) {
-        keeper->task = ale_rt_task_start(&(ale_rt_task_config_t){
-            .name = "ale-maps", .kind = ALE_RT_BACKGROUND, .body = run, .user = keeper});
-    }
-    if (!keeper->task) {
-        ale_wake_close(keeper->ordered);
-        free(keeper);
+    if (ale_background_start(&keeper->thread, "ale-maps", run, keeper, 0) < 0) {
+        ale_map_keeper_stop(keeper);
         return NULL;
     }
     return keeper;
@@ -111,10 +105,7 @@ void ale_map_keeper_stop(ale_map_keeper_t *keeper)
     if (!keeper) {
         return;
     }
-    ale_rt_task_stop(keeper->task);
-    ale_wake_post(keeper->ordered);
-    ale_rt_task_join(keeper->task);
-    ale_wake_close(keeper->ordered);
+    ale_background_stop(&keeper->thread);
     free(keeper);
 }
 
@@ -129,7 +120,7 @@ static bool order(ale_map_keeper_t *keeper, const char *name, const ale_map_t *m
         keeper->map = *map;
     }
     atomic_store_explicit(&keeper->turn, ORDERED, memory_order_release);
-    ale_wake_post(keeper->ordered);
+    ale_background_wake(&keeper->thread);
     return true;
 }
 

@@ -3,16 +3,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "background.h"
 #include "graph/mapper.h"
-#include "wake.h"
 
 #define LOOK_NS 20000000
 
 struct ale_mapper_thread {
     ale_exchange_t *exchange;
     ale_mapper_t *mapper;
-    int wanted; /* posted to end the wait */
-    ale_rt_task_t *task;
+    ale_background_t thread;
     uint32_t loops; /* told so far */
 };
 
@@ -68,7 +67,7 @@ static void run(ale_rt_task_t *self, void *user)
     ale_mapper_thread_t *thread = user;
     while (!ale_rt_task_stopping(self)) {
         work_off(thread);
-        ale_wake_wait(thread->wanted, LOOK_NS);
+        ale_background_wait(&thread->thread, LOOK_NS);
     }
 }
 
@@ -80,15 +79,8 @@ ale_mapper_thread_t *ale_mapper_thread_start(ale_exchange_t *exchange)
     }
     thread->exchange = exchange;
     thread->mapper = ale_mapper_create(ALE_MAPPER_KEYFRAMES);
-    thread->wanted = ale_wake_open();
-    if (thread->mapper && thread->wanted >= 0) {
-        thread->task = ale_rt_task_start(&(ale_rt_task_config_t){.name = "ale-mapper",
-                                                                 .kind = ALE_RT_BACKGROUND,
-                                                                 .body = run,
-                                                                 .user = thread,
-                                                                 .heap_bytes = ALE_MAPPER_HEAP_BYTES});
-    }
-    if (!thread->task) {
+    if (!thread->mapper ||
+        ale_background_start(&thread->thread, "ale-mapper", run, thread, ALE_MAPPER_HEAP_BYTES) < 0) {
         ale_mapper_thread_stop(thread);
         return NULL;
     }
@@ -100,12 +92,7 @@ void ale_mapper_thread_stop(ale_mapper_thread_t *thread)
     if (!thread) {
         return;
     }
-    if (thread->task) {
-        ale_rt_task_stop(thread->task);
-        ale_wake_post(thread->wanted);
-        ale_rt_task_join(thread->task);
-    }
-    ale_wake_close(thread->wanted);
+    ale_background_stop(&thread->thread);
     ale_mapper_destroy(thread->mapper);
     free(thread);
 }

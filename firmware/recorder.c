@@ -5,13 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "background.h"
 #include "flight_file.h"
 #include "flight_order.h"
 #include "flight_ring.h"
 #include "flight_words.h"
-#include "realtime/rt.h"
 #include "store/little_endian.h"
-#include "wake.h"
 
 #define NS_PER_MS 1000000LL
 #define LOOK_NS 50000000
@@ -25,8 +24,7 @@ struct ale_recorder {
     char *config_text;
     ale_flight_ring_t *flight;
     ale_flight_order_t *order; /* of what comes to the flight ring */
-    int wake;                  /* event descriptor: a recording is wanted, or the end */
-    ale_rt_task_t *task;
+    ale_background_t thread;
     atomic_uint wanted; /* a bit a reason */
     atomic_uint written;
     int64_t write_ns; /* when the recording that is due is to be written; 0: none is */
@@ -116,7 +114,7 @@ void ale_recorder_trigger(ale_recorder_t *recorder, ale_record_reason_t reason)
 {
     if (recorder) {
         atomic_fetch_or(&recorder->wanted, 1U << reason);
-        ale_wake_post(recorder->wake);
+        ale_background_wake(&recorder->thread);
     }
 }
 
@@ -166,7 +164,7 @@ static void run(ale_rt_task_t *self, void *user)
 {
     ale_recorder_t *recorder = user;
     while (!ale_rt_task_stopping(self)) {
-        ale_wake_wait(recorder->wake, LOOK_NS);
+        ale_background_wait(&recorder->thread, LOOK_NS);
         const int64_t now_ns = ale_rt_now_ns();
         ale_flight_order_move(recorder->order, now_ns);
         plan(recorder, now_ns);
@@ -194,15 +192,6 @@ static char *print_config(const ale_config_t *config)
     return text;
 }
 
-static void destroy(ale_recorder_t *recorder)
-{
-    ale_flight_order_destroy(recorder->order);
-    ale_flight_ring_destroy(recorder->flight);
-    ale_wake_close(recorder->wake);
-    free(recorder->config_text);
-    free(recorder);
-}
-
 ale_recorder_t *ale_recorder_start(const ale_config_t *config)
 {
     ale_recorder_t *recorder = calloc(1, sizeof *recorder);
@@ -213,13 +202,9 @@ ale_recorder_t *ale_recorder_start(const ale_config_t *config)
     recorder->config_text = print_config(config);
     recorder->flight = ale_flight_ring_create((uint32_t)config->recorder_megabytes * MEGABYTE);
     recorder->order = ale_flight_order_create(recorder->flight);
-    recorder->wake = ale_wake_open();
-    if (recorder->config_text && recorder->flight && recorder->order && recorder->wake >= 0) {
-        recorder->task = ale_rt_task_start(&(ale_rt_task_config_t){
-            .name = "ale-recorder", .kind = ALE_RT_BACKGROUND, .body = run, .user = recorder});
-    }
-    if (!recorder->task) {
-        destroy(recorder);
+    if (!recorder->config_text || !recorder->flight || !recorder->order ||
+        ale_background_start(&recorder->thread, "ale-recorder", run, recorder, 0) < 0) {
+        ale_recorder_stop(recorder);
         return NULL;
     }
     return recorder;
@@ -228,9 +213,10 @@ ale_recorder_t *ale_recorder_start(const ale_config_t *config)
 void ale_recorder_stop(ale_recorder_t *recorder)
 {
     if (recorder) {
-        ale_rt_task_stop(recorder->task);
-        ale_wake_post(recorder->wake);
-        ale_rt_task_join(recorder->task);
-        destroy(recorder);
+        ale_background_stop(&recorder->thread);
+        ale_flight_order_destroy(recorder->order);
+        ale_flight_ring_destroy(recorder->flight);
+        free(recorder->config_text);
+        free(recorder);
     }
 }
