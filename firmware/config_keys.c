@@ -111,14 +111,12 @@ const ale_config_key_t ale_config_keys[] = {
     {"commands", "drive_turn", NUMBER(drive_urad_s, 6, 0, 20000000), "and turn, rad/s."},
 
     {"map", "keep", TEXT(keep),
-     "Where map and pose are kept while running; the robot goes on from there at the next start, after a "
-     "power\n"
-     "cut too. Goes before file. Empty: not kept."},
+     "Where map and pose are kept while running; the robot goes on from there at the next start,\n"
+     "after a power cut too. Goes before file. Empty: not kept."},
     {"map", "keep_seconds", NUMBER(keep_seconds, 0, 1, 3600), "How often, seconds."},
     {"map", "draw", BOOL(draw_map),
-     "Draw the published map anew from all scans, every wall once: up to 10 % of a processor. Else it is "
-     "the\n"
-     "tracker's."},
+     "Draw the published map anew from all scans, every wall once: up to 10 % of a processor.\n"
+     "Else it is the tracker's."},
 
     {"recorder", "folder", TEXT(recorder_folder),
      "Where flight recordings are written: on a fault, a missed deadline or a command. Empty: none."},

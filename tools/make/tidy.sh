@@ -3,7 +3,7 @@
 # Generated LCM types are taken as system headers.
 build=$1
 shift
-flags="-Ilib -Idrivers -Ifirmware -Itools -isystem $build/lcmtypes -isystem /usr/include/eigen3 -D_GNU_SOURCE"
+flags="-Ilib -Idrivers -Ifirmware -Itools -Itests -isystem $build/lcmtypes -isystem /usr/include/eigen3 -D_GNU_SOURCE"
 tidy() {
     extension=$1
     standard=$2
