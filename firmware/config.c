@@ -40,7 +40,6 @@ ale_config_t ale_config_default(void)
         .drive_um_s = 500000,
         .drive_urad_s = 1000000,
         .keep_seconds = 10,
-        .draw_map = true,
         .recorder_megabytes = 8,
     };
     return config;

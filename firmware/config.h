@@ -47,7 +47,6 @@ typedef struct {
     int32_t drive_urad_s;       /* and turn */
     char keep[ALE_CONFIG_PATH]; /* map and pose, kept while running, taken up at start; empty: not kept */
     int32_t keep_seconds;
-    bool draw_map;
     char recorder_folder[ALE_CONFIG_PATH]; /* where flight recordings go; empty: nothing is recorded */
     int32_t recorder_megabytes;
 } ale_config_t;

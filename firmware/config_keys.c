@@ -114,9 +114,6 @@ const ale_config_key_t ale_config_keys[] = {
      "Where map and pose are kept while running; the robot goes on from there at the next start,\n"
      "after a power cut too. Goes before file. Empty: not kept."},
     {"map", "keep_seconds", NUMBER(keep_seconds, 0, 1, 3600), "How often, seconds."},
-    {"map", "draw", BOOL(draw_map),
-     "Draw the published map anew from all scans, every wall once: up to 10 % of a processor.\n"
-     "Else it is the tracker's."},
 
     {"recorder", "folder", TEXT(recorder_folder),
      "Where flight recordings are written: on a fault, a missed deadline or a command. Empty: none."},

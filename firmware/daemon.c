@@ -93,8 +93,8 @@ static int start_tasks(ale_daemon_t *daemon)
         daemon->exchange.explore = ale_explore_start(config, &daemon->exchange);
     }
     daemon->mapper = ale_mapper_thread_start(&daemon->exchange);
-    daemon->drawer = config->draw_map ? ale_map_drawer_start(&daemon->exchange) : NULL;
-    if (daemon->estimate && daemon->mapper && (daemon->drawer || !config->draw_map)) {
+    daemon->drawer = ale_map_drawer_start(&daemon->exchange);
+    if (daemon->estimate && daemon->mapper && daemon->drawer) {
         daemon->acquire = ale_acquire_start(config, &daemon->exchange);
     }
     ale_rt_report_t report;

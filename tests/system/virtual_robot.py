@@ -4,7 +4,8 @@
        │               └ can be pulled                                          └ frames, read and written here
        └───── odometry (LCM) ───────────────────────────────────────────────────► Lan
 
-The kernel is taken out of its Debian package, which is not installed. The machine is emulated in software.
+The kernel is taken out of its Debian package, which is not installed. The machine is emulated in software, with one processor:
+half of its time goes into the UART's interrupts, and the other processor of a small computer is left to who emulates the UART.
 """
 import gzip
 import os
@@ -22,11 +23,12 @@ import lcm
 
 from at_hand import BINARIES, BUILD, ROOT, free_udp_port
 from chain import TYPES
+from priority import as_own_processor, threads_as_hardware
 from waiting import wait_until
 
 CACHE = BUILD / "hil-vm"
 DEPLOYED = ROOT / "firmware" / "deploy" / "ale-slamd.ini"
-SLOW_MACHINE = b"\n[map]\ndraw = no\n"  # an emulated processor takes a second for what a real one does in ten milliseconds
+WIRE_BYTES = 256
 LCM_GROUP = "239.255.76.67"
 LCM_PORT = 7667
 # To the group's own address of Ethernet, from an address of the kind that anyone may give.
@@ -46,7 +48,8 @@ INIT = f"""#!/bin/busybox sh
 /bin/busybox ip route add 224.0.0.0/4 dev eth0
 firmware() {{
     while :; do
-        /bin/ale-slamd --config /etc/ale-slamd.ini --port /dev/ttyS1 --lcm-url 'udpm://{LCM_GROUP}:{LCM_PORT}?ttl=1'
+        /bin/ale-slamd --config /etc/ale-slamd.ini --port /dev/ttyS1 --lcm-url 'udpm://{LCM_GROUP}:{LCM_PORT}?ttl=1' \\
+            --time-scale "$1"
         echo "ale-slamd ended with $?"
     done
 }}
@@ -57,7 +60,7 @@ echo ready
 while read -r word number; do
     case $word in
     clock) /bin/busybox date -s "@$number" ;;
-    start) firmware & ;;
+    start) firmware "$number" & ;;
     kill) /bin/busybox killall -9 ale-slamd ;;
     esac
 done
@@ -99,7 +102,7 @@ def initramfs(path, module):
     """A compressed archive (cpio, newc) that the kernel unpacks as its root."""
     firmware = BINARIES / "ale-slamd"
     files = {"init": (INIT.encode(), 0o755), "e1000.ko": (module.read_bytes(), 0o644),
-             "etc/ale-slamd.ini": (DEPLOYED.read_bytes() + SLOW_MACHINE, 0o644),
+             "etc/ale-slamd.ini": (DEPLOYED.read_bytes(), 0o644),
              "bin/ale-slamd": (firmware.read_bytes(), 0o755),
              "bin/busybox": (pathlib.Path("/bin/busybox").read_bytes(), 0o755)}
     for library in libraries(firmware):
@@ -125,31 +128,40 @@ def write_entry(archive, name, content, mode, device=(0, 0)):
 
 
 class Line:
-    """The wire between the simulated scanner and the machine's UART. Pulled, it carries nothing either way."""
+    """The wire between the simulated scanner and the machine's UART. Pulled, it carries nothing either way. As a wire it holds
+    next to nothing: a scanner whose bytes are not taken waits, and leaves scans away."""
 
     def __init__(self, pty, uart):
         self.scanner = os.open(pty, os.O_RDWR | os.O_NOCTTY)
         os.set_blocking(self.scanner, False)
         subprocess.run(["stty", "-F", pty, "raw", "-echo"], check=True)
         self.machine = socket.socket(socket.AF_UNIX)
+        self.machine.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, WIRE_BYTES)
         self.machine.connect(str(uart))
+        self.machine.setblocking(False)
         self.pulled = False
         self.ended = False
         self.thread = threading.Thread(target=self._carry)
-        self.thread.start()
+        with threads_as_hardware():
+            self.thread.start()
 
     def _carry(self):
+        waiting = b""
         while not self.ended:
-            ready, _, _ = select.select([self.scanner, self.machine], [], [], 0.05)
+            ready, free, _ = select.select([self.machine] + ([] if waiting else [self.scanner]),
+                                           [self.machine] if waiting else [], [], 0.05)
             try:
                 if self.scanner in ready:
-                    data = os.read(self.scanner, 4096)
-                    if not self.pulled:
-                        self.machine.sendall(data)
+                    data = os.read(self.scanner, WIRE_BYTES)
+                    waiting = b"" if self.pulled else data
+                if free or waiting:
+                    waiting = waiting[self.machine.send(waiting):]
                 if self.machine in ready:
                     data = self.machine.recv(4096)
                     if data and not self.pulled:
                         os.write(self.scanner, data)
+            except BlockingIOError:
+                continue
             except OSError:  # one end is gone
                 return
 
@@ -177,8 +189,9 @@ class Lan:
         self.outside = lcm.LCM(url)
         self.outside.subscribe("ALE_ODOMETRY", self._pass_on)
         self.threads = [threading.Thread(target=self._listen), threading.Thread(target=self._listen_outside)]
-        for thread in self.threads:
-            thread.start()
+        with threads_as_hardware():
+            for thread in self.threads:
+                thread.start()
 
     @property
     def port(self):
@@ -255,13 +268,13 @@ class Machine:
         console = folder / "console"
         initramfs(folder / "initramfs.gz", module)
         self.process = subprocess.Popen([
-            "qemu-system-x86_64", "-accel", "tcg", "-smp", "2", "-m", "512", "-nodefaults", "-no-reboot", "-display", "none",
+            "qemu-system-x86_64", "-accel", "tcg", "-smp", "1", "-m", "512", "-nodefaults", "-no-reboot", "-display", "none",
             "-kernel", kernel, "-initrd", folder / "initramfs.gz", "-append", "console=ttyS0 quiet panic=-1",
             "-chardev", f"socket,id=console,path={console},server=on,wait=off,logfile={self.log}", "-serial", "chardev:console",
             "-chardev", f"socket,id=scanner,path={self.uart},server=on,wait=off", "-serial", "chardev:scanner",
             "-netdev", f"dgram,id=lan,local.type=inet,local.host=127.0.0.1,local.port={lan.machine[1]},"
                        f"remote.type=inet,remote.host=127.0.0.1,remote.port={lan.port}",
-            "-device", "e1000,netdev=lan"], stdin=subprocess.DEVNULL)
+            "-device", "e1000,netdev=lan"], stdin=subprocess.DEVNULL, preexec_fn=as_own_processor)
         wait_until(lambda: console.exists() and self.uart.exists() or not self.running(), 180, "the virtual machine")
         self.console = socket.socket(socket.AF_UNIX)
         self.console.connect(str(console))
@@ -279,8 +292,8 @@ class Machine:
     def said(self):
         return self.log.read_text(encoding="utf-8", errors="replace") if self.log.exists() else ""
 
-    def order(self, word):
-        self.console.sendall(word.encode() + b"\n")
+    def order(self, *words):
+        self.console.sendall(" ".join(map(str, words)).encode() + b"\n")
 
     def stop(self):
         if self.running():
@@ -294,7 +307,7 @@ def set_clock(machine):
     """Gives the machine the time of day, in the place of NTP: at the turn of a second, to some hundredths."""
     second = int(time.time()) + 2
     time.sleep(max(0, second - time.time()))
-    machine.order(f"clock {second}")
+    machine.order("clock", second)
 
 
 def pause(seconds):

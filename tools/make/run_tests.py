@@ -27,6 +27,7 @@ RESULTS = pathlib.Path(os.environ.get("ALE_RESULTS", BUILD / "test-results.txt")
 
 
 BEGUN = RESULTS.with_suffix(".begun")
+LIMIT_S = 1200  # of one step: what hangs is a failure, not a wait
 
 
 def record(kind, passed, failed, skipped):
@@ -49,15 +50,24 @@ def counts(report):
     return passed, failed, skipped
 
 
+def run_limited(words, **how):
+    """A command's exit code and output, where it is caught. One that hangs is ended, and has failed."""
+    try:
+        done = subprocess.run(words, check=False, timeout=LIMIT_S, stdin=subprocess.DEVNULL, **how)
+        return done.returncode, done.stdout or b""
+    except subprocess.TimeoutExpired as error:
+        print(f"ended after {LIMIT_S} s: {words}", flush=True)
+        return 1, error.stdout or b""
+
+
 def run_gtest(program):
     """One GoogleTest program: its exit code, counts, and what it printed."""
     with tempfile.TemporaryDirectory() as folder:
         report = pathlib.Path(folder) / "report.xml"
-        done = subprocess.run([program, f"--gtest_output=xml:{report}", "--gtest_brief=1"], check=False,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                              timeout=1200)
+        code, output = run_limited([program, f"--gtest_output=xml:{report}", "--gtest_brief=1"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         found = counts(report) if report.exists() else (0, 0, 0)
-    return done.returncode, found, done.stdout.decode(errors="replace")
+    return code, found, output.decode(errors="replace")
 
 
 def run_unit_program(program):
@@ -95,11 +105,11 @@ def system(python, arguments):
     report.unlink(missing_ok=True)
     where = [] if any(word.startswith("tests/") for word in arguments) else ["tests"]
     path = os.pathsep.join([str(BUILD / "python"), os.environ.get("PYTHONPATH", "")]).rstrip(os.pathsep)
-    done = subprocess.run([python, "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--junitxml={report}",
+    code, _ = run_limited([python, "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--junitxml={report}",
                            "-n", str(2 * (os.cpu_count() or 1)), "--dist", "loadfile", "--reruns", "1", "-rR", *arguments, *where],
-                          env={**os.environ, "PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1"}, check=False)
+                          env={**os.environ, "PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1"})
     passed, failed, skipped = counts(report) if report.exists() else (0, 1, 0)
-    if done.returncode not in (0, 5) and failed == 0:
+    if code not in (0, 5) and failed == 0:
         failed = 1
     return record("system", passed, failed, skipped)
 
@@ -132,11 +142,11 @@ def fuzz(programs, seconds):
 
 def command(name, words):
     started = time.monotonic()
-    done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
-    print(f"  {'FAILED' if done.returncode else 'ok':6} {name:44} {time.monotonic() - started:6.1f} s", flush=True)
-    if done.returncode:
-        print(done.stdout.decode(errors="replace")[-6000:], flush=True)
-    return record(name.replace(" ", "-"), int(done.returncode == 0), int(done.returncode != 0), 0)
+    code, output = run_limited(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    print(f"  {'FAILED' if code else 'ok':6} {name:44} {time.monotonic() - started:6.1f} s", flush=True)
+    if code:
+        print(output.decode(errors="replace")[-6000:], flush=True)
+    return record(name.replace(" ", "-"), int(code == 0), int(code != 0), 0)
 
 
 def together(waiting, computing):

@@ -89,7 +89,7 @@ system-rtai: programs lcm-types venv $(BUILD)/rtai/ale-slamd ## the system tests
 .PHONY: hil-vm
 hil-vm: programs lcm-types venv ## the firmware on a virtual robot PC: PREEMPT_RT kernel in qemu, UART to ale-sim, LCM read outside
 	@tools/make/deps.sh tools/make/packages-vm.txt
-	@$(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python -rP tests/system/hil_vm.py
+	@$(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python --reruns 0 -rP tests/system/hil_vm.py
 
 .PHONY: endurance
 endurance: programs lcm-types venv ## 20,000 scans at ten times the speed, and latency under load: minutes, on an idle machine
