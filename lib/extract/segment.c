@@ -52,8 +52,9 @@ static bool is_jump(const ale_extractor_t *e, const jump_limit_t *limit, int32_t
     if (change_um <= allowed_um) {
         return gap > ALE_MAX_GAP_BEAMS;
     }
-    const int64_t neighbours_um = ale_min64(slope_um(e, i - 1), slope_um(e, i + 1));
-    return gap > ALE_MAX_GAP_BEAMS || (change_um - allowed_um) * 2 > 3 * gap * neighbours_um;
+    const int64_t beyond_um = (change_um - allowed_um) * 2;
+    return gap > ALE_MAX_GAP_BEAMS || beyond_um > 3 * gap * slope_um(e, i - 1) ||
+           beyond_um > 3 * gap * slope_um(e, i + 1);
 }
 
 static void end_segment(ale_extractor_t *e, int32_t first, int32_t last)
@@ -110,15 +111,15 @@ void ale_segment(ale_extractor_t *e, const ale_scan_t *scan)
     const jump_limit_t limit = jump_limit(e, scan);
     int32_t first = 0;
     memset(e->jump_after, 0, e->count * sizeof *e->jump_after);
-    bool before_new = false;
+    int32_t after_new = -1; /* the change after the last new one */
     for (int32_t k = 0; k < e->suspect_count; k++) {
         ale_suspect_t *suspect = &e->suspect[k];
         const int32_t i = suspect->point;
         const bool is_new = suspect->state == ALE_SUSPECT_NEW;
-        if (is_new || before_new || next_is_new(e, k)) {
+        if (is_new || i == after_new || next_is_new(e, k)) {
             suspect->state = is_jump(e, &limit, i) ? ALE_SUSPECT_JUMP : ALE_SUSPECT_SURFACE;
         }
-        before_new = is_new && k + 1 < e->suspect_count && suspect[1].point == i + 1;
+        after_new = is_new ? i + 1 : after_new;
         if (suspect->state == ALE_SUSPECT_JUMP) {
             e->jump_after[i] = true;
             end_segment(e, first, i);

@@ -10,15 +10,14 @@ int64_t ale_view_offset_var(const ale_view_t *view, const ale_matrix_t *cov)
     const ale_direction_t normal = ale_direction(view->normal_bam);
     const int64_t lever_um = ale_round_shift(
         (int64_t)view->centre.x_um * normal.sin_q30 - (int64_t)view->centre.y_um * normal.cos_q30, 30);
-    const int64_t n_q14[3] = {ale_round_shift(normal.cos_q30, 16), ale_round_shift(normal.sin_q30, 16),
-                              ale_round_div(lever_um * (1 << 14), 1000000)};
-    int64_t var = 0;
-    for (int i = 0; i < 3; i++) {
-        var += ale_mul_shift(n_q14[i] * n_q14[i], cov->m[i][i], 28);
-        for (int j = 0; j < i; j++) {
-            var += 2 * ale_mul_shift(n_q14[i] * n_q14[j], cov->m[i][j], 28);
-        }
-    }
+    const int64_t x = ale_round_shift(normal.cos_q30, 16);
+    const int64_t y = ale_round_shift(normal.sin_q30, 16);
+    const int64_t lever = ale_round_div(lever_um * (1 << 14), 1000000);
+    const int64_t var =
+        ale_mul_shift(x * x, cov->m[0][0], 28) + ale_mul_shift(y * y, cov->m[1][1], 28) +
+        ale_mul_shift(lever * lever, cov->m[2][2], 28) +
+        2 * (ale_mul_shift(y * x, cov->m[1][0], 28) + ale_mul_shift(lever * x, cov->m[2][0], 28) +
+             ale_mul_shift(lever * y, cov->m[2][1], 28));
     return ale_max64(var, 0);
 }
 

@@ -222,8 +222,8 @@ static bool match_again(ale_pipeline_t *p, const ale_motion_t *before, bool coun
     const bool slips = may_slip && (!registered || is_nearer(from, &as_before, predicted));
     const ale_motion_t *prior = slips ? &as_before : predicted;
     const ale_gate_t *unguided = slips ? &acquire_gate : &narrow_gate;
-    ale_refine_again(prior, registered ? from : prior->pose, &scene, registered ? &register_gate : unguided,
-                     &p->other, &p->fit);
+    ale_refine_again(prior, slips, registered ? from : prior->pose, &scene,
+                     registered ? &register_gate : unguided, &p->other, &p->fit);
     const bool slipped = slips && p->fit.matched_um > found_um;
     if (slipped) {
         *predicted = as_before;

@@ -248,16 +248,20 @@ static int32_t reach_um(const ale_scene_t *scene)
     return (int32_t)ale_min64(reach + FOCUS_MARGIN_UM, INT32_MAX);
 }
 
-/* Newton's steps from where out->motion is; the gates narrow from the first to the last. */
+static void set_prior(const ale_motion_t *predicted, ale_fit_t *fit)
+{
+    ale_factors_t factors;
+    ale_matrix_factor(&predicted->cov, &factors);
+    ale_matrix_invert(&factors, ALE_MATRIX_BITS, &fit->prior);
+}
+
+/* Newton's steps from where out->motion is, with out->prior; the gates narrow from the first to the last. */
 static void fit_from(const ale_motion_t *predicted, const ale_scene_t *scene,
                      const ale_gate_t *const gates[ALE_REFINE_ITERATIONS], ale_fit_t *out)
 {
     const ale_pose_t ahead = ale_pose_between(predicted->pose, out->motion.pose);
     int64_t total[ALE_STATES] = {ahead.x_um, ahead.y_um, ale_bam_to_nrad((int32_t)ahead.theta_bam) / 1000};
     int64_t size = INT64_MAX;
-    ale_factors_t factors;
-    ale_matrix_factor(&predicted->cov, &factors);
-    ale_matrix_invert(&factors, ALE_MATRIX_BITS, &out->prior);
     ale_local_map_focus(scene->map, (ale_point_t){out->motion.pose.x_um, out->motion.pose.y_um},
                         reach_um(scene));
     for (out->iterations = 0; out->iterations < ALE_REFINE_ITERATIONS && size > CONVERGED_UM;
@@ -280,6 +284,7 @@ void ale_refine_pose(const ale_motion_t *predicted, const ale_scene_t *scene, co
                                gate->piece_um};
     const ale_gate_t *const wide[ALE_REFINE_ITERATIONS] = {gate, &second, &later};
     start(predicted, scene, out);
+    set_prior(predicted, out);
     fit_from(predicted, scene, wide, out);
 }
 
@@ -290,12 +295,17 @@ void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const a
     ale_refine_look(scene, out);
 }
 
-void ale_refine_again(const ale_motion_t *predicted, ale_pose_t from, const ale_scene_t *scene,
+void ale_refine_again(const ale_motion_t *predicted, bool anew, ale_pose_t from, const ale_scene_t *scene,
                       const ale_gate_t *gate, ale_fit_t *other, ale_fit_t *fit)
 {
     const ale_gate_t *const gates[ALE_REFINE_ITERATIONS] = {gate, &later, &later};
     start(predicted, scene, other);
     other->motion.pose = from;
+    if (anew) {
+        set_prior(predicted, other);
+    } else {
+        other->prior = fit->prior;
+    }
     fit_from(predicted, scene, gates, other);
     ale_refine_look(scene, other);
     if (other->matched_um >= fit->matched_um) {

@@ -60,9 +60,9 @@ void ale_refine_pose(const ale_motion_t *predicted, const ale_scene_t *scene, co
                      ale_fit_t *out);
 void ale_refine_look(const ale_scene_t *scene, ale_fit_t *fit);
 
-/* Fits once more, from another pose, with another gate to begin with and perhaps another prediction, and
- * keeps what explains more. other: working memory. */
-void ale_refine_again(const ale_motion_t *predicted, ale_pose_t from, const ale_scene_t *scene,
+/* Fits once more, from another pose, with another gate to begin with and, if anew, another prediction than
+ * that of fit, and keeps what explains more. other: working memory. */
+void ale_refine_again(const ale_motion_t *predicted, bool anew, ale_pose_t from, const ale_scene_t *scene,
                       const ale_gate_t *gate, ale_fit_t *other, ale_fit_t *fit);
 
 /* Makes a fit of a scan that is not to be believed: the prediction stands, nothing is matched. */

@@ -28,10 +28,21 @@ typedef struct {
     uint32_t count;
 } ale_views_t;
 
+/* A surface of the last scan. */
+typedef struct {
+    int32_t normal_x_q14; /* unit vector */
+    int32_t normal_y_q14;
+    int64_t offset_q14; /* of its centre along the normal, */
+    int64_t along_q14;  /* and along the tangent, um */
+    uint32_t normal_bam;
+    int32_t length_mm;
+    uint8_t kind; /* ale_view_kind_t */
+} ale_registration_surface_t;
+
 /* Two surfaces that may be one, as they lie at the guess. */
 typedef struct {
-    uint32_t turned_bam; /* the new one's normal against the other's */
-    int32_t limit_bam;   /* for it, */
+    uint32_t turned_bam; /* the new one's normal against the other's, and the limit for it: from here on */
+    uint32_t width_bam;  /* less than this is within the limit, */
     int32_t along_um;    /* how far the centres may lie apart along the wall, */
     int32_t weight_mm;   /* and what it counts */
     uint16_t before;
@@ -43,14 +54,14 @@ typedef struct {
     uint16_t now[ALE_REGISTRATION_VIEWS];
     uint32_t before_count;
     uint32_t now_count;
-    ale_point_t centre[ALE_REGISTRATION_VIEWS]; /* of the views before, and their normals: unit vectors */
-    ale_point_t normal_q14[ALE_REGISTRATION_VIEWS];
+    ale_registration_surface_t surface[ALE_REGISTRATION_VIEWS]; /* of the views before */
     ale_registration_pair_t pair[ALE_REGISTRATION_VIEWS * ALE_REGISTRATION_VIEWS];
     uint16_t pair_first[ALE_REGISTRATION_VIEWS + 1]; /* of each new view */
     int32_t votes_mm[ALE_REGISTRATION_CELLS][ALE_REGISTRATION_COLUMNS];
-    uint16_t voter[ALE_REGISTRATION_CELLS][ALE_REGISTRATION_COLUMNS];
+    uint16_t voter[ALE_REGISTRATION_CELLS][ALE_REGISTRATION_COLUMNS]; /* the last view, at which heading */
     int32_t cell_um;
-    int32_t work; /* left for the heading at hand */
+    int32_t half_um; /* of the grid's diagonal */
+    int32_t work;    /* left for the heading at hand */
 } ale_registration_t;
 
 /* The pose of the new scan's robot as seen from the last one's; *guess on the way in, within the reaches, and

@@ -259,7 +259,8 @@ void matching(Parts &parts, Random &random, Crowd &crowd)
     });
     parts.measure("fit", 1, [&] { ale_refine(&predicted, &scene, &gates.at("first"), fit.get()); });
     parts.measure("second fit", 1, [&] {
-        ale_refine_again(&predicted, predicted.pose, &scene, &gates.at("second"), other.get(), fit.get());
+        ale_refine_again(&predicted, true, predicted.pose, &scene, &gates.at("second"), other.get(),
+                         fit.get());
     });
     auto memory = std::make_unique<ale_registration_t>();
     const ale_views_t all = {scene.view, scene.view_count};
