@@ -32,9 +32,10 @@ using Counts = std::array<uint64_t, ALE_STAGES>;
 
 constexpr char usage[] =
     "usage: valgrind --tool=callgrind --collect-atstart=no --callgrind-out-file=BASE wcet --counts BASE\n"
-    "                [--tries N] LOG...\n"
+    "                [--tries N] [--seed S] LOG...\n"
     "Instructions of the estimate task's work on one scan: the scans of the logs, and the most expensive\n"
-    "scan that a search of N steps (default 0) finds. `make wcet` runs it.\n"
+    "scan that a search of N steps (default 0) finds, S (default 11) being the seed of its random changes.\n"
+    "`make wcet` runs it.\n"
     "  --help, --version\n";
 constexpr std::array<const char *, ALE_STAGES> stage_names = {"deskew", "smooth", "extract", "match", "map"};
 constexpr int scans_of_a_candidate = 16;
@@ -191,8 +192,13 @@ std::vector<std::pair<std::string, Costly>> beginnings()
             {"turning", turning}, {"full map", full_map},   {"full map, lost", lost}};
 }
 
+struct Effort {
+    int tries = 0;
+    int seed = 11;
+};
+
 /* Hill climbing from the most expensive beginning. */
-Costly search(InstructionCounter &counter, int tries, Tally &stages)
+Costly search(InstructionCounter &counter, const Effort &effort, Tally &stages)
 {
     Costly best;
     Counts best_cost{};
@@ -204,8 +210,8 @@ Costly search(InstructionCounter &counter, int tries, Tally &stages)
             best_cost = counts;
         }
     }
-    bench::Random random(11);
-    for (int k = 0; k < tries; k++) {
+    bench::Random random(static_cast<uint64_t>(effort.seed));
+    for (int k = 0; k < effort.tries; k++) {
         const Costly candidate = bench::changed(best, random);
         const Counts counts = cost(counter, candidate, stages);
         if (sum(counts) > sum(best_cost)) {
@@ -244,7 +250,7 @@ uint64_t print_bound(InstructionCounter &counter)
 }
 
 /* Whether the most expensive scan is as cheap, and as near to the bound, as is asked for. */
-bool run(const std::string &base, int tries, const std::vector<std::string> &logs)
+bool run(const std::string &base, const Effort &effort, const std::vector<std::string> &logs)
 {
     InstructionCounter counter(base);
     Tally recorded;
@@ -257,7 +263,7 @@ bool run(const std::string &base, int tries, const std::vector<std::string> &log
     for (const std::string &log : logs) {
         count_log(counter, log, recorded);
     }
-    search(counter, tries, made);
+    search(counter, effort, made);
     const uint64_t bound = print_bound(counter);
     const uint64_t worst = std::max(sum(made.worst), sum(recorded.worst));
     const uint64_t median = recorded.median();
@@ -277,17 +283,18 @@ bool run(const std::string &base, int tries, const std::vector<std::string> &log
 int main(int argc, char **argv)
 {
     std::string counts;
-    int tries = 0;
+    Effort effort;
     std::vector<std::string> logs;
     cli::CommandLine line("wcet", usage);
     line.text("counts", counts);
-    line.number("tries", tries, 0, 1000000);
+    line.number("tries", effort.tries, 0, 1000000);
+    line.number("seed", effort.seed, 0, 1000000);
     line.rest(logs);
     return line.run(argc, argv, [&] {
         if (RUNNING_ON_VALGRIND == 0 || counts.empty() || logs.empty()) {
             throw cli::WrongUse("needs callgrind, --counts BASE and a log: make wcet");
         }
-        if (!run(counts, tries, logs)) {
+        if (!run(counts, effort, logs)) {
             throw std::runtime_error("the most expensive scan costs too much, or the bound says too little");
         }
     });
