@@ -27,7 +27,6 @@ $(addprefix cross-,$(CROSS)): cross-%: $(CROSS_BUILD)/%/libraries/ready
 	    LDFLAGS="-static -L$(<D)/usr/lib/$(triple_$*) -Wl,--gc-sections" LIBRARIES="-lpng -lz -linih -lm" \
 	    $(CROSS_BUILD)/$*/bin/ale-replay
 
-CCACHE = $(if $(findstring ccache,$(CC)),ccache )
 cross: programs ## the same bytes from aarch64, armhf and s390x, emulated
 	@tools/make/deps.sh tools/make/packages-cross.txt
 	@$(PYTHON) tools/make/digest.py --build $(BUILD) check $(CROSS)
