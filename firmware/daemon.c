@@ -82,7 +82,8 @@ static int start_writers(ale_daemon_t *daemon)
     return started ? 0 : fail(1, "no memory or no thread for the flight recorder or for what is kept");
 }
 
-/* The readers first, so that nothing fills up; telemetry last, because it tells what was got. */
+/* The readers first, so that nothing fills up and no pose waits; telemetry after those of whom it tells what
+ * they got, and before the scanner is spoken to: LCM takes its time until it hears itself. */
 static int start_tasks(ale_daemon_t *daemon)
 {
     const ale_config_t *config = &daemon->options->config;
@@ -94,21 +95,21 @@ static int start_tasks(ale_daemon_t *daemon)
     }
     daemon->mapper = ale_mapper_thread_start(&daemon->exchange);
     daemon->drawer = ale_map_drawer_start(&daemon->exchange);
-    if (daemon->estimate && daemon->mapper && daemon->drawer) {
-        daemon->acquire = ale_acquire_start(config, &daemon->exchange);
-    }
     ale_rt_report_t report;
     ale_rt_report(&report);
     daemon->realtime = report.realtime;
     fprintf(stderr, "ale-slamd: %s: %s\n", report.realtime ? "real time" : "real time degraded", report.text);
-    if (daemon->acquire) {
+    if (daemon->estimate && daemon->mapper && daemon->drawer) {
         daemon->telemetry =
             ale_telemetry_start(config, &daemon->options->keys, &daemon->exchange, daemon->bus, &report);
     }
     if (daemon->telemetry && drives) {
         daemon->drive = ale_drive_start(config, &daemon->exchange);
     }
-    if (!daemon->telemetry || (drives && (!daemon->drive || !daemon->exchange.explore))) {
+    if (daemon->telemetry) {
+        daemon->acquire = ale_acquire_start(config, &daemon->exchange);
+    }
+    if (!daemon->acquire || (drives && (!daemon->drive || !daemon->exchange.explore))) {
         return fail(1, "threads cannot be started");
     }
     return 0;

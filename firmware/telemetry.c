@@ -1,5 +1,7 @@
 #include "telemetry.h"
 
+#include <errno.h>
+#include <semaphore.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +15,7 @@
 #include "map_publisher.h"
 #include "recorder.h"
 #include "service.h"
+#include "speaker.h"
 #include "statistics.h"
 #include "supervisor.h"
 #include "wake.h"
@@ -26,6 +29,7 @@ struct ale_telemetry {
     ale_exchange_t *exchange;
     ale_bus_t *bus;
     ale_rt_task_t *task;
+    sem_t listening; /* posted once, when LCM is heard */
     ale_rt_report_t realtime;
     int64_t boot;
     ale_map_keeper_t *keeper;
@@ -42,6 +46,7 @@ struct ale_telemetry {
     ale_pose_t pose; /* in the map, newest */
     uint32_t epoch;  /* of that map */
     ale_service_t service;
+    ale_speaker_t *speaker; /* what a terminal or a disk does must not hold up poses */
     ale_status_report_t report;
 };
 
@@ -152,7 +157,7 @@ static void watch_scanner(ale_telemetry_t *telemetry)
     const ale_link_t before = telemetry->supervisor.link;
     if (fresh && ale_supervisor_watch(&telemetry->supervisor, telemetry->health, line)) {
         char words[sizeof line + 8];
-        fprintf(stderr, "ale-slamd: %s\n", line);
+        ale_speaker_say(telemetry->speaker, line);
         snprintf(words, sizeof words, "STATUS=%s", line);
         ale_service_tell(&telemetry->service, words);
         if (before == ALE_LINK_STREAMING) {
@@ -244,11 +249,12 @@ static void run(ale_rt_task_t *self, void *user)
 {
     ale_telemetry_t *telemetry = user;
     if (ale_bus_on_odometry(telemetry->bus, take_odometry, telemetry) < 0) {
-        fputs("ale-slamd: LCM refuses the subscription of odometry: going on without\n", stderr);
+        ale_speaker_say(telemetry->speaker, "LCM refuses the subscription of odometry: going on without");
     }
     if (ale_bus_on_command(telemetry->bus, take_command, telemetry) < 0) {
-        fputs("ale-slamd: LCM refuses the subscription of commands: none will be taken\n", stderr);
+        ale_speaker_say(telemetry->speaker, "LCM refuses the subscription of commands: none will be taken");
     }
+    sem_post(&telemetry->listening);
     while (!ale_rt_task_stopping(self)) {
         wait_for_work(telemetry);
         work(telemetry);
@@ -294,13 +300,17 @@ ale_telemetry_t *ale_telemetry_start(const ale_config_t *config, const ale_keys_
     telemetry->boot = boot_nonce();
     ale_service_open(&telemetry->service);
     telemetry->next_status_ns = ale_rt_now_ns() + STATUS_PERIOD_NS;
-    if (start_commands(telemetry, keys) == 0) {
+    sem_init(&telemetry->listening, 0, 0);
+    telemetry->speaker = ale_speaker_start(stderr);
+    if (telemetry->speaker && start_commands(telemetry, keys) == 0) {
         telemetry->task = ale_rt_task_start(&(ale_rt_task_config_t){
             .name = "ale-telemetry", .kind = ALE_RT_ORDINARY, .body = run, .user = telemetry});
     }
     if (!telemetry->task) {
         ale_telemetry_stop(telemetry);
         return NULL;
+    }
+    while (sem_wait(&telemetry->listening) < 0 && errno == EINTR) {
     }
     return telemetry;
 }
@@ -318,5 +328,7 @@ void ale_telemetry_stop(ale_telemetry_t *telemetry)
     ale_map_keeper_stop(telemetry->keeper);
     ale_commands_destroy(telemetry->commands);
     ale_service_close(&telemetry->service);
+    ale_speaker_stop(telemetry->speaker);
+    sem_destroy(&telemetry->listening);
     free(telemetry);
 }
