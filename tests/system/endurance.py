@@ -1,6 +1,7 @@
 """The firmware over many scans and under load: `make endurance`. Minutes, therefore not part of `make test`.
 
-It is to be run on a machine that does nothing else; what it prints is what the firmware's README states.
+It is to be run on a machine that does nothing else; what it prints is what the firmware's README states. It prints, too, how long the
+machine itself stood still meanwhile: a pose cannot come sooner than that.
 """
 import os
 import subprocess
@@ -10,6 +11,7 @@ import pytest
 from at_hand import WORLDS
 from chain import Chain
 from lcm_url import free_lcm_url
+from standstill import Standstill
 from waiting import wait_until
 
 SCANS_UNDER_LOAD = 1000
@@ -49,6 +51,13 @@ def await_scans(chain, firmware, count, seconds):
     wait_until(lambda: not firmware.running() or (statuses and statuses[-1].scans >= count), seconds, f"{count} scans")
     assert firmware.running(), firmware.err()
     return statuses[-1]
+
+
+@pytest.fixture(autouse=True)
+def standstill():
+    watch = Standstill()
+    yield
+    print(f"the machine itself stood still for up to {watch.stop():.1f} ms")
 
 
 @pytest.fixture
