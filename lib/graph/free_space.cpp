@@ -41,6 +41,18 @@ FreeSpace::FreeSpace(const Node &node) : eye_(node.eye), range_m_{}
     }
 }
 
+double FreeSpace::range_towards(const Eigen::Vector2d &from_eye) const
+{
+    return static_cast<double>(range_m_[static_cast<size_t>(sector_of(from_eye))]);
+}
+
+bool FreeSpace::reaches(const Eigen::Vector2d &p) const
+{
+    const Eigen::Vector2d from_eye = p - eye_;
+    const double range = range_towards(from_eye);
+    return range > 0 && length(from_eye.x(), from_eye.y()) < range + behind_m;
+}
+
 void FreeSpace::confront(const Node &other, const Pose &pose, Contradiction *sum) const
 {
     const Eigen::Matrix2d r = rotation(pose.theta);
@@ -48,7 +60,7 @@ void FreeSpace::confront(const Node &other, const Pose &pose, Contradiction *sum
     for (const SurfacePoint &point : other.points) {
         const Eigen::Vector2d from_eye = r * point.p + t;
         const double distance = length(from_eye.x(), from_eye.y());
-        const double range = static_cast<double>(range_m_[static_cast<size_t>(sector_of(from_eye))]);
+        const double range = range_towards(from_eye);
         if (range > 0 && distance < range + behind_m) {
             sum->points++;
             sum->in_free += distance < range - before_m - before_by_range * distance ? 1 : 0;

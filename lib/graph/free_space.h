@@ -20,12 +20,16 @@ class FreeSpace
   public:
     explicit FreeSpace(const Node &node);
 
+    // Whether the node would have seen a surface at this point, given in its frame: nothing nearer hides it.
+    bool reaches(const Eigen::Vector2d &p) const;
+
     // Adds what the points of another node say, which lies at `pose` as seen from this one.
     void confront(const Node &other, const Pose &pose, Contradiction *sum) const;
 
   private:
     static constexpr int sectors = 360;
     static int sector_of(const Eigen::Vector2d &from_eye);
+    double range_towards(const Eigen::Vector2d &from_eye) const;
 
     Eigen::Vector2d eye_;
     std::array<float, sectors> range_m_; // by bearing in the node's frame; 0: nothing was seen

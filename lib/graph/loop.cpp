@@ -25,9 +25,9 @@ Loop loop_by(const LoopMatch &match, int from, int to)
             match.overlap};
 }
 
-bool is_sight(const LoopMatch &match)
+bool is_sight(const LoopMatch &match, double in_view)
 {
-    return match.found && match.overlap >= least_overlap && match.ambiguity <= most_ambiguity;
+    return match.found && match.overlap >= least_overlap * in_view && match.ambiguity <= most_ambiguity;
 }
 
 bool agree(const Loop &a, const Loop &b, const std::vector<Pose> &poses)

@@ -28,8 +28,9 @@ struct Loop {
 // bounded by what a match is worth.
 Loop loop_by(const LoopMatch &match, int from, int to);
 
-// Whether the match is worth to be compared with others.
-bool is_sight(const LoopMatch &match);
+// Whether the match is worth to be compared with others. in_view: the share of its points, 0..1, that could
+// be seen from the place, as far as is known.
+bool is_sight(const LoopMatch &match, double in_view = 1);
 
 // Two loops, found from different nodes, that say the same: going round by both gives no displacement.
 bool agree(const Loop &a, const Loop &b, const std::vector<Pose> &poses);

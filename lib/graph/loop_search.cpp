@@ -34,6 +34,11 @@ constexpr double max_window_rad = 0.5;
 constexpr double near_m = 0.15;
 constexpr double near_rad = 0.03;
 constexpr int viewer_stride = 2;
+// A match elsewhere is judged by the points that were in view there; of those out of view so many at most are
+// left out, for what little remains fits anywhere.
+constexpr double least_in_view = 1.0 / 3;
+// A displaced loop stays in the next round when the kernel, at its normal width, leaves it at least so much.
+constexpr double least_weight_kept = 0.25;
 constexpr double most_in_free = 0.15; // doors, people and chairs move
 constexpr int partner_nodes = 12;     // how far along the way those may be that bear a loop out
 constexpr int partner_places = 20;
@@ -42,6 +47,11 @@ constexpr int partners_when_sparse = 2;
 // The robust kernel narrows by half every other iteration, to its normal width.
 constexpr double widest_kernel = 10000;
 constexpr int iterations = 32;
+
+GraphEdge edge_by(const Loop &loop)
+{
+    return {loop.from, loop.to, loop.measured, loop.information, true};
+}
 
 } // namespace
 
@@ -71,6 +81,7 @@ bool LoopSearch::step()
     }
     solve();
     if (solved_ == iterations) {
+        keep_displaced();
         found_.clear();
         spread_.reset();
         next_ = solved_ = 0;
@@ -136,18 +147,41 @@ std::optional<LoopSearch::Found> LoopSearch::look_at(const Place &place, int k,
     const std::vector<Pose> &poses = graph_.poses();
     const Pose guess = between(poses[static_cast<size_t>(place.k)], poses[static_cast<size_t>(k)]);
     const SurfaceField field(patch_around(*nodes_, poses, place.k, patch_there));
+    const auto is_displaced = [&guess](const LoopMatch &match) {
+        const Pose off = between(guess, match.pose);
+        return length(off.x, off.y) >= near_m || std::abs(off.theta) >= near_rad;
+    };
     const LoopMatch close_by = match_near(seen, field, guess);
-    const Pose off = between(guess, close_by.pose);
-    if (close_by.overlap > clear_overlap && length(off.x, off.y) < near_m && std::abs(off.theta) < near_rad) {
-        return Found{loop_by(close_by, place.k, k), true};
+    if (close_by.overlap > clear_overlap && !is_displaced(close_by)) {
+        return Found{loop_by(close_by, place.k, k), false};
     }
     const LoopMatch match =
         match_patch(seen, corners_around(*nodes_, poses, k, corners_here), field,
                     corners_around(*nodes_, poses, place.k, corners_there), guess, place.window);
-    if (!is_sight(match)) {
+    const bool displaced = is_displaced(match);
+    const double in_view = displaced ? share_in_view(seen, place.k, match.pose) : 1;
+    if (!is_sight(match, std::max(least_in_view, in_view))) {
         return std::nullopt;
     }
-    return Found{loop_by(match, place.k, k), false};
+    return Found{loop_by(match, place.k, k), displaced};
+}
+
+// Of points seen from `pose`, as the node `from` has it, the share that some node around that one had in
+// view.
+double LoopSearch::share_in_view(const std::vector<SurfacePoint> &seen, int from, const Pose &pose) const
+{
+    const std::vector<Pose> &poses = graph_.poses();
+    std::vector<bool> in_view(seen.size(), false);
+    for (const int viewer : viewers_of(poses, from, patch_there)) {
+        const auto at = static_cast<size_t>(viewer);
+        const Pose place = compose(between(poses[at], poses[static_cast<size_t>(from)]), pose);
+        const Eigen::Matrix2d r = rotation(place.theta);
+        for (size_t k = 0; k < seen.size(); k++) {
+            in_view[k] = in_view[k] || free_[at].reaches(r * seen[k].p + Eigen::Vector2d(place.x, place.y));
+        }
+    }
+    const auto count = static_cast<double>(std::count(in_view.begin(), in_view.end(), true));
+    return seen.empty() ? 0 : count / static_cast<double>(seen.size());
 }
 
 // Whether what was seen here lies where was seen from there to be nothing.
@@ -172,7 +206,7 @@ bool LoopSearch::is_contradicted(const Loop &loop) const
 
 bool LoopSearch::is_believed(const Found &found) const
 {
-    const bool clear = found.near || found.loop.overlap >= clear_overlap;
+    const bool clear = found.loop.overlap >= clear_overlap;
     const auto partners = std::count_if(found_.begin(), found_.end(), [&](const Found &other) {
         return std::abs(other.loop.to - found.loop.to) <= partner_nodes &&
                std::abs(other.loop.from - found.loop.from) <= partner_places &&
@@ -187,8 +221,7 @@ std::vector<GraphEdge> LoopSearch::edges() const
     std::vector<GraphEdge> edges;
     for (const Found &found : found_) {
         if (is_believed(found)) {
-            edges.push_back(
-                {found.loop.from, found.loop.to, found.loop.measured, found.loop.information, true});
+            edges.push_back(edge_by(found.loop));
         }
     }
     const size_t loops = edges.size();
@@ -204,6 +237,17 @@ std::vector<GraphEdge> LoopSearch::edges() const
         }
     }
     return edges;
+}
+
+// What pulled two visits together may not be found from where they then lie.
+void LoopSearch::keep_displaced()
+{
+    for (const Found &found : found_) {
+        const GraphEdge edge = edge_by(found.loop);
+        if (found.displaced && is_believed(found) && graph_.weight(edge) > least_weight_kept) {
+            given_.push_back(edge);
+        }
+    }
 }
 
 void LoopSearch::solve()

@@ -50,15 +50,17 @@ class LoopSearch
     };
     struct Found {
         Loop loop;
-        bool near; // where the graph has it
+        bool displaced; // from where the graph has it, farther than a match next to it would be
     };
 
     std::vector<Place> places_near(int k) const;
     void look_from(int k);
     std::optional<Found> look_at(const Place &place, int k, const std::vector<SurfacePoint> &seen) const;
+    double share_in_view(const std::vector<SurfacePoint> &seen, int from, const Pose &pose) const;
     bool is_contradicted(const Loop &loop) const;
     bool is_believed(const Found &found) const;
     std::vector<GraphEdge> edges() const;
+    void keep_displaced();
     void solve();
 
     const std::vector<Node> *nodes_;

@@ -22,17 +22,26 @@ Span span_of(size_t nodes, int k, const PatchExtent &extent)
 
 } // namespace
 
+std::vector<int> viewers_of(const std::vector<Pose> &poses, int k, const PatchExtent &extent)
+{
+    const Span span = span_of(poses.size(), k, extent);
+    std::vector<int> viewers;
+    for (int i = span.first; i <= span.last; i++) {
+        const Pose seen = between(poses[static_cast<size_t>(k)], poses[static_cast<size_t>(i)]);
+        if (length(seen.x, seen.y) <= reach_m) {
+            viewers.push_back(i);
+        }
+    }
+    return viewers;
+}
+
 std::vector<SurfacePoint> patch_around(const std::vector<Node> &nodes, const std::vector<Pose> &poses, int k,
                                        const PatchExtent &extent)
 {
     const Pose &middle = poses[static_cast<size_t>(k)];
-    const Span span = span_of(nodes.size(), k, extent);
     std::vector<SurfacePoint> patch;
-    for (int i = span.first; i <= span.last; i++) {
+    for (const int i : viewers_of(poses, k, extent)) {
         const Pose seen = between(middle, poses[static_cast<size_t>(i)]);
-        if (length(seen.x, seen.y) > reach_m) {
-            continue;
-        }
         const Eigen::Matrix2d r = rotation(seen.theta);
         const Eigen::Vector2d t(seen.x, seen.y);
         const Node &node = nodes[static_cast<size_t>(i)];

@@ -15,7 +15,10 @@ struct PatchExtent {
     int after;
 };
 
-// What the nodes around k saw, none of them farther from it than four metres; vague normals count as unknown.
+// The nodes that see the place of k: those around it along the way, none farther from it than four metres.
+std::vector<int> viewers_of(const std::vector<Pose> &poses, int k, const PatchExtent &extent);
+
+// What these saw; vague normals count as unknown.
 std::vector<SurfacePoint> patch_around(const std::vector<Node> &nodes, const std::vector<Pose> &poses, int k,
                                        const PatchExtent &extent);
 std::vector<CornerMark> corners_around(const std::vector<Node> &nodes, const std::vector<Pose> &poses, int k,

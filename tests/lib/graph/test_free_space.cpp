@@ -46,4 +46,13 @@ TEST(FreeSpace, WhatLiesBehindAWallOrOutOfViewIsNone)
     EXPECT_EQ(share_in_free(ale::Node{}, room(), {0, 0, 0}), -1) << "who sees nothing contradicts nothing";
 }
 
+TEST(FreeSpace, ReachesAsFarAsTheFirstSurfaceAndNotWhereNothingWasSeen)
+{
+    const ale::FreeSpace space(room());
+    EXPECT_TRUE(space.reaches({1.0, 0.5})) << "within the room";
+    EXPECT_TRUE(space.reaches({2.0, 1.0})) << "on its wall";
+    EXPECT_FALSE(space.reaches({2.5, 0})) << "behind its wall";
+    EXPECT_FALSE(ale::FreeSpace(ale::Node{}).reaches({1.0, 0.5})) << "who sees nothing reaches nothing";
+}
+
 } // namespace
