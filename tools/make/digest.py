@@ -54,9 +54,11 @@ def replay(command, log):
     return results
 
 
-def replay_all(command, inputs):
+def replay_all(jobs):
+    """Results of all (command, log), the largest logs first: the last processor is not left alone with one."""
+    order = sorted(jobs, key=lambda job: -jobs[job][1].stat().st_size)
     with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
-        return dict(zip(inputs, pool.map(lambda log: replay(command, log), inputs.values())))
+        return dict(zip(order, pool.map(lambda job: replay(*jobs[job]), order)))
 
 
 def built(build, spec):
@@ -88,12 +90,13 @@ def read_stored():
 
 def check(build, specs, quick):
     inputs = {name: path for name, path in logs().items() if not quick or name in QUICK_LOGS}
-    expected = replay_all([build / "bin/ale-replay"], inputs)
-    differing = compare("a second run", replay_all([build / "bin/ale-replay"], inputs), expected)
-    for spec in specs:
-        some = {name: path for name, path in inputs.items()
-                if spec not in ARCHITECTURES or name in EMULATED_LOGS}
-        differing += compare(spec, replay_all(built(build, spec), some), expected)
+    ordinary = [build / "bin/ale-replay"]
+    commands = {"first run": ordinary, "a second run": ordinary, **{spec: built(build, spec) for spec in specs}}
+    found = replay_all({(spec, name): (command, path) for spec, command in commands.items()
+                        for name, path in inputs.items() if spec not in ARCHITECTURES or name in EMULATED_LOGS})
+    expected = {name: found["first run", name] for name in inputs}
+    differing = sum(compare(spec, {name: found[spec, name] for name in inputs if (spec, name) in found}, expected)
+                    for spec in commands if spec != "first run")
     stored = read_stored()
     changed = [name for name in inputs if stored.get(name) != expected[name]["digest"]]
     for name in changed:
@@ -106,8 +109,8 @@ def check(build, specs, quick):
 
 def update(build):
     digests = read_stored()
-    digests.update((name, results["digest"])
-                   for name, results in replay_all([build / "bin/ale-replay"], logs()).items())
+    found = replay_all({name: ([build / "bin/ale-replay"], path) for name, path in logs().items()})
+    digests.update((name, results["digest"]) for name, results in found.items())
     STORED.write_text("".join(f"{digest}  {name}\n" for name, digest in sorted(digests.items())), encoding="utf-8")
     return 0
 
