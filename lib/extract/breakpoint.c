@@ -61,18 +61,10 @@ static bool acceptable(const ale_extractor_t *e, const ale_run_fit_t *fit, const
            fit->sse_q8 - accepted->sse_q8 <= allowed_q8(e, fit, added, e->chi_high_q8[added]);
 }
 
-/* The fit, unless its residuals are beyond every bound: most refusals in an unruly scan need no more. */
-static bool fit_unless_gross(ale_extractor_t *e, int32_t a, int32_t b, ale_run_fit_t *fit)
+static ale_run_fit_t search_fit(ale_extractor_t *e, int32_t a, int32_t b)
 {
-    const int32_t first = a <= b ? a : b;
-    const int32_t last = a <= b ? b : a;
-    const int32_t n = last + 1 - first;
     e->search_fits++;
-    if (ale_costly(e)) {
-        return ale_moments_fit_unless_gross(e, first, last, e->chi_high_q8[n], shared_times(e, n), fit);
-    }
-    *fit = ale_moments_fit(e, first, last);
-    return true;
+    return a <= b ? ale_moments_fit(e, a, b) : ale_moments_fit(e, b, a);
 }
 
 int32_t ale_break_search(ale_extractor_t *e, int32_t from, int32_t to, ale_run_fit_t *accepted)
@@ -83,16 +75,16 @@ int32_t ale_break_search(ale_extractor_t *e, int32_t from, int32_t to, ale_run_f
     if (low >= high) {
         return from;
     }
-    if (!fit_unless_gross(e, from, from + direction * low, accepted) ||
-        accepted->sse_q8 > allowed_q8(e, accepted, accepted->n, e->chi_high_q8[accepted->n])) {
+    *accepted = search_fit(e, from, from + direction * low);
+    if (accepted->sse_q8 > allowed_q8(e, accepted, accepted->n, e->chi_high_q8[accepted->n])) {
         return from;
     }
     bool bracketed = !ale_costly(e);
     while (high - low > 1) {
         const int32_t half = (low + high) / 2;
         const int32_t p = bracketed ? half : (int32_t)ale_min64(half, (int64_t)COSTLY_REACH * low);
-        ale_run_fit_t fit;
-        if (fit_unless_gross(e, from, from + direction * p, &fit) && acceptable(e, &fit, accepted)) {
+        const ale_run_fit_t fit = search_fit(e, from, from + direction * p);
+        if (acceptable(e, &fit, accepted)) {
             low = p;
             *accepted = fit;
         } else {
@@ -111,8 +103,9 @@ typedef struct {
 } pair_t;
 
 /* Squared residuals of the two lines that part after split, each in its own variance; Q8. */
-static int64_t joint_chi_q8(const ale_extractor_t *e, const pair_t *pair, int32_t split)
+static int64_t joint_chi_q8(ale_extractor_t *e, const pair_t *pair, int32_t split)
 {
+    e->effort += 2;
     return (ale_moments_sse_q8(e, pair->both.first, split) << 8) / pair->var_a_q8 +
            (ale_moments_sse_q8(e, split + 1, pair->both.last) << 8) / pair->var_b_q8;
 }
@@ -153,7 +146,7 @@ typedef struct {
 /* The meeting point of the lines that part at a place is known better than the least joint chi square, which
  * is nearly the same over many points where a wall bends a little. It is taken unless it fits worse. Whether
  * the break has moved. */
-static bool move_to_meeting(const ale_extractor_t *e, const pair_t *pair, const ale_break_range_t *range,
+static bool move_to_meeting(ale_extractor_t *e, const pair_t *pair, const ale_break_range_t *range,
                             placing_t *best)
 {
     const int32_t meeting = meeting_point(e, pair, best->split, range);
@@ -166,8 +159,8 @@ static bool move_to_meeting(const ale_extractor_t *e, const pair_t *pair, const 
 }
 
 /* One step of the pattern search: the better of both sides, or false. */
-static bool better_side(const ale_extractor_t *e, const pair_t *pair, const ale_break_range_t *range,
-                        int32_t step, int32_t came_from, placing_t *best)
+static bool better_side(ale_extractor_t *e, const pair_t *pair, const ale_break_range_t *range, int32_t step,
+                        int32_t came_from, placing_t *best)
 {
     const int32_t centre = best->split;
     for (int32_t side = 0; side < 2; side++) {
@@ -183,7 +176,7 @@ static bool better_side(const ale_extractor_t *e, const pair_t *pair, const ale_
     return best->split != centre;
 }
 
-int32_t ale_break_place(const ale_extractor_t *e, ale_segment_t both, int64_t var_a_q8, int64_t var_b_q8,
+int32_t ale_break_place(ale_extractor_t *e, ale_segment_t both, int64_t var_a_q8, int64_t var_b_q8,
                         const ale_break_range_t *range)
 {
     if (range->lowest > range->highest) {
@@ -211,7 +204,7 @@ int32_t ale_break_place(const ale_extractor_t *e, ale_segment_t both, int64_t va
 
 /* The break after which the joint fit is best, of the places of a grid that is the same in both directions;
  * -1 when the run has no room for two. *sse_q8: squared residuals of the two lines. */
-static int32_t coarse_break(const ale_extractor_t *e, ale_segment_t run, int32_t direction, int64_t *sse_q8)
+static int32_t coarse_break(ale_extractor_t *e, ale_segment_t run, int32_t direction, int64_t *sse_q8)
 {
     const int32_t n = run.last + 1 - run.first;
     int32_t best = -1;
@@ -222,6 +215,7 @@ static int32_t coarse_break(const ale_extractor_t *e, ale_segment_t run, int32_t
             continue;
         }
         const int32_t split = direction > 0 ? run.first + near_part - 1 : run.last - near_part;
+        e->effort += 2;
         const int64_t sse =
             ale_moments_sse_q8(e, run.first, split) + ale_moments_sse_q8(e, split + 1, run.last);
         if (sse < *sse_q8) {
@@ -232,7 +226,7 @@ static int32_t coarse_break(const ale_extractor_t *e, ale_segment_t run, int32_t
     return best;
 }
 
-int64_t ale_break_gain_q8(const ale_extractor_t *e, ale_run_t *run)
+int64_t ale_break_gain_q8(ale_extractor_t *e, ale_run_t *run)
 {
     const ale_run_fit_t *one = ale_fit_of_run(e, run);
     int64_t sse_q8;
@@ -260,7 +254,7 @@ bool ale_break_suspicious(const ale_run_fit_t *one)
     return ale_fit_chi_q8(one) >= (int64_t)(one->n - 2) * SUSPICIOUS_Q8 + SUSPICIOUS_SUM_Q8;
 }
 
-int32_t ale_break_find(const ale_extractor_t *e, ale_run_t *run, int32_t direction)
+int32_t ale_break_find(ale_extractor_t *e, ale_run_t *run, int32_t direction)
 {
     if (!ale_break_suspicious(ale_fit_of_run(e, run))) {
         return -1;

@@ -14,8 +14,9 @@ enum {
     CHAIN_STEP_Q8 = 128, /* deviations that every run of a chain must bring, */
     CHAIN_SUM_Q8 = 0,    /* and the chain beyond that */
     CHAIN_ALLOWANCE_Q8 =
-        20 * 256,        /* chi square that a circle may lose for each line beyond two it replaces */
-    SHARED_PART_Q8 = 154 /* share of the shared variance that a bulge contains */
+        20 * 256,         /* chi square that a circle may lose for each line beyond two it replaces */
+    CIRCLE_EFFORT_Q2 = 3, /* of a point laid on a circle, in residual sums of runs */
+    SHARED_PART_Q8 = 154  /* share of the shared variance that a bulge contains */
 };
 
 typedef struct {
@@ -77,6 +78,7 @@ static int32_t turn_between(const shape_t *a, const shape_t *b)
 static int64_t circle_excess_q8(ale_extractor_t *e, int32_t first, int32_t last)
 {
     const ale_circle_t circle = ale_circle_fit(e, e->run[first].first, e->run[last].last);
+    e->effort += (e->run[last].last + 1 - e->run[first].first) * CIRCLE_EFFORT_Q2 / 4;
     if (circle.radius_q4 == 0) {
         return INT64_MAX;
     }

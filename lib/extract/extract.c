@@ -234,13 +234,19 @@ static void search_runs(ale_extractor_t *e, const ale_scan_t *scan)
     }
 }
 
+/* More than a room asks for: what was found so far has to do. */
+static bool effort_is_spent(const ale_extractor_t *e)
+{
+    return e->effort > ALE_MOST_EFFORT;
+}
+
 /* A break that was missed spoils those beside it: once it is found, and they are placed anew, others show.
  * Not so where neighbours share an error, whose waves every further round would follow. */
 static void split_runs(ale_extractor_t *e)
 {
     const int32_t rounds = e->shared_scale_q8 > 256 || ale_costly(e) ? 1 : MOST_ROUNDS;
     bool changed = true;
-    for (int32_t round = 0; changed && round < rounds; round++) {
+    for (int32_t round = 0; changed && round < rounds && !effort_is_spent(e); round++) {
         const bool split = ale_runs_split(e);
         changed = ale_merge_runs(e) || split;
         ale_runs_place(e, round == 0 ? ALE_BREAK_FINE_STEP : ALE_BREAK_WIDE_STEP);
@@ -265,7 +271,9 @@ static void improve_runs(ale_extractor_t *e)
     ale_scan_noise_refine_own(e); /* each run now has the points that are its own */
     ale_curve_find(e);
     split_runs(e);
-    ale_curve_find(e);
+    if (!effort_is_spent(e)) {
+        ale_curve_find(e);
+    }
 }
 
 __attribute__((noinline)) void ale_extract_scan(ale_extractor_t *e, const ale_scan_t *scan,

@@ -143,24 +143,6 @@ fit_of(const ale_scan_noise_t *noise, int64_t n, ale_moments_t s, const scatter_
     return fit;
 }
 
-bool ale_moments_fit_unless_gross(const ale_extractor_t *e, int32_t first, int32_t last, int64_t own_q8,
-                                  int64_t shared_times, ale_run_fit_t *fit)
-{
-    const ale_scan_noise_t *noise = &e->noise;
-    const int64_t n = last + 1 - first;
-    const ale_moments_t s = sums_of(e, first, last);
-    const scatter_t m = scatter_of(n, s);
-    const noise_at_t at = noise_of(noise, n, &s);
-    const int64_t var_q8 = scaled_var_q8(noise, (at.range2 + 1) * (at.own_q36 + noise->bearing_rad2_q36));
-    const int64_t shared_q8 =
-        (noise->shared_mm2_q36 >> 28) + ((at.range2 + 1) * noise->shared_relative_q36 >> 28) + 1;
-    if ((m.lambda << m.shift) / n > ((var_q8 * own_q8) >> 8) + shared_q8 * shared_times) {
-        return false;
-    }
-    *fit = fit_of(noise, n, s, &m, at);
-    return true;
-}
-
 int64_t ale_moments_sse_q8(const ale_extractor_t *e, int32_t first, int32_t last)
 {
     const int64_t n = last + 1 - first;

@@ -12,11 +12,6 @@ void ale_moments_build(ale_extractor_t *e);
  * 2^-28 of the squares along the line and to their own share of those, squared. */
 ale_run_fit_t ale_moments_fit(const ale_extractor_t *e, int32_t first, int32_t last);
 
-/* The same, unless the squared residuals exceed own_q8 / 256 own variances and shared_times shared ones even
- * of a wall that faces the sensor: then false, at half the cost, and *fit is not set. */
-bool ale_moments_fit_unless_gross(const ale_extractor_t *e, int32_t first, int32_t last, int64_t own_q8,
-                                  int64_t shared_times, ale_run_fit_t *fit);
-
 /* An end of the run has moved, or the noise has changed: what is known of it holds no longer. */
 static inline void ale_run_changed(ale_run_t *run)
 {

@@ -40,19 +40,23 @@ static void renumber_suspects(ale_extractor_t *e, const removal_t *r)
 {
     int32_t kept = 0;
     int32_t before = -1;
-    for (int32_t k = 0, gone = 0; k < e->suspect_count; k++) {
-        const ale_suspect_t suspect = e->suspect[k];
-        const int32_t gone_before = gone;
-        while (gone < r->count && r->point[gone] <= suspect.point) {
+    int32_t gone = 0;
+    int32_t next_gone = r->point[0];
+    for (int32_t k = 0; k < e->suspect_count; k++) {
+        ale_suspect_t suspect = e->suspect[k];
+        bool here_gone = false;
+        while (next_gone <= suspect.point) {
+            here_gone = next_gone == suspect.point;
             gone++;
+            next_gone = gone < r->count ? r->point[gone] : INT32_MAX;
         }
-        const bool here_gone = gone > gone_before && r->point[gone - 1] == suspect.point;
-        const bool next_gone = gone < r->count && r->point[gone] == suspect.point + 1;
+        const bool touched = here_gone || next_gone == suspect.point + 1;
         const int32_t i = suspect.point - gone;
         if (i > before && i + 1 < e->count) {
             const bool at_end = i == 0 || i + 2 == e->count;
-            const uint16_t state = here_gone || next_gone || at_end ? ALE_SUSPECT_NEW : suspect.state;
-            e->suspect[kept++] = (ale_suspect_t){(uint16_t)i, state};
+            suspect.state = touched || at_end ? ALE_SUSPECT_NEW : suspect.state;
+            suspect.point = (uint16_t)i;
+            e->suspect[kept++] = suspect;
             before = i;
         }
     }
@@ -94,14 +98,17 @@ bool ale_outlier_remove_strays(ale_extractor_t *e)
 static inline bool is_spike(const ale_extractor_t *e, int32_t i)
 {
     const int32_t *range_um = &e->range_um[i];
+    const int64_t limit_um =
+        SPIKE_FACTOR * (e->noise.sigma_um + (range_um[0] * e->noise.sigma_per_range_q20 >> 20));
+    if (ale_abs64(2 * (int64_t)range_um[0] - range_um[-1] - range_um[1]) <= 2 * limit_um) {
+        return false; /* most are not worth the slope */
+    }
     const int32_t slope_um = (range_um[2] - range_um[-2]) / 4;
     const int32_t left_um = range_um[0] - range_um[-1] - slope_um;
     const int32_t right_um = range_um[0] - range_um[1] + slope_um;
     if ((left_um < 0) != (right_um < 0)) {
         return false;
     }
-    const int64_t limit_um =
-        SPIKE_FACTOR * (e->noise.sigma_um + (range_um[0] * e->noise.sigma_per_range_q20 >> 20));
     const int64_t left = ale_abs64(left_um);
     const int64_t right = ale_abs64(right_um);
     return left > limit_um && right > limit_um && ale_abs64(left - right) <= limit_um &&

@@ -11,19 +11,19 @@ static int32_t per_um_q36(int32_t cos_q30)
     return (int32_t)ale_round_div((int64_t)cos_q30 * 128, 125);
 }
 
-/* Directions of all multiples of half a beam, kept as long as the scanner stays the same. */
+/* Directions of as many multiples of half a beam as the scan is wide. */
 static void cache_directions(ale_extractor_t *e, const ale_scan_t *scan)
 {
-    if (e->direction_step_bam == scan->step_bam && e->direction_known) {
-        return;
+    if (e->direction_step_bam != scan->step_bam) {
+        e->directions = 0;
+        e->direction_step_bam = scan->step_bam;
     }
-    for (int32_t m = 0; m <= 2 * ALE_MAX_BEAMS; m++) {
+    for (int32_t m = e->directions; m < scan->beams; m++) {
         const ale_direction_t d = ale_direction((uint32_t)((int64_t)m * scan->step_bam / 2));
         e->cos_q36[m] = per_um_q36(d.cos_q30);
         e->sin_q36[m] = per_um_q36(d.sin_q30);
     }
-    e->direction_step_bam = scan->step_bam;
-    e->direction_known = true;
+    e->directions = (int32_t)ale_max64(e->directions, scan->beams);
 }
 
 void ale_points_list(ale_extractor_t *e, const ale_scan_t *scan)

@@ -74,7 +74,7 @@ static int32_t spare_points(const ale_run_t *run)
     return spare > 0 ? spare / 2 : 0;
 }
 
-static int32_t break_between(const ale_extractor_t *e, ale_run_t *a, ale_run_t *b, int32_t widest_step)
+static int32_t break_between(ale_extractor_t *e, ale_run_t *a, ale_run_t *b, int32_t widest_step)
 {
     const int32_t direction = ale_reading_direction(e, a->first, b->last);
     const ale_break_range_t range = {
@@ -225,6 +225,7 @@ void ale_runs_search(ale_extractor_t *e)
 {
     e->run_count = 0;
     e->search_fits = 0;
+    e->effort = 0;
     for (int32_t k = 0; k < e->segment_count; k++) {
         search_segment(e, e->segment[k].first, e->segment[k].last);
     }

@@ -32,6 +32,9 @@
 /* The search of a room takes fewer fits. */
 #define ALE_MANY_SEARCH_FITS 144
 
+/* What was found in a room is made good with less effort, in residual sums of runs. */
+#define ALE_MOST_EFFORT 1152
+
 /* Beams without a value that one surface may have. */
 #define ALE_MAX_GAP_BEAMS 8
 
@@ -95,11 +98,12 @@ struct ale_extractor {
     ale_extract_config_t config;
     ale_stage_hook_t hook;
 
-    /* Directions of the multiples of half a step, kept as long as the scanner stays the same. */
-    bool direction_known;
+    /* Directions of the multiples of half a step, as many as were needed, kept as long as the scanner stays
+     * the same. */
+    int32_t directions;
     int32_t direction_step_bam;
-    int32_t cos_q36[2 * ALE_MAX_BEAMS + 1]; /* points a micrometre of range, Q36 */
-    int32_t sin_q36[2 * ALE_MAX_BEAMS + 1];
+    int32_t cos_q36[ALE_MAX_BEAMS]; /* points a micrometre of range, Q36 */
+    int32_t sin_q36[ALE_MAX_BEAMS];
 
     /* The points. */
     int64_t step_nrad; /* from beam to beam, without sign */
@@ -137,6 +141,8 @@ struct ale_extractor {
     int32_t chi_high_q8[ALE_MAX_BEAMS + 1];
 
     int32_t search_fits; /* of the last search */
+    int32_t effort; /* for breaks and curves since then, in residual sums of runs; looked at between passes
+                     * over all runs, so that a mirrored scan is treated alike */
     uint16_t run_count;
     ale_run_t run[ALE_MAX_RUNS];
     uint16_t refused[ALE_REFUSALS];

@@ -72,9 +72,11 @@ double chi_about_circle(const ScanPoints &points, const Circle &circle, Run run,
 
 // Chi square of the runs first..last about one circle, less that about their own lines.
 double circle_excess(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &runs,
-                     size_t first, size_t last)
+                     size_t first, size_t last, Decisions &decisions)
 {
     const Circle circle = circle_through(points, runs[first].first, runs[last].last);
+    decisions.spend((runs[last].last + 1 - runs[first].first) * 3 /
+                    4); // a point costs so much of a run's sum
     if (circle.radius == 0) {
         return HUGE_VAL;
     }
@@ -90,13 +92,14 @@ double circle_excess(const ScanPoints &points, const NoiseOfScan &noise, const s
 bool is_arc(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &runs, size_t k,
             Decisions &decisions)
 {
-    const double excess = circle_excess(points, noise, runs, k, k);
+    const double excess = circle_excess(points, noise, runs, k, k, decisions);
     if (!decisions.below(excess, 0)) {
         return false;
     }
     Decisions ignored;
     const CoarseBreak two =
         coarse_break(points, runs[k], reading_direction(points, runs[k].first, runs[k].last), ignored);
+    decisions.spend(ignored.spent());
     const RunFit one = fit_run(points, noise, runs[k].first, runs[k].last);
     return decisions.below(excess, two.split < 0 ? 0 : (two.sse - one.sse) / one.var);
 }
@@ -187,7 +190,7 @@ Stretch strongest_stretch(const std::vector<Shape> &shape, size_t first, const C
 bool on_a_circle(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &runs,
                  size_t first, size_t last, Decisions &decisions)
 {
-    return decisions.below(circle_excess(points, noise, runs, first, last),
+    return decisions.below(circle_excess(points, noise, runs, first, last, decisions),
                            chi_of_a_line * static_cast<double>(last - first - 1));
 }
 

@@ -28,6 +28,17 @@ class Decisions
         return nearest;
     }
 
+    // Residual sums of runs that were asked for: beyond a limit the extractor stops improving.
+    void spend(int residual_sums)
+    {
+        effort += residual_sums;
+    }
+
+    int spent() const
+    {
+        return effort;
+    }
+
     void add(const Decisions &other)
     {
         nearest = std::min(nearest, other.nearest);
@@ -35,6 +46,7 @@ class Decisions
 
   private:
     double nearest = HUGE_VAL;
+    int effort = 0;
 };
 
 } // namespace reference

@@ -23,6 +23,7 @@ constexpr double rough_own = 1.5;   // the measured noise errs too
 constexpr double rough_shared = 12; // shared variances that a long wall may be wavy by,
 constexpr double rough_reaches = 4; // and the reaches of the shared error from which on it is a long one
 constexpr double calmer = 64000.0 / 65536; // change of the own noise from which on breaks may show
+constexpr int most_effort_of_rooms = 1152; // residual sums of runs that improving the search may cost
 constexpr double most_sigma_alpha = 8 * pi / 180;
 constexpr int corner_gap = 5;        // beams
 constexpr double corner_reach = 150; // mm
@@ -116,12 +117,12 @@ void refine_own_noise(Prepared &p, std::vector<Run> &runs, Decisions &decisions)
     }
 }
 
-// Until a round changes nothing, two at most.
-std::vector<Run> split_in_rounds(Prepared &p, std::vector<Run> runs, Decisions &decisions)
+// Until a round changes nothing or the effort is spent, two at most.
+std::vector<Run> split_in_rounds(Prepared &p, std::vector<Run> runs, int most_effort, Decisions &decisions)
 {
     const int rounds = p.shared_found || p.noise.costly ? 1 : 2;
     bool changed = true;
-    for (int round = 0; changed && round < rounds; round++) {
+    for (int round = 0; changed && round < rounds && decisions.spent() <= most_effort; round++) {
         const size_t before = runs.size();
         runs = split_runs(p.points, p.noise, p.segments, runs, decisions);
         const size_t split = runs.size();
@@ -143,12 +144,14 @@ std::vector<Run> improved_runs(Prepared &p, const ExtractionSettings &settings, 
         refine_own_noise(p, runs, decisions);
         return improved_clutter(p, runs, settings.least_points * 4 / 3, decisions);
     }
+    const int most_effort = decisions.spent() + most_effort_of_rooms;
     runs = merged_runs(p.points, p.noise, p.segments, runs, decisions);
     runs = placed_runs(p.points, p.noise, p.segments, runs, wide_step, decisions);
     refine_own_noise(p, runs, decisions);
     runs = with_curves(p.points, p.noise, p.segments, runs, decisions);
-    runs = split_in_rounds(p, runs, decisions);
-    return with_curves(p.points, p.noise, p.segments, runs, decisions);
+    runs = split_in_rounds(p, runs, most_effort, decisions);
+    return decisions.spent() > most_effort ? runs
+                                           : with_curves(p.points, p.noise, p.segments, runs, decisions);
 }
 
 // How many of n points err together in the slope of their line: the quadratic form of the correlations

@@ -122,14 +122,18 @@ int placed_break(const ScanPoints &points, const NoiseOfScan &noise, Run a, Run 
     }
     const double var_a = fit_run(points, noise, a.first, a.last).var;
     const double var_b = fit_run(points, noise, b.first, b.last).var;
-    const auto chi_at = [&](int k) { return joint_chi(points, {a.first, b.last}, k, var_a, var_b); };
+    const auto chi_at = [&](int k) {
+        decisions.spend(2);
+        return joint_chi(points, {a.first, b.last}, k, var_a, var_b);
+    };
     int best = std::clamp(range.start, range.lowest, range.highest);
+    int came_from = -1;
     double least = chi_at(best);
     for (int step = range.widest_step; step > 0; step /= 2) {
         for (int tries = 0; tries < 4; tries++) {
             const int centre = best;
             for (const int k : {centre - range.direction * step, centre + range.direction * step}) {
-                if (k < range.lowest || k > range.highest) {
+                if (k < range.lowest || k > range.highest || k == came_from) {
                     continue;
                 }
                 const double chi = chi_at(k);
@@ -141,6 +145,7 @@ int placed_break(const ScanPoints &points, const NoiseOfScan &noise, Run a, Run 
             if (best == centre) {
                 break;
             }
+            came_from = centre;
         }
     }
     for (int k = 0; k < most_meetings; k++) {
@@ -184,6 +189,7 @@ CoarseBreak coarse_break(const ScanPoints &points, Run run, int direction, Decis
         if (near_part < least_run || n - near_part < least_run) {
             continue;
         }
+        decisions.spend(2);
         const double sse = sse_of_run(points, run.first, split) + sse_of_run(points, split + 1, run.last);
         if (decisions.below(sse, best.sse) && sse < best.sse) {
             best = {split, sse};
