@@ -183,6 +183,8 @@ test-computing:
 	@$(PHASE) "the same bytes from another compiler and level"
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes" $(SUB) same-bytes SAME_BYTES_HOW=--quick SAME_BYTES_BUILDS=clang:-O3
 
+# A build with RTAI begins with the objects of the ordinary one: only the port is another, and what is linked with it.
+#
 # After `make test` in the same build folder (AFTER_TEST=1) only the rest runs, and the sum is of both.
 test-all: ## make test, lint, and the same bytes from every compiler, level and emulated machine
 	$(if $(AFTER_TEST),,@$(SUB) test)
@@ -197,6 +199,7 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	@$(PHASE) "the firmware on a virtual robot PC"
 	-@$(SUB) hil-vm
 	@$(PHASE) "the firmware as an RTAI program, on an emulated RTAI"
+	@rm -rf $(BUILD)/rtai-build && mkdir -p $(BUILD)/rtai-build && cp -a $(BUILD)/obj $(BUILD)/lcmtypes $(BUILD)/rtai-build
 	-@$(PYTHON) tools/make/run_tests.py command "make RT=rtai" $(SUB) $(RTAI_BUILD) -j2 programs
 	-@$(SUB) system-rtai
 	@$(PHASE) "the robot explores at a click in the browser"
