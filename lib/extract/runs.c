@@ -225,7 +225,6 @@ void ale_runs_search(ale_extractor_t *e)
 {
     e->run_count = 0;
     e->search_fits = 0;
-    e->effort = 0;
     for (int32_t k = 0; k < e->segment_count; k++) {
         search_segment(e, e->segment[k].first, e->segment[k].last);
     }

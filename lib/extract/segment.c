@@ -92,6 +92,7 @@ void ale_segment_suspect(ale_extractor_t *e)
         first = e->gap_after[k] + 1;
     }
     add_suspects(e, first, e->count - 1);
+    e->effort = e->suspect_count;
     e->unruly = e->suspect_count * 100 > e->count * UNRULY_PERCENT;
 }
 

@@ -23,7 +23,8 @@ constexpr double rough_own = 1.5;   // the measured noise errs too
 constexpr double rough_shared = 12; // shared variances that a long wall may be wavy by,
 constexpr double rough_reaches = 4; // and the reaches of the shared error from which on it is a long one
 constexpr double calmer = 64000.0 / 65536; // change of the own noise from which on breaks may show
-constexpr int most_effort_of_rooms = 1152; // residual sums of runs that improving the search may cost
+constexpr int most_effort_of_rooms =
+    1152; // residual sums of runs that improving the search may cost, and suspects
 constexpr double most_sigma_alpha = 8 * pi / 180;
 constexpr int corner_gap = 5;        // beams
 constexpr double corner_reach = 150; // mm
@@ -35,6 +36,7 @@ struct Prepared {
     std::vector<Run> segments;
     NoiseOfScan noise;
     bool shared_found = false;
+    int suspects = 0; // changes of the range
     double frame = 0; // direction of the points' x axis in the sensor's frame
 };
 
@@ -57,6 +59,7 @@ Prepared prepare(const ScanPoints &valid, const ExtractionSettings &settings, De
     Prepared p;
     p.noise = own_noise(valid, settings.prior, settings.step);
     p.noise.unruly = is_unruly(valid, p.noise);
+    p.suspects = suspects(valid, p.noise);
     p.points = without_spikes(valid, p.noise, decisions);
     p.segments = surface_segments(p.points, p.noise, settings.step, decisions);
     p.points = without_strays(p.points, p.segments);
@@ -144,7 +147,7 @@ std::vector<Run> improved_runs(Prepared &p, const ExtractionSettings &settings, 
         refine_own_noise(p, runs, decisions);
         return improved_clutter(p, runs, settings.least_points * 4 / 3, decisions);
     }
-    const int most_effort = decisions.spent() + most_effort_of_rooms;
+    const int most_effort = decisions.spent() + most_effort_of_rooms - p.suspects;
     runs = merged_runs(p.points, p.noise, p.segments, runs, decisions);
     runs = placed_runs(p.points, p.noise, p.segments, runs, wide_step, decisions);
     refine_own_noise(p, runs, decisions);

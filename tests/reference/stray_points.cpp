@@ -14,19 +14,24 @@ constexpr double unruly_share = 0.45;
 
 } // namespace
 
-bool is_unruly(const ScanPoints &points, const NoiseOfScan &noise)
+int suspects(const ScanPoints &points, const NoiseOfScan &noise)
 {
-    int suspects = 0;
+    int count = 0;
     for (size_t i = 0; i + 1 < points.size(); i++) {
         const double range = (points[i].range + points[i + 1].range) / 2;
         const double limit =
             suspect_deviations * (std::sqrt(noise.own_constant) + std::sqrt(noise.own_relative) * range);
-        suspects += std::fabs(points[i + 1].range - points[i].range) > limit ||
-                            points[i + 1].beam - points[i].beam > widest_gap
-                        ? 1
-                        : 0;
+        count += std::fabs(points[i + 1].range - points[i].range) > limit ||
+                         points[i + 1].beam - points[i].beam > widest_gap
+                     ? 1
+                     : 0;
     }
-    return suspects > unruly_share * static_cast<double>(points.size());
+    return count;
+}
+
+bool is_unruly(const ScanPoints &points, const NoiseOfScan &noise)
+{
+    return suspects(points, noise) > unruly_share * static_cast<double>(points.size());
 }
 
 // The line from the second neighbour to the second neighbour gives the slope; with it taken off, the point is

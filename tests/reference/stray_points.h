@@ -8,6 +8,9 @@
 namespace reference
 {
 
+// Changes of the range from point to point that exceed the noise.
+int suspects(const ScanPoints &points, const NoiseOfScan &noise);
+
 // Whether more changes of the range exceed the noise than surfaces make: then no point stands out.
 bool is_unruly(const ScanPoints &points, const NoiseOfScan &noise);
 
