@@ -144,3 +144,76 @@ TEST(PipelineTrack, AWheelThatSpinsTurnsTheRobotInNoMap)
 }
 
 } // namespace
+
+namespace
+{
+// Two bare walls, 2 m apart and without an end, as far as the scanner reaches.
+const std::vector<room::Wall> corridor = {{-50, -1, 50, -1}, {-50, 1, 50, 1}};
+
+// A drive along it that swings by 5 mrad, with wheels that count a part more than there is (0: none).
+struct Drive {
+    std::vector<ale_estimate_t> estimates;
+    std::vector<double> way;
+
+    explicit Drive(double counted_per_metre)
+    {
+        ale_pipeline_config_t config = ale_pipeline_default_config();
+        config.use_odometry = counted_per_metre > 0;
+        const room::Pipeline pipeline = room::make(config);
+        std::mt19937 rng(7);
+        room::Sensor sensor;
+        sensor.noise = 0.01;
+        const auto path = [](double t) {
+            return reference::Pose(0.5 * t, 0.01 * std::sin(0.5 * t), 0.01 * std::cos(0.5 * t));
+        };
+        const reference::Pose start = path(0);
+        for (int k = 0; k < 260; k++) {
+            const double t = 1 + 0.1 * k;
+            for (int i = 0; i < 10; i++) {
+                const double at = t - 0.04 + 0.01 * i;
+                const reference::Pose p = room::since_start(start, path(at));
+                const ale_odometry_t sample = {
+                    std::llround(at * 1e6),
+                    convert::pose(reference::Pose(counted_per_metre * p[0], counted_per_metre * p[1], p[2]))};
+                ale_pipeline_odometry(pipeline.get(), &sample);
+            }
+            const ale_scan_t scan = room::scan_at(corridor, sensor, path, t, rng);
+            ale_estimate_t e;
+            ale_pipeline_scan(pipeline.get(), &scan, &e);
+            estimates.push_back(e);
+            way.push_back(path(t)[0] - path(1)[0]);
+        }
+    }
+
+    double sigma_m(size_t k) const
+    {
+        return std::sqrt(static_cast<double>(estimates[k].cov[0])) * 1e-6;
+    }
+
+    double error_m(size_t k) const
+    {
+        return std::abs(estimates[k].map.x_um * 1e-6 - way[k]);
+    }
+};
+} // namespace
+
+TEST(PipelineTrack, AlongBareWallsTheErrorOfTheWheelsIsSaidAndNothingIsCalledGood)
+{
+    const Drive drive(1.03);
+    for (size_t k = 20; k < drive.estimates.size(); k++) {
+        ASSERT_EQ(drive.estimates[k].state, ALE_STATE_WEAK) << k;
+        ASSERT_LT(drive.error_m(k), 2 * drive.sigma_m(k)) << k;
+    }
+    EXPECT_NEAR(drive.sigma_m(250), 2 * drive.sigma_m(130), 0.25 * drive.sigma_m(250)); /* with the way */
+    EXPECT_GT(drive.sigma_m(250), 0.2);
+}
+
+TEST(PipelineTrack, AlongBareWallsWithoutWheelsItSaysLostWithinSixSeconds)
+{
+    const Drive drive(0);
+    for (size_t k = 2; k < drive.estimates.size(); k++) {
+        ASSERT_NE(drive.estimates[k].state, ALE_STATE_GOOD) << k;
+    }
+    EXPECT_EQ(drive.estimates[60].state, ALE_STATE_LOST);
+    EXPECT_EQ(drive.estimates.back().state, ALE_STATE_LOST);
+}
