@@ -89,9 +89,9 @@ ale_drift_here_t ale_drift_here(const ale_local_map_t *map, const ale_view_t vie
         }
         const ale_wall_t *wall = &map->wall[fit->match[i].wall];
         const int64_t part_q20 = (w_mm << 20) / whole_mm;
-        const square_t across = facing(wall);
-        add_scaled(&a, &across, part_q20);
-        add_scaled(&b, &across, ale_round_shift(wall->drift.var_um2 * part_q20, 20));
+        const square_t n_nt = facing(wall);
+        add_scaled(&a, &n_nt, part_q20);
+        add_scaled(&b, &n_nt, ale_round_shift(wall->drift.var_um2 * part_q20, 20));
         var_urad2 += ale_round_shift(wall->drift.var_urad2 * part_q20, 20);
     }
     const square_t root = inverse_root(&a);
