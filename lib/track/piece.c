@@ -16,11 +16,14 @@ enum {
     STRAIGHT_UM = 25000,     /* shortest piece that has a direction of its own */
     ROUNDNESS_UM = 10000,    /* a thing looks different from every side */
     ANGLE_OWN_URAD = 150000, /* one sigma of the direction of a piece */
-    ANGLE_FACING_URAD = 600000
+    ANGLE_FACING_URAD = 600000,
+    BAM_PER_RAD = 683565276,
+    ROUNDING_UM = 10 /* more than two rounded points may be farther apart */
 };
 
 typedef struct {
     const ale_scan_t *scan;
+    const uint32_t *bearing_bam;
     ale_pose_t sensor;
     const ale_noise_t *noise;
     ale_pieces_t *memory;
@@ -32,7 +35,23 @@ typedef struct {
 
 static int64_t spacing_um(const ale_scan_t *scan, int32_t beam)
 {
-    return ale_abs64((int64_t)scan->step_bam * scan->range_um[beam]) / 683565276;
+    return ale_abs64((int64_t)scan->step_bam * scan->range_um[beam]) / BAM_PER_RAD;
+}
+
+static uint32_t bearing_of(const pieces_t *p, int32_t beam)
+{
+    return p->bearing_bam ? p->bearing_bam[beam] : ale_scan_bearing(p->scan, beam);
+}
+
+/* Most beams of a scan with many are in no piece: few need their point. */
+static ale_point_t point_of(const pieces_t *p, int32_t beam)
+{
+    ale_pieces_t *memory = p->memory;
+    if (!memory->known[beam]) {
+        memory->point[beam] = ale_polar(p->scan->range_um[beam], bearing_of(p, beam));
+        memory->known[beam] = true;
+    }
+    return memory->point[beam];
 }
 
 static int64_t distance2(ale_point_t a, ale_point_t b)
@@ -57,7 +76,7 @@ static cloud_t cloud_of(const pieces_t *p, int32_t first, int32_t last)
     int64_t y = 0;
     const int32_t n = last - first + 1;
     for (int32_t k = first; k <= last; k++) {
-        const ale_point_t q = p->memory->point[k];
+        const ale_point_t q = point_of(p, k);
         x += q.x_um;
         y += q.y_um;
     }
@@ -91,7 +110,7 @@ static void add(pieces_t *p, int32_t first, int32_t last, bool spot)
     const int32_t n = last - first + 1;
     const int32_t middle = (first + last) / 2;
     const uint32_t facing_bam = ale_atan2_bam(-c.mean.y_um, -c.mean.x_um);
-    const int64_t length_um = ale_isqrt((uint64_t)distance2(p->memory->point[first], p->memory->point[last]));
+    const int64_t length_um = ale_isqrt((uint64_t)distance2(point_of(p, first), point_of(p, last)));
     const int64_t half_um = length_um / 2 + spacing_um(p->scan, middle) / 2;
     uint32_t direction_bam;
     const bool straight = !spot && n >= 3 && length_um > STRAIGHT_UM && direction_of(&c, &direction_bam);
@@ -145,8 +164,7 @@ static void note(pieces_t *p, int32_t first, int32_t last)
     if (n < 2 || (n == 2 && is_along_sight(p, first))) {
         return;
     }
-    const ale_point_t *point = p->memory->point;
-    const bool small = distance2(point[first], point[last]) < (int64_t)SPOT_UM * SPOT_UM;
+    const bool small = distance2(point_of(p, first), point_of(p, last)) < (int64_t)SPOT_UM * SPOT_UM;
     const bool spot = small && is_clear(p, first - 1, p->scan->range_um[first]) &&
                       is_clear(p, last + 1, p->scan->range_um[last]);
     const int32_t parts = spot ? 0 : (n + PIECE_BEAMS - 1) / PIECE_BEAMS;
@@ -170,18 +188,30 @@ static void cut(pieces_t *p, uint32_t room)
     }
 }
 
-/* Whether beam k goes on where k - 1 was. */
+/* Whether beam k goes on where k - 1 was. The way along the one beam and across to the other is longer. */
 static bool continues(const pieces_t *p, int32_t k)
 {
+    const int64_t range_um = p->scan->range_um[k];
+    const int64_t along_um = ale_abs64(range_um - p->scan->range_um[k - 1]);
+    const int64_t turn_bam = ale_abs64(ale_bam_diff(bearing_of(p, k), bearing_of(p, k - 1)));
+    const int64_t way_um = along_um + turn_bam * range_um / BAM_PER_RAD + ROUNDING_UM;
+    if (way_um < GAP_FLOOR_UM) {
+        return true;
+    }
     const int64_t gap_um = ale_max64(GAP_FLOOR_UM, GAP_SPACINGS * spacing_um(p->scan, k));
-    return distance2(p->memory->point[k - 1], p->memory->point[k]) < gap_um * gap_um;
+    return way_um < gap_um || distance2(point_of(p, k - 1), point_of(p, k)) < gap_um * gap_um;
 }
 
 uint32_t ale_pieces_of(const ale_features_t *features, const ale_scan_t *scan, const uint32_t *bearing_bam,
                        ale_pose_t sensor, const ale_noise_t *noise, ale_pieces_t *memory, uint32_t room,
                        ale_view_t out[])
 {
-    pieces_t p = {.scan = scan, .sensor = sensor, .noise = noise, .memory = memory, .out = out};
+    pieces_t p = {.scan = scan,
+                  .bearing_bam = bearing_bam,
+                  .sensor = sensor,
+                  .noise = noise,
+                  .memory = memory,
+                  .out = out};
     int32_t begun = -1;
     uint32_t line = 0;
     for (int32_t k = 0; k < scan->beams; k++) {
@@ -190,10 +220,7 @@ uint32_t ale_pieces_of(const ale_features_t *features, const ale_scan_t *scan, c
         }
         const bool in_line = line < features->line_count && features->line[line].first <= k;
         const bool loose = scan->flag[k] == ALE_BEAM_VALID && !in_line;
-        if (loose) {
-            memory->point[k] =
-                ale_polar(scan->range_um[k], bearing_bam ? bearing_bam[k] : ale_scan_bearing(scan, k));
-        }
+        memory->known[k] = false;
         if (begun >= 0 && (!loose || !continues(&p, k))) {
             note(&p, begun, k - 1);
             begun = -1;

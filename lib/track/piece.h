@@ -8,6 +8,7 @@
 #ifndef ALE_TRACK_PIECE_H
 #define ALE_TRACK_PIECE_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "base/noise.h"
@@ -22,7 +23,8 @@ typedef struct {
 
 /* Working memory. */
 typedef struct {
-    ale_point_t point[ALE_MAX_BEAMS]; /* of every beam that is in no line, sensor frame */
+    ale_point_t point[ALE_MAX_BEAMS]; /* of the beams that were asked for it, sensor frame */
+    bool known[ALE_MAX_BEAMS];
     ale_loose_t loose[ALE_MAX_BEAMS / 2];
 } ale_pieces_t;
 
