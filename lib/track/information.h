@@ -22,13 +22,6 @@ typedef struct {
 void ale_information_add(ale_information_t *sum, const int64_t row_q14[ALE_STATES], int64_t error,
                          int64_t var);
 
-/* Takes away what the directions of walls only seem to tell. Two walls of a corridor are parallel as well as
- * their directions are known, one sigma of ALE_WALL_DIRECTION_URAD: of the information across them that part,
- * squared, may be said of the way along them. It is the same from scan to scan, so that no number of scans
- * makes it true. Where the scan knows both directions, nothing changes. */
-#define ALE_WALL_DIRECTION_URAD 3000
-void ale_information_doubt_directions(ale_information_t *sum);
-
 /* Whether the scan alone determines every direction of the pose better than sigma (um, and urad at a
  * lever of one metre): all eigenvalues of the pose's information above 1/sigma^2. */
 bool ale_information_determines(const ale_information_t *sum, int64_t sigma_um);

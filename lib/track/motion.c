@@ -106,19 +106,6 @@ static void carry_pose_error(ale_pose_t d, int64_t f_q20[ALE_STATES][ALE_STATES]
     f_q20[2][2] = (int64_t)1 << 20;
 }
 
-static void carry_scale_error(ale_motion_t *m, const int64_t f_q20[ALE_STATES][ALE_STATES])
-{
-    int64_t carried[ALE_AXES] = {0};
-    for (int i = 0; i < ALE_AXES; i++) {
-        for (int j = 0; j < ALE_AXES; j++) {
-            carried[i] += ale_mul_shift(f_q20[i][j], m->scale_error[j], 20);
-        }
-    }
-    for (int i = 0; i < ALE_AXES; i++) {
-        m->scale_error[i] = carried[i];
-    }
-}
-
 /* An acceleration held over the step: dv = a t, and half of it goes into the way. */
 static void acceleration_noise(int axis, int64_t dt_us, int64_t *way, int64_t *velocity)
 {
@@ -154,7 +141,6 @@ static void predict_free(ale_motion_t *m, int64_t dt_us, const ale_liveliness_t 
     }
     m->pose = ale_pose_compose(m->pose, d);
     m->cov = cov;
-    carry_scale_error(m, f_q20);
 }
 
 /* Way and velocity of one axis with their covariance. */
@@ -204,28 +190,6 @@ static axis_t fuse_axis(const ale_motion_t *m, int i, int64_t dt_us, const ale_w
     return a;
 }
 
-/* What of the way's variance the velocity does not share. */
-static int64_t variance_of_way_alone(const axis_t *a)
-{
-    return ale_max64(a->ww - ale_mul_shift(ale_ratio_q30(a->wv, a->vv + 1), a->wv, 30), 0);
-}
-
-/* The scale of the wheels errs alike step after step: where nothing holds the pose its error grows with the
- * way, not with the root of it. The step's own variance is in the covariance, and is lifted to what the scale
- * makes of it where way and velocity, which share that error, were fused as if they did not; here is added
- * what it shares with the steps before. */
-static void add_scale_error(ale_motion_t *m, const ale_wheel_motion_t *wheels, const axis_t *forward)
-{
-    const int64_t sigma_um = wheels->scale_sigma_um;
-    const int64_t step_um = wheels->counted_um < 0 ? -sigma_um : sigma_um;
-    m->cov.m[FORWARD][FORWARD] += ale_max64(sigma_um * sigma_um - variance_of_way_alone(forward), 0);
-    for (int i = 0; i < ALE_AXES; i++) {
-        m->cov.m[FORWARD][i] += step_um * m->scale_error[i];
-        m->cov.m[i][FORWARD] += step_um * m->scale_error[i];
-    }
-    m->scale_error[FORWARD] += step_um;
-}
-
 /* With wheels the velocity begins anew: its correlation with the last pose is small and is dropped. */
 static void predict_with_wheels(ale_motion_t *m, int64_t dt_us, const ale_wheel_motion_t *wheels,
                                 const ale_liveliness_t *l)
@@ -254,8 +218,6 @@ static void predict_with_wheels(ale_motion_t *m, int64_t dt_us, const ale_wheel_
     }
     m->pose = ale_pose_compose(m->pose, step);
     m->cov = cov;
-    carry_scale_error(m, f_q20);
-    add_scale_error(m, wheels, &a[FORWARD]);
 }
 
 /* Wheels alone: no velocity goes into the step or comes out of it. */
@@ -274,14 +236,6 @@ static void predict_jump(ale_motion_t *m, const ale_wheel_motion_t *wheels, cons
     }
     m->pose = ale_pose_compose(m->pose, d);
     m->cov = cov;
-    carry_scale_error(m, f_q20);
-}
-
-static void forget_scale_error(ale_motion_t *m)
-{
-    for (int i = 0; i < ALE_AXES; i++) {
-        m->scale_error[i] = 0;
-    }
 }
 
 /* Keeps the numbers within what the formats are made for: an error that has grown beyond its bound is as
@@ -294,7 +248,6 @@ static void bound(ale_motion_t *m)
                 m->cov.m[i][j] = m->cov.m[j][i] = 0;
             }
             m->cov.m[i][i] = most_var[i];
-            forget_scale_error(m);
         }
     }
     for (int i = 0; i < ALE_AXES; i++) {
@@ -345,5 +298,4 @@ void ale_motion_widen(ale_motion_t *motion, int64_t sigma_um, int64_t sigma_urad
         }
         motion->cov.m[i][i] = var[i];
     }
-    forget_scale_error(motion);
 }

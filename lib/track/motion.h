@@ -20,9 +20,8 @@ enum { ALE_TICK_BITS = 17, ALE_AXES = 3 };
 typedef struct {
     int64_t stamp_us;
     ale_pose_t pose;
-    int32_t velocity[ALE_AXES];    /* um, um, urad per tick; robot's frame */
-    ale_matrix_t cov;              /* of pose (um, um, urad) and velocity */
-    int64_t scale_error[ALE_AXES]; /* of the pose for one sigma of the wheels' scale; cov holds its square */
+    int32_t velocity[ALE_AXES]; /* um, um, urad per tick; robot's frame */
+    ale_matrix_t cov;           /* of pose (um, um, urad) and velocity */
 } ale_motion_t;
 
 /* What the wheels say of the way to the next scan: displacement in the frame of the last one, velocity
@@ -32,9 +31,7 @@ typedef struct {
     int64_t displacement_var[ALE_AXES];
     int32_t velocity[ALE_AXES];
     int64_t velocity_var[ALE_AXES];
-    int64_t counted_um; /* forward way as counted, before it was scaled */
-    int64_t
-        scale_sigma_um;  /* what one sigma of the scale makes of it: no noise, the next step has the same */
+    int64_t counted_um;  /* forward way as counted, before it was scaled */
     int64_t lag_var_um2; /* part of its variance that comes from the lag */
 } ale_wheel_motion_t;
 

@@ -9,8 +9,6 @@ enum {
     PIECE_BEAMS = 6,
     GAP_FLOOR_UM = 60000, /* neighbours farther apart than this, and than 4 beam spacings, part a run */
     GAP_SPACINGS = 4,
-    DEEP_FLOOR_UM = 60000, /* two neighbours farther behind each other than this, and than 2 spacings */
-    DEEP_SPACINGS = 2,
     SPOT_UM = 150000,        /* largest thing that counts as a spot */
     SPOT_CLEAR_UM = 100000,  /* what is beside it must be farther by this */
     STRAIGHT_UM = 25000,     /* shortest piece that has a direction of its own */
@@ -121,7 +119,6 @@ static void add(pieces_t *p, int32_t first, int32_t last, bool spot)
     const int64_t angle_urad = straight ? ANGLE_OWN_URAD : ANGLE_FACING_URAD;
     const int64_t systematic_um = p->noise->surface_um / 2;
     const int64_t round_um = straight ? 0 : ROUNDNESS_UM;
-    const int64_t deep_um = straight ? 0 : (p->scan->range_um[last] - p->scan->range_um[first]) / 2;
     const int32_t time_us = ale_scan_beam_offset_us(p->scan, middle);
     p->out[p->count++] = (ale_view_t){
         .centre = ale_pose_apply(p->sensor, c.mean),
@@ -130,7 +127,7 @@ static void add(pieces_t *p, int32_t first, int32_t last, bool spot)
         .end_um = (int32_t)half_um,
         .var_offset_um2 = ale_noise_own_var_um2(p->noise, p->scan->range_um[middle]) / n +
                           ale_noise_shared_var_um2(p->noise, p->scan->range_um[middle]) +
-                          systematic_um * systematic_um + round_um * round_um + deep_um * deep_um,
+                          systematic_um * systematic_um + round_um * round_um,
         .var_angle_urad2 = angle_urad * angle_urad,
         .start_time_us = time_us,
         .end_time_us = time_us,
@@ -149,19 +146,11 @@ static bool is_clear(const pieces_t *p, int32_t beam, int32_t range_um)
            (flag == ALE_BEAM_VALID && p->scan->range_um[beam] > range_um + SPOT_CLEAR_UM);
 }
 
-/* Whether two beams lie one behind the other: the last that a wall gives at a grazing angle, or an edge that
- * one of them met half. They lie there for this scan only and go along with the robot. */
-static bool is_along_sight(const pieces_t *p, int32_t first)
-{
-    const int64_t deep_um = ale_abs64((int64_t)p->scan->range_um[first + 1] - p->scan->range_um[first]);
-    return deep_um > ale_max64(DEEP_FLOOR_UM, DEEP_SPACINGS * spacing_um(p->scan, first));
-}
-
 /* Notes a run and how many pieces it makes. */
 static void note(pieces_t *p, int32_t first, int32_t last)
 {
     const int32_t n = last - first + 1;
-    if (n < 2 || (n == 2 && is_along_sight(p, first))) {
+    if (n < 2) {
         return;
     }
     const bool small = distance2(point_of(p, first), point_of(p, last)) < (int64_t)SPOT_UM * SPOT_UM;

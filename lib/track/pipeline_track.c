@@ -69,7 +69,7 @@ static void take_in(ale_pipeline_t *p, bool grow)
         return;
     }
     const ale_pose_t sensor = ale_pose_compose(p->fit.motion.pose, p->config.sensor);
-    const ale_taking_t taking = {p->scans, &p->drift, ale_rest_dilution(&p->rest), grow};
+    const ale_taking_t taking = {p->scans, p->drift, ale_rest_dilution(&p->rest), grow};
     ale_map_update(&p->map, p->view, p->view_count, &p->fit, &taking);
     p->matched_corners = ale_map_corners_update(&p->map.corners, &p->features, sensor, p->scans, grow);
 }
@@ -136,8 +136,8 @@ static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_moti
  * born with. */
 static void anchor(ale_pipeline_t *p)
 {
-    if (ale_tracker_may_anchor(&p->tracker, &p->fit, p->view, p->view_count)) {
-        p->drift = ale_drift_go_on(&p->drift, &p->fit.motion);
+    if (ale_tracker_may_anchor(&p->tracker, &p->fit)) {
+        p->drift = ale_drift_of_new_wall(p->drift, &p->fit.motion.cov);
         ale_motion_widen(&p->fit.motion, ANCHOR_SIGMA_UM, ANCHOR_SIGMA_URAD);
         p->motion = p->fit.motion;
     }
@@ -257,7 +257,7 @@ void ale_pipeline_track(ale_pipeline_t *p, const ale_motion_t *before, const ale
     }
     p->motion = p->fit.motion;
     notice(p, before, &prior, counted);
-    p->drift = ale_drift_here(&p->map, p->view, p->view_count, &p->fit, &p->drift);
+    p->drift = ale_drift_here(&p->map, p->view, p->view_count, &p->fit, p->drift);
     if (!p->tracker.jumped) {
         ale_liveliness_learn(&p->liveliness[counted], &prior, &p->motion);
         teach_wheels(p, before, counted ? wheels : NULL);

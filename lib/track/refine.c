@@ -183,7 +183,6 @@ static void gather(const ale_scene_t *scene, const ale_matrix_t *cov, const ale_
         fit->matched = (uint16_t)(fit->matched + (view->kind == ALE_VIEW_WALL));
         fit->matched_pieces = (uint16_t)(fit->matched_pieces + (view->kind != ALE_VIEW_WALL));
     }
-    ale_information_doubt_directions(&fit->information);
 }
 
 /* One Gauss-Newton step on scan and prediction together; returns its size. */
@@ -256,70 +255,21 @@ static void set_prior(const ale_motion_t *predicted, ale_fit_t *fit)
     ale_matrix_invert(&factors, ALE_MATRIX_BITS, &fit->prior);
 }
 
-static void turn_pair(int64_t *x, int64_t *y, const ale_direction_t *d)
-{
-    const int64_t before = *x;
-    *x = ale_mul_shift(before, d->cos_q30, 30) + ale_mul_shift(*y, d->sin_q30, 30);
-    *y = ale_mul_shift(*y, d->cos_q30, 30) - ale_mul_shift(before, d->sin_q30, 30);
-}
-
-/* Errors are counted in the robot's own frame: when the fit has turned it, what the prediction says of them
- * turns back. A prediction that is far worse along a corridor than across would else tell of a way across. */
-static void turn_prediction(uint32_t turn_bam, int64_t total[ALE_STATES], ale_matrix_t *prior,
-                            int64_t scale_error[ALE_AXES])
-{
-    if (turn_bam == 0) {
-        return;
-    }
-    const ale_direction_t d = ale_direction(turn_bam);
-    turn_pair(&total[0], &total[1], &d);
-    turn_pair(&scale_error[0], &scale_error[1], &d);
-    for (int i = 0; i < ALE_STATES; i++) {
-        turn_pair(&prior->m[0][i], &prior->m[1][i], &d);
-    }
-    for (int i = 0; i < ALE_STATES; i++) {
-        turn_pair(&prior->m[i][0], &prior->m[i][1], &d);
-    }
-}
-
-/* What of the error of the wheels' scale is left in the pose: as much as of the prediction. */
-static void settle_scale_error(const ale_matrix_t *prior, ale_fit_t *fit)
-{
-    int64_t weighted[ALE_STATES] = {0};
-    int64_t left[ALE_AXES] = {0};
-    for (int i = 0; i < ALE_STATES; i++) {
-        for (int j = 0; j < ALE_AXES; j++) {
-            weighted[i] += ale_mul_shift(prior->m[i][j], fit->motion.scale_error[j],
-                                         ALE_MATRIX_BITS - ALE_GRADIENT_BITS);
-        }
-        for (int j = 0; j < ALE_AXES; j++) {
-            left[j] += ale_mul_shift(fit->motion.cov.m[j][i], weighted[i], ALE_GRADIENT_BITS);
-        }
-    }
-    memcpy(fit->motion.scale_error, left, sizeof left);
-}
-
 /* Newton's steps from where out->motion is, with out->prior; the gates narrow from the first to the last. */
 static void fit_from(const ale_motion_t *predicted, const ale_scene_t *scene,
                      const ale_gate_t *const gates[ALE_REFINE_ITERATIONS], ale_fit_t *out)
 {
     const ale_pose_t ahead = ale_pose_between(predicted->pose, out->motion.pose);
-    uint32_t heading_bam = out->motion.pose.theta_bam;
     int64_t total[ALE_STATES] = {ahead.x_um, ahead.y_um, ale_bam_to_nrad((int32_t)ahead.theta_bam) / 1000};
     int64_t size = INT64_MAX;
-    ale_matrix_t prior = out->prior;
-    turn_prediction(ahead.theta_bam, total, &prior, out->motion.scale_error);
     ale_local_map_focus(scene->map, (ale_point_t){out->motion.pose.x_um, out->motion.pose.y_um},
                         reach_um(scene));
     for (out->iterations = 0; out->iterations < ALE_REFINE_ITERATIONS && size > CONVERGED_UM;
          out->iterations++) {
         gather(scene, out->iterations == 0 ? &predicted->cov : &out->motion.cov, gates[out->iterations], out);
-        turn_prediction(out->motion.pose.theta_bam - heading_bam, total, &prior, out->motion.scale_error);
-        heading_bam = out->motion.pose.theta_bam;
-        size = step(&prior, total, out);
+        size = step(&out->prior, total, out);
         note_velocity_change(predicted, scene, out);
     }
-    settle_scale_error(&prior, out);
 }
 
 void ale_refine_look(const ale_scene_t *scene, ale_fit_t *fit)

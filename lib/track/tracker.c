@@ -23,8 +23,7 @@ enum {
     LOST_SIGMA_UM = 1000000,
     MAP_SIGMA_UM = 40000, /* pose sigmas up to which walls may be added */
     MAP_SIGMA_URAD = 25000,
-    ANCHOR_SHOWN_UM = 1500000,   /* surfaces that the next scan will find again, */
-    ANCHOR_DETERMINED_UM = 15000 /* and how well they tell its pose */
+    ANCHOR_SHOWN_UM = 1500000 /* surfaces that the next scan will find again */
 };
 
 static int64_t square(int64_t v)
@@ -42,9 +41,9 @@ void ale_tracker_init(ale_tracker_t *tracker)
     *tracker = (ale_tracker_t){.state = ALE_STATE_GOOD};
 }
 
-static ale_state_t by_variance(const ale_motion_t *m, bool counted)
+static ale_state_t by_variance(const ale_motion_t *m)
 {
-    return position_var(m) > square(LOST_SIGMA_UM) && !counted ? ALE_STATE_LOST : ALE_STATE_WEAK;
+    return position_var(m) > square(LOST_SIGMA_UM) ? ALE_STATE_LOST : ALE_STATE_WEAK;
 }
 
 static bool contradicts(const ale_fit_t *fit, const ale_sights_t *sights)
@@ -80,7 +79,6 @@ static bool is_adrift(const ale_tracker_t *tracker, bool counted)
 
 void ale_tracker_notice(ale_tracker_t *tracker, const ale_testimony_t *heard, bool counted)
 {
-    tracker->counted = counted;
     const int64_t told_um = heard ? heard->denied_um + heard->confirmed_um : 0;
     const bool denied =
         heard && heard->denied_um > DENIED_LEAST_UM && heard->denied_um * 100 > told_um * DENIED_PERCENT;
@@ -101,7 +99,7 @@ ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit, cons
                ale_information_determines(&fit->information, DETERMINED_UM)) {
         tracker->state = ALE_STATE_GOOD;
     } else {
-        tracker->state = by_variance(&fit->motion, tracker->counted);
+        tracker->state = by_variance(&fit->motion);
     }
     return tracker->state;
 }
@@ -127,7 +125,7 @@ void ale_tracker_found(ale_tracker_t *tracker)
 ale_state_t ale_tracker_skip(ale_tracker_t *tracker, const ale_motion_t *predicted)
 {
     if (tracker->state != ALE_STATE_LOST) {
-        tracker->state = by_variance(predicted, false);
+        tracker->state = by_variance(predicted);
     }
     return tracker->state;
 }
@@ -147,24 +145,7 @@ bool ale_tracker_may_map(const ale_tracker_t *tracker, const ale_fit_t *fit)
     return is_undisturbed(tracker) && is_well_known(&fit->motion);
 }
 
-/* Whether what a scan shows determines the pose of the next one to it. */
-static bool holds(const ale_view_t view[], uint32_t count)
+bool ale_tracker_may_anchor(const ale_tracker_t *tracker, const ale_fit_t *fit)
 {
-    ale_information_t sum = {{{{0}}}, {0}};
-    for (uint32_t i = 0; i < count; i++) {
-        ale_view_rows_t rows;
-        ale_view_rows(&view[i], 0, view[i].normal_bam, &rows);
-        ale_information_add(&sum, rows.offset_row_q14, 0, view[i].var_offset_um2);
-        if (view[i].kind == ALE_VIEW_WALL) {
-            ale_information_add(&sum, rows.angle_row_q14, 0, view[i].var_angle_urad2);
-        }
-    }
-    return ale_information_determines(&sum, ANCHOR_DETERMINED_UM);
-}
-
-bool ale_tracker_may_anchor(const ale_tracker_t *tracker, const ale_fit_t *fit, const ale_view_t view[],
-                            uint32_t count)
-{
-    return is_undisturbed(tracker) && !is_well_known(&fit->motion) && fit->shown_um > ANCHOR_SHOWN_UM &&
-           holds(view, count);
+    return is_undisturbed(tracker) && !is_well_known(&fit->motion) && fit->shown_um > ANCHOR_SHOWN_UM;
 }

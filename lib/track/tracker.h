@@ -20,7 +20,6 @@ typedef struct {
     ale_state_t state;
     uint16_t misfits; /* scans in a row that showed walls, but not those of the map */
     bool jumped;      /* in this scan */
-    bool counted;     /* wheels told the way to it: far from held it may be, but not anywhere */
     uint16_t blind;   /* scans in a row that showed nothing */
 } ale_tracker_t;
 
@@ -52,11 +51,9 @@ void ale_tracker_found(ale_tracker_t *tracker);
 /* A scan that was dropped, or showed nothing. */
 ale_state_t ale_tracker_skip(ale_tracker_t *tracker, const ale_motion_t *predicted);
 
-/* Whether the map should go on from this scan: it shows enough to be followed from in every direction,
- * nothing speaks against the pose, but the map does not hold it well enough to be added to. Between two bare
- * walls nothing that is new holds the robot along them: there its uncertainty is left to grow. */
-bool ale_tracker_may_anchor(const ale_tracker_t *tracker, const ale_fit_t *fit, const ale_view_t view[],
-                            uint32_t count);
+/* Whether the map should go on from this scan: it shows enough to be followed from, nothing speaks against
+ * the pose, but the map does not hold it well enough to be added to. */
+bool ale_tracker_may_anchor(const ale_tracker_t *tracker, const ale_fit_t *fit);
 
 /* Whether the pose is known well enough to add to the map. */
 bool ale_tracker_may_map(const ale_tracker_t *tracker, const ale_fit_t *fit);

@@ -161,7 +161,6 @@ bool ale_wheel_motion(const ale_wheels_t *wheels, const ale_lag_t *lag, const al
         out->displacement_var[i] = ale_min64(out->displacement_var[i] + lag_var[i], var_most);
     }
     out->counted_um = d.x_um;
-    out->scale_sigma_um = part(d.x_um, sigma_ppm(scale));
     out->lag_var_um2 = lag_var[0];
     return velocity_at(wheels, lag, scale, to, out);
 }

@@ -270,8 +270,7 @@ void matching(Parts &parts, Random &random, Crowd &crowd)
     for (int k = 0; k < ALE_MAX_VIEWS; k++) {
         fit->match[k] = {ALE_NO_WALL, ALE_NO_MARK, {}};
     }
-    const ale_drift_here_t here = {0, 0, 0, 0};
-    ale_taking_t taking = {1, &here, 1, true};
+    ale_taking_t taking = {1, {0, 0}, 1, true};
     const auto take_in = [&] {
         ale_map_update(crowd.map.get(), scene.view, scene.view_count, fit.get(), &taking);
     };

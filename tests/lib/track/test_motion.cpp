@@ -133,34 +133,6 @@ TEST(Motion, GoodWheelsDecideTheWayAndPoorOnesHardly)
     EXPECT_NEAR(x[1], 50000, 200);
 }
 
-// Twin: a robot whose wheels count every metre wrong by the same factor, many of them.
-TEST(Motion, AnErrorOfTheScaleGrowsWithTheWayAndComesBackWithIt)
-{
-    ale_motion_t m = moving(0.5, 0);
-    ale_motion_widen(&m, 1, 1);
-    ale_liveliness_t l;
-    ale_liveliness_init(&l);
-    ale_wheel_motion_t wheels = {};
-    for (int i = 0; i < 3; i++) {
-        wheels.displacement_var[i] = wheels.velocity_var[i] = 1000000; /* (1 mm)^2, of it 0.9 by the scale */
-    }
-    const auto drive = [&](double step_m, int steps) {
-        wheels.displacement = convert::pose(reference::Pose(step_m, 0, 0));
-        wheels.velocity[0] = convert::um(step_m / 0.1 * tick_s);
-        wheels.counted_um = convert::um(step_m);
-        wheels.scale_sigma_um = 900;
-        for (int k = 0; k < steps; k++) {
-            ale_motion_predict(&m, m.stamp_us + 100000, &wheels, &l);
-        }
-        return std::sqrt(static_cast<double>(m.cov.m[0][0])) * 1e-6;
-    };
-    const double near = drive(0.05, 100);
-    const double far = drive(0.05, 100);
-    EXPECT_NEAR(near, 0.09, 0.01);
-    EXPECT_NEAR(far, 0.18, 0.01);
-    EXPECT_LT(drive(-0.05, 200), 0.03);
-}
-
 TEST(Motion, LivelinessGrowsWhenCorrectionsSurpriseAndFallsBack)
 {
     ale_liveliness_t l;

@@ -269,26 +269,3 @@ TEST(Hypothesis, TheSearchFindsThePlaceOfAScanInBoundedSteps)
     EXPECT_NEAR(best.pose.y_um, -600000, 100);
     EXPECT_EQ(best.views, 5);
 }
-
-TEST(Information, WallsThatAreParallelButForTheErrorOfTheirDirectionsSayNothingOfTheWayAlongThem)
-{
-    for (double heading : {0.0, 0.4, 2.0}) {
-        for (double apart : {0.002, 0.1}) { /* rad: what the directions may be wrong by, and a real wedge */
-            ale_information_t sum = {};
-            for (double angle : {heading + apart / 2, heading - apart / 2 + reference::pi}) {
-                const int64_t row[ALE_STATES] = {
-                    std::llround(16384 * std::cos(angle)), std::llround(16384 * std::sin(angle)), 0, 0, 0, 0};
-                ale_information_add(&sum, row, 1000, 4000000);
-            }
-            ale_information_doubt_directions(&sum);
-            Eigen::Matrix2d m;
-            m << static_cast<double>(sum.matrix.m[0][0]), static_cast<double>(sum.matrix.m[1][0]),
-                static_cast<double>(sum.matrix.m[1][0]), static_cast<double>(sum.matrix.m[1][1]);
-            const Eigen::Vector2d along(-std::sin(heading), std::cos(heading));
-            const Eigen::Vector2d across(std::cos(heading), std::sin(heading));
-            const double whole = std::pow(2, 54) * 2 / 4e6;
-            EXPECT_NEAR(across.dot(m * across) / whole, 1, 0.01);
-            EXPECT_NEAR(along.dot(m * along) / whole, apart > 0.01 ? apart * apart / 4 : 0, 2e-5) << apart;
-        }
-    }
-}
