@@ -18,6 +18,14 @@ bench-lines: deps-test
 	@$(MAKE) --no-print-directory -s $(BUILD)/bench/lines
 	@$(PYTHON) tools/bench/lines_table.py --program $(BUILD)/bench/lines --scans $(BENCH_SCANS) --counted $(BENCH_COUNTED_SCANS)
 
+# Localisation and mapping: drives through the worlds of the tree, and what lies in $(ALE_SHARED).
+BENCH_SLAM_SEEDS ?= 1,2,3
+.PHONY: bench-slam
+bench-slam: ## localisation and mapping as tables, beside the best of other systems: minutes (BENCH_SLAM_SEEDS=1,2,3)
+	@tools/make/deps.sh tools/make/packages-build.txt tools/make/packages-bench.txt
+	@$(MAKE) --no-print-directory -s programs
+	@/usr/bin/python3 tools/bench/slam_table.py --build $(BUILD) --seeds $(BENCH_SLAM_SEEDS)
+
 # Instructions of one scan's way through the estimate task: recorded ones, and the most expensive that a search finds.
 WCET_TRIES ?= 100
 WCET_SEED ?= 11

@@ -1,0 +1,65 @@
+"""The errors of a trajectory as the benchmark of localisation and mapping tells them."""
+import math
+import subprocess
+import sys
+
+import pytest
+
+np = pytest.importorskip("numpy")
+
+from at_hand import shared  # noqa: E402
+from slam_table import score, trajectory_error  # noqa: E402
+
+SCANS = 200
+STEP_S = 0.1
+
+
+def write_tum(path, poses):
+    path.write_text("".join(f"{STEP_S * k:.6f} {x:.9f} {y:.9f} 0 0 0 {math.sin(a / 2):.9f} {math.cos(a / 2):.9f}\n"
+                            for k, (x, y, a) in enumerate(poses)), encoding="utf-8")
+    return path
+
+
+def way():
+    """Round a circle of two metres."""
+    return [(2 * math.cos(0.05 * k), 2 * math.sin(0.05 * k), 0.05 * k + math.pi / 2) for k in range(SCANS)]
+
+
+def seen_from_elsewhere(poses, x, y, turn):
+    c, s = math.cos(turn), math.sin(turn)
+    return [(x + c * px - s * py, y + s * px + c * py, a + turn) for px, py, a in poses]
+
+
+def test_a_trajectory_in_another_frame_has_no_error(tmp_path):
+    truth = write_tum(tmp_path / "truth.tum", way())
+    moved = write_tum(tmp_path / "moved.tum", seen_from_elsewhere(way(), 3, -1, 2.5))
+    assert trajectory_error(moved, truth) == pytest.approx((0, 0, 0), abs=1e-3)
+
+
+def test_a_swing_to_both_sides_is_found(tmp_path):
+    truth = write_tum(tmp_path / "truth.tum", way())
+    swings = [(x * (1 + 0.005 * (-1) ** k), y * (1 + 0.005 * (-1) ** k), a) for k, (x, y, a) in enumerate(way())]
+    ate, _, turn = trajectory_error(write_tum(tmp_path / "swings.tum", swings), truth)
+    assert ate == pytest.approx(10, abs=0.1)
+    assert turn == pytest.approx(0, abs=1e-3)
+
+
+def test_a_drift_of_the_heading_shows_over_a_second(tmp_path):
+    truth = write_tum(tmp_path / "truth.tum", way())
+    drifts = [(x, y, a + math.radians(0.02) * k) for k, (x, y, a) in enumerate(way())]
+    assert trajectory_error(write_tum(tmp_path / "drifts.tum", drifts), truth)[2] == pytest.approx(0.2, abs=1e-3)
+
+
+def test_the_errors_are_those_of_the_scorer_beside_the_project(tmp_path):
+    scorer = shared("bench/slam/score.py")
+    try:
+        subprocess.run([sys.executable, "-c", "import scipy"], check=True, capture_output=True)
+    except subprocess.CalledProcessError:
+        pytest.skip("no scipy here")
+    truth = write_tum(tmp_path / "truth.tum", way())
+    other = write_tum(tmp_path / "other.tum",
+                      [(x + 0.01 * math.sin(0.3 * k), y + 0.02 * math.cos(0.1 * k), a + 0.01 * math.sin(0.2 * k))
+                       for k, (x, y, a) in enumerate(seen_from_elsewhere(way(), 1, 2, 0.5))])
+    told = score(scorer, other, truth)
+    mine = trajectory_error(other, truth)
+    assert mine == pytest.approx((1e3 * told["ate_rmse"], 1e3 * told["rpe_1s_m"], told["rpe_1s_deg"]), rel=0.02)
