@@ -4,23 +4,19 @@ import contextlib
 import os
 
 ABOVE_THE_FIRMWARE = 90
-ABOVE_ALL_PROGRAMS = 1
+NICE_ABOVE_ALL_PROGRAMS = -15
 
 
 def as_hardware():
     """For this process or thread from now on."""
-    _take_turns_first(ABOVE_THE_FIRMWARE)
+    with contextlib.suppress(PermissionError):
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(ABOVE_THE_FIRMWARE))
 
 
 def as_own_processor():
     """For the process of an emulated machine: its processors, of which programs of this one take little."""
     with contextlib.suppress(PermissionError):
-        os.setpriority(os.PRIO_PROCESS, 0, -15)
-
-
-def _take_turns_first(priority):
-    with contextlib.suppress(PermissionError):
-        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(priority))
+        os.setpriority(os.PRIO_PROCESS, 0, NICE_ABOVE_ALL_PROGRAMS)
 
 
 @contextlib.contextmanager

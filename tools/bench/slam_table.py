@@ -19,6 +19,8 @@ import tempfile
 
 import numpy as np
 
+from lines_table import progress, table
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORLDS = ("home", "apartment", "arena", "office")
 # ATE of the best other system, mm: with odometry and without.
@@ -29,19 +31,6 @@ PEERS_CRISP = {"exp1": "-3.35 (PLICP), 1.9 (gmapping), 0.055 (gmapping)", "exp3"
 RELATIONS = {"intel/intel_every5th.clf.gz": ("intel/intel_every5th.relidx", "0.019, iris_lama")}
 # Against poses that gmapping found, which err by themselves.
 POSES = ("corrected/aces", "corrected/acapulco", "corrected/belgioioso", "corrected/freiburg-101", "killian/infinite-corridor")
-
-
-def progress(text):
-    if sys.stderr.isatty():
-        print(f"\r\033[K{text}", end="" if text else "\r", file=sys.stderr, flush=True)
-
-
-def table(head, rows):
-    print("| " + " | ".join(head) + " |")
-    print("| " + " | ".join("---" if k == 0 else "---:" for k in range(len(head))) + " |")
-    for row in rows:
-        print("| " + " | ".join(row) + " |")
-    print()
 
 
 def read_tum(path):
