@@ -34,35 +34,6 @@ static void move_points(ale_extractor_t *e, int32_t to, int32_t from, int32_t en
     }
 }
 
-/* The suspects keep their places among the points that stay; those at a removed point become the place where
- * its neighbours meet. */
-static void renumber_suspects(ale_extractor_t *e, const removal_t *r)
-{
-    int32_t kept = 0;
-    int32_t before = -1;
-    int32_t gone = 0;
-    int32_t next_gone = r->point[0];
-    for (int32_t k = 0; k < e->suspect_count; k++) {
-        ale_suspect_t suspect = e->suspect[k];
-        bool here_gone = false;
-        while (next_gone <= suspect.point) {
-            here_gone = next_gone == suspect.point;
-            gone++;
-            next_gone = gone < r->count ? r->point[gone] : INT32_MAX;
-        }
-        const bool touched = here_gone || next_gone == suspect.point + 1;
-        const int32_t i = suspect.point - gone;
-        if (i > before && i + 1 < e->count) {
-            const bool at_end = i == 0 || i + 2 == e->count;
-            suspect.state = touched || at_end ? ALE_SUSPECT_NEW : suspect.state;
-            suspect.point = (uint16_t)i;
-            e->suspect[kept++] = suspect;
-            before = i;
-        }
-    }
-    e->suspect_count = (uint16_t)kept;
-}
-
 static void remove_points(ale_extractor_t *e, const removal_t *r)
 {
     for (int32_t k = 0; k < r->count; k++) {
@@ -71,25 +42,41 @@ static void remove_points(ale_extractor_t *e, const removal_t *r)
     }
     e->outliers = (uint16_t)(e->outliers + r->count);
     e->count = (uint16_t)(e->count - r->count);
-    renumber_suspects(e, r);
+}
+
+/* Once stray pieces are gone a surface may have another neighbour, on which the change beside it depends,
+ * too: nowhere else do jumps become other ones. */
+static void suspect_ends(ale_extractor_t *e, int32_t first, int32_t last)
+{
+    uint16_t *suspect = &e->suspect[e->suspect_count];
+    suspect[0] = (uint16_t)first;
+    suspect[1] = (uint16_t)(last - 1);
+    suspect[2] = (uint16_t)last;
+    e->suspect_count = (uint16_t)(e->suspect_count + 3);
 }
 
 bool ale_outlier_remove_strays(ale_extractor_t *e)
 {
     removal_t removal;
     removal.count = 0;
+    e->suspect_count = 0;
     for (int32_t k = 0; k < e->segment_count; k++) {
         const ale_segment_t piece = e->segment[k];
-        if (piece.last + 1 - piece.first <= STRAY_POINTS) {
-            for (int32_t i = piece.first; i <= piece.last; i++) {
-                removal.point[removal.count++] = (uint16_t)i;
-            }
+        if (piece.last + 1 - piece.first > STRAY_POINTS) {
+            suspect_ends(e, piece.first - removal.count, piece.last - removal.count);
+            continue;
+        }
+        for (int32_t i = piece.first; i <= piece.last; i++) {
+            removal.point[removal.count++] = (uint16_t)i;
         }
     }
     if (removal.count == 0) {
         return false;
     }
     remove_points(e, &removal);
+    if (e->suspect_count > 0) {
+        e->suspect_count--; /* nothing follows the last piece */
+    }
     return true;
 }
 
@@ -115,6 +102,24 @@ static inline bool is_spike(const ale_extractor_t *e, int32_t i)
            e->beam[i + 2] - e->beam[i - 2] <= SPIKE_REACH;
 }
 
+/* The suspects keep their places among the points that stay; those at a removed point become the place where
+ * its neighbours meet. */
+static void renumber_suspects(ale_extractor_t *e, const removal_t *r)
+{
+    int32_t kept = 0;
+    int32_t gone = 0;
+    for (int32_t k = 0; k < e->suspect_count; k++) {
+        while (gone < r->count && r->point[gone] <= e->suspect[k]) {
+            gone++;
+        }
+        const uint16_t point = (uint16_t)(e->suspect[k] - gone);
+        if (kept == 0 || point != e->suspect[kept - 1]) {
+            e->suspect[kept++] = point;
+        }
+    }
+    e->suspect_count = (uint16_t)kept;
+}
+
 void ale_outlier_remove_spikes(ale_extractor_t *e)
 {
     removal_t removal;
@@ -124,7 +129,7 @@ void ale_outlier_remove_spikes(ale_extractor_t *e)
     }
     int32_t next = 2;
     for (int32_t k = 0; k < e->suspect_count; k++) {
-        const int32_t suspect = e->suspect[k].point;
+        const int32_t suspect = e->suspect[k];
         const int32_t last = suspect + 3 < e->count ? suspect + 1 : e->count - 3;
         for (int32_t i = suspect < next ? next : suspect; i <= last; i++) {
             if (is_spike(e, i)) {
@@ -135,5 +140,6 @@ void ale_outlier_remove_spikes(ale_extractor_t *e)
     }
     if (removal.count > 0) {
         remove_points(e, &removal);
+        renumber_suspects(e, &removal);
     }
 }

@@ -9,7 +9,8 @@
 void ale_outlier_remove_spikes(ale_extractor_t *e);
 
 /* Removes every segment (as ale_segment left them) of so few points that it is no surface. True when there
- * were any: then segments are to be cut anew. Adds to e->outliers. O(points). */
+ * were any: then segments are to be cut anew, and suspects are only the changes at the ends of those left.
+ * Adds to e->outliers. O(points). */
 bool ale_outlier_remove_strays(ale_extractor_t *e);
 
 #endif

@@ -75,7 +75,7 @@ static void add_suspects(ale_extractor_t *e, int32_t first, int32_t last)
         const int64_t next_um = e->range_um[i + 1];
         const int64_t limit_q20 = constant_q20 + (here_um + next_um) * per_sum_q20;
         if (ale_abs64(next_um - here_um) << 20 > limit_q20) {
-            e->suspect[suspects++] = (ale_suspect_t){(uint16_t)i, ALE_SUSPECT_NEW};
+            e->suspect[suspects++] = (uint16_t)i;
         }
         here_um = next_um;
     }
@@ -88,19 +88,12 @@ void ale_segment_suspect(ale_extractor_t *e)
     e->suspect_count = 0;
     for (int32_t k = 0; k < e->gap_count && e->gap_after[k] + 1 < e->count; k++) {
         add_suspects(e, first, e->gap_after[k]);
-        e->suspect[e->suspect_count++] = (ale_suspect_t){e->gap_after[k], ALE_SUSPECT_NEW};
+        e->suspect[e->suspect_count++] = e->gap_after[k];
         first = e->gap_after[k] + 1;
     }
     add_suspects(e, first, e->count - 1);
     e->effort = e->suspect_count;
     e->unruly = e->suspect_count * 100 > e->count * UNRULY_PERCENT;
-}
-
-/* Whether the change after the next point, which is_jump looks at too, has become another one. */
-static bool next_is_new(const ale_extractor_t *e, int32_t k)
-{
-    return k + 1 < e->suspect_count && e->suspect[k + 1].state == ALE_SUSPECT_NEW &&
-           e->suspect[k + 1].point == e->suspect[k].point + 1;
 }
 
 void ale_segment(ale_extractor_t *e, const ale_scan_t *scan)
@@ -112,16 +105,9 @@ void ale_segment(ale_extractor_t *e, const ale_scan_t *scan)
     const jump_limit_t limit = jump_limit(e, scan);
     int32_t first = 0;
     memset(e->jump_after, 0, e->count * sizeof *e->jump_after);
-    int32_t after_new = -1; /* the change after the last new one */
     for (int32_t k = 0; k < e->suspect_count; k++) {
-        ale_suspect_t *suspect = &e->suspect[k];
-        const int32_t i = suspect->point;
-        const bool is_new = suspect->state == ALE_SUSPECT_NEW;
-        if (is_new || i == after_new || next_is_new(e, k)) {
-            suspect->state = is_jump(e, &limit, i) ? ALE_SUSPECT_JUMP : ALE_SUSPECT_SURFACE;
-        }
-        after_new = is_new ? i + 1 : after_new;
-        if (suspect->state == ALE_SUSPECT_JUMP) {
+        const int32_t i = e->suspect[k];
+        if (is_jump(e, &limit, i)) {
             e->jump_after[i] = true;
             end_segment(e, first, i);
             first = i + 1;

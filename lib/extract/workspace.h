@@ -62,15 +62,6 @@ typedef struct {
     uint16_t last;
 } ale_segment_t;
 
-/* A point after which the range changes more than noise makes it, and what is known of that. */
-typedef enum { ALE_SUSPECT_NEW, ALE_SUSPECT_JUMP, ALE_SUSPECT_SURFACE } ale_suspicion_t;
-
-typedef struct {
-    uint16_t point;
-    uint16_t
-        state; /* ale_suspicion_t; NEW until ale_segment has looked at it, and when a neighbour was removed */
-} ale_suspect_t;
-
 typedef struct {
     uint16_t first;
     uint16_t last;
@@ -124,7 +115,7 @@ struct ale_extractor {
     uint16_t
         gap_after[ALE_MAX_BEAMS / ALE_MAX_GAP_BEAMS + 1]; /* points before more missing beams than that */
     uint16_t suspect_count;
-    ale_suspect_t suspect[ALE_MAX_BEAMS];
+    uint16_t suspect[ALE_MAX_BEAMS]; /* points after which the range changes more than noise makes it */
     bool unruly; /* more of them than a scan of surfaces has: what is done for it is bounded more narrowly */
     uint16_t segment_count;
     ale_segment_t segment[ALE_MAX_BEAMS];
