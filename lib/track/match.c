@@ -26,21 +26,30 @@ int64_t ale_view_angle_var(const ale_matrix_t *cov)
     return cov->m[2][2];
 }
 
-/* What the pose's covariance gives the offset and angle of a view; found out for views that need it. */
+/* A view as it is held against walls, and the variance that the pose's covariance gives its offset, found out
+ * when it is asked for. */
 typedef struct {
-    const ale_matrix_t *cov; /* NULL: known exactly */
-    int64_t var[2];
-    bool known;
-} pose_var_t;
+    const ale_view_t *view;
+    const ale_matrix_t *cov; /* NULL: the pose is known exactly */
+    int64_t pose_var_um2;    /* negative: not found out */
+} candidate_t;
 
-static const int64_t *pose_var(const ale_view_t *view, pose_var_t *p)
+static int64_t pose_var_um2(candidate_t *c)
 {
-    if (!p->known && p->cov) {
-        p->var[0] = ale_view_offset_var(view, p->cov);
-        p->var[1] = ale_view_angle_var(p->cov);
+    if (c->pose_var_um2 < 0) {
+        c->pose_var_um2 = c->cov ? ale_view_offset_var(c->view, c->cov) : 0;
     }
-    p->known = true;
-    return p->var;
+    return c->pose_var_um2;
+}
+
+static int64_t offset_var(const ale_wall_t *wall, candidate_t *c, const ale_wall_error_t *e)
+{
+    return ale_wall_offset_var(wall, e->t_um) + c->view->var_offset_um2 + pose_var_um2(c);
+}
+
+static int64_t angle_var(const ale_wall_t *wall, const candidate_t *c)
+{
+    return wall->var_angle_urad2 + c->view->var_angle_urad2 + (c->cov ? ale_view_angle_var(c->cov) : 0);
 }
 
 /* Common length of view and wall, enough to believe that one shows the other. */
@@ -74,21 +83,24 @@ static inline bool is_beside(const ale_wall_t *wall, const ale_view_t *view, con
     return ale_abs64(e->offset_um) <= gate->offset_um;
 }
 
-/* Squared distance in sigmas, Q8; beyond the gate: INT64_MAX. */
-static int64_t distance_q8(const ale_wall_t *wall, const ale_view_t *view, const ale_wall_error_t *e,
-                           pose_var_t *pose, const ale_gate_t *gate)
+/* Whether the errors are within the gate in sigmas. The variance of the offset costs most, and few ask for
+ * it. */
+static bool is_within(const ale_wall_t *wall, candidate_t *c, const ale_wall_error_t *e, int32_t sigmas)
 {
-    const int64_t *var = pose_var(view, pose);
-    const int64_t var_offset = ale_wall_offset_var(wall, e->t_um) + view->var_offset_um2 + var[0];
-    const int64_t var_angle = wall->var_angle_urad2 + view->var_angle_urad2 + var[1];
-    const int64_t limit = (int64_t)gate->sigmas * gate->sigmas;
-    const int64_t offset2 = e->offset_um * e->offset_um;
-    const int64_t angle2 = e->angle_urad * e->angle_urad;
-    if ((offset2 > limit * var_offset && ale_abs64(e->offset_um) > NEVER_TOO_FAR_UM) ||
-        (angle2 > limit * var_angle && ale_abs64(e->angle_urad) > NEVER_TOO_FAR_URAD)) {
-        return INT64_MAX;
+    const int64_t limit = (int64_t)sigmas * sigmas;
+    if (ale_abs64(e->angle_urad) > NEVER_TOO_FAR_URAD &&
+        e->angle_urad * e->angle_urad > limit * angle_var(wall, c)) {
+        return false;
     }
-    return (offset2 << 8) / var_offset + (angle2 << 8) / var_angle;
+    return ale_abs64(e->offset_um) <= NEVER_TOO_FAR_UM ||
+           e->offset_um * e->offset_um <= limit * offset_var(wall, c, e);
+}
+
+/* Squared distance in sigmas. */
+static int64_t distance_q8(const ale_wall_t *wall, candidate_t *c, const ale_wall_error_t *e)
+{
+    return (e->offset_um * e->offset_um << 8) / offset_var(wall, c, e) +
+           (e->angle_urad * e->angle_urad << 8) / angle_var(wall, c);
 }
 
 /* Whether a place lies off the wall's line by `limit_q30` or more, um. */
@@ -103,8 +115,8 @@ ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, c
                            const ale_matrix_t *cov, const ale_gate_t *gate, int32_t *looks)
 {
     ale_match_t best = {.wall = ALE_NO_WALL, .mark = ALE_NO_MARK};
-    int64_t least = INT64_MAX;
-    pose_var_t pose = {.cov = cov};
+    int64_t least_q8 = -1; /* of the best, found out when another wall may be it */
+    candidate_t shown = {view, cov, -1};
     const ale_view_t moved = ale_view_from(view, stand);
     const int64_t limit_q30 =
         ((int64_t)gate->offset_um << 30) + (1 << 29); /* what rounds to more than the gate */
@@ -124,15 +136,19 @@ ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, c
             }
             const ale_wall_t *wall = &map->wall[glance->wall];
             ale_wall_error_t e;
-            if (!is_beside(wall, &moved, gate, &e)) {
+            if (!is_beside(wall, &moved, gate, &e) || !is_within(wall, &shown, &e, gate->sigmas)) {
                 continue;
             }
-            const int64_t d = distance_q8(wall, view, &e, &pose, gate);
-            if (d < least) {
-                least = d;
-                best.wall = glance->wall;
-                best.error = e;
+            if (best.wall != ALE_NO_WALL) {
+                least_q8 = least_q8 < 0 ? distance_q8(&map->wall[best.wall], &shown, &best.error) : least_q8;
+                const int64_t own_q8 = distance_q8(wall, &shown, &e);
+                if (own_q8 >= least_q8) {
+                    continue;
+                }
+                least_q8 = own_q8;
             }
+            best.wall = glance->wall;
+            best.error = e;
         }
     }
     return best;
