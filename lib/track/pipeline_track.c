@@ -37,11 +37,15 @@ ale_scene_t ale_pipeline_scene(ale_pipeline_t *p)
     return (ale_scene_t){&p->map, p->view, p->view_count, p->velocity};
 }
 
+static void approach(ale_pipeline_t *p, ale_pose_t pose, int32_t reach_um)
+{
+    ale_local_map_approach(&p->map, (ale_point_t){pose.x_um, pose.y_um}, reach_um);
+}
+
 void ale_pipeline_match(ale_pipeline_t *p, const ale_motion_t *predicted, int32_t reach_um)
 {
     const ale_scene_t scene = ale_pipeline_scene(p);
-    const ale_point_t centre = {predicted->pose.x_um, predicted->pose.y_um};
-    ale_local_map_approach(&p->map, centre, reach_um);
+    approach(p, predicted->pose, reach_um);
     ale_refine(predicted, &scene, &acquire_gate, &p->fit);
 }
 
@@ -249,12 +253,16 @@ static void leave_out_newcomers(ale_pipeline_t *p, const ale_motion_t *before)
 void ale_pipeline_track(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted,
                         const ale_wheel_motion_t *wheels)
 {
+    const ale_scene_t scene = ale_pipeline_scene(p);
     ale_motion_t prior = *predicted;
     bool counted = wheels != NULL;
-    ale_pipeline_match(p, predicted, p->scan.range_max_um);
+    approach(p, predicted->pose, p->scan.range_max_um);
+    ale_refine_pose(predicted, &scene, &acquire_gate, &p->fit);
+    ale_refine_look(&scene, &p->fit);
     if (ale_tracker_doubts(&p->fit)) {
         counted = match_again(p, before, counted, &prior);
     }
+    ale_refine_weigh(&scene, &p->fit);
     p->motion = p->fit.motion;
     notice(p, before, &prior, counted);
     p->drift = ale_drift_here(&p->map, p->view, p->view_count, &p->fit, p->drift);
@@ -266,8 +274,7 @@ void ale_pipeline_track(ale_pipeline_t *p, const ale_motion_t *before, const ale
     anchor(p);
     leave_out_newcomers(p, before);
     take_in(p, ale_tracker_may_map(&p->tracker, &p->fit));
-    ale_local_map_approach(&p->map, (ale_point_t){p->motion.pose.x_um, p->motion.pose.y_um},
-                           p->scan.range_max_um);
+    approach(p, p->motion.pose, p->scan.range_max_um);
     const ale_sights_t sights = look_around(p);
     ale_tracker_judge(&p->tracker, &p->fit, &sights);
 }

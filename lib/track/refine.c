@@ -143,7 +143,7 @@ static ale_match_t find(const ale_scene_t *scene, const ale_view_t *view, const 
     return match.wall != ALE_NO_WALL ? match : ale_match_mark(scene->map, view, stand, gate->piece_um);
 }
 
-static void clear_sums(ale_fit_t *fit)
+static void clear(ale_fit_t *fit)
 {
     fit->information = (ale_information_t){{{{0}}}, {0}};
     fit->matched = 0;
@@ -152,12 +152,14 @@ static void clear_sums(ale_fit_t *fit)
     fit->shown_um = 0;
 }
 
-/* gate NULL: the matches are kept and only their errors renewed. */
-static void gather(const ale_scene_t *scene, const ale_matrix_t *cov, const ale_gate_t *gate, ale_fit_t *fit)
+/* What every view shows from where fit->motion is. gate NULL: the matches are kept and only their errors
+ * renewed. */
+static void find_all(const ale_scene_t *scene, const ale_matrix_t *cov, const ale_gate_t *gate,
+                     ale_fit_t *fit)
 {
     const ale_stand_t stand = ale_stand(fit->motion.pose);
     int32_t looks = ALE_LOOKS;
-    clear_sums(fit);
+    clear(fit);
     for (uint32_t i = 0; i < scene->view_count; i++) {
         const ale_view_t *view = &scene->view[i];
         ale_match_t *match = &fit->match[i];
@@ -171,17 +173,24 @@ static void gather(const ale_scene_t *scene, const ale_matrix_t *cov, const ale_
             ale_match_renew(scene->map, view, &stand, match);
         }
         fit->shown_um += length_um;
-        if (match->wall != ALE_NO_WALL) {
-            add_wall_rows(view, &scene->map->wall[match->wall], fit, match);
-        } else if (match->mark != ALE_NO_MARK) {
-            add_mark_rows(view, &scene->map->marks.mark[match->mark], fit->motion.pose.theta_bam,
-                          fit->velocity_change, match, &fit->information);
-        } else {
-            continue;
+        if (match->wall != ALE_NO_WALL || match->mark != ALE_NO_MARK) {
+            fit->matched_um += length_um;
+            fit->matched = (uint16_t)(fit->matched + (view->kind == ALE_VIEW_WALL));
+            fit->matched_pieces = (uint16_t)(fit->matched_pieces + (view->kind != ALE_VIEW_WALL));
         }
-        fit->matched_um += length_um;
-        fit->matched = (uint16_t)(fit->matched + (view->kind == ALE_VIEW_WALL));
-        fit->matched_pieces = (uint16_t)(fit->matched_pieces + (view->kind != ALE_VIEW_WALL));
+    }
+}
+
+void ale_refine_weigh(const ale_scene_t *scene, ale_fit_t *fit)
+{
+    for (uint32_t i = 0; i < scene->view_count; i++) {
+        ale_match_t *match = &fit->match[i];
+        if (match->wall != ALE_NO_WALL) {
+            add_wall_rows(&scene->view[i], &scene->map->wall[match->wall], fit, match);
+        } else if (match->mark != ALE_NO_MARK) {
+            add_mark_rows(&scene->view[i], &scene->map->marks.mark[match->mark], fit->motion.pose.theta_bam,
+                          fit->velocity_change, match, &fit->information);
+        }
     }
 }
 
@@ -228,7 +237,7 @@ static void start(const ale_motion_t *predicted, const ale_scene_t *scene, ale_f
 void ale_refine_reject(const ale_motion_t *predicted, const ale_scene_t *scene, ale_fit_t *fit)
 {
     start(predicted, scene, fit);
-    clear_sums(fit);
+    clear(fit);
     for (uint32_t i = 0; i < scene->view_count; i++) {
         fit->match[i] = (ale_match_t){.wall = ALE_NO_WALL, .mark = ALE_NO_MARK};
         fit->shown_um += (int64_t)scene->view[i].end_um - scene->view[i].start_um;
@@ -266,7 +275,9 @@ static void fit_from(const ale_motion_t *predicted, const ale_scene_t *scene,
                         reach_um(scene));
     for (out->iterations = 0; out->iterations < ALE_REFINE_ITERATIONS && size > CONVERGED_UM;
          out->iterations++) {
-        gather(scene, out->iterations == 0 ? &predicted->cov : &out->motion.cov, gates[out->iterations], out);
+        find_all(scene, out->iterations == 0 ? &predicted->cov : &out->motion.cov, gates[out->iterations],
+                 out);
+        ale_refine_weigh(scene, out);
         size = step(&out->prior, total, out);
         note_velocity_change(predicted, scene, out);
     }
@@ -274,7 +285,7 @@ static void fit_from(const ale_motion_t *predicted, const ale_scene_t *scene,
 
 void ale_refine_look(const ale_scene_t *scene, ale_fit_t *fit)
 {
-    gather(scene, &fit->motion.cov, fit->iterations > 2 ? NULL : &later, fit);
+    find_all(scene, &fit->motion.cov, fit->iterations > 2 ? NULL : &later, fit);
 }
 
 void ale_refine_pose(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
@@ -293,6 +304,7 @@ void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const a
 {
     ale_refine_pose(predicted, scene, gate, out);
     ale_refine_look(scene, out);
+    ale_refine_weigh(scene, out);
 }
 
 void ale_refine_again(const ale_motion_t *predicted, bool anew, ale_pose_t from, const ale_scene_t *scene,

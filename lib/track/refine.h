@@ -54,14 +54,17 @@ void ale_view_rows(const ale_view_t *view, uint32_t pose_theta_bam, uint32_t wal
 void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
                 ale_fit_t *out);
 
-/* The two halves of it: out->motion, for one of many poses that are tried, of which no more is asked; and
- * what the views show from there, with their errors, while the map is focused on what that fit looked at. */
+/* Its three parts: out->motion, for one of many poses that are tried, of which no more is asked; what the
+ * views show from there, while the map is focused on what that fit looked at; and what that says of the pose:
+ * the errors with the velocity that was found, and the information. */
 void ale_refine_pose(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
                      ale_fit_t *out);
 void ale_refine_look(const ale_scene_t *scene, ale_fit_t *fit);
+void ale_refine_weigh(const ale_scene_t *scene, ale_fit_t *fit);
 
 /* Fits once more, from another pose, with another gate to begin with and, if anew, another prediction than
- * that of fit, and keeps what explains more. other: working memory. */
+ * that of fit, and keeps what explains more. fit was looked at and not yet weighed, and is so again. other:
+ * working memory. */
 void ale_refine_again(const ale_motion_t *predicted, bool anew, ale_pose_t from, const ale_scene_t *scene,
                       const ale_gate_t *gate, ale_fit_t *other, ale_fit_t *fit);
 

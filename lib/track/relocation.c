@@ -349,5 +349,6 @@ bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const 
         return false;
     }
     ale_refine_look(scene, fit);
+    ale_refine_weigh(scene, fit);
     return true;
 }
