@@ -2,7 +2,7 @@
  *
  * An angle is a uint32 in BAM, 2^32 to a turn: it wraps by itself, and one step of the URG-04LX
  * (360/1024 degrees) is exactly 2^22. Differences are taken as int32 (ale_bam_diff): -half..half turn.
- * cos and sin are Q30 from a quarter-wave table of 256 steps (the URG's steps lie on its entries)
+ * cos and sin are Q30 from a table of 1024 steps to a turn (the URG's steps lie on its entries)
  * and a short series between them; odd and even symmetry is exact. Pure functions, constant time.
  * Twin and bounds: tests/lib/base/test_trig.cpp (sin, cos within 2 units of Q30; atan2 within 3 BAM). */
 #ifndef ALE_BASE_TRIG_H

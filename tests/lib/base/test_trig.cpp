@@ -34,17 +34,19 @@ TEST(Trig, SineAndCosineAreWithinTwoUnits)
 
 TEST(Trig, EveryTableEntryIsTheNearestInteger)
 {
-    for (uint32_t k = 0; k <= 256; k++) {
-        const uint32_t angle = k << 22;
-        EXPECT_EQ(ale_sin_q30(angle), std::lround(std::sin(radians(angle)) * q30));
+    for (uint32_t k = 0; k < 1024; k++) {
+        const ale_direction_t direction = ale_direction(k << 22);
+        EXPECT_EQ(direction.sin_q30, std::lround(std::sin(radians(k << 22)) * q30)) << k;
+        EXPECT_EQ(direction.cos_q30, std::lround(std::cos(radians(k << 22)) * q30)) << k;
     }
 }
 
 TEST(Trig, SymmetryIsExact)
 {
     std::mt19937 engine(4);
-    for (int k = 0; k < 100000; k++) {
-        const uint32_t angle = static_cast<uint32_t>(engine());
+    constexpr uint32_t half_step = 1u << 21;
+    for (uint32_t k = 0; k < 100000; k++) {
+        const uint32_t angle = k < 2048 ? k * half_step : static_cast<uint32_t>(engine());
         EXPECT_EQ(ale_sin_q30(0u - angle), -ale_sin_q30(angle));
         EXPECT_EQ(ale_cos_q30(0u - angle), ale_cos_q30(angle));
         EXPECT_EQ(ale_sin_q30(angle + ALE_BAM_HALF_TURN), -ale_sin_q30(angle));
