@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <random>
+#include <vector>
 
 #include "lib/extract/scene.h"
 
@@ -290,6 +291,45 @@ TEST(Extract, CovarianceIsCalibratedInSimulation)
     EXPECT_LT(alpha2 / lines, 1.2);
     EXPECT_GT(rho2 / lines, 0.2);
     EXPECT_LT(rho2 / lines, 1.2);
+}
+
+// A room of many chords of uneven length, at 2.2 to 2.5 m.
+std::vector<scene::wall> ring_of_chords(unsigned seed, int chords)
+{
+    std::mt19937 engine(seed);
+    const auto uniform = [&](double low, double high) {
+        return low + (high - low) * static_cast<double>(engine()) / 4294967296.0;
+    };
+    std::vector<scene::wall> ring(static_cast<std::size_t>(chords));
+    for (int k = 0; k < chords; k++) {
+        const double bearing = (k + uniform(-0.4, 0.4)) * 2 * pi / chords;
+        const double range = uniform(2.2, 2.5);
+        const double x = range * std::cos(bearing);
+        const double y = range * std::sin(bearing);
+        scene::wall &before = ring[static_cast<std::size_t>(k > 0 ? k - 1 : chords - 1)];
+        before.x2 = x;
+        before.y2 = y;
+        ring[static_cast<std::size_t>(k)].x1 = x;
+        ring[static_cast<std::size_t>(k)].y1 = y;
+    }
+    return ring;
+}
+
+// Each pass begins within the bound, so the last one may end beyond it: but not by half of it.
+TEST(Extract, BreaksSplitsAndCurvesTogetherSpendNoMoreThanTheirBound)
+{
+    scene::extractor extract;
+    int most = 0;
+    int beyond = 0;
+    for (unsigned seed = 0; seed < 200; seed++) {
+        const auto scan = empty_scan();
+        see(*scan, ring_of_chords(seed, 26), seed % 2 == 0 ? 10 : 15, seed);
+        extract(*scan);
+        most = std::max(most, extract.get()->effort);
+        beyond += extract.get()->effort > 1152 ? 1 : 0;
+    }
+    EXPECT_GT(beyond, 100) << "the rooms are too simple";
+    EXPECT_LT(most, 1152 * 3 / 2);
 }
 
 TEST(Extract, AnyInputGivesASaneResult)
