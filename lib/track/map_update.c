@@ -52,7 +52,7 @@ static void begin(ale_local_map_t *map, const ale_view_t *view, const ale_fit_t 
     ale_wall_set_normal(&wall, wall.normal_bam + (uint32_t)ale_nrad_to_bam(angle_urad * 1000));
     wall.var_offset_um2 += ale_view_offset_var(view, &fit->motion.cov);
     wall.var_angle_urad2 += ale_view_angle_var(&fit->motion.cov);
-    wall.drift = ale_drift_of_new_wall(taking->here, &fit->motion.cov);
+    wall.drift = ale_drift_of_new_wall(taking->here, &fit->motion, wall.normal_bam);
     wall.born = taking->scan;
     wall.seen = 1;
     wall.last_scan = taking->scan;

@@ -15,8 +15,8 @@
 
 /* How a scan goes into the map. */
 typedef struct {
-    uint32_t scan;     /* its number */
-    ale_drift_t here;  /* at this place */
+    uint32_t scan;                /* its number */
+    const ale_drift_here_t *here; /* drift of the map at this place */
     uint32_t dilution; /* so many times the stated variance have its looks at what is known: see rest.h */
     bool grow;         /* false: no new walls */
 } ale_taking_t;

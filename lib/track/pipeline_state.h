@@ -41,7 +41,9 @@ struct ale_pipeline {
     ale_smooth_t smooth;
     uint32_t scans;
     ale_local_map_t map;
-    ale_drift_t drift; /* of the map around the robot */
+    ale_drift_here_t drift; /* of the map around the robot */
+    int64_t slid_um;        /* since a scan last held the robot in every direction */
+    bool held;              /* by the last one */
     ale_fade_t fade;
     ale_relocation_t relocation;
     ale_witness_t witness;

@@ -3,6 +3,7 @@
 
 #include "base/fixed.h"
 #include "base/trig.h"
+#include "track/hold.h"
 #include "track/map_update.h"
 #include "track/pipeline_steps.h"
 
@@ -73,7 +74,7 @@ static void take_in(ale_pipeline_t *p, bool grow)
         return;
     }
     const ale_pose_t sensor = ale_pose_compose(p->fit.motion.pose, p->config.sensor);
-    const ale_taking_t taking = {p->scans, p->drift, ale_rest_dilution(&p->rest), grow};
+    const ale_taking_t taking = {p->scans, &p->drift, ale_rest_dilution(&p->rest), grow};
     ale_map_update(&p->map, p->view, p->view_count, &p->fit, &taking);
     p->matched_corners = ale_map_corners_update(&p->map.corners, &p->features, sensor, p->scans, grow);
 }
@@ -141,9 +142,21 @@ static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_moti
 static void anchor(ale_pipeline_t *p)
 {
     if (ale_tracker_may_anchor(&p->tracker, &p->fit)) {
-        p->drift = ale_drift_of_new_wall(p->drift, &p->fit.motion.cov);
+        p->drift = ale_drift_go_on(&p->drift, &p->fit.motion);
         ale_motion_widen(&p->fit.motion, ANCHOR_SIGMA_UM, ANCHOR_SIGMA_URAD);
         p->motion = p->fit.motion;
+    }
+}
+
+/* What the scan leaves open is said; the pose stays what the fit made of it. */
+static void hold(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted)
+{
+    const ale_hold_t hold = ale_hold_of(&p->map, p->view, p->view_count, &p->fit);
+    p->held = hold.held;
+    if (hold.held) {
+        p->slid_um = 0;
+    } else {
+        ale_drift_slide(&p->drift, &p->slid_um, hold.along_bam, before, predicted);
     }
 }
 
@@ -265,7 +278,8 @@ void ale_pipeline_track(ale_pipeline_t *p, const ale_motion_t *before, const ale
     ale_refine_weigh(&scene, &p->fit);
     p->motion = p->fit.motion;
     notice(p, before, &prior, counted);
-    p->drift = ale_drift_here(&p->map, p->view, p->view_count, &p->fit, p->drift);
+    p->drift = ale_drift_here(&p->map, p->view, p->view_count, &p->fit, &p->drift);
+    hold(p, before, &prior);
     if (!p->tracker.jumped) {
         ale_liveliness_learn(&p->liveliness[counted], &prior, &p->motion);
         teach_wheels(p, before, counted ? wheels : NULL);

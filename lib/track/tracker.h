@@ -3,7 +3,8 @@
  * Good: the scan fits the map and, with the prediction, determines every direction. Weak: part of the pose
  * rests on the prediction (a corridor, a hall out of reach). Lost: scan after scan looks through walls that
  * should be there, or all at once shows nothing of the map any more, or nothing has held the pose for so long
- * that it may be anywhere. A new place comes into view little by little: that is not a reason. Constant time.
+ * that it may be anywhere. A new place comes into view little by little: that is not a reason. A scan that is
+ * good here is called weak to others when it leaves a direction open (hold.h). Constant time.
  */
 #ifndef ALE_TRACK_TRACKER_H
 #define ALE_TRACK_TRACKER_H

@@ -20,7 +20,7 @@ static void add_lever(ale_matrix_t *cov, int64_t var_urad2, ale_point_t p)
     }
 }
 
-void ale_map_covariance(const ale_motion_t *motion, ale_drift_t drift, int64_t out[9])
+void ale_map_covariance(const ale_motion_t *motion, const ale_drift_here_t *drift, int64_t out[9])
 {
     const int64_t c = ale_round_shift(ale_cos_q30(motion->pose.theta_bam), 10);
     const int64_t s = ale_round_shift(ale_sin_q30(motion->pose.theta_bam), 10);
@@ -28,10 +28,11 @@ void ale_map_covariance(const ale_motion_t *motion, ale_drift_t drift, int64_t o
     const int64_t f_q20[ALE_STATES][ALE_STATES] = {{c, -s, 0}, {s, c, 0}, {0, 0, one}};
     ale_matrix_t turned;
     ale_matrix_congruence(f_q20, &motion->cov, &turned);
-    turned.m[0][0] += drift.var_um2;
-    turned.m[1][1] += drift.var_um2;
-    turned.m[2][2] += drift.var_urad2;
-    add_lever(&turned, drift.var_urad2, (ale_point_t){motion->pose.x_um, motion->pose.y_um});
+    turned.m[0][0] += drift->xx_um2;
+    turned.m[0][1] += drift->xy_um2;
+    turned.m[1][1] += drift->yy_um2;
+    turned.m[2][2] += drift->var_urad2;
+    add_lever(&turned, drift->var_urad2, (ale_point_t){motion->pose.x_um, motion->pose.y_um});
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
             const int64_t to_nrad = (i == 2 ? 1000LL : 1LL) * (j == 2 ? 1000 : 1);

@@ -22,6 +22,7 @@ extern "C" {
 #include "extract/scan_noise.h"
 #include "extract/segment.h"
 #include "track/deskew.h"
+#include "track/hold.h"
 #include "track/map_update.h"
 #include "track/piece.h"
 #include "track/pipeline_state.h"
@@ -270,7 +271,8 @@ void matching(Parts &parts, Random &random, Crowd &crowd)
     for (int k = 0; k < ALE_MAX_VIEWS; k++) {
         fit->match[k] = {ALE_NO_WALL, ALE_NO_MARK, {}};
     }
-    ale_taking_t taking = {1, {0, 0}, 1, true};
+    const ale_drift_here_t here = {0, 0, 0, 0};
+    ale_taking_t taking = {1, &here, 1, true};
     const auto take_in = [&] {
         ale_map_update(crowd.map.get(), scene.view, scene.view_count, fit.get(), &taking);
     };
@@ -278,6 +280,10 @@ void matching(Parts &parts, Random &random, Crowd &crowd)
     ale_refine(&predicted, &scene, &gates.at("first"), fit.get());
     taking.scan = 2;
     parts.measure("walls and marks of the map", 1, take_in);
+    parts.measure("drift, and what holds the robot", 1, [&] {
+        ale_drift_here(crowd.map.get(), scene.view, scene.view_count, fit.get(), &here);
+        ale_hold_of(crowd.map.get(), scene.view, scene.view_count, fit.get());
+    });
 }
 
 /* Scans with the ranges of a robot that sees through every wall. */

@@ -1,4 +1,5 @@
-// lib/track/pipeline_track.c: a robot that stands among people who walk, and one whose wheels slip.
+// lib/track/pipeline_track.c: a robot that stands among people who walk, one whose wheels slip, and one
+// between bare walls.
 #include <gtest/gtest.h>
 
 #include "room.h"
@@ -140,6 +141,67 @@ TEST(PipelineTrack, AWheelThatSpinsTurnsTheRobotInNoMap)
         const reference::Pose error = error_after_spinning(seed);
         EXPECT_LT(error.head<2>().norm(), 0.06) << "seed " << seed;
         EXPECT_LT(std::abs(error[2]), 0.03) << "seed " << seed;
+    }
+}
+
+// A drive between two bare walls, 2 m apart and without an end as far as the scanner reaches. The wheels
+// count a part more than there is (0: no wheels).
+struct BareDrive {
+    std::vector<ale_estimate_t> estimates;
+    std::vector<double> way;
+
+    explicit BareDrive(double counted_per_metre)
+    {
+        const std::vector<room::Wall> corridor = {{-50, -1, 50, -1}, {-50, 1, 50, 1}};
+        ale_pipeline_config_t config = ale_pipeline_default_config();
+        config.use_odometry = counted_per_metre > 0;
+        const room::Pipeline pipeline = room::make(config);
+        std::mt19937 rng(7);
+        room::Sensor sensor;
+        sensor.noise = 0.01;
+        const auto path = [](double t) {
+            return reference::Pose(0.5 * t, 0.01 * std::sin(0.5 * t), 0.01 * std::cos(0.5 * t));
+        };
+        const reference::Pose start = path(0);
+        for (int k = 0; k < 120; k++) {
+            const double t = 1 + 0.1 * k;
+            for (int i = 0; i < 10; i++) {
+                const double at = t - 0.04 + 0.01 * i;
+                const reference::Pose p = room::since_start(start, path(at));
+                const ale_odometry_t sample = {
+                    std::llround(at * 1e6),
+                    convert::pose(reference::Pose(counted_per_metre * p[0], counted_per_metre * p[1], p[2]))};
+                ale_pipeline_odometry(pipeline.get(), &sample);
+            }
+            const ale_scan_t scan = room::scan_at(corridor, sensor, path, t, rng);
+            ale_estimate_t e;
+            ale_pipeline_scan(pipeline.get(), &scan, &e);
+            estimates.push_back(e);
+            way.push_back(path(t)[0] - path(1)[0]);
+        }
+    }
+
+    double sigma_m(size_t k) const
+    {
+        return std::sqrt(static_cast<double>(estimates[k].cov[0])) * 1e-6;
+    }
+
+    double error_m(size_t k) const
+    {
+        return std::abs(estimates[k].map.x_um * 1e-6 - way[k]);
+    }
+};
+
+TEST(PipelineTrack, BetweenBareWallsNoScanIsCalledGoodAndTheVarianceAlongThemGrows)
+{
+    for (const double counted : {1.03, 0.0}) {
+        const BareDrive drive(counted);
+        for (size_t k = 3; k < drive.estimates.size(); k++) {
+            ASSERT_EQ(drive.estimates[k].state, ALE_STATE_WEAK) << k << " wheels " << counted;
+            ASSERT_LT(std::min(drive.error_m(k), 2.5), 3 * drive.sigma_m(k)) << k << " wheels " << counted;
+        }
+        EXPECT_GT(drive.sigma_m(119), 0.1);
+        EXPECT_LT(std::sqrt(static_cast<double>(drive.estimates[119].cov[4])) * 1e-6, 0.05) << "across";
     }
 }
 

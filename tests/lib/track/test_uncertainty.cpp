@@ -30,7 +30,8 @@ TEST(Uncertainty, AHeadingThatDriftsOnTheWayMovesThePlaceAsManyRandomWalksDo)
     ale_motion_t motion;
     ale_motion_init(&motion, 0, {convert::um(place[0]), convert::um(place[1]), convert::bam(0.7)}, 1, 1);
     int64_t cov[9];
-    ale_map_covariance(&motion, {0, std::llround(sigma * sigma * 1e12)}, cov);
+    const ale_drift_here_t drift = {0, 0, 0, std::llround(sigma * sigma * 1e12)};
+    ale_map_covariance(&motion, &drift, cov);
     for (int i = 0; i < 9; i++) {
         const double unit = (i / 3 == 2 ? 1e-9 : 1e-6) * (i % 3 == 2 ? 1e-9 : 1e-6);
         const double scale = std::sqrt(expected(i / 3, i / 3) * expected(i % 3, i % 3));

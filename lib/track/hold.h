@@ -1,0 +1,26 @@
+/* What holds the robot: whether a scan tells the place in every direction, or leaves one to the prediction.
+ *
+ * The least squares believes what it matched. Along a corridor that is not enough: the last beams of a wall
+ * seen at a grazing angle make small surfaces that face the robot and go along with it, and a mark that was
+ * made of such ones says that it stands. Here every match counts as what it is: a surface shows its place
+ * across itself, and along itself as well as its direction is known, no better than its own length. Changes
+ * no pose; the state and the stated covariance follow it. O(views). */
+#ifndef ALE_TRACK_HOLD_H
+#define ALE_TRACK_HOLD_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "track/local_map.h"
+#include "track/refine.h"
+
+typedef struct {
+    bool held;          /* every direction is told better than 30 mm */
+    uint32_t along_bam; /* if not: the one that is told least, map frame */
+} ale_hold_t;
+
+/* What the matches of a fit hold; its heading is taken as known. */
+ale_hold_t ale_hold_of(const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
+                       const ale_fit_t *fit);
+
+#endif
