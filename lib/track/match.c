@@ -111,6 +111,16 @@ static inline bool is_off(const ale_glance_t *wall, ale_point_t p, int64_t limit
     return (uint64_t)(off_q30 + limit_q30 - 1) >= (uint64_t)(2 * limit_q30 - 1);
 }
 
+/* The first wall of a range that a place does not lie off; most are passed over here. */
+static inline const ale_glance_t *skip_off(const ale_glance_t *wall, const ale_glance_t *last, ale_point_t p,
+                                           int64_t limit_q30)
+{
+    while (wall < last && is_off(wall, p, limit_q30)) {
+        wall++;
+    }
+    return wall;
+}
+
 ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
                            const ale_matrix_t *cov, const ale_gate_t *gate, int32_t *looks)
 {
@@ -126,10 +136,9 @@ ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, c
     for (int r = 0; r < 2; r++) {
         ale_take_looks(&facing[r], looks);
         const ale_glance_t *const last = &map->glance[facing[r].last];
-        for (const ale_glance_t *glance = &map->glance[facing[r].first]; glance < last; glance++) {
-            if (is_off(glance, moved.centre, limit_q30)) {
-                continue;
-            }
+        const ale_glance_t *const first = &map->glance[facing[r].first];
+        for (const ale_glance_t *glance = skip_off(first, last, moved.centre, limit_q30); glance < last;
+             glance = skip_off(glance + 1, last, moved.centre, limit_q30)) {
             *looks -= ALE_LOOKS_OF_A_WALL;
             if (*looks < 0) {
                 return best;

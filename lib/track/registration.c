@@ -146,6 +146,7 @@ static inline void vote_cells(ale_registration_t *r, cells_t c, uint16_t voter, 
         if (r->voter[row][column] != voter) {
             r->voter[row][column] = voter;
             r->votes_mm[row][column] += weight_mm;
+            r->row_mm[row] += weight_mm;
         }
         c.x_q14 += c.step_x_q14;
         c.y_q14 += c.step_y_q14;
@@ -201,6 +202,7 @@ static void vote(ale_registration_t *r, ale_views_t now, ale_pose_t pose, uint32
 {
     const ale_stand_t stand = ale_stand(pose);
     memset(r->votes_mm, 0, sizeof r->votes_mm);
+    memset(r->row_mm, 0, sizeof r->row_mm);
     r->work = ALE_REGISTRATION_WORK;
     for (uint32_t i = 0; i < r->now_count; i++) {
         vote_view(r, i, ale_point_from(now.view[r->now[i]].centre, &stand), turn_bam,
@@ -236,7 +238,8 @@ static int64_t best_cell(const ale_registration_t *r, int64_t most, int32_t *col
 {
     for (int32_t y = 1; y < ALE_REGISTRATION_CELLS - 1; y++) {
         int32_t sum_mm[SUMS];
-        if (!row_sums(r, y, (int32_t)most, sum_mm)) {
+        const int64_t at_most_mm = (int64_t)r->row_mm[y - 1] + 2 * (int64_t)r->row_mm[y] + r->row_mm[y + 1];
+        if (at_most_mm <= most || !row_sums(r, y, (int32_t)most, sum_mm)) {
             continue;
         }
         for (int32_t x = 1; x < ALE_REGISTRATION_CELLS - 1; x++) {

@@ -58,6 +58,7 @@ typedef struct {
     ale_registration_pair_t pair[ALE_REGISTRATION_VIEWS * ALE_REGISTRATION_VIEWS];
     uint16_t pair_first[ALE_REGISTRATION_VIEWS + 1]; /* of each new view */
     int32_t votes_mm[ALE_REGISTRATION_CELLS][ALE_REGISTRATION_COLUMNS];
+    int32_t row_mm[ALE_REGISTRATION_CELLS];                           /* sum of each row's votes */
     uint16_t voter[ALE_REGISTRATION_CELLS][ALE_REGISTRATION_COLUMNS]; /* the last view, at which heading */
     int32_t cell_um;
     int32_t half_um; /* of the grid's diagonal */
