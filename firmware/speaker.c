@@ -16,17 +16,36 @@ typedef struct {
 struct ale_speaker {
     FILE *out;
     ale_ring_t *lines; /* line_t */
+    uint32_t told;     /* of those left out */
     ale_background_t thread;
 };
 
+static void write_line(ale_speaker_t *speaker, const char *words)
+{
+    fprintf(speaker->out, "ale-slamd: %s\n", words);
+    fflush(speaker->out);
+}
+
+/* There is room again. */
+static void tell_left_out(ale_speaker_t *speaker)
+{
+    const uint32_t fresh = ale_speaker_left_out(speaker) - speaker->told;
+    if (fresh > 0) {
+        char words[ALE_SPEAKER_LINE];
+        snprintf(words, sizeof words, "%u line%s left out here: nobody took them in time", fresh,
+                 fresh == 1 ? "" : "s");
+        write_line(speaker, words);
+        speaker->told += fresh;
+    }
+}
+
 static void write_out(ale_speaker_t *speaker)
 {
-    for (uint32_t ready = ale_ring_ready(speaker->lines); ready > 0; ready--) {
-        const line_t *line = ale_ring_at(speaker->lines, 0);
-        fprintf(speaker->out, "ale-slamd: %s\n", line->words);
-        fflush(speaker->out);
+    while (ale_ring_ready(speaker->lines) > 0) {
+        write_line(speaker, ((const line_t *)ale_ring_at(speaker->lines, 0))->words);
         ale_ring_release(speaker->lines);
     }
+    tell_left_out(speaker);
 }
 
 static void run(ale_rt_task_t *self, void *user)
@@ -71,4 +90,9 @@ void ale_speaker_say(ale_speaker_t *speaker, const char *words)
         ale_ring_commit(speaker->lines);
         ale_background_wake(&speaker->thread);
     }
+}
+
+uint32_t ale_speaker_left_out(const ale_speaker_t *speaker)
+{
+    return ale_ring_refused(speaker->lines);
 }

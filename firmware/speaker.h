@@ -5,6 +5,7 @@
 #ifndef ALE_FIRMWARE_SPEAKER_H
 #define ALE_FIRMWARE_SPEAKER_H
 
+#include <stdint.h>
 #include <stdio.h>
 
 typedef struct ale_speaker ale_speaker_t;
@@ -18,7 +19,10 @@ ale_speaker_t *ale_speaker_start(FILE *out);
 void ale_speaker_stop(ale_speaker_t *speaker);
 
 /* From one thread; copies and never blocks. Goes out as a line of its own after the program's name; cut to
- * ALE_SPEAKER_LINE - 1 bytes, left away where 16 lines wait already. */
+ * ALE_SPEAKER_LINE - 1 bytes, left out where 16 lines wait already: how many were is a line behind those. */
 void ale_speaker_say(ale_speaker_t *speaker, const char *words);
+
+/* Any thread: lines left out since the start. */
+uint32_t ale_speaker_left_out(const ale_speaker_t *speaker);
 
 #endif

@@ -180,6 +180,8 @@ static void send_status(ale_telemetry_t *telemetry)
                             ale_bus_refused(telemetry->bus), ale_bus_unsent(telemetry->bus), report);
     ale_commands_report(telemetry->commands, &report->operation);
     ale_commands_counters(telemetry->commands, report);
+    report->counter[report->counters++] =
+        (ale_counter_t){.name = "words_left_out", .value = ale_speaker_left_out(telemetry->speaker)};
     ale_bus_send_status(telemetry->bus, report);
     telemetry->last_status_ns = ale_rt_now_ns();
     telemetry->news = false;

@@ -86,6 +86,29 @@ TEST_F(Speaker, AReaderThatHoldsUpTheWriterDoesNotHoldUpWhoSpeaks)
     fclose(out);
 }
 
+TEST_F(Speaker, WhatWasLeftOutIsCountedAndToldOnceThereIsRoomAgain)
+{
+    const size_t before = fill_the_pipe();
+    EXPECT_EQ(ale_speaker_left_out(speaker), 0U);
+    for (int k = 0; k < 100; k++) {
+        ale_speaker_say(speaker, "held up");
+    }
+    const uint32_t left_out = ale_speaker_left_out(speaker);
+    EXPECT_EQ(left_out, 100U - 16U); /* the one that is being written waits, too */
+    for (size_t k = 0; k < before; k++) {
+        char c = 0;
+        ASSERT_EQ(read(reading, &c, 1), 1);
+    }
+    for (uint32_t k = left_out; k < 100; k++) {
+        EXPECT_EQ(read_line(), "ale-slamd: held up");
+    }
+    EXPECT_EQ(read_line(), "ale-slamd: 84 lines left out here: nobody took them in time");
+    ale_speaker_say(speaker, "free again");
+    EXPECT_EQ(read_line(), "ale-slamd: free again");
+    ale_speaker_stop(speaker);
+    fclose(out);
+}
+
 TEST_F(Speaker, AStopWritesWhatWasSaid)
 {
     ale_speaker_say(speaker, std::string(1000, 'a').c_str());
