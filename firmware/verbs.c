@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/fixed.h"
+#include "command/verb.h"
 #include "decimal.h"
 #include "explore_thread.h"
 #include "log/text.h"
@@ -229,53 +230,27 @@ static bool record(ale_commands_t *commands, const ale_command_t *command)
 
 typedef bool (*handler_t)(ale_commands_t *commands, const ale_command_t *command);
 
-typedef struct {
-    const char *name;
-    uint32_t least_args;
-    uint32_t most_args;
-    handler_t handler;
-} verb_t;
-
-static const verb_t settings[] = {
-    {"drive_speed", 2, 2, set_drive_speed},
-    {"drive_turn", 2, 2, set_drive_turn},
-    {"publish_scan", 2, 2, set_publish_scan},
-    {"freeze_map", 2, 2, set_freeze_map},
+static const handler_t settings[ALE_SETTINGS] = {
+    [ALE_SETTING_DRIVE_SPEED] = set_drive_speed,
+    [ALE_SETTING_DRIVE_TURN] = set_drive_turn,
+    [ALE_SETTING_PUBLISH_SCAN] = set_publish_scan,
+    [ALE_SETTING_FREEZE_MAP] = set_freeze_map,
 };
-
-/* NULL: none of that name. */
-static const verb_t *find(const verb_t *table, size_t count, const char *name)
-{
-    for (size_t k = 0; k < count; k++) {
-        if (strcmp(table[k].name, name) == 0) {
-            return &table[k];
-        }
-    }
-    return NULL;
-}
 
 static bool set(ale_commands_t *commands, const ale_command_t *command)
 {
-    const verb_t *setting = find(settings, sizeof settings / sizeof settings[0], command->arg[0]);
-    return setting ? setting->handler(commands, command)
-                   : ANSWER(commands, false, "no setting %s", command->arg[0]);
+    return settings[ale_setting_of(command->arg[0])](commands, command);
 }
 
-static const verb_t verbs[] = {
-    {"drive", 2, 2, drive},       {"stop", 0, 0, stop},         {"reset", 0, 0, reset},
-    {"save_map", 1, 1, save_map}, {"load_map", 1, 4, load_map}, {"relocate", 3, 3, relocate},
-    {"explore", 1, 1, explore},   {"set", 2, 2, set},           {"record", 0, 0, record},
+static const handler_t verbs[ALE_VERBS] = {
+    [ALE_VERB_DRIVE] = drive,       [ALE_VERB_STOP] = stop,         [ALE_VERB_EXPLORE] = explore,
+    [ALE_VERB_RESET] = reset,       [ALE_VERB_RELOCATE] = relocate, [ALE_VERB_SAVE_MAP] = save_map,
+    [ALE_VERB_LOAD_MAP] = load_map, [ALE_VERB_RECORD] = record,     [ALE_VERB_SET] = set,
 };
 
 bool ale_verbs_obey(ale_commands_t *commands, const ale_command_t *command)
 {
-    const verb_t *verb = find(verbs, sizeof verbs / sizeof verbs[0], command->verb);
-    if (!verb) {
-        return ANSWER(commands, false, "no verb %s", command->verb);
-    }
-    if (command->args < verb->least_args || command->args > verb->most_args) {
-        return ANSWER(commands, false, "%s: %u arguments are too %s", verb->name, command->args,
-                      command->args < verb->least_args ? "few" : "many");
-    }
-    return verb->handler(commands, command);
+    char error[ALE_VERB_ERROR];
+    const int verb = ale_verb_of(command, error);
+    return verb < 0 ? ANSWER(commands, false, "%s", error) : verbs[verb](commands, command);
 }

@@ -310,8 +310,8 @@ TEST_F(Commands, AFlightRecordingIsWrittenWhereThereIsARecorder)
 TEST_F(Commands, NonsenseIsAnsweredInWords)
 {
     EXPECT_EQ(ask(alice, {"fly"}), "-no verb fly");
-    EXPECT_EQ(ask(alice, {"drive", "1"}), "-drive: 1 arguments are too few");
-    EXPECT_EQ(ask(alice, {"stop", "now"}), "-stop: 1 arguments are too many");
+    EXPECT_EQ(ask(alice, {"drive", "1"}), "-drive takes 2 arguments, not 1");
+    EXPECT_EQ(ask(alice, {"stop", "now"}), "-stop takes 0 arguments, not 1");
     EXPECT_EQ(ask(alice, {"drive", "fast", "0"}), "-drive wants m/s and rad/s");
     EXPECT_EQ(ask(alice, {"drive", "9999999", "0"}), "-drive wants m/s and rad/s");
     EXPECT_EQ(counted("command_genuine"), 5U);

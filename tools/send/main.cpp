@@ -1,4 +1,5 @@
 /* ale-send: one signed command from a shell, and what came of it. */
+#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
@@ -7,6 +8,10 @@
 #include "cli/command_line.h"
 #include "cli/interrupt.h"
 #include "send/robot_link.h"
+
+extern "C" {
+#include "command/verb.h"
+}
 
 namespace
 {
@@ -44,12 +49,31 @@ struct Options {
     std::vector<std::string> words;
 };
 
+ale_command_t command_of(const std::vector<std::string> &words)
+{
+    std::vector<const char *> texts(words.size());
+    std::transform(words.begin(), words.end(), texts.begin(),
+                   [](const std::string &word) { return word.c_str(); });
+    ale_command_t command;
+    if (ale_command_from_words(texts.data(), static_cast<uint32_t>(texts.size()), &command) < 0) {
+        throw cli::WrongUse("too many words, or one that is too long");
+    }
+    return command;
+}
+
+/* A command that no robot could obey is told before one is looked for. */
 void check(const Options &options)
 {
     if (options.keys.empty() || options.words.empty()) {
         throw cli::WrongUse(options.keys.empty() ? "--keys is missing" : "which verb?");
     }
-    if (options.seconds > 0 && options.words[0] != "drive") {
+    const ale_command_t command = command_of(options.words);
+    char error[ALE_VERB_ERROR];
+    const int verb = ale_verb_of(&command, error);
+    if (verb < 0) {
+        throw cli::WrongUse(error);
+    }
+    if (options.seconds > 0 && verb != ALE_VERB_DRIVE) {
         throw cli::WrongUse("--seconds is for drive only");
     }
 }
@@ -81,10 +105,10 @@ void keep_driving(send::RobotLink &link, const Options &options)
     const int turns = static_cast<int>(options.seconds * 1000 / drive_period_ms);
     for (int k = 0; k < turns && !cli::interrupted(); k++) {
         link.wait(drive_period_ms, cli::interrupted);
-        link.command(options.words, drive_life_us);
+        link.command(command_of(options.words), drive_life_us);
     }
     if (turns > 0) {
-        link.command({"drive", "0", "0"}, drive_life_us);
+        link.command(command_of({"drive", "0", "0"}), drive_life_us);
     }
 }
 
@@ -105,7 +129,7 @@ int run(const Options &options)
         throw std::runtime_error(before.robot + " takes no commands (ale-slamd --keys)");
     }
     const bool driving = options.words[0] == "drive";
-    const int64_t counter = link.command(options.words, driving ? drive_life_us : life_us);
+    const int64_t counter = link.command(command_of(options.words), driving ? drive_life_us : life_us);
     if (!link.wait(answer_ms, [&] { return link.answered(counter) || cli::interrupted(); })) {
         throw std::runtime_error(before.robot + ": " + refusal(before, *link.status()));
     }

@@ -1,10 +1,7 @@
 #include "send/robot_link.h"
 
-#include <algorithm>
 #include <chrono>
 #include <stdexcept>
-
-#include "cli/wrong_use.h"
 
 namespace send
 {
@@ -58,16 +55,9 @@ bool RobotLink::wait(int timeout_ms, const std::function<bool()> &condition)
     return true;
 }
 
-int64_t RobotLink::command(const std::vector<std::string> &words, int64_t life_us)
+int64_t RobotLink::command(ale_command_t command, int64_t life_us)
 {
-    std::vector<const char *> texts(words.size());
-    std::transform(words.begin(), words.end(), texts.begin(),
-                   [](const std::string &word) { return word.c_str(); });
-    ale_command_t command;
     uint8_t bytes[ALE_COMMAND_BYTES];
-    if (ale_command_from_words(texts.data(), static_cast<uint32_t>(texts.size()), &command) < 0) {
-        throw cli::WrongUse("too many words, or one that is too long");
-    }
     const size_t count = ale_operator_command(&operator_, host_us(), life_us, &command, bytes);
     if (count == 0) {
         throw std::runtime_error("no robot to command");

@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "ale/status_t.hpp"
 #include "console/lcm_feed.h"
@@ -30,8 +29,8 @@ class RobotLink
     /* Listens until the condition holds, or the time is over: then false. */
     bool wait(int timeout_ms, const std::function<bool()> &condition);
 
-    /* Signs and sends; the command's counter. Throws when there is no robot yet or a word is too long. */
-    int64_t command(const std::vector<std::string> &words, int64_t life_us);
+    /* Completes, signs and sends; the command's counter. Throws when there is no robot yet or LCM refuses. */
+    int64_t command(ale_command_t command, int64_t life_us);
 
     const std::optional<ale::status_t> &status() const
     {
