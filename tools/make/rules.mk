@@ -105,13 +105,16 @@ $(OBJ)/%.cpp.o: %.cpp $(LCM_STAMP)
 # a compiler cache, which knows each file by itself; so it shows, too, who includes too little.
 EIGEN_PRELUDE = Eigen/Cholesky Eigen/Core Eigen/LU algorithm array cmath functional memory optional vector
 EIGEN_FLOORS = lib/graph tools/bench tools/calibrate tools/mounting
+# Compilers refuse what another compiler or other flags have made: each has its own.
+PRELUDE_KEY := $(if $(CCACHE),,$(shell { $(CXX) --version; echo '$(CXX_FLAGS)'; } | cksum | cut -d ' ' -f 1))
+EIGEN_PRELUDE_NAME = prelude-$(PRELUDE_KEY).hpp
 define eigen_prelude
-$(OBJ)/$(1)/prelude.hpp.gch:
+$(OBJ)/$(1)/$(EIGEN_PRELUDE_NAME).gch:
 	@mkdir -p $$(@D)
 	$$(Q)printf '#include <%s>\n' $(EIGEN_PRELUDE) > $$(basename $$@)
 	$$(Q)$$(CXX) $$(filter-out -MMD -MP,$$(CXX_FLAGS)) $$(INCLUDES) -x c++-header $$(basename $$@) -o $$@
-$(OBJ)/$(1)/%.cpp.o: PRELUDE_USED = -include $(OBJ)/$(1)/prelude.hpp
-$(OBJ)/$(1)/%.cpp.o: $(1)/%.cpp $(LCM_STAMP) $(OBJ)/$(1)/prelude.hpp.gch
+$(OBJ)/$(1)/%.cpp.o: PRELUDE_USED = -include $(OBJ)/$(1)/$(EIGEN_PRELUDE_NAME)
+$(OBJ)/$(1)/%.cpp.o: $(1)/%.cpp $(LCM_STAMP) $(OBJ)/$(1)/$(EIGEN_PRELUDE_NAME).gch
 	$$(compile_cpp)
 endef
 $(if $(CCACHE),,$(foreach floor,$(EIGEN_FLOORS),$(eval $(call eigen_prelude,$(floor)))))
