@@ -4,16 +4,33 @@
 #include <fcntl.h>
 #include <stdbool.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
+
+static bool is_device_or_pipe(const char *path)
+{
+    struct stat there;
+    return stat(path, &there) == 0 && !S_ISREG(there.st_mode);
+}
+
+static bool is_beside(const ale_whole_file_t *file)
+{
+    return file->beside[0] != '\0';
+}
 
 int ale_whole_file_begin(ale_whole_file_t *file, const char *path)
 {
+    file->path = path;
+    if (is_device_or_pipe(path)) {
+        file->beside[0] = '\0';
+        file->out = fopen(path, "wbe");
+        return file->out ? 0 : -1;
+    }
     const int length = snprintf(file->beside, sizeof file->beside, "%s.new", path);
     if (length >= (int)sizeof file->beside) {
         errno = ENAMETOOLONG;
         return -1;
     }
-    file->path = path;
     file->out = fopen(file->beside, "wbe");
     return file->out ? 0 : -1;
 }
@@ -35,19 +52,21 @@ static void sync_folder(const char *path)
 int ale_whole_file_commit(ale_whole_file_t *file)
 {
     errno = EIO;
-    const bool written = !ferror(file->out) && fflush(file->out) == 0 && fsync(fileno(file->out)) == 0;
+    const bool written =
+        fflush(file->out) == 0 && !ferror(file->out) && (!is_beside(file) || fsync(fileno(file->out)) == 0);
     int reason = errno;
     bool whole = fclose(file->out) == 0 && written;
     reason = written ? errno : reason;
-    if (whole && rename(file->beside, file->path) < 0) {
+    if (is_beside(file) && whole && rename(file->beside, file->path) < 0) {
         whole = false;
         reason = errno;
     }
-    if (!whole) {
+    if (is_beside(file) && !whole) {
         unlink(file->beside);
-        errno = reason;
-        return -1;
     }
-    sync_folder(file->path);
-    return 0;
+    if (is_beside(file) && whole) {
+        sync_folder(file->path);
+    }
+    errno = reason;
+    return whole ? 0 : -1;
 }

@@ -3,8 +3,9 @@
  *   ale_whole_file_t file;
  *   if (ale_whole_file_begin(&file, path) == 0) { write to file.out ...; ale_whole_file_commit(&file); }
  *
- * Whatever happens in between, power cuts included, the path holds what it held or the new content. May block
- * for as long as the disk takes. One thread a path. */
+ * Whatever happens in between, power cuts included, the path holds what it held or the new content. A device
+ * or a pipe (/dev/stdout) stays what it is: it is written as it comes. May block for as long as the disk
+ * takes. One thread a path. */
 #ifndef ALE_STORE_WHOLE_FILE_H
 #define ALE_STORE_WHOLE_FILE_H
 
@@ -14,8 +15,8 @@ enum { ALE_WHOLE_FILE_PATH = 4096 };
 
 typedef struct {
     FILE *out;
-    const char *path; /* the caller's, until committed */
-    char beside[ALE_WHOLE_FILE_PATH];
+    const char *path;                 /* the caller's, until committed */
+    char beside[ALE_WHOLE_FILE_PATH]; /* empty: a device or a pipe */
 } ale_whole_file_t;
 
 /* 0, or -1 with errno set: nothing is left behind. */

@@ -5,7 +5,10 @@
 #include <random>
 #include <string>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "files.hpp"
 
@@ -152,6 +155,23 @@ TEST_F(MapFile, AFailedSaveLeavesTheOldFileAndNothingElse)
     EXPECT_EQ(ale_map_file_save((folder_ / "folder").c_str(), loaded_.get(), error_), -1);
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 2);
     EXPECT_EQ(load_error(before), "");
+}
+
+TEST_F(MapFile, APipeIsWrittenToAndStaysAPipe)
+{
+    const auto map = some_map(3, 2);
+    const std::string expected = saved(*map);
+    std::filesystem::remove(path_);
+    ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);
+    const int reading = open(path_.c_str(), O_RDONLY | O_NONBLOCK);
+    ASSERT_GE(reading, 0);
+    EXPECT_EQ(ale_map_file_save(path_.c_str(), map.get(), error_), 0) << error_;
+    std::string came(expected.size() + 1, ' ');
+    EXPECT_EQ(read(reading, came.data(), came.size()), static_cast<ssize_t>(expected.size()));
+    close(reading);
+    came.pop_back();
+    EXPECT_EQ(came, expected);
+    EXPECT_TRUE(std::filesystem::is_fifo(path_));
 }
 
 } // namespace
