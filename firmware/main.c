@@ -1,6 +1,9 @@
 /* ale-slamd: reads a laser scanner, publishes pose, features and map. Wiring only. */
+#include <errno.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "daemon.h"
 #include "options.h"
@@ -15,12 +18,23 @@ static void wait_for_end(const sigset_t *signals, ale_daemon_t *daemon)
     }
 }
 
+/* After --help and the like: whether it was said. */
+static int end_of_words(void)
+{
+    errno = EIO;
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        fprintf(stderr, "ale-slamd: standard output: %s\n", strerror(errno));
+        return EXIT_FAILURE;
+    }
+    return EXIT_SUCCESS;
+}
+
 int main(int count, char **arguments)
 {
     static ale_options_t options;
     const ale_options_result_t result = ale_options_read(count, arguments, &options, stdout);
     if (result != ALE_OPTIONS_RUN) {
-        return result == ALE_OPTIONS_DONE ? EXIT_SUCCESS : 2;
+        return result == ALE_OPTIONS_DONE ? end_of_words() : 2;
     }
     sigset_t signals;
     sigemptyset(&signals);

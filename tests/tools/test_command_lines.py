@@ -48,6 +48,14 @@ def test_it_tells_how_it_is_used_and_its_version_on_stdout(name):
 
 
 @pytest.mark.parametrize("name", MISSING_FILE)
+def test_words_that_nothing_takes_are_a_failure(name):
+    with open("/dev/full", "w", encoding="utf-8") as full:
+        failed = subprocess.run([BINARIES / name, "--help"], stdin=subprocess.DEVNULL, stdout=full, stderr=subprocess.PIPE, text=True,
+                                timeout=180, check=False)
+    assert (failed.returncode, failed.stderr) == (1, f"{name}: standard output: No space left on device\n")
+
+
+@pytest.mark.parametrize("name", MISSING_FILE)
 def test_an_option_that_it_does_not_have_is_named_in_one_line(name):
     refused = run(name, "--no-such-option")
     assert (refused.returncode, refused.stdout) == (2, "")

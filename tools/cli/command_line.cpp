@@ -1,7 +1,10 @@
 #include "cli/command_line.h"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <stdexcept>
 
 #include <getopt.h>
 
@@ -17,6 +20,15 @@ namespace
 
 /* getopt's names for the options: above all characters. */
 constexpr int first_choice = 256;
+
+/* Results that did not arrive are a failure, however late that shows. */
+void check_output()
+{
+    errno = EIO;
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+        throw std::runtime_error(std::string("standard output: ") + std::strerror(errno));
+    }
+}
 
 } // namespace
 
@@ -126,14 +138,23 @@ void CommandLine::read_arguments(int argc, char **argv)
     }
 }
 
-int CommandLine::answer(int argc, char **argv, const std::function<int()> &work)
+int CommandLine::obey(int argc, char **argv, const std::function<int()> &work)
 {
     try {
         read_options(argc, argv);
         read_arguments(argc, argv);
-        return work();
     } catch (const Answered &) {
         return 0;
+    }
+    return work();
+}
+
+int CommandLine::answer(int argc, char **argv, const std::function<int()> &work)
+{
+    try {
+        const int code = obey(argc, argv, work);
+        check_output();
+        return code;
     } catch (const WrongUse &error) {
         std::fprintf(stderr, "%s: %s (see --help)\n", program_.c_str(), error.what());
         return 2;

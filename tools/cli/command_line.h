@@ -12,7 +12,8 @@
  *     }
  *
  * All programs answer --help (the usage) and --version on stdout. What goes wrong is one line on stderr that
- * begins with the program's name: exit code 2 for WrongUse, 1 for any other exception.
+ * begins with the program's name: exit code 2 for WrongUse, 1 for any other exception, or when stdout takes
+ * no more.
  *
  * Over glibc's getopt_long: options and words in any order, "--name word" or "--name=word", names may be
  * abbreviated, "--" ends the options. Values that are bound must outlive run(). */
@@ -89,6 +90,7 @@ class CommandLine
     };
 
     int answer(int argc, char **argv, const std::function<int()> &work);
+    int obey(int argc, char **argv, const std::function<int()> &work);
     void read_options(int argc, char **argv);
     void take_option(int choice, char **argv);
     void read_arguments(int argc, char **argv);
