@@ -1,5 +1,7 @@
 """ale-sim and LCM: wheel odometry out, velocity set points in."""
 import math
+import os
+import pathlib
 import select
 import time
 
@@ -9,7 +11,7 @@ import pytest
 
 from scip_client import Client, Gone
 from test_sim import ROOM, STREAM, Simulator
-from waiting import Pulse
+from waiting import Pulse, wait_until
 from watching import lcm_url  # noqa: F401 (fixture)
 
 
@@ -150,3 +152,17 @@ def test_nonsense_on_the_channel_moves_nothing(simulator, lcm_url):
     bus.publish("ALE_DRIVE", b"")
     for _ in range(5):
         assert client.scan().values[340] == 3000
+
+
+def processor_s(process):
+    """What it has used so far."""
+    fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def test_orders_before_anyone_scans_do_not_keep_it_busy(simulator, lcm_url, driver):
+    running = simulator("--drive", "--lcm-url", lcm_url)
+    driver.set_point = (0.5, 0)
+    begun, before, beats = time.monotonic(), processor_s(running.process), len(driver.beats)
+    wait_until(lambda: len(driver.beats) > beats + 10, 180, "orders")
+    assert processor_s(running.process) - before < 0.2 * (time.monotonic() - begun), "it had next to nothing to do"

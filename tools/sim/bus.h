@@ -38,10 +38,12 @@ class OdometryOut
 class DriveIn
 {
   public:
+    static constexpr int64_t too_early_us = INT64_MIN / 2; /* a time at which nothing holds */
+
     explicit DriveIn(const std::string &url);
 
     int descriptor() const;
-    /* Takes what has come; now_us is the simulated time. */
+    /* Takes what has come; now_us is the simulated time. What is not taken keeps the descriptor ready. */
     void receive(int64_t now_us);
     Twist command(int64_t now_us) const;
 
@@ -57,7 +59,7 @@ class DriveIn
     std::unique_ptr<lcm_t, Close> lcm_;
     Twist command_;
     int64_t now_us_ = 0;
-    int64_t taken_us_ = INT64_MIN / 2;
+    int64_t taken_us_ = too_early_us;
 };
 
 } // namespace sim

@@ -57,8 +57,8 @@ void Simulator::run(bool (*stop)())
 
 void Simulator::listen(int64_t now_us)
 {
-    if (drive_ && play_start_us_) {
-        drive_->receive(now_us - *play_start_us_);
+    if (drive_) {
+        drive_->receive(play_start_us_ ? now_us - *play_start_us_ : DriveIn::too_early_us);
     }
     const std::string heard = pty_.read();
     if (now_us >= outage_until_us_) {
