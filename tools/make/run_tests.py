@@ -3,7 +3,7 @@
 
     run_tests.py unit PROGRAM...          GoogleTest programs, two at a time
     run_tests.py system PYTHON [ARG...]   pytest over tests/, two a processor: they mostly wait
-    run_tests.py fuzz --seconds N PROGRAM...   one a processor
+    run_tests.py fuzz --seconds N [--inputs N] PROGRAM...   one a processor
     run_tests.py command NAME CMD...      one command that passes or fails
     run_tests.py together WAITING COMPUTING    two command lines at a time; what the first says comes when it has ended
     run_tests.py phase NAME               a heading, and how long it is since `run_tests.py begin`
@@ -114,14 +114,14 @@ def system(python, arguments):
     return record("system", passed, failed, skipped)
 
 
-def run_fuzzer(program, seconds):
+def run_fuzzer(program, seconds, inputs):
     """One libFuzzer program: its name, inputs tried, and its output when it found something."""
     name = pathlib.Path(program).name
     corpus = BUILD / "fuzz" / "corpus" / name
     corpus.mkdir(parents=True, exist_ok=True)
     seeds = pathlib.Path("tests/fuzz/seeds") / name
     done = subprocess.run([program, str(corpus), *([str(seeds)] if seeds.is_dir() else []),
-                           f"-max_total_time={seconds}", "-timeout=10", "-rss_limit_mb=4096",
+                           f"-max_total_time={seconds}", f"-runs={inputs}", "-timeout=10", "-rss_limit_mb=4096",
                            "-print_final_stats=1", f"-artifact_prefix={BUILD}/fuzz/"],
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
     text = done.stdout.decode(errors="replace")
@@ -129,11 +129,11 @@ def run_fuzzer(program, seconds):
     return name, runs[0] if runs else "?", text[-4000:] if done.returncode else ""
 
 
-def fuzz(programs, seconds):
+def fuzz(programs, seconds, inputs):
     failed = 0
     with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-        for name, inputs, trouble in pool.map(lambda program: run_fuzzer(program, seconds), programs):
-            print(f"  {'FAILED' if trouble else 'ok':6} {name:40} {inputs} inputs in {seconds} s", flush=True)
+        for name, tried, trouble in pool.map(lambda program: run_fuzzer(program, seconds, inputs), programs):
+            print(f"  {'FAILED' if trouble else 'ok':6} {name:40} {tried} inputs", flush=True)
             if trouble:
                 print(trouble)
                 failed += 1
@@ -197,6 +197,7 @@ def main():
     one.add_argument("arguments", nargs=argparse.REMAINDER)
     one = kinds.add_parser("fuzz")
     one.add_argument("--seconds", type=int, default=600)
+    one.add_argument("--inputs", type=int, default=-1, help="fewer seconds when so many have been tried")
     one.add_argument("programs", nargs="+")
     one = kinds.add_parser("command")
     one.add_argument("name")
@@ -215,7 +216,7 @@ def main():
     if args.kind == "system":
         return system(args.python, args.arguments)
     if args.kind == "fuzz":
-        return fuzz(args.programs, args.seconds)
+        return fuzz(args.programs, args.seconds, args.inputs)
     return command(args.name, args.words)
 
 

@@ -105,7 +105,8 @@ FUZZ_BUILD = $(BUILD)/fuzz
 FUZZ_SOURCES = $(wildcard tests/fuzz/fuzz_*.cpp)
 FUZZ_PROGRAMS = $(patsubst tests/fuzz/%.cpp,$(FUZZ_BUILD)/bin/%,$(FUZZ_SOURCES))
 FUZZ_FLAGS = -g -O1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
-FUZZ_C = $(filter lib/% drivers/%,$(LIB_SOURCES) $(DRIVER_SOURCES))
+# What takes bytes from outside, and what that stands on.
+FUZZ_C = $(filter lib/base/% drivers/%,$(LIB_SOURCES) $(DRIVER_SOURCES))
 
 $(FUZZ_BUILD)/obj/%.c.o: %.c | $(LCM_STAMP)
 	@mkdir -p $(@D)
@@ -142,7 +143,7 @@ lint-tidy: $(LCM_STAMP)
 	@$(PYTHON) tools/make/run_tests.py command clang-tidy tools/make/tidy.sh $(BUILD) $(LIB_SOURCES) $(DRIVER_SOURCES) $(FIRMWARE_SOURCES) $(wildcard firmware/main.c)
 
 # The whole of it, as continuous integration runs it. Each part counts its tests; the sum is the last line.
-SHORT_FUZZ_SECONDS ?= 5
+SHORT_FUZZ = --seconds 5 --inputs 50000
 export ALE_RESULTS ?= $(ALE_BUILD)/test-results.txt
 PHASE = $(PYTHON) tools/make/run_tests.py phase
 SUB = $(MAKE) --no-print-directory -s DEBUG=-g1
@@ -179,7 +180,7 @@ test-computing:
 	-@$(THREADED) unit
 	@$(PHASE) "fuzzers"
 	@$(SUB) -j2 fuzz-programs
-	-@$(PYTHON) tools/make/run_tests.py fuzz --seconds $(SHORT_FUZZ_SECONDS) $(FUZZ_PROGRAMS)
+	-@$(PYTHON) tools/make/run_tests.py fuzz $(SHORT_FUZZ) $(FUZZ_PROGRAMS)
 	@$(PHASE) "the same bytes from another compiler and level"
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes" $(SUB) same-bytes SAME_BYTES_HOW=--quick SAME_BYTES_BUILDS=clang:-O3
 
