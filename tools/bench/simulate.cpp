@@ -72,6 +72,12 @@ bool at_depth_edge(const Hit &a, const Hit &b)
            std::abs(a.range - b.range) > depth_edge;
 }
 
+// What lies beyond the reach sends no echo back, whatever the noise of its range would be.
+Hit within_reach(const Hit &hit)
+{
+    return hit.range < urg_reach ? hit : Hit{};
+}
+
 } // namespace
 
 double Noise::own_sigma(double range) const
@@ -175,7 +181,7 @@ SimulatedScan simulate(const World &world, const Noise &noise, Random &random)
     for (std::size_t k = 0; k < urg_beams; k++) {
         const double bearing = urg_bearing(static_cast<int>(k));
         out.hits[k] = cast(world, bearing);
-        const Hit met = cast(world, bearing + noise.bearing * random.normal());
+        const Hit met = within_reach(cast(world, bearing + noise.bearing * random.normal()));
         const double own = noise.own_sigma(met.range) * random.normal();
         const double of_surface = met.surface < 0 ? 0 : bias[static_cast<std::size_t>(met.surface)];
         out.clean[k] = met.surface >= 0 && met.surface == out.hits[k].surface;

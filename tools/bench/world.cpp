@@ -151,7 +151,7 @@ World stepped_room(Random &random)
 World bent_room(Random &random)
 {
     World world;
-    const Room room = random_room(random, 3, 5.5);
+    const Room room = random_room(random, 2.5, 5);
     const std::vector<Point> corners = rectangle(Point::Zero(), 2 * room.hx, 2 * room.hy, 0);
     for (std::size_t k = 0; k < 4; k++) {
         const Point &a = corners[k];
@@ -163,8 +163,7 @@ World bent_room(Random &random)
         const Point outward = Point((b - a).y(), -(b - a).x()).normalized();
         add_chain(world, {a, a + along * (b - a) + random.sign() * height * outward, b});
     }
-    world.sensor = free_place(world, random, room.hx * 0.6, room.hy * 0.6, clearance);
-    world.heading = random.uniform(-pi, pi);
+    put_sensor(world, random, room);
     return world;
 }
 

@@ -80,6 +80,24 @@ TEST(Score, every_kind_of_world_has_lines_to_find)
     }
 }
 
+// Noise does not bring a wall nearer than it is: the truth ends at the reach, and so must the scan.
+TEST(Simulation, what_lies_beyond_the_reach_gives_no_value)
+{
+    int beyond = 0;
+    for_each_case(noise_kind("urg"), 4, 11, [&](const Case &c) {
+        for (int k = 1; k + 1 < urg_beams; k++) {
+            const auto out = [&](int beam) {
+                return c.simulated.hits[static_cast<std::size_t>(beam)].range > urg_reach;
+            };
+            if (out(k - 1) && out(k) && out(k + 1)) { // a bearing errs by less than a beam
+                beyond++;
+                EXPECT_NE(c.simulated.scan->flag[k], ALE_BEAM_VALID) << "scan " << c.number << ", beam " << k;
+            }
+        }
+    });
+    EXPECT_GT(beyond, 500);
+}
+
 TEST(Score, a_corner_is_listed_once_though_something_hides_a_piece_of_its_wall)
 {
     for_each_case(noise_kind("3mm"), 4, 3, [&](const Case &c) {
