@@ -1,22 +1,17 @@
 #include "lcm/bus.h"
 
-#include <arpa/inet.h>
 #include <errno.h>
 #include <lcm/lcm.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <lcmtypes_ale_drive_t.h>
 #include <lcmtypes_bot_core_planar_lidar_t.h>
 #include <lcmtypes_bot_core_pose_t.h>
 
 #include "lcm/convert.h"
-
-#define DEFAULT_GROUP "239.255.76.67"
 
 enum { MAX_HANDLED = 64, MAX_WAITING = 256, MESSAGE_BYTES = 16384 };
 
@@ -39,60 +34,10 @@ struct ale_bus {
 _Static_assert(ALE_MAX_BEAMS * 4 + 64 <= MESSAGE_BYTES, "a scan fits the message");
 _Static_assert(ALE_MAX_LINES * 48 + ALE_MAX_CORNERS * 29 + 64 <= MESSAGE_BYTES, "features fit the message");
 
-/* Group address of a udpm URL (udpm://address:port?options). */
-static void group_of(const char *url, char address[64])
-{
-    const char *start = strstr(url, "://") + 3;
-    const size_t length = strcspn(start, ":?/");
-    if (length == 0) {
-        start = DEFAULT_GROUP;
-    }
-    snprintf(address, 64, "%.*s", (int)strcspn(start, ":?/"), start);
-}
-
-/* LCM prints a page of advice when there is no way to the group; one line is said here instead. */
-static int check_route(const char *url, char error[ALE_BUS_ERROR])
-{
-    char group[64];
-    group_of(url, group);
-    struct sockaddr_in to = {.sin_family = AF_INET, .sin_port = htons(7667)};
-    if (inet_pton(AF_INET, group, &to.sin_addr) != 1) {
-        snprintf(error, ALE_BUS_ERROR, "LCM: %.60s is not an address", group);
-        return -1;
-    }
-    const int probe = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    const bool reachable = probe >= 0 && connect(probe, (struct sockaddr *)&to, sizeof to) == 0;
-    if (probe >= 0) {
-        close(probe);
-    }
-    if (!reachable) {
-        snprintf(error, ALE_BUS_ERROR,
-                 "LCM: no route for multicast to %.60s; without a network, as root: "
-                 "ip link set lo multicast on && ip route add 224.0.0.0/4 dev lo",
-                 group);
-    }
-    return reachable ? 0 : -1;
-}
-
-static int check_url(const char *url, char error[ALE_BUS_ERROR])
-{
-    static const char *const kinds[] = {"udpm://", "mpudpm://", "tcpq://", "memq://", "file://"};
-    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
-        if (strncmp(url, kinds[k], strlen(kinds[k])) == 0) {
-            return k == 0 ? check_route(url, error) : 0;
-        }
-    }
-    snprintf(error, ALE_BUS_ERROR, "LCM: %.100s is no URL that LCM knows (udpm://..., tcpq://...)", url);
-    return -1;
-}
-
 ale_bus_t *ale_bus_open(const char *url, char error[ALE_BUS_ERROR])
 {
-    const char *chosen = url && *url ? url : getenv("LCM_DEFAULT_URL");
-    if (!chosen || !*chosen) {
-        chosen = "udpm://";
-    }
-    if (check_url(chosen, error) < 0) {
+    const char *chosen = ale_lcm_url(url, error);
+    if (!chosen) {
         return NULL;
     }
     ale_bus_t *bus = calloc(1, sizeof *bus);

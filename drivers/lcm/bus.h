@@ -17,6 +17,7 @@
 #include <stdint.h>
 
 #include "lcm/report.h"
+#include "lcm/url.h"
 
 #define ALE_CHANNEL_POSE "ALE_POSE"
 #define ALE_CHANNEL_FEATURES "ALE_FEATURES"
@@ -29,7 +30,7 @@
 #define ALE_CHANNEL_BOT_LIDAR "LASER" /* bot_core, when asked for */
 #define ALE_CHANNEL_BOT_POSE "POSE"
 
-enum { ALE_BUS_ERROR = 256 };
+enum { ALE_BUS_ERROR = ALE_LCM_URL_ERROR };
 
 typedef struct ale_bus ale_bus_t;
 

@@ -71,6 +71,19 @@ def test_every_option_of_its_help_is_one_of_its_own(name):
         assert not re.search(f"(unknown|unrecognized) option '?{option}", refused.stderr), refused.stderr
 
 
+@pytest.mark.parametrize("words", ["ale-bridge --connect 127.0.0.1:7700", "ale-console --http 127.0.0.1:0", "ale-latency",
+                                   "ale-record --port urg --out file", "ale-screen --once", "ale-send --keys KEY stop",
+                                   f"ale-sim --pty urg --world {ROOT}/tools/worlds/home.world", "ale-slamd", "ale-watch"])
+def test_an_lcm_that_cannot_be_joined_is_told_in_one_line(words, tmp_path):
+    name, *arguments = words.split()
+    run("ale-keys", "alice", "--secret", "KEY", "--robot", "robot.keys", cwd=tmp_path)
+    for url, why in [("udpm://1.2.3.4:7667", "1.2.3.4 is not a multicast address"), ("udpm://239.255.76.67:99999", "99999 is not a port"),
+                     ("pigeon://x", "pigeon://x is no URL that LCM knows")]:
+        failed = run(name, "--lcm-url", url, *arguments, cwd=tmp_path)
+        assert failed.returncode == 1
+        assert failed.stderr.startswith(f"{name}: LCM: {why}") and failed.stderr.count("\n") == 1
+
+
 @pytest.mark.parametrize("name", [name for name, (words, _) in MISSING_FILE.items() if words])
 def test_a_file_that_is_not_there_is_named_in_one_line(name, tmp_path):
     words, code = MISSING_FILE[name]

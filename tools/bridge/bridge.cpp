@@ -10,6 +10,7 @@
 
 #include "bridge/frame.h"
 #include "cli/wrong_use.h"
+#include "console/lcm_feed.h"
 
 namespace bridge
 {
@@ -31,13 +32,9 @@ int64_t now_us()
 } // namespace
 
 Bridge::Bridge(const std::string &lcm_url, UdpLink link, const Selection &send, const Selection &accept)
-    : lcm_(lcm_create(lcm_url.empty() ? nullptr : lcm_url.c_str()), lcm_destroy), link_(std::move(link)),
-      send_(send), accept_(accept), session_(std::random_device{}())
+    : lcm_(console::join_lcm(lcm_url)), link_(std::move(link)), send_(send), accept_(accept),
+      session_(std::random_device{}())
 {
-    if (!lcm_) {
-        throw std::runtime_error("cannot join LCM at " + (lcm_url.empty() ? "its default URL" : lcm_url) +
-                                 " (wrong URL, or no route for multicast)");
-    }
     for (const std::string &channel : send_.names()) {
         if (accept_.contains(channel)) {
             throw cli::WrongUse(channel + " is both sent and accepted: it would go round for ever");

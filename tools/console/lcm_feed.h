@@ -21,20 +21,36 @@
 
 #include <lcm/lcm.h>
 
+extern "C" {
+#include "lcm/url.h"
+}
+
 namespace console
 {
+
+using Lcm = std::unique_ptr<lcm_t, decltype(&lcm_destroy)>;
+
+/* Empty url: the environment's LCM_DEFAULT_URL, else LCM's own default. Throws std::runtime_error. */
+inline Lcm join_lcm(const std::string &url)
+{
+    char error[ALE_LCM_URL_ERROR];
+    const char *chosen = ale_lcm_url(url.c_str(), error);
+    if (!chosen) {
+        throw std::runtime_error(error);
+    }
+    Lcm lcm(lcm_create(chosen), lcm_destroy);
+    if (!lcm) {
+        throw std::runtime_error(std::string("LCM: ") + chosen + " cannot be opened");
+    }
+    return lcm;
+}
 
 class LcmFeed
 {
   public:
-    /* Empty url: the environment's LCM_DEFAULT_URL, else LCM's own default. */
-    explicit LcmFeed(const std::string &url)
-        : lcm_(lcm_create(url.empty() ? nullptr : url.c_str()), lcm_destroy)
+    /* url: as join_lcm. */
+    explicit LcmFeed(const std::string &url) : lcm_(join_lcm(url))
     {
-        if (!lcm_) {
-            throw std::runtime_error("cannot join LCM at " + (url.empty() ? "its default URL" : url) +
-                                     " (wrong URL, or no route for multicast)");
-        }
     }
 
     template <class Message> void on(const std::string &channel, std::function<void(const Message &)> handler)
@@ -100,7 +116,7 @@ class LcmFeed
     std::vector<std::function<void(const lcm_recv_buf_t &)>> receivers_;
     std::vector<std::unique_ptr<Subscription>> subscriptions_;
     uint64_t malformed_ = 0;
-    std::unique_ptr<lcm_t, decltype(&lcm_destroy)> lcm_;
+    Lcm lcm_;
 };
 
 } // namespace console

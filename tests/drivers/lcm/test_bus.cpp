@@ -71,6 +71,13 @@ TEST(BusOpening, ErrorsAreOneLineThatSaysWhatIsWrong)
     EXPECT_EQ(ale_bus_open("udpm://not-an-address:7667", error), nullptr);
     EXPECT_NE(std::string(error).find("not-an-address"), std::string::npos);
     EXPECT_EQ(std::string(error).find('\n'), std::string::npos);
+    EXPECT_EQ(ale_bus_open("udpm://1.2.3.4:7667", error), nullptr);
+    EXPECT_STREQ(error, "LCM: 1.2.3.4 is not a multicast address (224.0.0.0 to 239.255.255.255)");
+    for (const char *port : {"99999", "0", "x", "-1"}) {
+        EXPECT_EQ(ale_bus_open((std::string("udpm://239.255.76.67:") + port + "?ttl=0").c_str(), error),
+                  nullptr);
+        EXPECT_EQ(std::string(error), std::string("LCM: ") + port + " is not a port");
+    }
 }
 
 TEST(BusOpening, AnEmptyUrlMeansTheEnvironment)
