@@ -87,22 +87,27 @@ Calibration calibrate(const Recording &recording)
     return c;
 }
 
+std::string shared_in_words(const Calibration &c)
+{
+    const TemporalFit &changing = c.temporal;
+    const LastingFit &steady = c.lasting;
+    return "neighbours share, at 2 m: " +
+           shared_at_reference(changing.shared, changing.shared_relative, changing.length) +
+           " that change from scan to scan, and " +
+           shared_at_reference(steady.shared, steady.shared_relative, steady.length) + " that last";
+}
+
 std::string ini_fragment(const Calibration &c, const std::string &source)
 {
     const auto entry = [](const char *key, int32_t value) {
         return std::string(key) + " = " + std::to_string(value) + "\n";
     };
-    const TemporalFit &changing = c.temporal;
-    const LastingFit &steady = c.lasting;
     std::string text = "; fitted by ale-calibrate to " + source + ", " + std::to_string(c.scans) + " scans\n";
-    text += "; neighbours share, at 2 m: " +
-            shared_at_reference(changing.shared, changing.shared_relative, changing.length) +
-            " that change from scan to scan, and " +
-            shared_at_reference(steady.shared, steady.shared_relative, steady.length) + " that last\n";
+    text += "; " + shared_in_words(c) + "\n";
     text += "; mixed pixels in " + one_digit(100 * c.mixed.share) + " % of the scans of " +
             std::to_string(c.mixed.edges) + " depth edges\n";
     text += c.surface_known
-                ? "; surface_um: from the biases of " + std::to_string(steady.walls.size()) + " walls\n"
+                ? "; surface_um: from the biases of " + std::to_string(c.lasting.walls.size()) + " walls\n"
                 : "; surface_um: too few walls seen under a wide angle, the default is kept\n";
     text += "[noise]\n";
     text += entry("own_um", c.noise.own_um) + entry("own_ppm", c.noise.own_ppm);

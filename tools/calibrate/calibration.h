@@ -30,6 +30,10 @@ struct Calibration {
 /* Throws std::runtime_error where the recording says too little. */
 Calibration calibrate(const Recording &recording);
 
+/* What neighbouring beams err alike, the part that changes from scan to scan apart from the one that lasts.
+ */
+std::string shared_in_words(const Calibration &calibration);
+
 /* An INI fragment, section [noise] of the firmware's configuration, with what it rests on as comments. */
 std::string ini_fragment(const Calibration &calibration, const std::string &source);
 

@@ -16,7 +16,7 @@ constexpr char fitted_colour[] = "#c0392b";
 constexpr double panel_width = 330;
 constexpr double panel_height = 260;
 constexpr double margin = 60;
-constexpr double top = 70;
+constexpr double top = 88;
 
 ale::SvgPoint panel_corner(int column)
 {
@@ -66,7 +66,7 @@ void plot_range(ale::SvgDrawing &drawing, const Calibration &c)
     panel.legend("fit: own", "#27ae60");
 }
 
-/* Correlation of the shared part between beams so many apart. */
+/* Correlation, between beams so many apart, of the shared part that changes from scan to scan. */
 void plot_correlation(ale::SvgDrawing &drawing, const Calibration &c)
 {
     const TemporalFit &fit = c.temporal;
@@ -80,7 +80,7 @@ void plot_correlation(ale::SvgDrawing &drawing, const Calibration &c)
         shared += fit.shared_between(a.mean, b.mean);
     }
     ale::SvgPanel panel(drawing, panel_corner(1), panel_width, panel_height, {0, longest_lag, "beams apart"},
-                        {-0.2, 1.3, "correlation of the shared error"});
+                        {-0.2, 1.3, "correlation over the scans, less own errors"});
     std::vector<ale::SvgPoint> curve;
     for (const auto &[lag, sums] : by_lag) {
         if (sums.second > 0) {
@@ -141,6 +141,7 @@ void plot(const Calibration &c, const std::string &source, const std::string &pa
                   n.bearing_nrad * 1e-9 * 57.29578, n.surface_um * 1e-3, c.surface_known ? "" : " (default)");
     drawing.text({margin, 22}, source, 14);
     drawing.text({margin, 42}, words, 13);
+    drawing.text({margin, 60}, shared_in_words(c), 13);
     plot_range(drawing, c);
     plot_correlation(drawing, c);
     plot_slope(drawing, c);

@@ -51,6 +51,8 @@ def draw_scan(axes, lines, pose):
 def plan(axes, title):
     axes.set_aspect("equal")
     axes.set_title(title, fontsize=9)
+    axes.set_xlabel("x, m")
+    axes.set_ylabel("y, m")
 
 
 def corner_of(program, log, reference, last):

@@ -192,6 +192,11 @@ void draw_corners(SvgDrawing &drawing, const View &view, const ale_features_t &f
     }
 }
 
+std::string counted(int count, const std::string &noun)
+{
+    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 /* Words in a column at the side; returns the next free height. */
 double write_summary(SvgDrawing &drawing, const inspect_trace_t &trace, double left)
 {
@@ -201,10 +206,10 @@ double write_summary(SvgDrawing &drawing, const inspect_trace_t &trace, double l
         drawing.text({left, y}, words, 13, "start", colour);
         y += 18;
     };
-    put(std::to_string(f.line_count) + " lines (dot: edge, ring: something hides the rest)", line_colour);
-    put(std::to_string(f.corner_count) + " corners (filled: convex, ring: concave)", corner_colour);
-    put(std::to_string(f.curve_count) + " curves", curve_colour);
-    put(std::to_string(f.outliers) + " stray points set aside; rings without a dot", "#888");
+    put(counted(f.line_count, "line") + " (dot: edge, ring: something hides the rest)", line_colour);
+    put(counted(f.corner_count, "corner") + " (filled: convex, ring: concave)", corner_colour);
+    put(counted(f.curve_count, "curve"), curve_colour);
+    put(counted(f.outliers, "stray point") + " set aside; rings without a dot", "#888");
     put(trace.smoothed ? "points used, smoothed, one colour a segment" : "points used, one colour a segment",
         segment_colours[0]);
     put("candidates refused:", refused_colour);

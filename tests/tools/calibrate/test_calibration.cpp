@@ -223,7 +223,7 @@ TEST(Calibration, the_plot_is_a_picture_with_three_panels)
     const std::string path = folder / "fit.svg";
     calibrate::plot(calibrate::calibrate(recording_of(simulation(usual), 60)), "rest.log", path);
     const std::string text = files::content(path);
-    for (const char *title : {"range, m", "beams apart", "slope |dr/dphi|, m/rad", "</svg>"}) {
+    for (const char *title : {"range, m", "beams apart", "slope |dr/dphi|, m/rad", "that last", "</svg>"}) {
         EXPECT_NE(text.find(title), std::string::npos) << title;
     }
 }
