@@ -115,7 +115,8 @@ static ale_seen_t seen(const ale_pipeline_t *p, const ale_motion_t *before)
 }
 
 /* Hears the last scan when the map knows little of this one; a scan that fits is the next to be heard, one
- * that does not leaves the prediction as it is. */
+ * that does not leaves the prediction as it is. One that showed nothing (the scanner is covered) could say
+ * nothing of the next: the last that did is kept. */
 static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted, bool counted)
 {
     const ale_seen_t now = seen(p, before);
@@ -131,7 +132,7 @@ static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_moti
         const ale_scene_t scene = ale_pipeline_scene(p);
         ale_refine_reject(predicted, &scene, &p->fit);
         p->motion = *predicted;
-    } else {
+    } else if (p->view_count > 0) {
         ale_witness_keep(&p->witness, &now);
     }
 }

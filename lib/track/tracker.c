@@ -23,7 +23,9 @@ enum {
     LOST_SIGMA_UM = 1000000,
     MAP_SIGMA_UM = 40000, /* pose sigmas up to which walls may be added */
     MAP_SIGMA_URAD = 25000,
-    ANCHOR_SHOWN_UM = 1500000 /* surfaces that the next scan will find again */
+    ANCHOR_SIGMA_URAD = 150000, /* and that of the heading up to which walls not found were not there: */
+                                /* of two sigmas off they would still be matched */
+    ANCHOR_SHOWN_UM = 1500000   /* surfaces that the next scan will find again */
 };
 
 static int64_t square(int64_t v)
@@ -82,18 +84,38 @@ void ale_tracker_notice(ale_tracker_t *tracker, const ale_testimony_t *heard, bo
     const int64_t told_um = heard ? heard->denied_um + heard->confirmed_um : 0;
     const bool denied =
         heard && heard->denied_um > DENIED_LEAST_UM && heard->denied_um * 100 > told_um * DENIED_PERCENT;
+    tracker->counted = counted;
     tracker->jumped = heard && heard->shown_um > SHOWN_LEAST_UM &&
                       (denied || !is_confirmed(tracker, heard) || is_adrift(tracker, counted));
 }
 
+static bool is_undisturbed(const ale_tracker_t *tracker)
+{
+    return tracker->state != ALE_STATE_LOST && tracker->misfits == 0 && !tracker->jumped;
+}
+
+static bool is_well_known(const ale_motion_t *m)
+{
+    return position_var(m) < square(MAP_SIGMA_UM) && m->cov.m[2][2] < square(MAP_SIGMA_URAD);
+}
+
+/* A scan shows enough, but without wheels the heading is so uncertain that not finding it in the map says
+ * nothing: the robot may be in the midst of what the map holds. */
+static bool is_out_of_reach(const ale_tracker_t *tracker, const ale_fit_t *fit)
+{
+    return is_undisturbed(tracker) && !tracker->counted && fit->shown_um > ANCHOR_SHOWN_UM &&
+           fit->motion.cov.m[2][2] >= square(ANCHOR_SIGMA_URAD);
+}
+
 ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit, const ale_sights_t *sights)
 {
+    const bool out_of_reach = is_out_of_reach(tracker, fit);
     if (tracker->jumped || contradicts(fit, sights)) {
         tracker->misfits++;
     } else if (tracker->misfits > 0) {
         tracker->misfits--;
     }
-    if (tracker->misfits >= MISFITS_UNTIL_LOST) {
+    if (out_of_reach || tracker->misfits >= MISFITS_UNTIL_LOST) {
         tracker->state = ALE_STATE_LOST;
     } else if (position_var(&fit->motion) < square(WEAK_SIGMA_UM) &&
                ale_information_determines(&fit->information, DETERMINED_UM)) {
@@ -130,16 +152,6 @@ ale_state_t ale_tracker_skip(ale_tracker_t *tracker, const ale_motion_t *predict
     return tracker->state;
 }
 
-static bool is_undisturbed(const ale_tracker_t *tracker)
-{
-    return tracker->state != ALE_STATE_LOST && tracker->misfits == 0 && !tracker->jumped;
-}
-
-static bool is_well_known(const ale_motion_t *m)
-{
-    return position_var(m) < square(MAP_SIGMA_UM) && m->cov.m[2][2] < square(MAP_SIGMA_URAD);
-}
-
 bool ale_tracker_may_map(const ale_tracker_t *tracker, const ale_fit_t *fit)
 {
     return is_undisturbed(tracker) && is_well_known(&fit->motion);
@@ -147,5 +159,6 @@ bool ale_tracker_may_map(const ale_tracker_t *tracker, const ale_fit_t *fit)
 
 bool ale_tracker_may_anchor(const ale_tracker_t *tracker, const ale_fit_t *fit)
 {
-    return is_undisturbed(tracker) && !is_well_known(&fit->motion) && fit->shown_um > ANCHOR_SHOWN_UM;
+    return is_undisturbed(tracker) && !is_well_known(&fit->motion) && !is_out_of_reach(tracker, fit) &&
+           fit->shown_um > ANCHOR_SHOWN_UM;
 }

@@ -21,7 +21,7 @@ typedef struct {
     ale_state_t state;
     uint16_t misfits; /* scans in a row that showed walls, but not those of the map */
     bool jumped;      /* in this scan */
-    uint16_t blind;   /* scans in a row that showed nothing */
+    bool counted;     /* wheels told the way to this scan */
 } ale_tracker_t;
 
 void ale_tracker_init(ale_tracker_t *tracker);
@@ -53,7 +53,8 @@ void ale_tracker_found(ale_tracker_t *tracker);
 ale_state_t ale_tracker_skip(ale_tracker_t *tracker, const ale_motion_t *predicted);
 
 /* Whether the map should go on from this scan: it shows enough to be followed from, nothing speaks against
- * the pose, but the map does not hold it well enough to be added to. */
+ * the pose, but the map does not hold it well enough to be added to. Not so without wheels when the heading
+ * is so uncertain that nothing would have been found in the map: that is judged lost. */
 bool ale_tracker_may_anchor(const ale_tracker_t *tracker, const ale_fit_t *fit);
 
 /* Whether the pose is known well enough to add to the map. */

@@ -196,3 +196,23 @@ TEST(Tracker, APoseThatTheMapDoesNotHoldIsWhereTheMapGoesOnUnlessTheLastScanDeni
     EXPECT_TRUE(t.jumped);
     EXPECT_FALSE(ale_tracker_may_anchor(&t, &fit));
 }
+
+TEST(Tracker, WhatIsNotWhereAPoseOfLittleCertaintyPutsItIsNoNewPlaceButLostUnlessWheelsTold)
+{
+    ale_fit_t fit = {};
+    ale_motion_init(&fit.motion, 0, {0, 0, 0}, 1, 1);
+    fit.motion.cov.m[2][2] = int64_t{200000} * 200000;
+    const ale_sights_t none = {0, 0};
+    for (const bool counted : {false, true}) {
+        for (const int64_t shown_um : {1000000, 5000000}) {
+            ale_tracker_t t;
+            ale_tracker_init(&t);
+            fit.shown_um = shown_um;
+            ale_tracker_notice(&t, nullptr, counted);
+            const bool enough = shown_um > 2000000;
+            EXPECT_EQ(ale_tracker_may_anchor(&t, &fit), enough && counted);
+            EXPECT_EQ(ale_tracker_judge(&t, &fit, &none),
+                      enough && !counted ? ALE_STATE_LOST : ALE_STATE_WEAK);
+        }
+    }
+}
