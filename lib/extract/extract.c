@@ -262,7 +262,7 @@ static void improve_runs(ale_extractor_t *e)
 {
     if (is_clutter(e)) {
         ale_scan_noise_refine_own(e);
-        ale_runs_drop_short(e, e->config.min_points * CLUTTER_LONGER / 3);
+        ale_runs_drop_short(e, e->config.min_points * CLUTTER_LONGER / 3, ALE_MANY_RUNS);
         ale_merge_runs(e);
         return;
     }

@@ -237,8 +237,26 @@ void ale_runs_forget_fits(ale_extractor_t *e)
     }
 }
 
-void ale_runs_drop_short(ale_extractor_t *e, int32_t fewest)
+static int32_t runs_with(const ale_extractor_t *e, int32_t points)
 {
+    int32_t count = 0;
+    for (int32_t k = 0; k < e->run_count; k++) {
+        count += e->run[k].last + 1 - e->run[k].first >= points;
+    }
+    return count;
+}
+
+void ale_runs_drop_short(ale_extractor_t *e, int32_t fewest, int32_t enough)
+{
+    int32_t too_many = e->count / enough + 1; /* points for enough runs to have them */
+    while (too_many - fewest > 1) {
+        const int32_t middle = (fewest + too_many) / 2;
+        if (runs_with(e, middle) >= enough) {
+            fewest = middle;
+        } else {
+            too_many = middle;
+        }
+    }
     int32_t kept = 0;
     for (int32_t k = 0; k < e->run_count; k++) {
         if (e->run[k].last + 1 - e->run[k].first >= fewest) {

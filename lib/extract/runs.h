@@ -7,8 +7,9 @@
 /* Cuts every segment into runs by the binary search of ALE. O(lines log points) fits. */
 void ale_runs_search(ale_extractor_t *e);
 
-/* Drops the runs of fewer points, counted as refused. O(runs). */
-void ale_runs_drop_short(ale_extractor_t *e, int32_t fewest);
+/* Drops the runs of fewer points, and where `enough` longer ones are there all that are shorter than those,
+ * too; counted as refused. O(runs log points). */
+void ale_runs_drop_short(ale_extractor_t *e, int32_t fewest, int32_t enough);
 
 /* The points have moved: their runs are to be fitted anew. */
 void ale_runs_forget_fits(ale_extractor_t *e);

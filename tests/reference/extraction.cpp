@@ -91,10 +91,17 @@ std::vector<Run> searched_runs(Prepared &p, const ExtractionSettings &settings, 
     return shared.scale > 1 && !p.noise.costly ? search(p, decisions) : runs;
 }
 
-// Of clutter, to bound the work: its longer runs, joined where they are one line.
+// Of clutter, to bound the work: its longer runs, of more than a room has the longest, joined where they are
+// one line.
 std::vector<Run> improved_clutter(const Prepared &p, const std::vector<Run> &runs, int least,
                                   Decisions &decisions)
 {
+    std::vector<int> points;
+    for (const Run &run : runs) {
+        points.push_back(run.points());
+    }
+    std::sort(points.rbegin(), points.rend());
+    least = std::max(least, points.size() < many_runs ? 0 : points[many_runs - 1]);
     std::vector<Run> longer;
     for (const Run &run : runs) {
         if (run.points() >= least) {

@@ -110,7 +110,7 @@ void extraction(Parts &parts, ale_extractor_t *e, const ale_scan_t &scan, const 
     ale_runs_forget_fits(e);
     parts.measure("own noise again", 1, [&] { ale_scan_noise_refine_own(e); });
     if (e->run_count > (ale_costly(e) ? ALE_MANY_RUNS / 3 : ALE_MANY_RUNS)) {
-        ale_runs_drop_short(e, ALE_COSTLY_RUN);
+        ale_runs_drop_short(e, ALE_COSTLY_RUN, ALE_MANY_RUNS);
         parts.measure("runs joined", 1, [&] { ale_merge_runs(e); });
     } else {
         parts.measure("runs joined", 1, [&] { ale_merge_runs(e); });

@@ -1,5 +1,6 @@
 // lib/extract/runs.c, breakpoint.c, merge.c and curve.c against their twins in double, each stage on equal
 // input.
+#include <algorithm>
 #include <functional>
 #include <random>
 
@@ -220,6 +221,35 @@ TEST(Curve, CurvesAreThoseOfTheTwin)
 }
 
 // Edge cases: nothing, one point, the fewest points of a run, all ranges equal.
+TEST(Runs, OfEnoughLongOnesTheShorterAreDropped)
+{
+    constexpr int fewest = 12;
+    constexpr int enough = 24;
+    scene::extractor extractor;
+    ale_extractor_t *e = extractor.get();
+    std::mt19937 engine(3);
+    for (const int most : {8, 12, 20, 30, 90}) {
+        std::vector<int> points;
+        e->run_count = 0;
+        for (int at = 0; at + most <= ALE_MAX_BEAMS && e->run_count < ALE_MAX_RUNS; at += points.back()) {
+            points.push_back(std::uniform_int_distribution<int>(ALE_MIN_RUN, most)(engine));
+            e->run[e->run_count++] = {.first = static_cast<uint16_t>(at),
+                                      .last = static_cast<uint16_t>(at + points.back() - 1)};
+        }
+        e->count = ALE_MAX_BEAMS;
+        std::vector<int> sorted = points;
+        std::sort(sorted.rbegin(), sorted.rend());
+        const int least =
+            std::max(fewest, sorted.size() < enough ? 0 : sorted[static_cast<size_t>(enough - 1)]);
+        ale_runs_drop_short(e, fewest, enough);
+        const auto kept = std::count_if(points.begin(), points.end(), [&](int n) { return n >= least; });
+        EXPECT_EQ(e->run_count, kept) << most;
+        for (int k = 0; k < e->run_count; k++) {
+            EXPECT_GE(e->run[k].last + 1 - e->run[k].first, least) << most;
+        }
+    }
+}
+
 TEST(Runs, OfVeryFewPointsAreThoseOfTheTwin)
 {
     scene::extractor extractor;
