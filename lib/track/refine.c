@@ -20,6 +20,7 @@ enum {
     FOCUS_MARGIN_UM = 2000000
 };
 
+static const ale_information_t no_information = {{{{0}}}, {0}};
 static const ale_gate_t later = {LATER_OFFSET_UM, LATER_ANGLE_URAD, LATER_SIGMAS, LATER_PIECE_UM};
 
 static int64_t ticks_q20(int64_t time_us)
@@ -145,15 +146,13 @@ static ale_match_t find(const ale_scene_t *scene, const ale_view_t *view, const 
 
 static void clear(ale_fit_t *fit)
 {
-    fit->information = (ale_information_t){{{{0}}}, {0}};
     fit->matched = 0;
     fit->matched_pieces = 0;
     fit->matched_um = 0;
     fit->shown_um = 0;
 }
 
-/* What every view shows from where fit->motion is. gate NULL: the matches are kept and only their errors
- * renewed. */
+/* What every view shows from where fit->motion is. */
 static void find_all(const ale_scene_t *scene, const ale_matrix_t *cov, const ale_gate_t *gate,
                      ale_fit_t *fit)
 {
@@ -165,13 +164,8 @@ static void find_all(const ale_scene_t *scene, const ale_matrix_t *cov, const al
         ale_match_t *match = &fit->match[i];
         const int64_t length_um = (int64_t)view->end_um - view->start_um;
         looks -= ALE_LOOKS_OF_A_VIEW;
-        if (gate && looks < 0) {
-            *match = (ale_match_t){.wall = ALE_NO_WALL, .mark = ALE_NO_MARK};
-        } else if (gate) {
-            *match = find(scene, view, &stand, cov, gate, &looks);
-        } else {
-            ale_match_renew(scene->map, view, &stand, match);
-        }
+        *match = looks < 0 ? (ale_match_t){.wall = ALE_NO_WALL, .mark = ALE_NO_MARK}
+                           : find(scene, view, &stand, cov, gate, &looks);
         fit->shown_um += length_um;
         if (match->wall != ALE_NO_WALL || match->mark != ALE_NO_MARK) {
             fit->matched_um += length_um;
@@ -181,8 +175,10 @@ static void find_all(const ale_scene_t *scene, const ale_matrix_t *cov, const al
     }
 }
 
-void ale_refine_weigh(const ale_scene_t *scene, ale_fit_t *fit)
+/* The rows of all that was found. */
+static void add_all(const ale_scene_t *scene, ale_fit_t *fit)
 {
+    fit->information = no_information;
     for (uint32_t i = 0; i < scene->view_count; i++) {
         ale_match_t *match = &fit->match[i];
         if (match->wall != ALE_NO_WALL) {
@@ -194,11 +190,16 @@ void ale_refine_weigh(const ale_scene_t *scene, ale_fit_t *fit)
     }
 }
 
+/* The covariance after a step: the gates of the next pass ask for it, and whoever keeps the fit. */
+static void find_covariance(ale_fit_t *fit)
+{
+    ale_matrix_invert(&fit->factors, ALE_MATRIX_BITS, &fit->motion.cov);
+}
+
 /* One Gauss-Newton step on scan and prediction together; returns its size. */
 static int64_t step(const ale_matrix_t *prior, int64_t total[ALE_STATES], ale_fit_t *fit)
 {
     ale_matrix_t sum;
-    ale_factors_t factors;
     int64_t gradient[ALE_STATES];
     int64_t delta[ALE_STATES];
     for (int i = 0; i < ALE_STATES; i++) {
@@ -208,15 +209,14 @@ static int64_t step(const ale_matrix_t *prior, int64_t total[ALE_STATES], ale_fi
             sum.m[i][j] = prior->m[i][j] + fit->information.matrix.m[i > j ? i : j][i > j ? j : i];
         }
     }
-    ale_matrix_factor(&sum, &factors);
-    ale_matrix_solve(&factors, gradient, ALE_MATRIX_BITS - ALE_GRADIENT_BITS, delta);
+    ale_matrix_factor(&sum, &fit->factors);
+    ale_matrix_solve(&fit->factors, gradient, ALE_MATRIX_BITS - ALE_GRADIENT_BITS, delta);
     ale_motion_correct(&fit->motion, delta);
     int64_t size = 0;
     for (int i = 0; i < ALE_STATES; i++) {
         total[i] += delta[i];
         size = ale_max64(size, ale_abs64(delta[i]));
     }
-    ale_matrix_invert(&factors, ALE_MATRIX_BITS, &fit->motion.cov);
     return size;
 }
 
@@ -238,6 +238,8 @@ void ale_refine_reject(const ale_motion_t *predicted, const ale_scene_t *scene, 
 {
     start(predicted, scene, fit);
     clear(fit);
+    fit->information = no_information;
+    fit->iterations = 0;
     for (uint32_t i = 0; i < scene->view_count; i++) {
         fit->match[i] = (ale_match_t){.wall = ALE_NO_WALL, .mark = ALE_NO_MARK};
         fit->shown_um += (int64_t)scene->view[i].end_um - scene->view[i].start_um;
@@ -275,17 +277,41 @@ static void fit_from(const ale_motion_t *predicted, const ale_scene_t *scene,
                         reach_um(scene));
     for (out->iterations = 0; out->iterations < ALE_REFINE_ITERATIONS && size > CONVERGED_UM;
          out->iterations++) {
+        if (out->iterations > 0) {
+            find_covariance(out);
+        }
         find_all(scene, out->iterations == 0 ? &predicted->cov : &out->motion.cov, gates[out->iterations],
                  out);
-        ale_refine_weigh(scene, out);
+        add_all(scene, out);
         size = step(&out->prior, total, out);
         note_velocity_change(predicted, scene, out);
     }
 }
 
+/* After all iterations what the last of them found stays. */
+static bool is_looked_at(const ale_fit_t *fit)
+{
+    return fit->iterations == ALE_REFINE_ITERATIONS;
+}
+
 void ale_refine_look(const ale_scene_t *scene, ale_fit_t *fit)
 {
-    find_all(scene, &fit->motion.cov, fit->iterations > 2 ? NULL : &later, fit);
+    if (!is_looked_at(fit)) {
+        find_covariance(fit);
+        find_all(scene, &fit->motion.cov, &later, fit);
+    }
+}
+
+void ale_refine_weigh(const ale_scene_t *scene, ale_fit_t *fit)
+{
+    if (is_looked_at(fit)) {
+        const ale_stand_t stand = ale_stand(fit->motion.pose);
+        find_covariance(fit);
+        for (uint32_t i = 0; i < scene->view_count; i++) {
+            ale_match_renew(scene->map, &scene->view[i], &stand, &fit->match[i]);
+        }
+    }
+    add_all(scene, fit);
 }
 
 void ale_refine_pose(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,

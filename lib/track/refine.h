@@ -30,10 +30,11 @@ typedef struct {
 } ale_scene_t;
 
 typedef struct {
-    ale_motion_t motion;           /* corrected */
+    ale_motion_t motion;           /* corrected; its covariance once it is weighed */
     int64_t velocity_change[3];    /* against the velocity the scan was straightened with */
     ale_matrix_t prior;            /* the prediction's information, Q54 */
     ale_information_t information; /* of the scan alone */
+    ale_factors_t factors;         /* of both together, at the last step */
     ale_match_t match[ALE_MAX_VIEWS];
     uint16_t matched;        /* lines that found a wall */
     uint16_t matched_pieces; /* pieces and spots that found a wall or a mark */
@@ -56,7 +57,7 @@ void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const a
 
 /* Its three parts: out->motion, for one of many poses that are tried, of which no more is asked; what the
  * views show from there, while the map is focused on what that fit looked at; and what that says of the pose:
- * the errors with the velocity that was found, and the information. */
+ * the errors with the velocity that was found, the information and the covariance. */
 void ale_refine_pose(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
                      ale_fit_t *out);
 void ale_refine_look(const ale_scene_t *scene, ale_fit_t *fit);
