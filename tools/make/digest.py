@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """The same bytes everywhere: what ale-replay writes, compared between builds, and with the digests in the tree.
 
-    digest.py [--build build] check [--quick] [COMPILER:LEVEL | ARCHITECTURE]...
+    digest.py [--build build] check [--quick] [COMPILER:LEVEL | ARCHITECTURE | PROGRAM]...
     digest.py [--build build] update
 
 check builds ale-replay again with each compiler and level (gcc:-O0, clang:-O3) or for each other architecture
-(aarch64, armhf, s390x: run under qemu-user; their libraries as `make cross-libraries` laid them out), holds what it
-writes against the ordinary build byte for byte, and then the ordinary build against tests/digest/digests.txt: one
-digest a log, of features and live trajectory; --quick does so with two logs of a URG-04LX. update writes those digests anew.
+(aarch64, armhf, s390x: run under qemu-user; their libraries as `make cross-libraries` laid them out), or takes one that
+is built (a path), holds what it writes against the ordinary build byte for byte, and then the ordinary build against
+tests/digest/digests.txt: one digest a log, of features and live trajectory; --quick does so with two logs of a URG-04LX.
+update writes those digests anew.
 
 Logs: the recordings in tests/digest, and those of $ALE_SHARED/data where they are at hand.
 """
@@ -62,7 +63,9 @@ def replay_all(jobs):
 
 
 def built(build, spec):
-    """Builds ale-replay as the spec says; the command that runs it."""
+    """Builds ale-replay as the spec says, unless it is a path; the command that runs it."""
+    if "/" in spec:
+        return [pathlib.Path(spec)]
     compiler, _, level = spec.partition(":")
     if compiler in ARCHITECTURES:
         subprocess.run(["make", "-s", "--no-print-directory", "-j2", f"BUILD={build}", f"cross-{compiler}"], check=True)

@@ -12,7 +12,7 @@
 Q = $(if $(filter 0,$(V)),@)
 say = $(if $(filter 0,$(V)),@echo "  $(1)	$(2)")
 
-SANITIZER_FLAGS = $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-omit-frame-pointer -fno-sanitize-recover=all)
+SANITIZER_FLAGS = $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-omit-frame-pointer -fno-sanitize-recover=all $(SANITIZER_SCOPE))
 # `make test` is content with what stack traces need (-g1): it compiles in three quarters of the time.
 DEBUG ?= -g
 COMMON_FLAGS = $(DEBUG) $(OPT) $(WARNINGS) $(SANITIZER_FLAGS) -MMD -MP
