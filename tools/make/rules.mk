@@ -101,23 +101,27 @@ endef
 $(OBJ)/%.cpp.o: %.cpp $(LCM_STAMP)
 	$(compile_cpp)
 
-# Who includes Eigen has it compiled before, once a floor: it is half of what the mapper and the benchmark cost. Not with
-# a compiler cache, which knows each file by itself; so it shows, too, who includes too little.
-EIGEN_PRELUDE = Eigen/Cholesky Eigen/Core Eigen/LU algorithm array cmath functional memory optional vector
-EIGEN_FLOORS = lib/graph tools/bench tools/calibrate tools/mounting
+# What the mapper and the tools include most is compiled before, once for each: Eigen is half of what the mapper costs, the
+# standard library of what a small file does. Not with a compiler cache, which knows each file by itself; so it shows, too, who
+# includes too little.
+COMMON_HEADERS = Eigen/Cholesky Eigen/Core Eigen/LU algorithm array cmath cstring fstream functional iostream map memory optional random \
+    sstream stdexcept string vector
+define precompile
+	@mkdir -p $(@D)
+	$(Q)printf '#include <%s>\n' $(COMMON_HEADERS) > $(basename $@)
+	$(Q)$(1) -x c++-header $(basename $@) -o $@
+endef
 # Compilers refuse what another compiler or other flags have made: each has its own.
 PRELUDE_KEY := $(if $(CCACHE),,$(shell { $(CXX) --version; echo '$(CXX_FLAGS)'; } | cksum | cut -d ' ' -f 1))
-EIGEN_PRELUDE_NAME = prelude-$(PRELUDE_KEY).hpp
-define eigen_prelude
-$(OBJ)/$(1)/$(EIGEN_PRELUDE_NAME).gch:
-	@mkdir -p $$(@D)
-	$$(Q)printf '#include <%s>\n' $(EIGEN_PRELUDE) > $$(basename $$@)
-	$$(Q)$$(CXX) $$(filter-out -MMD -MP,$$(CXX_FLAGS)) $$(INCLUDES) -x c++-header $$(basename $$@) -o $$@
-$(OBJ)/$(1)/%.cpp.o: PRELUDE_USED = -include $(OBJ)/$(1)/$(EIGEN_PRELUDE_NAME)
-$(OBJ)/$(1)/%.cpp.o: $(1)/%.cpp $(LCM_STAMP) $(OBJ)/$(1)/$(EIGEN_PRELUDE_NAME).gch
+COMMON_PRELUDE = prelude-$(PRELUDE_KEY).hpp
+define with_prelude
+$(OBJ)/$(1)/$(COMMON_PRELUDE).gch:
+	$$(call precompile,$$(CXX) $$(filter-out -MMD -MP,$$(CXX_FLAGS)) $$(INCLUDES))
+$(OBJ)/$(1)/%.cpp.o: PRELUDE_USED = -include $(OBJ)/$(1)/$(COMMON_PRELUDE)
+$(OBJ)/$(1)/%.cpp.o: $(1)/%.cpp $(LCM_STAMP) $(OBJ)/$(1)/$(COMMON_PRELUDE).gch
 	$$(compile_cpp)
 endef
-$(if $(CCACHE),,$(foreach floor,$(EIGEN_FLOORS),$(eval $(call eigen_prelude,$(floor)))))
+$(if $(CCACHE),,$(foreach floor,lib/graph tools,$(eval $(call with_prelude,$(floor)))))
 
 define archive
 	$(call say,ar,$@)

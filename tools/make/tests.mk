@@ -30,6 +30,7 @@ TEST_FLAGS = -std=c++17 -fno-strict-aliasing -g1 $(WARNINGS) -MMD -MP $(CXXFLAGS
 # The twins of the core do the most work of all tests.
 TWIN_FLAGS = $(TEST_FLAGS) -O1
 TWIN_CXX = $(CCACHE)g++
+TWIN_PRELUDE = $(if $(CCACHE),,$(TEST_OBJ)/twins.hpp)
 PRELUDE = $(TEST_OBJ)/prelude.hpp
 PRELUDE_FLAGS = $(filter-out -Werror,$(TEST_FLAGS)) -Wno-sign-conversion -O0 -fpch-instantiate-templates -Xclang -fno-pch-timestamp
 # ccache must be told that a precompiled header is known by its contents; the header itself names the folder it was made in.
@@ -45,14 +46,16 @@ $(TEST_OBJ)/%.cpp.o: %.cpp $(LCM_FILES) $(PRELUDE).pch | $(LCM_STAMP)
 	$(call say,c++,$<)
 	@mkdir -p $(@D)
 	$(Q)$(TEST_CXX) -include-pch $(PRELUDE).pch $(PRELUDE_FLAGS) -c $< -o $@
+$(TEST_OBJ)/twins.hpp.gch:
+	$(call precompile,$(TWIN_CXX) $(filter-out -MMD -MP,$(TWIN_FLAGS)))
 define twin
 	$(call say,c++,$<)
 	@mkdir -p $(@D)
-	$(Q)$(TWIN_CXX) $(TWIN_FLAGS) -c $< -o $@
+	$(Q)$(TWIN_CXX) $(addprefix -include ,$(TWIN_PRELUDE)) $(TWIN_FLAGS) -c $< -o $@
 endef
-$(TEST_OBJ)/tests/reference/%.cpp.o: tests/reference/%.cpp | $(LCM_STAMP)
+$(TEST_OBJ)/tests/reference/%.cpp.o: tests/reference/%.cpp $(addsuffix .gch,$(TWIN_PRELUDE)) | $(LCM_STAMP)
 	$(twin)
-$(TEST_OBJ)/tools/%.cpp.o: tools/%.cpp | $(LCM_STAMP)
+$(TEST_OBJ)/tools/%.cpp.o: tools/%.cpp $(addsuffix .gch,$(TWIN_PRELUDE)) | $(LCM_STAMP)
 	$(twin)
 -include $(shell find $(TEST_OBJ) -name '*.d' 2>/dev/null)
 
