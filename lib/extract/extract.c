@@ -97,9 +97,12 @@ static bool is_line(ale_extractor_t *e, const ale_line_t *line)
 {
     const int64_t dx = (int64_t)line->start.x_um - line->end.x_um;
     const int64_t dy = (int64_t)line->start.y_um - line->end.y_um;
-    if (dx * dx + dy * dy < (int64_t)e->config.min_length_um * e->config.min_length_um ||
-        line->var_alpha_nrad2 > MAX_SIGMA_ALPHA_NRAD * MAX_SIGMA_ALPHA_NRAD) {
+    if (dx * dx + dy * dy < (int64_t)e->config.min_length_um * e->config.min_length_um) {
         e->refused[ALE_REFUSED_SHORT]++;
+        return false;
+    }
+    if (line->var_alpha_nrad2 > MAX_SIGMA_ALPHA_NRAD * MAX_SIGMA_ALPHA_NRAD) {
+        e->refused[ALE_REFUSED_VAGUE]++;
         return false;
     }
     return true;
@@ -280,7 +283,6 @@ __attribute__((noinline)) void ale_extract_scan(ale_extractor_t *e, const ale_sc
                                                 const uint32_t *bearing_bam, ale_features_t *out)
 {
     const bool smoothed = e->config.smooth_span > 1;
-    memset(e->refused, 0, sizeof e->refused);
     prepare_points(e, scan);
     ale_points_place(e, scan, bearing_bam);
     if (smoothed) {

@@ -68,11 +68,10 @@ typedef struct {
 typedef enum {
     ALE_REFUSED_FEW_POINTS,
     ALE_REFUSED_SHORT,
-    ALE_REFUSED_SPARSE,
+    ALE_REFUSED_VAGUE, /* direction not known to 8 degrees */
     ALE_REFUSED_ROUGH, /* residual above what the noise allows */
     ALE_REFUSED_CURVED,
-    ALE_REFUSED_GRAZING,
-    ALE_REFUSED_CAPACITY,
+    ALE_REFUSED_CAPACITY, /* no room, or no time for so many */
     ALE_REFUSALS
 } ale_refusal_t;
 

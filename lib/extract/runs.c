@@ -1,5 +1,7 @@
 #include "extract/runs.h"
 
+#include <string.h>
+
 #include "base/fixed.h"
 #include "extract/breakpoint.h"
 #include "extract/moments.h"
@@ -223,6 +225,7 @@ void ale_run_trim(const ale_extractor_t *e, ale_run_t *run)
 
 void ale_runs_search(ale_extractor_t *e)
 {
+    memset(e->refused, 0, sizeof e->refused); /* by a search that is done again nothing was */
     e->run_count = 0;
     e->search_fits = 0;
     for (int32_t k = 0; k < e->segment_count; k++) {
@@ -259,10 +262,11 @@ void ale_runs_drop_short(ale_extractor_t *e, int32_t fewest, int32_t enough)
     }
     int32_t kept = 0;
     for (int32_t k = 0; k < e->run_count; k++) {
-        if (e->run[k].last + 1 - e->run[k].first >= fewest) {
+        const int32_t points = e->run[k].last + 1 - e->run[k].first;
+        if (points >= fewest) {
             e->run[kept++] = e->run[k];
         } else {
-            e->refused[ALE_REFUSED_FEW_POINTS]++;
+            e->refused[points < e->config.min_points ? ALE_REFUSED_FEW_POINTS : ALE_REFUSED_CAPACITY]++;
         }
     }
     e->run_count = (uint16_t)kept;

@@ -34,8 +34,8 @@ constexpr char accepted_colour[] = "#2ca02c";
 constexpr std::array<const char *, 4> segment_colours{"#1f77b4", "#17becf", "#4c9f70", "#8c8c3c"};
 
 constexpr std::array<const char *, ALE_REFUSALS> refusal_names{
-    "too few points", "too short", "too sparse",  "rougher than the noise",
-    "curved",         "grazing",   "no room left"};
+    "too few points",         "too short", "of no sure direction",
+    "rougher than the noise", "curved",    "no room left"};
 
 SvgPoint place_of(const ale_scan_t &scan, int beam)
 {

@@ -12,8 +12,8 @@ namespace
 
 const char *const end_names[] = {"edge", "occluded", "limit"};
 const char *const corner_names[] = {"convex", "concave"};
-const char *const refusal_names[ALE_REFUSALS] = {"few_points", "short",   "sparse",  "rough",
-                                                 "curved",     "grazing", "capacity"};
+const char *const refusal_names[ALE_REFUSALS] = {"few_points", "short",  "vague",
+                                                 "rough",      "curved", "capacity"};
 
 /* A line's variances are in nrad^2, um nrad and um^2, a point's all in um^2. */
 constexpr int nrad2 = -18;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -222,6 +223,37 @@ TEST(Extract, ARoundColumnIsACurveAndNoLine)
     EXPECT_NEAR(f.curve[0].radius_um, 400000, 40000);
     EXPECT_NEAR(f.curve[0].centre.x_um, 1200000, 40000);
     EXPECT_GT(f.refused[ALE_REFUSED_CURVED], 0);
+}
+
+int all_refused(const ale_features_t &f)
+{
+    return std::accumulate(std::begin(f.refused), std::end(f.refused), 0);
+}
+
+TEST(Extract, WhatIsRefusedIsCountedOnceByTheTestThatItFailed)
+{
+    scene::extractor extract;
+    const auto scan = empty_scan();
+    see(*scan, {{1, -0.06, 1, 0.06}, {1, 0.40, 1, 0.44}}, 1, 3); /* 0.12 m; six beams */
+    const ale_features_t &f = extract(*scan);
+    EXPECT_EQ(f.line_count, 0);
+    EXPECT_EQ(f.refused[ALE_REFUSED_SHORT], 1);
+    EXPECT_EQ(f.refused[ALE_REFUSED_FEW_POINTS], 1);
+    EXPECT_EQ(all_refused(f), 2);
+}
+
+// 0.15 m of a wall, where ranges are believed to be 20 mm off.
+TEST(Extract, ALineOfNoSureDirectionIsRefusedAsThat)
+{
+    auto config = ale_extract_default_config();
+    config.noise.own_um = 20000;
+    scene::extractor extract(config);
+    const auto scan = empty_scan();
+    see(*scan, {{3, -0.075, 3, 0.075}}, 6, 3);
+    const ale_features_t &f = extract(*scan);
+    EXPECT_EQ(f.line_count, 0);
+    EXPECT_EQ(f.refused[ALE_REFUSED_VAGUE], 1);
+    EXPECT_EQ(all_refused(f), 1);
 }
 
 TEST(Extract, StrayPointsDoNotCutAWall)
