@@ -127,7 +127,7 @@ static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_moti
         (int32_t)ale_min64(2 * sigma_of(cov, 2), counted ? SLACK_MOST_URAD : SLACK_URAD), false};
     const bool doubt = ale_tracker_is_strange(&p->tracker, &p->fit);
     const ale_testimony_t heard = doubt ? ale_witness_hear(&p->witness, &now, slack) : (ale_testimony_t){0};
-    ale_tracker_notice(&p->tracker, doubt ? &heard : NULL, counted);
+    ale_tracker_notice(&p->tracker, doubt ? &heard : NULL, counted, p->map.count > 0);
     if (p->tracker.jumped) {
         const ale_scene_t scene = ale_pipeline_scene(p);
         ale_refine_reject(predicted, &scene, &p->fit);

@@ -79,12 +79,12 @@ static bool is_adrift(const ale_tracker_t *tracker, bool counted)
     return tracker->misfits > 0 && !counted;
 }
 
-void ale_tracker_notice(ale_tracker_t *tracker, const ale_testimony_t *heard, bool counted)
+void ale_tracker_notice(ale_tracker_t *tracker, const ale_testimony_t *heard, bool counted, bool mapped)
 {
     const int64_t told_um = heard ? heard->denied_um + heard->confirmed_um : 0;
     const bool denied =
         heard && heard->denied_um > DENIED_LEAST_UM && heard->denied_um * 100 > told_um * DENIED_PERCENT;
-    tracker->counted = counted;
+    tracker->in_reach = counted || !mapped;
     tracker->jumped = heard && heard->shown_um > SHOWN_LEAST_UM &&
                       (denied || !is_confirmed(tracker, heard) || is_adrift(tracker, counted));
 }
@@ -103,7 +103,7 @@ static bool is_well_known(const ale_motion_t *m)
  * nothing: the robot may be in the midst of what the map holds. */
 static bool is_out_of_reach(const ale_tracker_t *tracker, const ale_fit_t *fit)
 {
-    return is_undisturbed(tracker) && !tracker->counted && fit->shown_um > ANCHOR_SHOWN_UM &&
+    return is_undisturbed(tracker) && !tracker->in_reach && fit->shown_um > ANCHOR_SHOWN_UM &&
            fit->motion.cov.m[2][2] >= square(ANCHOR_SIGMA_URAD);
 }
 

@@ -21,7 +21,7 @@ typedef struct {
     ale_state_t state;
     uint16_t misfits; /* scans in a row that showed walls, but not those of the map */
     bool jumped;      /* in this scan */
-    bool counted;     /* wheels told the way to this scan */
+    bool in_reach;    /* what is not found in the map is not there: wheels told the way, or it is empty */
 } ale_tracker_t;
 
 void ale_tracker_init(ale_tracker_t *tracker);
@@ -32,8 +32,9 @@ bool ale_tracker_doubts(const ale_fit_t *fit);
 bool ale_tracker_is_strange(const ale_tracker_t *tracker, const ale_fit_t *fit);
 
 /* Notices whether the scene has changed all at once; before the scan goes into the map. heard: what the last
- * scan says of this one, NULL when it was not strange. counted: wheels told the way between the two. */
-void ale_tracker_notice(ale_tracker_t *tracker, const ale_testimony_t *heard, bool counted);
+ * scan says of this one, NULL when it was not strange. counted: wheels told the way between the two. mapped:
+ * the map holds walls. */
+void ale_tracker_notice(ale_tracker_t *tracker, const ale_testimony_t *heard, bool counted, bool mapped);
 
 /* Judges a fitted scan and what it says of the walls that were not matched; returns the new state. */
 ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit, const ale_sights_t *sights);

@@ -161,7 +161,7 @@ TEST(Tracker, GoesFromGoodToWeakToLostAndBackByWhatScansShow)
     fit.shown_um = 4000000;
     fit.matched_um = 3800000;
     EXPECT_FALSE(ale_tracker_doubts(&fit));
-    ale_tracker_notice(&t, nullptr, true);
+    ale_tracker_notice(&t, nullptr, true, true);
     EXPECT_EQ(ale_tracker_judge(&t, &fit, &fine), ALE_STATE_GOOD);
     EXPECT_TRUE(ale_tracker_may_map(&t, &fit));
     fit.information.matrix.m[0][0] = 0;
@@ -188,31 +188,36 @@ TEST(Tracker, APoseThatTheMapDoesNotHoldIsWhereTheMapGoesOnUnlessTheLastScanDeni
     fit.shown_um = 5000000;
     EXPECT_TRUE(ale_tracker_doubts(&fit));
     const ale_testimony_t agreed = {8000000, 5000000, 800000, true};
-    ale_tracker_notice(&t, &agreed, true);
+    ale_tracker_notice(&t, &agreed, true, true);
     EXPECT_FALSE(ale_tracker_may_map(&t, &fit));
     EXPECT_TRUE(ale_tracker_may_anchor(&t, &fit));
     const ale_testimony_t denied = {8000000, 800000, 3000000, true};
-    ale_tracker_notice(&t, &denied, true);
+    ale_tracker_notice(&t, &denied, true, true);
     EXPECT_TRUE(t.jumped);
     EXPECT_FALSE(ale_tracker_may_anchor(&t, &fit));
 }
 
-TEST(Tracker, WhatIsNotWhereAPoseOfLittleCertaintyPutsItIsNoNewPlaceButLostUnlessWheelsTold)
+TEST(Tracker, WhatIsNotWhereAPoseOfLittleCertaintyPutsItIsNoNewPlaceButLostUnlessWheelsToldOrNothingIsMapped)
 {
+    struct {
+        bool counted;
+        bool mapped;
+        int64_t shown_um;
+        bool lost;
+    } const cases[] = {
+        {false, true, 5000000, true},  {true, true, 5000000, false}, {false, false, 5000000, false},
+        {false, true, 1000000, false}, {true, true, 1000000, false},
+    };
     ale_fit_t fit = {};
     ale_motion_init(&fit.motion, 0, {0, 0, 0}, 1, 1);
     fit.motion.cov.m[2][2] = int64_t{200000} * 200000;
     const ale_sights_t none = {0, 0};
-    for (const bool counted : {false, true}) {
-        for (const int64_t shown_um : {1000000, 5000000}) {
-            ale_tracker_t t;
-            ale_tracker_init(&t);
-            fit.shown_um = shown_um;
-            ale_tracker_notice(&t, nullptr, counted);
-            const bool enough = shown_um > 2000000;
-            EXPECT_EQ(ale_tracker_may_anchor(&t, &fit), enough && counted);
-            EXPECT_EQ(ale_tracker_judge(&t, &fit, &none),
-                      enough && !counted ? ALE_STATE_LOST : ALE_STATE_WEAK);
-        }
+    for (const auto &c : cases) {
+        ale_tracker_t t;
+        ale_tracker_init(&t);
+        fit.shown_um = c.shown_um;
+        ale_tracker_notice(&t, nullptr, c.counted, c.mapped);
+        EXPECT_EQ(ale_tracker_may_anchor(&t, &fit), c.shown_um > 2000000 && !c.lost);
+        EXPECT_EQ(ale_tracker_judge(&t, &fit, &none), c.lost ? ALE_STATE_LOST : ALE_STATE_WEAK);
     }
 }
