@@ -128,12 +128,8 @@ ale_drift_t ale_drift_of_new_wall(const ale_drift_here_t *here, const ale_motion
 
 ale_drift_here_t ale_drift_go_on(const ale_drift_here_t *here, const ale_motion_t *motion)
 {
-    const int64_t c = ale_round_shift(ale_cos_q30(motion->pose.theta_bam), 10);
-    const int64_t s = ale_round_shift(ale_sin_q30(motion->pose.theta_bam), 10);
-    const int64_t one = (int64_t)1 << 20;
-    const int64_t f_q20[ALE_STATES][ALE_STATES] = {{c, -s, 0}, {s, c, 0}, {0, 0, one}};
     ale_matrix_t turned;
-    ale_matrix_congruence(f_q20, &motion->cov, &turned);
+    ale_motion_map_covariance(motion, &turned);
     return (ale_drift_here_t){within(here->xx_um2 + turned.m[0][0] + STEP_UM2), here->xy_um2 + turned.m[0][1],
                               within(here->yy_um2 + turned.m[1][1] + STEP_UM2),
                               within(here->var_urad2 + turned.m[2][2] + STEP_URAD2)};

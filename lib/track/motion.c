@@ -289,6 +289,15 @@ void ale_motion_correct(ale_motion_t *motion, const int64_t delta[ALE_STATES])
     }
 }
 
+void ale_motion_map_covariance(const ale_motion_t *motion, ale_matrix_t *out)
+{
+    const int64_t c = ale_round_shift(ale_cos_q30(motion->pose.theta_bam), 10);
+    const int64_t s = ale_round_shift(ale_sin_q30(motion->pose.theta_bam), 10);
+    const int64_t one = (int64_t)1 << 20;
+    const int64_t f_q20[ALE_STATES][ALE_STATES] = {{c, -s, 0}, {s, c, 0}, {0, 0, one}};
+    ale_matrix_congruence(f_q20, &motion->cov, out);
+}
+
 void ale_motion_widen(ale_motion_t *motion, int64_t sigma_um, int64_t sigma_urad)
 {
     const int64_t var[ALE_AXES] = {sigma_um * sigma_um, sigma_um * sigma_um, sigma_urad * sigma_urad};

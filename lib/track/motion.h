@@ -63,6 +63,9 @@ void ale_motion_jump(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_mot
 /* Applies an error in the robot's frame to the state: pose, then velocity. */
 void ale_motion_correct(ale_motion_t *motion, const int64_t delta[ALE_STATES]);
 
+/* The covariance of the pose in the map's frame; that of the velocity is left out. */
+void ale_motion_map_covariance(const ale_motion_t *motion, ale_matrix_t *out);
+
 /* Forgets how well the pose is known: sigma in both directions and of the heading; keeps the velocity's. */
 void ale_motion_widen(ale_motion_t *motion, int64_t sigma_um, int64_t sigma_urad);
 

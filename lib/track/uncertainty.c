@@ -1,7 +1,6 @@
 #include "track/uncertainty.h"
 
 #include "base/fixed.h"
-#include "base/trig.h"
 
 /* What the drift of the heading does to a place x, y from the origin. */
 static void add_lever(ale_matrix_t *cov, int64_t var_urad2, ale_point_t p)
@@ -22,12 +21,8 @@ static void add_lever(ale_matrix_t *cov, int64_t var_urad2, ale_point_t p)
 
 void ale_map_covariance(const ale_motion_t *motion, const ale_drift_here_t *drift, int64_t out[9])
 {
-    const int64_t c = ale_round_shift(ale_cos_q30(motion->pose.theta_bam), 10);
-    const int64_t s = ale_round_shift(ale_sin_q30(motion->pose.theta_bam), 10);
-    const int64_t one = (int64_t)1 << 20;
-    const int64_t f_q20[ALE_STATES][ALE_STATES] = {{c, -s, 0}, {s, c, 0}, {0, 0, one}};
     ale_matrix_t turned;
-    ale_matrix_congruence(f_q20, &motion->cov, &turned);
+    ale_motion_map_covariance(motion, &turned);
     turned.m[0][0] += drift->xx_um2;
     turned.m[0][1] += drift->xy_um2;
     turned.m[1][1] += drift->yy_um2;
