@@ -64,6 +64,7 @@ static bool acceptable(const ale_extractor_t *e, const ale_run_fit_t *fit, const
 static ale_run_fit_t search_fit(ale_extractor_t *e, int32_t a, int32_t b)
 {
     e->search_fits++;
+    e->effort++;
     return a <= b ? ale_moments_fit(e, a, b) : ale_moments_fit(e, b, a);
 }
 

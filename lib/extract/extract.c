@@ -252,6 +252,9 @@ static void split_runs(ale_extractor_t *e)
     for (int32_t round = 0; changed && round < rounds && !effort_is_spent(e); round++) {
         const bool split = ale_runs_split(e);
         changed = ale_merge_runs(e) || split;
+        if (effort_is_spent(e)) {
+            break; /* new breaks are placed well enough: see ale_break_find */
+        }
         ale_runs_place(e, round == 0 ? ALE_BREAK_FINE_STEP : ALE_BREAK_WIDE_STEP);
         if (changed) {
             ale_scan_noise_refine_own(e);

@@ -32,9 +32,9 @@
 /* The search of a room takes fewer fits. */
 #define ALE_MANY_SEARCH_FITS 144
 
-/* What was found in a room is made good with less effort, in residual sums of runs; a suspect costs as much.
- */
-#define ALE_MOST_EFFORT 1152
+/* A room is searched and made good with less effort, in residual sums of runs; a fit of the search and a
+ * suspect cost as much. */
+#define ALE_MOST_EFFORT 768
 
 /* Beams without a value that one surface may have. */
 #define ALE_MAX_GAP_BEAMS 8
@@ -133,8 +133,8 @@ struct ale_extractor {
     int32_t chi_high_q8[ALE_MAX_BEAMS + 1];
 
     int32_t search_fits; /* of the last search */
-    int32_t effort; /* for suspects, breaks and curves, in residual sums of runs; looked at between passes
-                     * over all runs, so that a mirrored scan is treated alike */
+    int32_t effort; /* so far, in residual sums of runs; looked at between passes over all runs, so that a
+                     * mirrored scan is treated alike */
     uint16_t run_count;
     ale_run_t run[ALE_MAX_RUNS];
     uint16_t refused[ALE_REFUSALS];

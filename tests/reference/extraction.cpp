@@ -23,8 +23,7 @@ constexpr double rough_own = 1.5;   // the measured noise errs too
 constexpr double rough_shared = 12; // shared variances that a long wall may be wavy by,
 constexpr double rough_reaches = 4; // and the reaches of the shared error from which on it is a long one
 constexpr double calmer = 64000.0 / 65536; // change of the own noise from which on breaks may show
-constexpr int most_effort_of_rooms =
-    1152; // residual sums of runs that improving the search may cost, and suspects
+constexpr int most_effort_of_rooms = 768;  // residual sums of runs, and suspects
 constexpr double most_sigma_alpha = 8 * pi / 180;
 constexpr int corner_gap = 5;        // beams
 constexpr double corner_reach = 150; // mm
@@ -127,17 +126,25 @@ void refine_own_noise(Prepared &p, std::vector<Run> &runs, Decisions &decisions)
     }
 }
 
+bool effort_is_spent(const Prepared &p, const Decisions &decisions)
+{
+    return p.suspects + decisions.spent() > most_effort_of_rooms;
+}
+
 // Until a round changes nothing or the effort is spent, two at most.
-std::vector<Run> split_in_rounds(Prepared &p, std::vector<Run> runs, int most_effort, Decisions &decisions)
+std::vector<Run> split_in_rounds(Prepared &p, std::vector<Run> runs, Decisions &decisions)
 {
     const int rounds = p.shared_found || p.noise.costly ? 1 : 2;
     bool changed = true;
-    for (int round = 0; changed && round < rounds && decisions.spent() <= most_effort; round++) {
+    for (int round = 0; changed && round < rounds && !effort_is_spent(p, decisions); round++) {
         const size_t before = runs.size();
         runs = split_runs(p.points, p.noise, p.segments, runs, decisions);
         const size_t split = runs.size();
         runs = merged_runs(p.points, p.noise, p.segments, runs, decisions);
         changed = split > before || runs.size() < split;
+        if (effort_is_spent(p, decisions)) {
+            break;
+        }
         runs =
             placed_runs(p.points, p.noise, p.segments, runs, round == 0 ? fine_step : wide_step, decisions);
         if (changed) {
@@ -154,14 +161,12 @@ std::vector<Run> improved_runs(Prepared &p, const ExtractionSettings &settings, 
         refine_own_noise(p, runs, decisions);
         return improved_clutter(p, runs, settings.least_points * 4 / 3, decisions);
     }
-    const int most_effort = decisions.spent() + most_effort_of_rooms - p.suspects;
     runs = merged_runs(p.points, p.noise, p.segments, runs, decisions);
     runs = placed_runs(p.points, p.noise, p.segments, runs, wide_step, decisions);
     refine_own_noise(p, runs, decisions);
     runs = with_curves(p.points, p.noise, p.segments, runs, decisions);
-    runs = split_in_rounds(p, runs, most_effort, decisions);
-    return decisions.spent() > most_effort ? runs
-                                           : with_curves(p.points, p.noise, p.segments, runs, decisions);
+    runs = split_in_rounds(p, runs, decisions);
+    return effort_is_spent(p, decisions) ? runs : with_curves(p.points, p.noise, p.segments, runs, decisions);
 }
 
 // How many of n points err together in the slope of their line: the quadratic form of the correlations

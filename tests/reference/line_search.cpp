@@ -54,6 +54,7 @@ int end_of_line(const ScanPoints &points, const NoiseOfScan &noise, int from, in
     const auto fit_to = [&](int count) {
         const int end = from + direction * (count - 1);
         search.fits++;
+        decisions.spend(1);
         return fit_run(points, noise, std::min(from, end), std::max(from, end));
     };
     int good = search.costly(noise) ? costly_run : least_run;
