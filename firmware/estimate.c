@@ -106,6 +106,7 @@ void ale_estimator_destroy(ale_estimator_t *estimator)
 void ale_estimator_load_map(ale_estimator_t *estimator, const ale_map_t *map, const ale_pose_t *pose)
 {
     const ale_pose_t unknown = {0};
+    ale_exchange_know(estimator->exchange, map);
     ale_pipeline_load_map(estimator->pipeline, map, pose ? *pose : unknown, pose != NULL);
     estimator->map_waits = true;
 }

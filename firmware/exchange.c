@@ -27,6 +27,8 @@ int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock)
         .health = ale_snapshot_create(sizeof(ale_urg_health_t)),
         .requests = ale_ring_create(sizeof(ale_request_t), ALE_REQUEST_SLOTS),
         .loaded_map = ale_snapshot_create(sizeof(ale_map_t)),
+        .known_to_mapper = ale_snapshot_create(sizeof(ale_map_t)),
+        .known_to_drawer = ale_snapshot_create(sizeof(ale_map_t)),
         .drive_orders = ale_snapshot_create(sizeof(ale_drive_orders_t)),
         .drive_scan = ale_snapshot_create(sizeof(ale_scan_t)),
         .exploration = ale_snapshot_create(sizeof(ale_wish_t)),
@@ -39,9 +41,9 @@ int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock)
                           exchange->corrections && exchange->grid_corrections && exchange->sightings &&
                           exchange->keyframe_poses && exchange->drawn_map && exchange->map &&
                           exchange->health && exchange->requests && exchange->loaded_map &&
-                          exchange->drive_orders && exchange->drive_scan && exchange->exploration &&
-                          exchange->drive_again >= 0 && exchange->arrived && exchange->pulse &&
-                          exchange->under_way >= 0;
+                          exchange->known_to_mapper && exchange->known_to_drawer && exchange->drive_orders &&
+                          exchange->drive_scan && exchange->exploration && exchange->drive_again >= 0 &&
+                          exchange->arrived && exchange->pulse && exchange->under_way >= 0;
     if (!complete) {
         ale_exchange_close(exchange);
     }
@@ -63,6 +65,8 @@ void ale_exchange_close(ale_exchange_t *exchange)
     ale_snapshot_destroy(exchange->health);
     ale_ring_destroy(exchange->requests);
     ale_snapshot_destroy(exchange->loaded_map);
+    ale_snapshot_destroy(exchange->known_to_mapper);
+    ale_snapshot_destroy(exchange->known_to_drawer);
     ale_snapshot_destroy(exchange->drive_orders);
     ale_snapshot_destroy(exchange->drive_scan);
     ale_snapshot_destroy(exchange->exploration);
@@ -72,6 +76,18 @@ void ale_exchange_close(ale_exchange_t *exchange)
     ale_wake_close(exchange->under_way);
     memset(exchange, 0, sizeof *exchange);
     exchange->drive_again = exchange->under_way = -1;
+}
+
+static void show(ale_snapshot_t *snapshot, const ale_map_t *map)
+{
+    memcpy(ale_snapshot_back(snapshot), map, sizeof *map);
+    ale_snapshot_publish(snapshot);
+}
+
+void ale_exchange_know(const ale_exchange_t *exchange, const ale_map_t *map)
+{
+    show(exchange->known_to_mapper, map);
+    show(exchange->known_to_drawer, map);
 }
 
 /* What is on its way is read first: a result that comes in between is then seen as ready. */

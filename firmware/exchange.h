@@ -9,7 +9,7 @@
  *              requests                  orders, scan (newest)
  *   estimate ◄──────────── telemetry ──────────────────────────► drive ◄── wish (newest) ── exploration
  *      ▲                      ▲ jobs  └──── scans with poses, on or off ───────────────────────►┘
- *      └── loaded map ── map keeper
+ *      └── loaded map ── map keeper ── the same map ──► mapper, drawer
  *   estimate ── keyframes ──► mapper ── corrections ──► estimate, exploration
  *      └── sightings ──► drawer ◄── keyframe poses (newest) ──┘
  *                          └── drawn map (newest) ──► telemetry
@@ -104,6 +104,8 @@ typedef struct {
     ale_snapshot_t *health;            /* ale_urg_health_t: acquire to telemetry */
     ale_ring_t *requests;              /* ale_request_t: telemetry to estimate */
     ale_snapshot_t *loaded_map;        /* ale_map_t: map keeper to estimate */
+    ale_snapshot_t *known_to_mapper;   /* ale_map_t, the one that is or will be driven in: */
+    ale_snapshot_t *known_to_drawer;   /* map keeper to both */
     ale_snapshot_t *drive_orders;      /* ale_drive_orders_t: telemetry to drive */
     ale_snapshot_t *drive_scan;        /* ale_scan_t: telemetry to drive */
     ale_snapshot_t *exploration;       /* ale_wish_t: exploration to drive */
@@ -119,6 +121,9 @@ typedef struct {
 /* Everything allocated and touched. 0, or -1: out of memory or descriptors (nothing is left open). */
 int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock);
 void ale_exchange_close(ale_exchange_t *exchange);
+
+/* The map that is going to be driven in, for mapper and drawer; before the estimate task hears of it. */
+void ale_exchange_know(const ale_exchange_t *exchange, const ale_map_t *map);
 
 /* Telemetry: how long it may sleep for the sake of results. Not at all when one is ready, a quarter of a
  * millisecond while a scan is on its way to become one, else `otherwise_ns`. */

@@ -15,15 +15,27 @@ struct ale_map_drawer {
     ale_exchange_t *exchange;
     ale_live_map_t *live;
     ale_background_t thread;
-    bool changed; /* since the last drawing */
+    uint32_t known_epoch; /* whose map, a loaded one, it draws on */
+    bool changed;         /* since the last drawing */
     int64_t next_ns;
 };
+
+static void add(ale_map_drawer_t *drawer, const ale_sighting_t *sighting)
+{
+    if (sighting->loaded && sighting->epoch != drawer->known_epoch) {
+        bool fresh = false;
+        ale_live_map_know(drawer->live, sighting->epoch,
+                          ale_snapshot_newest(drawer->exchange->known_to_drawer, &fresh));
+        drawer->known_epoch = sighting->epoch;
+    }
+    ale_live_map_take(drawer->live, sighting);
+}
 
 static void take(ale_map_drawer_t *drawer)
 {
     ale_ring_t *sightings = drawer->exchange->sightings;
     for (uint32_t ready = ale_ring_ready(sightings); ready > 0; ready--) {
-        ale_live_map_take(drawer->live, ale_ring_at(sightings, 0));
+        add(drawer, ale_ring_at(sightings, 0));
         ale_ring_release(sightings);
         drawer->changed = true;
     }

@@ -48,6 +48,7 @@ static void load(ale_map_keeper_t *keeper, const char *path)
     ale_map_outcome_t *outcome = &keeper->outcome;
     outcome->fine = ale_map_file_load(path, &keeper->map, error) == 0;
     if (outcome->fine) {
+        ale_exchange_know(keeper->exchange, &keeper->map);
         memcpy(ale_snapshot_back(keeper->exchange->loaded_map), &keeper->map, sizeof keeper->map);
         ale_snapshot_publish(keeper->exchange->loaded_map);
         snprintf(outcome->text, sizeof outcome->text, "loaded %.60s: %u lines, %u corners", keeper->name,

@@ -1,9 +1,8 @@
 /* Which map the world sees, and when it goes out: for the telemetry thread.
  *
- * It is the one that was drawn anew (map_drawer.h); until there is a drawing, and where the robot goes on in
- * a map that was loaded, the tracker's. One that is new goes out whole, a second after the last one at the
- * earliest, in bursts that leave room for poses; the same again every ten seconds, for those who came later
- * or missed a part. */
+ * It is the one that was drawn anew (map_drawer.h); until there is a drawing, the tracker's. One that is new
+ * goes out whole, a second after the last one at the earliest, in bursts that leave room for poses; the same
+ * again every ten seconds, for those who came later or missed a part. */
 #ifndef ALE_FIRMWARE_MAP_PUBLISHER_H
 #define ALE_FIRMWARE_MAP_PUBLISHER_H
 

@@ -12,7 +12,8 @@ struct ale_mapper_thread {
     ale_exchange_t *exchange;
     ale_mapper_t *mapper;
     ale_background_t thread;
-    uint32_t loops; /* told so far */
+    uint32_t loops;       /* told so far */
+    uint32_t known_epoch; /* whose map, a loaded one, the mapper knows */
 };
 
 static void tell(ale_mapper_thread_t *thread, int64_t spent_ns)
@@ -49,12 +50,23 @@ static void show_poses(ale_mapper_thread_t *thread)
     ale_snapshot_publish(thread->exchange->keyframe_poses);
 }
 
+static void add(ale_mapper_thread_t *thread, const ale_keyframe_t *keyframe)
+{
+    if (keyframe->loaded && keyframe->epoch != thread->known_epoch) {
+        bool fresh = false;
+        ale_mapper_know(thread->mapper, keyframe->epoch,
+                        ale_snapshot_newest(thread->exchange->known_to_mapper, &fresh));
+        thread->known_epoch = keyframe->epoch;
+    }
+    ale_mapper_add(thread->mapper, keyframe);
+}
+
 static void work_off(ale_mapper_thread_t *thread)
 {
     ale_ring_t *keyframes = thread->exchange->keyframes;
     for (uint32_t ready = ale_ring_ready(keyframes); ready > 0; ready--) {
         const int64_t start_ns = ale_rt_now_ns();
-        ale_mapper_add(thread->mapper, ale_ring_at(keyframes, 0));
+        add(thread, ale_ring_at(keyframes, 0));
         ale_ring_release(keyframes);
         hand_out(thread);
         show_poses(thread);

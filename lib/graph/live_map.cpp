@@ -130,6 +130,17 @@ void ale_live_map_destroy(ale_live_map_t *live)
     delete live;
 }
 
+int ale_live_map_know(ale_live_map_t *live, uint32_t epoch, const ale_map_t *map)
+{
+    try {
+        live->record.know(epoch, *map);
+        return 0;
+    } catch (const std::bad_alloc &) {
+        live->record = ale::MapRecord();
+        return -1;
+    }
+}
+
 int ale_live_map_take(ale_live_map_t *live, const ale_sighting_t *sighting)
 {
     try {

@@ -29,6 +29,10 @@ typedef struct ale_live_map ale_live_map_t;
 ale_live_map_t *ale_live_map_create(void);
 void ale_live_map_destroy(ale_live_map_t *live);
 
+/* Sightings of this epoch, of which none was taken yet, are of a drive that begins in this map: what it holds
+ * counts as seen before. Forgets what was there. 0, or -1: out of memory; it is as if nothing were known. */
+int ale_live_map_know(ale_live_map_t *live, uint32_t epoch, const ale_map_t *map);
+
 /* Of a later scan than the last one; one of a map begun anew forgets what was there. 0, or -1: out of memory,
  * and it is left out. */
 int ale_live_map_take(ale_live_map_t *live, const ale_sighting_t *sighting);

@@ -107,6 +107,7 @@ bool LoopCloser::add(Node node, const Pose &motion)
             statistics_.unconfirmed++;
         }
     }
+    moved = (known_ && lay_on_known()) || moved;
     return straighten() || moved;
 }
 
@@ -122,7 +123,7 @@ bool LoopCloser::refine()
         return true;
     }
     if (!refinement_) {
-        refinement_.emplace(&nodes_, search_->graph());
+        refinement_.emplace(&nodes_, search_->graph(), known_ ? &*known_ : nullptr);
     }
     if (refinement_->step()) {
         return true;
@@ -153,6 +154,31 @@ bool LoopCloser::straighten()
         }
     }
     statistics_.straightened++;
+    return true;
+}
+
+// Ties the present node to the walls of the map that the drive began in. As with loops: where the tracker
+// lies on them it knows better.
+bool LoopCloser::lay_on_known()
+{
+    const int here = static_cast<int>(nodes_.size()) - 1;
+    const Pose guess = graph_.poses().back();
+    const auto match = known_->find(patch_around(nodes_, graph_.poses(), here, patch_here), guess);
+    if (!match) {
+        return false;
+    }
+    const Pose off = between(guess, match->pose);
+    const bool known = length(off.x, off.y) < known_m && std::abs(off.theta) < known_rad;
+    if (known || iterations_left_ < optimise_iterations) {
+        graph_.add_anchor({here, known ? guess : match->pose, match->information});
+        return false;
+    }
+    const PoseGraph before = graph_;
+    graph_.add_anchor({here, match->pose, match->information});
+    if (!optimise() || graph_.residual2(graph_.anchors().back()) > believable_chi2) {
+        graph_ = before;
+        return false;
+    }
     return true;
 }
 
@@ -194,6 +220,7 @@ void LoopCloser::begin_anew()
 {
     nodes_.clear();
     graph_.clear();
+    known_.reset();
     pending_.clear();
     search_.reset();
     refinement_.reset();

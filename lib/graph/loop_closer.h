@@ -18,6 +18,7 @@
 #include <optional>
 #include <vector>
 
+#include "graph/known_map.h"
 #include "graph/loop.h"
 #include "graph/loop_match.h"
 #include "graph/loop_search.h"
@@ -45,6 +46,13 @@ class LoopCloser
     // At most so many nodes are kept: at least least_capacity, so that the present visit is whole.
     explicit LoopCloser(size_t capacity);
     static constexpr size_t least_capacity = 64;
+
+    // The map that the drive begins in, before the first node: nodes are laid on its walls, and it stays
+    // where it is. begin_anew() forgets it.
+    void know(const ale_map_t &map)
+    {
+        known_.emplace(map);
+    }
 
     // `motion` is the node's pose as seen from the node before; of the first one its pose in the map. True
     // when earlier poses moved.
@@ -82,12 +90,14 @@ class LoopCloser
     size_t partners_wanted(const Loop &loop) const;
     bool close(const Loop &loop, const std::vector<Loop> &partners);
     bool straighten();
+    bool lay_on_known();
     bool optimise();
     bool is_tied(const Loop &loop) const;
 
     size_t capacity_;
     std::vector<Node> nodes_; // in the order of the way
     PoseGraph graph_;
+    std::optional<KnownMap> known_;
     std::deque<Loop> pending_;
     size_t added_ = 0;           // nodes, ever
     size_t straightened_at_ = 0; // how many had been added then

@@ -26,6 +26,14 @@ bool MapRecord::is_worth_a_look(const ale_sighting_t &sighting) const
            ale_abs64(sighting.stamp_us - looked_us_) > look_wait_us;
 }
 
+void MapRecord::know(uint32_t epoch, const ale_map_t &map)
+{
+    *this = MapRecord();
+    epoch_ = epoch;
+    known_lines_.assign(map.line, map.line + map.line_count);
+    known_corners_.assign(map.corner, map.corner + map.corner_count);
+}
+
 void MapRecord::take(const ale_sighting_t &sighting)
 {
     if (sighting.epoch != epoch_) {

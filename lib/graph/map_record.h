@@ -33,6 +33,10 @@ struct Sight {
 class MapRecord
 {
   public:
+    // The map of this epoch is not begun by the drive, but this one: what it holds counts as seen before the
+    // first sight. Before the first sighting of the epoch.
+    void know(uint32_t epoch, const ale_map_t &map);
+
     // Of a later scan than the last one. That of a map begun anew forgets what was kept.
     void take(const ale_sighting_t &sighting);
 
@@ -43,6 +47,15 @@ class MapRecord
     const std::vector<Sight> &sights() const
     {
         return sights_;
+    }
+    // Walls and corners that the drive began with.
+    const std::vector<ale_map_line_t> &known_lines() const
+    {
+        return known_lines_;
+    }
+    const std::vector<ale_map_corner_t> &known_corners() const
+    {
+        return known_corners_;
     }
     // Of the laser on the robot.
     const ale_pose_t &sensor() const
@@ -60,6 +73,8 @@ class MapRecord
 
     uint32_t epoch_ = 0;
     ale_pose_t sensor_{};
+    std::vector<ale_map_line_t> known_lines_;
+    std::vector<ale_map_corner_t> known_corners_;
     std::vector<Sight> sights_;
     ale_pose_t looked_from_{};
     int64_t looked_us_ = 0;

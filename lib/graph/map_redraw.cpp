@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "graph/meeting_walls.h"
 #include "graph/wall_groups.h"
@@ -10,6 +11,7 @@
 extern "C" {
 #include "base/fixed.h"
 #include "base/trig.h"
+#include "track/map_exchange.h"
 }
 
 namespace ale
@@ -23,6 +25,7 @@ constexpr int64_t pose_um = 15000;
 constexpr int64_t pose_urad = 6000;
 
 constexpr int64_t million = 1000000;
+constexpr uint32_t known_scan = UINT32_MAX; // later than any, so that lines stay sorted
 
 PlacedLine placed(uint32_t scan, const ale_view_t &line, const ale_stand_t &robot)
 {
@@ -30,6 +33,24 @@ PlacedLine placed(uint32_t scan, const ale_view_t &line, const ale_stand_t &robo
     const int64_t swung_um = ale_mul_div(aside_um, pose_urad, million);
     return {scan, ale_view_from(&line, &robot), pose_um * pose_um + swung_um * swung_um,
             pose_urad * pose_urad};
+}
+
+// A wall that the drive began with, as a line of all the scans behind it. Poses are known to it as to each
+// other: what doubt there is, the lines of the drive carry.
+std::optional<PlacedLine> placed(const ale_map_line_t &known)
+{
+    ale_wall_t wall;
+    if (!ale_map_line_wall(&known, &wall)) {
+        return std::nullopt;
+    }
+    ale_view_t view{};
+    view.centre = wall.anchor;
+    view.normal_bam = wall.normal_bam;
+    view.start_um = wall.start_um;
+    view.end_um = wall.end_um;
+    view.var_offset_um2 = wall.var_offset_um2;
+    view.var_angle_urad2 = wall.var_angle_urad2;
+    return PlacedLine{known_scan, view, 0, 0, std::max<uint32_t>(known.seen, ALE_MAP_CONFIRMED)};
 }
 
 // Offset and angle are told at the middle, where a map that is taken in puts the anchor.
@@ -62,6 +83,11 @@ void redraw_map(const MapRecord &record, const PoseOfSight &pose_of, ale_map_t *
         }
         if (sight.look) {
             looks.push_back({sight.look.get(), ale_pose_compose(robot.pose, record.sensor())});
+        }
+    }
+    for (const ale_map_line_t &known : record.known_lines()) {
+        if (const auto line = placed(known)) {
+            lines.push_back(*line);
         }
     }
     *out = {};

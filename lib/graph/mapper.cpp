@@ -116,6 +116,18 @@ int ale_mapper_add(ale_mapper_t *mapper, const ale_keyframe_t *keyframe)
     }
 }
 
+int ale_mapper_know(ale_mapper_t *mapper, uint32_t epoch, const ale_map_t *map)
+{
+    begin_anew(*mapper);
+    mapper->epoch = epoch;
+    try {
+        mapper->closer.know(*map);
+        return 0;
+    } catch (const std::bad_alloc &) {
+        return -1;
+    }
+}
+
 bool ale_mapper_refine(ale_mapper_t *mapper)
 {
     try {

@@ -61,6 +61,10 @@ typedef struct {
 ale_mapper_t *ale_mapper_create(uint32_t keyframes);
 void ale_mapper_destroy(ale_mapper_t *mapper);
 
+/* Keyframes of this epoch, of which none was added yet, come from a drive that begins in this map: they are
+ * laid on its walls, which stay where they are. 0, or -1: out of memory; it is as if nothing were known. */
+int ale_mapper_know(ale_mapper_t *mapper, uint32_t epoch, const ale_map_t *map);
+
 /* Takes a keyframe and looks for loops. A keyframe of a new epoch begins the graph anew; one of the same
  * epoch must be of a later scan. 0, or -1: out of memory; it is counted, and the graph begins anew with
  * the next keyframe. */

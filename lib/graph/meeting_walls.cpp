@@ -120,6 +120,9 @@ std::unique_ptr<ale_map_corners_t> averaged(const MapRecord &record, const PoseO
     auto corners = std::make_unique<ale_map_corners_t>();
     auto features = std::make_unique<ale_features_t>();
     ale_map_corners_clear(corners.get());
+    corners->count =
+        static_cast<uint16_t>(std::min<size_t>(record.known_corners().size(), ALE_MAP_MAX_CORNERS));
+    std::copy_n(record.known_corners().begin(), corners->count, corners->corner);
     for (const Sight &sight : record.sights()) {
         std::copy(sight.corners.begin(), sight.corners.end(), features->corner);
         features->corner_count = static_cast<uint16_t>(sight.corners.size());

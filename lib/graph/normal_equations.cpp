@@ -28,12 +28,12 @@ NormalEquations::NormalEquations(size_t poses, const std::vector<GraphEdge> &edg
 {
 }
 
-void NormalEquations::clear()
+void NormalEquations::clear(bool hold_first)
 {
     h_.clear();
     const auto poses = static_cast<int>(x_.size() / 3);
     for (int k = 0; k < poses; k++) {
-        h_.add_diagonal(k, Eigen::Matrix3d::Identity() * (k == 0 ? held : damping));
+        h_.add_diagonal(k, Eigen::Matrix3d::Identity() * (k == 0 && hold_first ? held : damping));
     }
     x_.setZero();
     border_.setZero();

@@ -2,11 +2,11 @@
 // for the building's direction, which all heading priors share.
 //
 //   NormalEquations equations(poses, edges);
-//   equations.clear();
+//   equations.clear(true);
 //   equations.add(k, linearised, weight);
 //   if (equations.solve()) { ... equations.step(pose) ... }
 //
-// The first pose is held. The building's direction is a border of the matrix and not a row of it: it ties
+// The building's direction is a border of the matrix and not a row of it: it ties
 // hundreds of poses, and would fill the factor.
 #ifndef ALE_GRAPH_NORMAL_EQUATIONS_H
 #define ALE_GRAPH_NORMAL_EQUATIONS_H
@@ -34,7 +34,8 @@ class NormalEquations
   public:
     NormalEquations(size_t poses, const std::vector<GraphEdge> &edges);
 
-    void clear();
+    // hold_first: the first pose stays where it is.
+    void clear(bool hold_first);
     // Edge k of those that the constructor was given.
     void add(size_t k, const GraphEdge &edge, const LinearisedEdge &linearised, double weight);
     // e: heading of the pose minus what the prior says.

@@ -22,6 +22,12 @@ Eigen::Vector3d error_of(const GraphEdge &edge, const std::vector<Pose> &poses)
     return {e.x, e.y, e.theta};
 }
 
+Eigen::Vector3d error_of(const PoseAnchor &anchor, const std::vector<Pose> &poses)
+{
+    const Pose e = between(anchor.measured, poses[static_cast<size_t>(anchor.pose)]);
+    return {e.x, e.y, e.theta};
+}
+
 // Weight of a robust edge with Mahalanobis square chi2: s^2, s = min(1, 2 kernel / (kernel + chi2)).
 double kernel_weight(double chi2, double kernel)
 {
@@ -38,6 +44,15 @@ LinearisedEdge linearised(const GraphEdge &edge, const std::vector<Pose> &poses)
     l.carry(0, 2) = a.y - b.y;
     l.carry(1, 2) = b.x - a.x;
     return l;
+}
+
+// Towards where the pose is seen, as it stands.
+PosePull pull_of(const PoseAnchor &anchor, const Eigen::Vector3d &e, double weight)
+{
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+    turn.topLeftCorner<2, 2>() = rotation(-anchor.measured.theta);
+    const Eigen::Matrix3d weighted = turn.transpose() * (weight * anchor.information);
+    return {anchor.pose, weighted * turn, -weighted * e};
 }
 
 double robust_cost(double chi2, double kernel)
@@ -84,6 +99,7 @@ void PoseGraph::clear()
     edges_.clear();
     headings_.building = 0;
     headings_.priors.clear();
+    anchors_.clear();
     pulls_.clear();
 }
 
@@ -102,6 +118,12 @@ double PoseGraph::residual2(const GraphEdge &edge) const
 {
     const Eigen::Vector3d e = error_of(edge, poses_);
     return e.dot(edge.information * e);
+}
+
+double PoseGraph::residual2(const PoseAnchor &anchor) const
+{
+    const Eigen::Vector3d e = error_of(anchor, poses_);
+    return e.dot(anchor.information * e);
 }
 
 double PoseGraph::weight(const GraphEdge &edge) const
@@ -131,13 +153,16 @@ void PoseGraph::renumber_above(int k)
         edge.from = moved(edge.from);
         edge.to = moved(edge.to);
     }
-    std::vector<HeadingPrior> &priors = headings_.priors;
-    priors.erase(std::remove_if(priors.begin(), priors.end(),
-                                [k](const HeadingPrior &prior) { return prior.pose == k; }),
-                 priors.end());
-    for (HeadingPrior &prior : priors) {
-        prior.pose = moved(prior.pose);
-    }
+    const auto follow = [&](auto &those) {
+        those.erase(
+            std::remove_if(those.begin(), those.end(), [k](const auto &one) { return one.pose == k; }),
+            those.end());
+        for (auto &one : those) {
+            one.pose = moved(one.pose);
+        }
+    };
+    follow(headings_.priors);
+    follow(anchors_);
 }
 
 // The edges of pose k, which are taken out.
@@ -175,7 +200,7 @@ void PoseGraph::take_out(int k, int max_robust)
 double PoseGraph::linearise(NormalEquations *equations, double kernel) const
 {
     double sum = 0;
-    equations->clear();
+    equations->clear(anchors_.empty());
     for (size_t k = 0; k < edges_.size(); k++) {
         const LinearisedEdge l = linearised(edges_[k], poses_);
         const double chi2 = l.e.dot(edges_[k].information * l.e);
@@ -187,6 +212,12 @@ double PoseGraph::linearise(NormalEquations *equations, double kernel) const
             wrapped(poses_[static_cast<size_t>(prior.pose)].theta - headings_.building - prior.theta);
         const double chi2 = e * e * prior.information;
         equations->add(prior, e, kernel_weight(chi2, kernel));
+        sum += robust_cost(chi2, kernel);
+    }
+    for (const PoseAnchor &anchor : anchors_) {
+        const Eigen::Vector3d e = error_of(anchor, poses_);
+        const double chi2 = e.dot(anchor.information * e);
+        equations->add(pull_of(anchor, e, kernel_weight(chi2, kernel)));
         sum += robust_cost(chi2, kernel);
     }
     for (const PosePull &pull : pulls_) {

@@ -5,9 +5,9 @@
 //   graph.add_edge({0, 1, measured, information, false});
 //   graph.optimise(10);
 //
-// The first pose is held. Loop edges carry a robust kernel (dynamic covariance scaling, Agarwal et al. 2013):
-// a loop that contradicts the rest loses its weight instead of bending the map.
-// Not thread-safe. Work of one iteration: sparse LDL^T of 3n x 3n, n poses.
+// The first pose is held, unless there are anchors. Loop edges carry a robust kernel (dynamic covariance
+// scaling, Agarwal et al. 2013): a loop that contradicts the rest loses its weight instead of bending the
+// map. Not thread-safe. Work of one iteration: sparse LDL^T of 3n x 3n, n poses.
 #ifndef ALE_GRAPH_POSE_GRAPH_H
 #define ALE_GRAPH_POSE_GRAPH_H
 
@@ -43,6 +43,13 @@ struct HeadingPrior {
 struct BuildingHeadings {
     double building = 0; // its direction in the map
     std::vector<HeadingPrior> priors;
+};
+
+// Where a pose lies in a map that is known: always under the robust kernel.
+struct PoseAnchor {
+    int pose;
+    Pose measured;
+    Eigen::Matrix3d information; // of (x, y, theta), in the pose's own frame
 };
 
 // What draws a pose where it is seen to lie, as it stands now: minus the gradient of what its scan misses the
@@ -89,6 +96,20 @@ class PoseGraph
     {
         return headings_;
     }
+    // Those before stay.
+    void add_anchor(const PoseAnchor &anchor)
+    {
+        anchors_.push_back(anchor);
+    }
+    // In place of those before.
+    void set_anchors(std::vector<PoseAnchor> anchors)
+    {
+        anchors_ = std::move(anchors);
+    }
+    const std::vector<PoseAnchor> &anchors() const
+    {
+        return anchors_;
+    }
     // In place of those before. They hold for one iteration: what pulls must be asked anew at the new poses.
     void set_pulls(std::vector<PosePull> pulls)
     {
@@ -99,8 +120,9 @@ class PoseGraph
 
     // Takes pose k out, one that has a pose before and after it; those after it move down by one. The two
     // edges of the way become one, measured through it. Robust edges that end at it end at the pose after
-    // it, those that begin at it begin at the pose before it; what would tie two poses twice, or be more
-    // than max_robust that end at one pose, falls away. O(poses + edges * max_robust).
+    // it, those that begin at it begin at the pose before it, its anchors and headings go; what would tie two
+    // poses twice, or be more than max_robust that end at one pose, falls away. O(poses + edges *
+    // max_robust).
     void take_out(int k, int max_robust);
 
     const std::vector<Pose> &poses() const
@@ -114,6 +136,7 @@ class PoseGraph
 
     // Mahalanobis square of an edge's residual at the present poses, not scaled.
     double residual2(const GraphEdge &edge) const;
+    double residual2(const PoseAnchor &anchor) const;
     // What the robust kernel leaves of it there, 0..1.
     double weight(const GraphEdge &edge) const;
 
@@ -127,6 +150,7 @@ class PoseGraph
     std::vector<Pose> poses_;
     std::vector<GraphEdge> edges_;
     BuildingHeadings headings_;
+    std::vector<PoseAnchor> anchors_;
     std::vector<PosePull> pulls_;
 };
 

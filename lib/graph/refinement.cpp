@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
-
 #include "graph/building_axes.h"
-#include "graph/loop_match.h"
 #include "graph/surface_field.h"
+#include "graph/tight_match.h"
 
 namespace ale
 {
@@ -23,37 +21,11 @@ constexpr size_t other_visits = 6;
 constexpr int same_visit_nodes = 3;
 constexpr double reach_m = 3.0;
 constexpr double metres_a_radian = 1.0; // how much less two views share when they look elsewhere
-// What a match must find, and how far from where the graph has it; farther is a loop's business.
-constexpr double least_overlap = 0.25;
-constexpr double least_pairs = 25;
-constexpr double farthest_m = 0.25;
-constexpr double farthest_rad = 0.1;
-// Neighbouring points err together: so many count as one. What all share is a floor.
-constexpr double points_a_witness = 4;
-constexpr double floor_m = 0.005;
-constexpr double floor_rad = 0.004;
-
-// What a match is worth, by direction: little along a bare corridor.
-Eigen::Matrix3d information_of(const LoopMatch &match)
-{
-    const double doubt = std::max(1.0, match.rms_m / match_sigma_m);
-    const Eigen::Matrix3d seen = match.information / (doubt * doubt * points_a_witness);
-    const Eigen::Matrix3d regular = seen + Eigen::Matrix3d::Identity() * 1e-3;
-    const Eigen::Vector3d floor(floor_m * floor_m, floor_m * floor_m, floor_rad * floor_rad);
-    return (regular.inverse() + Eigen::Matrix3d(floor.asDiagonal())).inverse();
-}
-
-bool is_tie(const LoopMatch &match, const Pose &guess, size_t points)
-{
-    const Pose off = between(guess, match.pose);
-    return match.overlap >= least_overlap && match.overlap * static_cast<double>(points) >= least_pairs &&
-           length(off.x, off.y) < farthest_m && std::abs(off.theta) < farthest_rad;
-}
 
 } // namespace
 
-Refinement::Refinement(const std::vector<Node> *nodes, PoseGraph graph)
-    : nodes_(nodes), graph_(std::move(graph)), given_(graph_.edges())
+Refinement::Refinement(const std::vector<Node> *nodes, PoseGraph graph, const KnownMap *known)
+    : nodes_(nodes), known_(known), graph_(std::move(graph)), given_(graph_.edges())
 {
 }
 
@@ -67,12 +39,16 @@ bool Refinement::step()
         const int last = std::min(count, next_ + nodes_per_step);
         for (; next_ < last; next_++) {
             match_around(next_);
+            if (known_) {
+                match_known(next_);
+            }
         }
         return true;
     }
     solve();
     if (++solved_ == solves_per_round) {
         matched_.clear();
+        anchors_.clear();
         next_ = 0;
         solved_ = 0;
         round_++;
@@ -121,10 +97,17 @@ void Refinement::match_around(int k)
         const std::vector<SurfacePoint> &points = (*nodes_)[static_cast<size_t>(there)].points;
         const Pose guess =
             between(graph_.poses()[static_cast<size_t>(k)], graph_.poses()[static_cast<size_t>(there)]);
-        const LoopMatch match = match_tightly(points, field, guess);
-        if (is_tie(match, guess, points.size())) {
-            matched_.push_back({k, there, match.pose, information_of(match), true});
+        if (const auto match = match_to(field, points, guess)) {
+            matched_.push_back({k, there, match->pose, match->information, true});
         }
+    }
+}
+
+void Refinement::match_known(int k)
+{
+    const auto at = static_cast<size_t>(k);
+    if (const auto match = known_->find((*nodes_)[at].points, graph_.poses()[at])) {
+        anchors_.push_back({k, match->pose, match->information});
     }
 }
 
@@ -175,6 +158,7 @@ void Refinement::solve()
         for (const GraphEdge &edge : matched_) {
             graph_.add_edge(edge);
         }
+        graph_.set_anchors(anchors_);
     }
     graph_.optimise(1);
 }

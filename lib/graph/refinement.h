@@ -14,6 +14,7 @@
 
 #include <vector>
 
+#include "graph/known_map.h"
 #include "graph/node.h"
 #include "graph/pose_graph.h"
 
@@ -24,7 +25,8 @@ class Refinement
 {
   public:
     // The nodes stay the caller's, and as they are. Of the graph its poses, motions and loops are taken.
-    Refinement(const std::vector<Node> *nodes, PoseGraph graph);
+    // known: the map that the drive began in, or nullptr; every node is matched with it, too.
+    Refinement(const std::vector<Node> *nodes, PoseGraph graph, const KnownMap *known = nullptr);
 
     // False: nothing is left to do.
     bool step();
@@ -37,14 +39,17 @@ class Refinement
   private:
     std::vector<int> neighbours_of(int k) const;
     void match_around(int k);
+    void match_known(int k);
     std::vector<GraphEdge> still_needed() const;
     void follow_walls();
     void solve();
 
     const std::vector<Node> *nodes_;
+    const KnownMap *known_;
     PoseGraph graph_;
     std::vector<GraphEdge> given_;   // motions and loops
     std::vector<GraphEdge> matched_; // of this round
+    std::vector<PoseAnchor> anchors_;
     int round_ = 0;
     int next_ = 0; // node to match
     int solved_ = 0;

@@ -147,7 +147,8 @@ bool seen_apart(const std::vector<PlacedLine> &lines, const WallGroup &a, const 
             ++next;
         }
         for (auto other = next; other != b.lines.end() && lines[*other].scan == lines[k].scan; ++other) {
-            (are_apart(lines[k].view, lines[*other].view) ? two : one)++;
+            (are_apart(lines[k].view, lines[*other].view) ? two : one) +=
+                std::min(apart_least, static_cast<int>(lines[k].scans));
         }
     }
     return two >= apart_least && two >= one;

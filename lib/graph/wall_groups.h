@@ -25,6 +25,7 @@ struct PlacedLine {
     // What the doubt of the pose adds to the variances.
     int64_t doubt_um2;
     int64_t doubt_urad2;
+    uint32_t scans = 1; // that stand behind it; more than one: a wall of the map that the drive began in
 };
 
 struct WallGroup {

@@ -56,7 +56,7 @@ class Cells
         const Range r = along(wall_, line.view);
         for (size_t k = 0; k < cells_.size(); k++) {
             if (middle_um(k) >= r.from_um && middle_um(k) <= r.to_um) {
-                cells_[k].shown++;
+                cells_[k].shown += line.scans;
             }
         }
     }
@@ -164,8 +164,8 @@ uint32_t scans_in(const WallGroup &group, const std::vector<PlacedLine> &lines, 
     uint32_t last = UINT32_MAX;
     for (const uint32_t k : group.lines) {
         const Range r = along(group.wall, lines[k].view);
-        if (r.from_um < to_um && r.to_um > from_um && lines[k].scan != last) {
-            seen++;
+        if (r.from_um < to_um && r.to_um > from_um && (lines[k].scan != last || lines[k].scans > 1)) {
+            seen += lines[k].scans;
             last = lines[k].scan;
         }
     }

@@ -15,6 +15,9 @@ ale_pose_t ale_correction_at(const ale_correction_t *correction, uint32_t scan)
 {
     uint32_t low = 0; /* shifts before low are of scans <= scan, those from high on are not */
     uint32_t high = correction->count;
+    if (scan == ALE_BORN_BEFORE) {
+        return (ale_pose_t){0, 0, 0};
+    }
     while (low < high) {
         const uint32_t middle = (low + high) / 2;
         if (correction->shift[middle].scan <= scan) {

@@ -2,7 +2,8 @@
  *
  * The robot's way, as it was tracked, is bent piece by piece: what was first seen in scan s moves by the
  * shift of the last keyframe at or before s. A shift maps points of the map as it was to the map as it is
- * now, p' = R p + t; the robot itself, and what it has seen since, moves by the last one. */
+ * now, p' = R p + t; the robot itself, and what it has seen since, moves by the last one. What was loaded
+ * stays where it is: the drive is laid on that. */
 #ifndef ALE_TRACK_CORRECTION_H
 #define ALE_TRACK_CORRECTION_H
 
@@ -26,7 +27,7 @@ struct ale_correction {
     ale_shift_t shift[ALE_CORRECTION_SHIFTS]; /* scans ascending */
 };
 
-/* The shift of a scan; none before the first keyframe. O(log count). */
+/* The shift of a scan; none before the first keyframe, nor of ALE_BORN_BEFORE. O(log count). */
 ale_pose_t ale_correction_at(const ale_correction_t *correction, uint32_t scan);
 
 /* Moves walls, marks and corners by the shifts of the scans that saw them first, and doubts walls that moved

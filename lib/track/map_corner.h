@@ -21,7 +21,7 @@ enum {
 
 typedef struct {
     ale_map_corner_t corner[ALE_MAP_MAX_CORNERS];
-    uint32_t born[ALE_MAP_MAX_CORNERS]; /* scan that saw it first */
+    uint32_t born[ALE_MAP_MAX_CORNERS]; /* scan that saw it first, or ALE_BORN_BEFORE */
     uint16_t count;
     uint32_t refused;
 

@@ -36,7 +36,7 @@ void ale_map_hand_out(const ale_local_map_t *map, ale_map_t *out)
 }
 
 /* The anchor lies in the middle: where offset and angle of the whole wall are least correlated. */
-static bool wall_of(const ale_map_line_t *line, ale_wall_t *out)
+bool ale_map_line_wall(const ale_map_line_t *line, ale_wall_t *out)
 {
     const ale_point_t d = ale_minus(line->end, line->start);
     const uint32_t tangent_bam = ale_atan2_bam(d.y_um, d.x_um);
@@ -48,6 +48,7 @@ static bool wall_of(const ale_map_line_t *line, ale_wall_t *out)
                         .var_offset_um2 = ale_max64(line->var_rho_um2, 1),
                         .cov_um_urad = line->cov_alpha_rho / NRAD_PER_URAD,
                         .var_angle_urad2 = ale_max64(line->var_alpha_nrad2 / NRAD2_PER_URAD2, 1),
+                        .born = ALE_BORN_BEFORE,
                         .seen = line->seen};
     ale_wall_set_normal(out, tangent_bam + ALE_BAM_QUARTER_TURN);
     return half_um * 2 >= SHORTEST_UM;
@@ -58,11 +59,14 @@ void ale_map_take_in(ale_local_map_t *map, const ale_map_t *from)
     ale_local_map_clear(map);
     for (uint16_t i = 0; i < from->line_count && i < ALE_MAP_MAX_LINES; i++) {
         ale_wall_t wall;
-        if (wall_of(&from->line[i], &wall)) {
+        if (ale_map_line_wall(&from->line[i], &wall)) {
             ale_local_map_add(map, &wall);
         }
     }
     map->corners.count = (uint16_t)ale_min64(from->corner_count, ALE_MAP_MAX_CORNERS);
     memcpy(map->corners.corner, from->corner, map->corners.count * sizeof from->corner[0]);
+    for (uint16_t i = 0; i < map->corners.count; i++) {
+        map->corners.born[i] = ALE_BORN_BEFORE;
+    }
     map->version = from->version + 1;
 }

@@ -120,8 +120,7 @@ bool ale_pipeline_keyframe(ale_pipeline_t *pipeline, ale_keyframe_t *out);
 
 /* For those who draw the map anew: what the scan last handed over has shown (see sighting.h). Copies at most
  * sizeof(ale_sighting_t). False, and *out is untouched: there was no scan, the robot is lost, no keyframe was
- * taken since it was put elsewhere, or the map is not to be drawn from what this drive has seen: it is
- * frozen, or was loaded, and of that it has seen but a part. */
+ * taken since it was put elsewhere, or the map is frozen. */
 bool ale_pipeline_sighting(const ale_pipeline_t *pipeline, ale_sighting_t *out);
 
 /* From the mapper, between two scans: map and map pose move as loops have shown; the smooth pose does not.

@@ -37,6 +37,7 @@ bool ale_pipeline_keyframe(ale_pipeline_t *p, ale_keyframe_t *out)
         return false;
     }
     out->epoch = p->epoch;
+    out->loaded = p->loaded;
     out->corrections = p->corrections;
     out->scan = p->scans - 1;
     out->stamp_us = p->scan.stamp_us;
@@ -70,11 +71,11 @@ bool ale_pipeline_sighting(const ale_pipeline_t *p, ale_sighting_t *out)
 {
     ale_seen_t seen;
     const bool tied = p->keyframes > 0 && !p->broken;
-    if (!tied || p->frozen || p->loaded || p->tracker.state == ALE_STATE_LOST ||
-        !ale_pipeline_seen(p, &seen)) {
+    if (!tied || p->frozen || p->tracker.state == ALE_STATE_LOST || !ale_pipeline_seen(p, &seen)) {
         return false;
     }
     out->epoch = p->epoch;
+    out->loaded = p->loaded;
     out->scan = p->scans - 1;
     out->keyframe = p->keyframe_scan;
     out->stamp_us = p->scan.stamp_us;

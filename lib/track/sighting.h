@@ -16,6 +16,7 @@
 
 struct ale_sighting {
     uint32_t epoch; /* of the map */
+    bool loaded;    /* that map was loaded, and not begun by this drive */
     uint32_t scan;
     uint32_t keyframe; /* the scan of the last one at or before this scan */
     int64_t stamp_us;

@@ -14,6 +14,9 @@
 #include "base/pose.h"
 #include "track/view.h"
 
+/* Number of the scan that saw first what was in the map before the drive began. */
+#define ALE_BORN_BEFORE UINT32_MAX
+
 /* Variance of where this part of the map lies to the map's origin, see drift.h. */
 #define ALE_DRIFT_MOST ((int64_t)1000000000000)
 typedef struct {
@@ -33,7 +36,7 @@ typedef struct {
     int64_t var_angle_urad2;
     ale_drift_t drift;
     uint32_t id;
-    uint32_t born;      /* number of the scan that saw it first */
+    uint32_t born;      /* number of the scan that saw it first, or ALE_BORN_BEFORE */
     uint32_t seen;      /* scans that supported it */
     uint32_t last_scan; /* of the last one that did */
     uint16_t missed;    /* scans that looked through it since */

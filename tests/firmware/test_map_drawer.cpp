@@ -1,4 +1,7 @@
 // firmware/map_drawer: sightings and keyframes in, drawings out, and a last one in the end.
+#include <algorithm>
+#include <memory>
+
 #include <gtest/gtest.h>
 
 #include "comes_true.hpp"
@@ -35,12 +38,13 @@ class MapDrawer : public surroundings::WithExchange
         ale_map_drawer_stop(drawer);
         drawer = nullptr;
     }
-    void see(size_t first, size_t end)
+    void see(size_t first, size_t end, bool loaded = false)
     {
         for (size_t k = first; k < end; k++) {
             void *slot = ale_ring_reserve(exchange.sightings);
             ASSERT_NE(slot, nullptr);
             *static_cast<ale_sighting_t *>(slot) = *drive().sightings[k];
+            static_cast<ale_sighting_t *>(slot)->loaded = loaded;
             ale_ring_commit(exchange.sightings);
         }
     }
@@ -79,6 +83,25 @@ TEST_F(MapDrawer, WhatCameLastIsDrawnBeforeItEnds)
     see(4, drive().sightings.size());
     stop();
     EXPECT_GT(newest().map.line_count, before);
+}
+
+TEST_F(MapDrawer, AMapThatTheDriveBeganInIsDrawnOn)
+{
+    auto known = std::make_unique<ale_map_t>();
+    known->line_count = 1;
+    known->line[0].start = {50000000, 0};
+    known->line[0].end = {53000000, 0};
+    known->line[0].seen = 9;
+    ale_exchange_know(&exchange, known.get());
+    place_keyframes();
+    see(0, 20, true);
+    start();
+    ASSERT_TRUE(comes_true([&] { return newest().epoch != 0; }));
+    const ale_map_t &drawn = newest().map;
+    EXPECT_TRUE(std::any_of(drawn.line, drawn.line + drawn.line_count, [](const ale_map_line_t &line) {
+        return line.start.x_um == 50000000 && line.start.y_um == 0;
+    }));
+    EXPECT_GE(drawn.line_count, 5);
 }
 
 TEST_F(MapDrawer, WithoutScansNothingIsDrawn)

@@ -68,6 +68,25 @@ TEST_F(MapperThread, ExplorationHearsOfTheSameCorrection)
               0);
 }
 
+// Half a lap: no loop, and nothing but the map can tell of the drift.
+TEST_F(MapperThread, KeyframesAreLaidOnAMapThatWasLoaded)
+{
+    auto known = std::make_unique<ale_map_t>();
+    for (const room::Wall &wall : drifting_keyframes::walls()) {
+        ale_map_line_t &line = known->line[known->line_count++];
+        line.start = {convert::um(wall.x1), convert::um(wall.y1)};
+        line.end = {convert::um(wall.x2), convert::um(wall.y2)};
+        line.seen = 9;
+    }
+    ale_exchange_know(&exchange, known.get());
+    const auto keyframes = drifting_keyframes::walk(0.55, 0.0012, 2);
+    for (const auto &keyframe : keyframes) {
+        keyframe->loaded = true;
+        hand_over(*keyframe);
+    }
+    EXPECT_TRUE(comes_true([&] { return ale_ring_ready(exchange.corrections) > 0; }));
+}
+
 TEST_F(MapperThread, ItEndsWhileKeyframesAreWaiting)
 {
     const auto keyframes = drifting_keyframes::walk(0.08, 0, 1);

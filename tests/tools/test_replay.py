@@ -4,12 +4,14 @@ import hashlib
 import json
 import math
 import subprocess
+import sys
 import xml.etree.ElementTree as ElementTree
 
 import pytest
 
-from at_hand import BINARIES, shared
+from at_hand import BINARIES, ROOT, shared
 
+MAP_SCORE = ROOT / "tools" / "bench" / "map_score.py"
 REPLAY = BINARIES / "ale-replay"
 STEP = 2 * math.pi / 1024
 BEAMS = 682
@@ -186,6 +188,24 @@ def test_a_saved_map_can_be_started_from(room_log, tmp_path):
     assert len(read_json_lines(tmp_path / "p.jsonl")) == 60
     (tmp_path / "a.map").write_text(text.replace("wall", "well", 1))
     assert "a.map: line" in replay(room_log, "--load-map", tmp_path / "a.map", code=1).stderr
+
+
+def walls_in(path):
+    return path.read_text().count("\nwall ")
+
+
+@pytest.mark.parametrize("name", ["exp1.dat", "exp3.dat"])
+def test_a_map_that_is_driven_in_again_and_again_does_not_fill_up(name, tmp_path):
+    log = shared(f"data/urg04lx/{name}")
+    replay(log, "--save-map", tmp_path / "0.map")
+    for k in range(3):
+        replay(log, "--load-map", tmp_path / f"{k}.map", "--save-map", tmp_path / f"{k + 1}.map",
+               "--map", tmp_path / "again.dxf")
+    walls = walls_in(tmp_path / "0.map")
+    assert abs(walls_in(tmp_path / "3.map") - walls) < 0.15 * walls
+    score = subprocess.run([sys.executable, MAP_SCORE, tmp_path / "again.dxf"], capture_output=True, text=True,
+                           check=True).stdout
+    assert int(score.split("standing twice: ")[1].split()[0]) <= 1, score
 
 
 def digest(log, folder, *arguments):

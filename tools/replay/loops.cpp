@@ -84,6 +84,10 @@ void Loops::after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate)
     if (keyframe_->broken) {
         breaks_.push_back(keyframe_->scan);
     }
+    if (known_) {
+        ale_mapper_know(mapper_.get(), keyframe_->epoch, known_.get());
+        known_.reset();
+    }
     const int64_t start_ns = thread_time_ns();
     ale_mapper_add(mapper_.get(), keyframe_.get());
     take_correction();

@@ -24,6 +24,12 @@ class Loops
   public:
     Loops();
 
+    // Before the first scan: the drive begins in this map.
+    void know(const ale_map_t &map)
+    {
+        known_ = std::make_unique<ale_map_t>(map);
+    }
+
     using Taken = std::function<void(const ale_correction_t &)>;
 
     /* Before a scan is handed to the pipeline: corrections that are due take effect, and `taken` hears of
@@ -72,6 +78,7 @@ class Loops
 
     std::unique_ptr<ale_mapper_t, Destroy> mapper_;
     std::unique_ptr<ale_keyframe_t> keyframe_;
+    std::unique_ptr<ale_map_t> known_; /* until the mapper knows it */
     std::deque<std::unique_ptr<ale_correction_t>> due_;
     std::vector<Tracked> tracked_;                /* by scan */
     std::vector<ale_mapper_pose_t> keyframes_;    /* after finish() */

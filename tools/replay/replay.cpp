@@ -67,7 +67,8 @@ class Replay
     std::optional<TimingFile> timing_file_;
 
     std::optional<Loops> loops_;
-    std::optional<MapRecord> record_; /* when a map is asked for that may be drawn anew */
+    std::optional<MapRecord> record_;  /* when a map is asked for that may be drawn anew */
+    std::unique_ptr<ale_map_t> known_; /* loaded; until the record knows it */
     std::unique_ptr<ale_sighting_t> sighting_ = std::make_unique<ale_sighting_t>();
     std::vector<ScanPose> track_;
     StageClock clock_;
@@ -104,8 +105,7 @@ void Replay::begin(const char *recorded_config)
         if (options_.close_loops) {
             loops_.emplace();
         }
-        /* Of a loaded map this drive may have seen but a part. */
-        if (loops_ && options_.load_map.empty() && wants_map()) {
+        if (loops_ && wants_map()) {
             record_.emplace();
         }
     }
@@ -130,6 +130,10 @@ void Replay::load_map()
         throw std::runtime_error(error);
     }
     ale_pipeline_load_map(pipeline_.get(), map.get(), ale_pose_t{}, false);
+    if (loops_) {
+        loops_->know(*map);
+    }
+    known_ = std::move(map);
 }
 
 void Replay::extract(const ale_scan_t &scan)
@@ -194,6 +198,10 @@ void Replay::put_estimate(const ale_estimate_t &estimate)
         loops_->after_scan(pipeline_.get(), estimate);
     }
     if (record_ && ale_pipeline_sighting(pipeline_.get(), sighting_.get())) {
+        if (known_) {
+            record_->know(sighting_->epoch, *known_);
+            known_.reset();
+        }
         record_->take(*sighting_);
     }
     track_.push_back({estimate.stamp_us, estimate.map, estimate.velocity_x_um_s, estimate.velocity_y_um_s,
@@ -254,7 +262,7 @@ void Replay::draw_maps()
 {
     auto map = std::make_unique<ale_map_t>();
     ale_pipeline_copy_map(pipeline_.get(), map.get());
-    if (record_) {
+    if (record_ && record_->epoch() != 0) {
         redraw_map(
             *record_, [this](const Sight &sight) { return track_[sight.scan].robot; }, map.get());
     }

@@ -126,6 +126,75 @@ TEST(MapRedraw, WhatBeamsHaveGoneThroughSinceIsNotDrawn)
     }
 }
 
+// The same drive again in the map that it has made, its poses aside by as much as a map and a drive may
+// differ.
+class DrivenAgain : public testing::Test
+{
+  protected:
+    std::unique_ptr<ale_map_t> drawn_on(const ale_map_t &map) const
+    {
+        ale::MapRecord record;
+        record.know(drive.sightings.front()->epoch, map);
+        for (const auto &sighting : drive.sightings) {
+            record.take(*sighting);
+        }
+        const ale_pose_t aside = convert::pose(reference::Pose(0.02, -0.02, 0));
+        auto out = std::make_unique<ale_map_t>();
+        ale::redraw_map(
+            record, [&](const ale::Sight &sight) { return ale_pose_compose(aside, drive.truth[sight.scan]); },
+            out.get());
+        return out;
+    }
+    static void add(ale_map_t *map, ale_point_t start, ale_point_t end)
+    {
+        ale_map_line_t &line = map->line[map->line_count++];
+        line = {};
+        line.start = start;
+        line.end = end;
+        line.seen = 40;
+        line.var_rho_um2 = 1000000;
+        line.var_alpha_nrad2 = 1000000000000;
+    }
+    // How much is drawn within 10 cm of the way between two points.
+    static double drawn_m(const ale_map_t &map, const room::Wall &wall)
+    {
+        double sum = 0;
+        for (int k = 0; k < map.line_count; k++) {
+            const bool is_it =
+                distance_m(wall, map.line[k].start) < 0.1 && distance_m(wall, map.line[k].end) < 0.1;
+            sum += is_it ? length_m(map.line[k]) : 0;
+        }
+        return sum;
+    }
+
+    const Drive &drive = plain_drive();
+    std::unique_ptr<ale_map_t> first = drive.drawn();
+};
+
+TEST_F(DrivenAgain, EveryWallStaysOnceAndWhereItWas)
+{
+    auto again = drawn_on(*first);
+    for (int k = 0; k < 2; k++) {
+        again = drawn_on(*again);
+    }
+    EXPECT_EQ(again->line_count, first->line_count);
+    EXPECT_EQ(again->corner_count, first->corner_count);
+    EXPECT_NEAR(length_m(*again), length_m(*first), 0.02 * length_m(*first));
+    for (int k = 0; k < again->line_count; k++) {
+        EXPECT_LT(distance_m(room::l_shape(), again->line[k].start), 0.05);
+        EXPECT_LT(distance_m(room::l_shape(), again->line[k].end), 0.05);
+    }
+}
+
+TEST_F(DrivenAgain, WhatTheDriveDidNotSeeStaysAndWhatItSeesThroughGoes)
+{
+    add(first.get(), {100000000, 0}, {103000000, 0});
+    add(first.get(), {200000, 1700000}, {200000, 900000});
+    const auto again = drawn_on(*first);
+    EXPECT_NEAR(drawn_m(*again, {100, 0, 103, 0}), 3, 0.06);
+    EXPECT_EQ(drawn_m(*again, {0.2, 0.9, 0.2, 1.7}), 0);
+}
+
 TEST(MapRedraw, WithoutScansThereIsNoMap)
 {
     ale_map_t map;

@@ -123,6 +123,51 @@ TEST(Mapper, ACorrectionIsDueAFixedNumberOfScansAfterItsKeyframe)
     FAIL() << "no loop was closed";
 }
 
+std::unique_ptr<ale_map_t> corridor_map()
+{
+    auto map = std::make_unique<ale_map_t>();
+    for (const ring_corridor::Wall &w : ring_corridor::walls()) {
+        ale_map_line_t &line = map->line[map->line_count++];
+        line.start = {convert::um(w.a.x()), convert::um(w.a.y())};
+        line.end = {convert::um(w.b.x()), convert::um(w.b.y())};
+        line.seen = 50;
+    }
+    return map;
+}
+
+// Half a lap: no place is seen twice, so that nothing but the map can tell of the drift.
+TEST(Mapper, KeyframesAreLaidOnTheMapThatTheDriveBeganIn)
+{
+    const auto keyframes = drifting_keyframes::walk(0.55, 0.0012, 2);
+    const std::vector<ale::Pose> truth = ring_corridor::truth(0.55);
+    const Mapper mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES));
+    ASSERT_EQ(ale_mapper_know(mapper.get(), 1, corridor_map().get()), 0);
+    ASSERT_GT(follow(mapper.get(), keyframes).corrections.size(), 0U);
+    double under_way = 0;
+    for (uint32_t k = 0; k < keyframes.size(); k++) {
+        under_way = std::max(under_way, error_m(ale_mapper_pose(mapper.get(), k).pose, truth[k]));
+    }
+    while (ale_mapper_refine(mapper.get())) {
+    }
+    double tracked = 0;
+    double refined = 0;
+    for (uint32_t k = 0; k < keyframes.size(); k++) {
+        tracked = std::max(tracked, error_m(keyframes[k]->map, truth[k]));
+        refined = std::max(refined, error_m(ale_mapper_pose(mapper.get(), k).pose, truth[k]));
+    }
+    EXPECT_GT(tracked, 0.3);
+    EXPECT_LT(under_way, 0.1);
+    EXPECT_LT(refined, 0.02);
+}
+
+TEST(Mapper, WhatWasKnownOfAMapIsNotBelievedOfTheNext)
+{
+    const auto keyframes = drifting_keyframes::walk(0.55, 0.0012, 2);
+    const Mapper mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES));
+    ASSERT_EQ(ale_mapper_know(mapper.get(), 7, corridor_map().get()), 0);
+    EXPECT_EQ(follow(mapper.get(), keyframes).corrections.size(), 0U);
+}
+
 TEST(Mapper, AMapBegunAnewBeginsTheGraphAnew)
 {
     const auto keyframes = drifting_keyframes::walk(0.1, 0, 1);

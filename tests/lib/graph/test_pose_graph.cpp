@@ -54,6 +54,50 @@ TEST(PoseGraph, TrueMeasurementsBringDisturbedPosesBack)
     EXPECT_LT(largest_error(truth, graph.poses()), 1e-6);
 }
 
+// The first pose is no better known than the others then.
+TEST(PoseGraph, AnchorsTakeAllPosesToWhereTheMapHasThem)
+{
+    ale::PoseGraph graph;
+    const ale::Pose shift{0.3, -0.2, 0.05};
+    const std::vector<ale::Pose> truth = circle(12);
+    for (const ale::Pose &pose : truth) {
+        graph.add_pose(ale::compose(shift, pose));
+    }
+    for (int k = 0; k < 11; k++) {
+        const ale::Pose way = ale::between(truth[static_cast<size_t>(k)], truth[static_cast<size_t>(k) + 1]);
+        graph.add_edge({k, k + 1, way, unit_information, false});
+    }
+    for (const int k : {2, 6, 9}) {
+        graph.add_anchor({k, truth[static_cast<size_t>(k)], unit_information});
+    }
+    EXPECT_GT(graph.residual2(graph.anchors().front()), 100);
+    ASSERT_TRUE(graph.optimise(30, 1e5).solved);
+    EXPECT_LT(largest_error(truth, graph.poses()), 1e-6);
+    graph.take_out(6, 3);
+    ASSERT_EQ(graph.anchors().size(), 2U);
+    EXPECT_EQ(graph.anchors()[1].pose, 8);
+    EXPECT_LT(graph.residual2(graph.anchors()[1]), 1e-9);
+}
+
+TEST(PoseGraph, OneAnchorThatContradictsAllOthersLosesItsWeight)
+{
+    ale::PoseGraph graph;
+    const std::vector<ale::Pose> truth = circle(12);
+    for (const ale::Pose &pose : truth) {
+        graph.add_pose(pose);
+    }
+    for (int k = 0; k < 11; k++) {
+        const ale::Pose way = ale::between(truth[static_cast<size_t>(k)], truth[static_cast<size_t>(k) + 1]);
+        graph.add_edge({k, k + 1, way, unit_information, false});
+    }
+    for (const int k : {1, 3, 5, 7, 9}) {
+        graph.add_anchor({k, truth[static_cast<size_t>(k)], unit_information});
+    }
+    graph.add_anchor({11, ale::compose({1.0, 0.5, 0}, truth[11]), unit_information});
+    ASSERT_TRUE(graph.optimise(30).solved);
+    EXPECT_LT(largest_error(truth, graph.poses()), 0.02);
+}
+
 // A chain of equal edges and a loop of the same weight: the gap of the loop is shared by all alike.
 TEST(PoseGraph, AGapIsSharedByTheEdgesOfTheLoop)
 {

@@ -69,8 +69,15 @@ double distance(ale_point_t a, const reference::Pose &shift, ale_point_t b)
 TEST(Correction, AScanMovesWithTheLastKeyframeBeforeIt)
 {
     const Correction c = correction_of({{10, {1, 0, 0}}, {20, {2, 0, 0}}, {35, {3, 0, 0}}}, 1);
-    for (const auto &[scan, x] : std::vector<std::pair<uint32_t, double>>{
-             {0, 0}, {9, 0}, {10, 1}, {19, 1}, {20, 2}, {34, 2}, {35, 3}, {4000000000U, 3}}) {
+    for (const auto &[scan, x] : std::vector<std::pair<uint32_t, double>>{{0, 0},
+                                                                          {9, 0},
+                                                                          {10, 1},
+                                                                          {19, 1},
+                                                                          {20, 2},
+                                                                          {34, 2},
+                                                                          {35, 3},
+                                                                          {4000000000U, 3},
+                                                                          {ALE_BORN_BEFORE, 0}}) {
         EXPECT_EQ(ale_correction_at(c.get(), scan).x_um, convert::um(x)) << scan;
     }
 }
@@ -202,10 +209,35 @@ TEST(Sighting, ThereIsNoneForAMapThatIsFrozenOrWasLoaded)
     ale_pipeline_load_map(d.pipeline.get(), d.map().get(), d.last.map, true);
     d.drive(10);
     ASSERT_NE(d.last.state, ALE_STATE_LOST);
-    EXPECT_FALSE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
+    ASSERT_TRUE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
+    EXPECT_TRUE(sighting->loaded);
     ale_pipeline_reset(d.pipeline.get());
     d.drive(1);
-    EXPECT_TRUE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
+    ASSERT_TRUE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
+    EXPECT_FALSE(sighting->loaded);
+}
+
+// Not even with its own first scan, where the robot was found at once.
+TEST(Correction, AMapThatWasLoadedStaysWhereItIs)
+{
+    Driven d;
+    d.drive(60);
+    const auto loaded = d.map();
+    ASSERT_GT(loaded->corner_count, 0);
+    ale_pipeline_freeze_map(d.pipeline.get(), true);
+    ale_pipeline_load_map(d.pipeline.get(), loaded.get(), d.last.map, true);
+    d.drive(20);
+    ASSERT_NE(d.last.state, ALE_STATE_LOST);
+    EXPECT_TRUE(d.keyframe->loaded);
+    const auto before = d.map();
+    const reference::Pose at = convert::pose(d.last.map);
+    const reference::Pose shift(0.05, -0.03, 0.01);
+    ASSERT_TRUE(ale_pipeline_correct(d.pipeline.get(), correction_of({{0, shift}}, d.keyframe->epoch).get()));
+    const auto after = d.map();
+    EXPECT_EQ(std::memcmp(before->line, after->line, sizeof before->line), 0);
+    EXPECT_EQ(std::memcmp(before->corner, after->corner, sizeof before->corner), 0);
+    ale_pipeline_dropped(d.pipeline.get(), d.last.stamp_us + 1, &d.last);
+    EXPECT_GT((convert::pose(d.last.map) - at).head<2>().norm(), 0.02); // the robot is corrected
 }
 
 } // namespace

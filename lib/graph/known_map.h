@@ -1,0 +1,41 @@
+// A map that was there before the drive, as scans see it: the surfaces of its walls.
+//
+//   KnownMap known(map);
+//   if (const auto match = known.find(node.points, guess)) ... match->pose ...
+#ifndef ALE_GRAPH_KNOWN_MAP_H
+#define ALE_GRAPH_KNOWN_MAP_H
+
+#include <optional>
+#include <vector>
+
+#include "graph/node.h"
+#include "graph/tight_match.h"
+
+extern "C" {
+#include "track/pipeline.h"
+}
+
+namespace ale
+{
+
+class KnownMap
+{
+  public:
+    explicit KnownMap(const ale_map_t &map);
+
+    // Where points that are seen from about `guess` lie in the map, see match_to.
+    std::optional<TightMatch> find(const std::vector<SurfacePoint> &seen, const Pose &guess) const;
+
+    // Map frame, node_point_spacing_m apart.
+    const std::vector<SurfacePoint> &points() const
+    {
+        return points_;
+    }
+
+  private:
+    std::vector<SurfacePoint> points_;
+};
+
+} // namespace ale
+
+#endif
