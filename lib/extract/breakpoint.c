@@ -11,7 +11,7 @@ enum {
     GRID = 9,         /* places at which a run is tried for a break */
     MEETING_UNIT = 1 << 20, /* so that the difference of two lines times a point fits int64 */
     MEETING_LOSS_Q8 =
-        6 * 256,             /* own variances that a break where the lines meet may fit worse than the best */
+        12 * 256,            /* own variances that a break where the lines meet may fit worse than the best */
     MOST_MEETINGS = 3,       /* times that lines which part where they met are asked where they meet */
     SUSPICIOUS_Q8 = 236,     /* chi square of a degree of freedom, */
     SUSPICIOUS_SUM_Q8 = 768, /* and in all, from which on a run is tried: less is no more than its noise */

@@ -15,8 +15,9 @@ enum {
     PERCENT = 75,     /* a quantile of the Gauss curve that is known better than the median */
     QUARTILE_PER_MILLE = 2818,
     SIGMA_BITS = 4,
-    ROW_BITS = 20,   /* of the rows of the fit: variances of one scan differ a hundredfold */
-    NORMAL_BITS = 19 /* of its normal equations: their products fit int64 */
+    MOST_MISFIT = 16, /* variances that an octave's own one may be */
+    ROW_BITS = 20,    /* of the rows of the fit: variances of one scan differ a hundredfold */
+    NORMAL_BITS = 19  /* of its normal equations: their products fit int64 */
 };
 static const int64_t micro_q36 = 68719; /* 2^36 / 10^6 */
 static const int64_t nrad2_per_rad2 = 1000000000000000000;
@@ -79,57 +80,91 @@ static int32_t collect(ale_extractor_t *e, int64_t curvature_q30, octave_t octav
     return used;
 }
 
-/* sigma^2 = a + b r^2 by least squares of the relative misfit; a, b >= 0. */
-static void fit_model(ale_extractor_t *e, const octave_t *octave, int32_t used)
+/* What the model sigma^2 = a + b r^2 is fitted to. */
+typedef struct {
+    const octave_t *octave;
+    int32_t used;
+    int64_t variance_q8[OCTAVES]; /* in units of which an octave's misfit counts */
+    int64_t var_unit_q8;          /* the least of them */
+    int64_t range_unit_um;        /* the largest range */
+} octaves_t;
+
+typedef struct {
+    int64_t a_q15; /* in units of var_unit */
+    int64_t b_q15; /* in units of var_unit / range_unit^2 */
+} noise_model_t;
+
+/* Least squares of the misfits, weighted by the samples; a, b >= 0. */
+static noise_model_t fit_model(const octaves_t *o)
 {
-    int64_t var_min = INT64_MAX;
-    int64_t range_max = 1;
-    for (int32_t k = 0; k < used; k++) {
-        var_min = ale_min64(var_min, octave[k].sigma_q4 * octave[k].sigma_q4);
-        range_max = ale_max64(range_max, octave[k].range_um);
-    }
     int64_t pp = 0;
     int64_t pt = 0;
     int64_t tt = 0;
-    int64_t p1 = 0;
-    int64_t t1 = 0;
-    for (int32_t k = 0; k < used; k++) {
-        const int64_t p = (var_min << ROW_BITS) / (octave[k].sigma_q4 * octave[k].sigma_q4);
-        const int64_t r = (octave[k].range_um << ROW_BITS) / range_max;
+    int64_t py = 0;
+    int64_t ty = 0;
+    for (int32_t k = 0; k < o->used; k++) {
+        const octave_t *octave = &o->octave[k];
+        const int64_t p = (o->var_unit_q8 << ROW_BITS) / o->variance_q8[k];
+        const int64_t r = (octave->range_um << ROW_BITS) / o->range_unit_um;
         const int64_t t = (p * ((r * r) >> ROW_BITS)) >> ROW_BITS;
-        const int64_t n = octave[k].samples;
+        const int64_t y = ale_min64((octave->sigma_q4 * octave->sigma_q4 << ROW_BITS) / o->variance_q8[k],
+                                    (int64_t)MOST_MISFIT << ROW_BITS);
+        const int64_t n = octave->samples;
         pp += n * p * p;
         pt += n * p * t;
         tt += n * t * t;
-        p1 += n * p;
-        t1 += n * t;
+        py += n * p * y;
+        ty += n * t * y;
     }
     pp >>= 2 * ROW_BITS - NORMAL_BITS;
     pt >>= 2 * ROW_BITS - NORMAL_BITS;
     tt >>= 2 * ROW_BITS - NORMAL_BITS;
-    p1 >>= ROW_BITS - NORMAL_BITS;
-    t1 >>= ROW_BITS - NORMAL_BITS;
-    int64_t det = pp * tt - pt * pt;
-    int64_t a_q15 = 0; /* in units of var_min */
-    int64_t b_q15 = 0; /* in units of var_min / range_max^2 */
+    py >>= 2 * ROW_BITS - NORMAL_BITS;
+    ty >>= 2 * ROW_BITS - NORMAL_BITS;
+    const int64_t det = pp * tt - pt * pt;
     if (det > pp * tt / 64) {
-        det = ale_max64(det >> 15, 1);
-        a_q15 = (p1 * tt - t1 * pt) / det;
-        b_q15 = (t1 * pp - p1 * pt) / det;
-    } else {
-        a_q15 = p1 * (1 << 15) / ale_max64(pp, 1);
+        const int64_t det_q15 = ale_max64(det >> 15, 1);
+        const noise_model_t both = {(py * tt - ty * pt) / det_q15, (ty * pp - py * pt) / det_q15};
+        if (both.a_q15 < 0) {
+            return (noise_model_t){0, ty * (1 << 15) / ale_max64(tt, 1)};
+        }
+        if (both.b_q15 >= 0) {
+            return both;
+        }
     }
-    if (b_q15 < 0) {
-        b_q15 = 0;
-        a_q15 = p1 * (1 << 15) / ale_max64(pp, 1);
+    return (noise_model_t){py * (1 << 15) / ale_max64(pp, 1), 0};
+}
+
+static void set_variance_unit(octaves_t *o)
+{
+    o->var_unit_q8 = INT64_MAX;
+    for (int32_t k = 0; k < o->used; k++) {
+        o->var_unit_q8 = ale_min64(o->var_unit_q8, o->variance_q8[k]);
     }
-    if (a_q15 < 0) {
-        a_q15 = 0;
-        b_q15 = t1 * (1 << 15) / ale_max64(tt, 1);
+}
+
+/* The model through the octaves, and once more with each misfit in units of what the first model says: in
+ * units of its own variance an octave of few points that are near each other by chance would count most. */
+static void measure_own(ale_extractor_t *e, const octave_t *octave, int32_t used)
+{
+    octaves_t o = {.octave = octave, .used = used, .range_unit_um = 1};
+    for (int32_t k = 0; k < used; k++) {
+        o.variance_q8[k] = octave[k].sigma_q4 * octave[k].sigma_q4;
+        o.range_unit_um = ale_max64(o.range_unit_um, octave[k].range_um);
     }
-    e->noise.own_mm2_q36 = ((a_q15 * var_min) >> 15) * micro_q36 >> (2 * SIGMA_BITS);
+    set_variance_unit(&o);
+    const noise_model_t first = fit_model(&o);
+    for (int32_t k = 0; k < used; k++) {
+        const int64_t r_q15 = (octave[k].range_um << 15) / o.range_unit_um;
+        const int64_t times_q15 = first.a_q15 + ((first.b_q15 * ((r_q15 * r_q15) >> 15)) >> 15);
+        o.variance_q8[k] = ale_max64((o.var_unit_q8 * times_q15) >> 15, 1);
+    }
+    set_variance_unit(&o);
+    const noise_model_t m = fit_model(&o);
+    e->noise.own_mm2_q36 = ((m.a_q15 * o.var_unit_q8) >> 15) * micro_q36 >> (2 * SIGMA_BITS);
     e->noise.own_relative_q36 =
-        ale_mul_div((b_q15 * var_min) >> 15, (int64_t)1 << (36 - 2 * SIGMA_BITS), range_max * range_max);
+        ale_mul_div((m.b_q15 * o.var_unit_q8) >> 15, (int64_t)1 << (36 - 2 * SIGMA_BITS),
+                    o.range_unit_um * o.range_unit_um);
 }
 
 void ale_scan_noise_measure(ale_extractor_t *e, const ale_scan_t *scan)
@@ -148,7 +183,7 @@ void ale_scan_noise_measure(ale_extractor_t *e, const ale_scan_t *scan)
     const int64_t curvature_q30 = 2 * (((int64_t)1 << 30) - ale_cos_q30((uint32_t)scan->step_bam));
     const int32_t used = collect(e, curvature_q30, octave);
     if (used > 0) {
-        fit_model(e, octave, used);
+        measure_own(e, octave, used);
     }
     e->noise.sigma_um = ((int64_t)ale_isqrt((uint64_t)e->noise.own_mm2_q36) * 1000) >> 18;
     e->noise.sigma_per_range_q20 = (int64_t)ale_isqrt((uint64_t)e->noise.own_relative_q36 << 24) >> 10;

@@ -32,7 +32,7 @@ int placed_break(const ScanPoints &points, const NoiseOfScan &noise, Run a, Run 
                  Decisions &decisions);
 
 // What a break where two lines meet may fit worse than the best one.
-constexpr double meeting_loss = 6;
+constexpr double meeting_loss = 12;
 
 // The break of least joint chi square of all from lowest to highest.
 int best_break(const ScanPoints &points, const NoiseOfScan &noise, Run a, Run b, int lowest, int highest);

@@ -12,6 +12,7 @@ namespace
 {
 
 constexpr size_t least_samples = 20;    // of an octave
+constexpr double most_misfit = 16;      // variances that an octave's own one may be
 constexpr size_t difference_stride = 3; // neighbouring differences share two of three points
 constexpr double difference_share = 0.75;
 constexpr double counts_per_mm = 16000; // the bins count sixteenths of a micrometre
@@ -88,6 +89,31 @@ double block_ratio(const ScanPoints &points, const NoiseOfScan &noise, size_t st
     return difference * difference / (noise.own(range) * 6 / block);
 }
 
+struct VarianceAtRange {
+    double samples;
+    double range2;
+    double variance;
+};
+
+// Least squares of the misfits, each in its unit, weighted by the samples; where one of the two parts would
+// be negative, or the ranges do not tell them apart, the other alone.
+Eigen::Vector2d noise_model(const std::vector<VarianceAtRange> &measured, const std::vector<double> &unit)
+{
+    Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    for (size_t k = 0; k < measured.size(); k++) {
+        const Eigen::Vector2d row = Eigen::Vector2d(1, measured[k].range2) / unit[k];
+        normal += measured[k].samples * row * row.transpose();
+        right += measured[k].samples * row * std::min(measured[k].variance / unit[k], most_misfit);
+    }
+    const Eigen::Vector2d constant(right(0) / normal(0, 0), 0);
+    if (normal.determinant() <= normal(0, 0) * normal(1, 1) / 64) {
+        return constant;
+    }
+    const Eigen::Vector2d both = normal.inverse() * right;
+    return both(0) < 0 ? Eigen::Vector2d(0, right(1) / normal(1, 1)) : both(1) < 0 ? constant : both;
+}
+
 } // namespace
 
 double binned_quantile(const std::vector<double> &values, double share)
@@ -111,36 +137,32 @@ double binned_quantile(const std::vector<double> &values, double share)
     return 0;
 }
 
-// sigma^2 = a + b r^2 over the octaves, least squares of the relative misfit, weighted by their samples;
-// where one of the two would be negative, or the ranges do not tell them apart, the other alone.
+// sigma^2 = a + b r^2 over the octaves; where there is none the prior.
 NoiseOfScan own_noise(const ScanPoints &points, const NoiseOfScan &prior, double step)
 {
     NoiseOfScan noise = prior;
-    Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d right = Eigen::Vector2d::Zero();
-    double farthest = 0;
+    std::vector<VarianceAtRange> measured;
+    std::vector<double> unit;
     for (const auto &[number, octave] : octaves_of(points, step)) {
         const auto n = static_cast<double>(octave.difference.size());
         if (octave.difference.size() >= least_samples) {
             const double quartile = binned_quantile(octave.difference, difference_share) / counts_per_mm;
             const double sigma = std::clamp(quartile / quartile_of_difference, least_sigma, most_sigma);
             const double range = octave.range / n;
-            const Eigen::Vector2d row = Eigen::Vector2d(1, range * range) / (sigma * sigma);
-            normal += n * row * row.transpose();
-            right += n * row;
-            farthest = std::max(farthest, range);
+            measured.push_back({n, range * range, sigma * sigma});
+            unit.push_back(sigma * sigma);
         }
     }
-    if (farthest == 0) {
+    if (measured.empty()) {
         return noise;
     }
-    Eigen::Vector2d ab(right(0) / normal(0, 0), 0);
-    if (normal.determinant() > normal(0, 0) * normal(1, 1) / 64) {
-        const Eigen::Vector2d both = normal.inverse() * right;
-        ab = both(1) < 0 ? ab : both(0) < 0 ? Eigen::Vector2d(0, right(1) / normal(1, 1)) : both;
+    const Eigen::Vector2d first = noise_model(measured, unit);
+    for (size_t k = 0; k < unit.size(); k++) {
+        unit[k] = first(0) + first(1) * measured[k].range2;
     }
-    noise.own_constant = ab(0);
-    noise.own_relative = ab(1);
+    const Eigen::Vector2d model = noise_model(measured, unit);
+    noise.own_constant = model(0);
+    noise.own_relative = model(1);
     return noise;
 }
 

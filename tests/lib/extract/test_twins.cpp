@@ -18,7 +18,7 @@ namespace
 
 using Beams = std::set<std::pair<int, int>>;
 
-const unsigned scans = std::getenv("ALE_LONG_TESTS") ? 3000 : 480;
+const unsigned scans = std::getenv("ALE_LONG_TESTS") ? 3000 : 960;
 
 reference::Extraction twin_of(const ale_scan_t &scan)
 {
