@@ -59,6 +59,13 @@ static inline unsigned ale_bit_length(uint64_t v)
 /* floor(sqrt(v)). Three divisions. */
 uint32_t ale_isqrt(uint64_t v);
 
+/* What v has beyond so many bits and a sign: 0 when -2^bits <= v < 2^bits. bits 0..62. Several of them,
+ * or'ed, tell with one branch whether all products of what was asked for fit int64. */
+static inline uint64_t ale_beyond(int64_t v, unsigned bits)
+{
+    return ((uint64_t)v + ((uint64_t)1 << bits)) >> (bits + 1);
+}
+
 /* a * b / 2^shift with a 128-bit product, rounded half away from zero and saturated to int64.
  * shift 0..126. Made of 32-bit limbs: __int128 does not exist on 32-bit targets. */
 int64_t ale_wide_mul_shift(int64_t a, int64_t b, unsigned shift);

@@ -7,6 +7,7 @@ enum {
     BAM_PER_RAD = 683565276,
     NEAREST_UM = 10000,
     RESTING_UM = 20,
+    HIGHER_TERMS_Q30 = 1 << 16, /* square of a turn below which they are zero: 7.8 mrad */
     KNOT_BITS = 6,
     KNOT_BEAMS = 1 << KNOT_BITS
 };
@@ -45,9 +46,13 @@ static void move_beam(int32_t *range_um, uint32_t *bearing_bam, ale_pose_t moved
         ale_clamp64(ale_round_div(across_um * ((int64_t)1 << 30), reach_um), -(1 << 29), 1 << 29);
     const int64_t zz_q30 = ale_round_shift(z_q30 * z_q30, 30);
     const int64_t z3 = ale_round_shift(z_q30 * zz_q30, 30);
-    const int64_t z5 = ale_round_shift(z3 * zz_q30, 30);
-    const int64_t turn_q30 = z_q30 - z3 / 3 + z5 / 5 - ale_round_shift(z5 * zz_q30, 30) / 7;
-    const int64_t longer_q30 = zz_q30 / 2 - ale_round_shift(zz_q30 * zz_q30, 33);
+    int64_t turn_q30 = z_q30 - z3 / 3;
+    int64_t longer_q30 = zz_q30 / 2;
+    if (zz_q30 >= HIGHER_TERMS_Q30) {
+        const int64_t z5 = ale_round_shift(z3 * zz_q30, 30);
+        turn_q30 += z5 / 5 - ale_round_shift(z5 * zz_q30, 30) / 7;
+        longer_q30 -= ale_round_shift(zz_q30 * zz_q30, 33);
+    }
     *bearing_bam += (uint32_t)(uint64_t)ale_round_shift(turn_q30 * BAM_PER_RAD, 30);
     *range_um = (int32_t)(reach_um + ale_round_shift(reach_um * longer_q30, 30));
 }

@@ -2,6 +2,7 @@
 
 #include "base/fixed.h"
 #include "base/trig.h"
+#include "track/view.h"
 
 enum {
     REACH_UM = 100000,
@@ -17,17 +18,17 @@ void ale_map_corners_clear(ale_map_corners_t *corners)
 }
 
 /* The corner in the map's frame; the covariance turned from the sensor's frame: R C R^T. */
-static ale_map_corner_t in_map(const ale_corner_t *c, ale_pose_t sensor)
+static ale_map_corner_t in_map(const ale_corner_t *c, const ale_stand_t *sensor)
 {
-    const int64_t cos_q15 = ale_round_shift(ale_cos_q30(sensor.theta_bam), 15);
-    const int64_t sin_q15 = ale_round_shift(ale_sin_q30(sensor.theta_bam), 15);
+    const int64_t cos_q15 = ale_round_shift(sensor->turn.cos_q30, 15);
+    const int64_t sin_q15 = ale_round_shift(sensor->turn.sin_q30, 15);
     const int64_t cc = cos_q15 * cos_q15;
     const int64_t ss = sin_q15 * sin_q15;
     const int64_t cs = cos_q15 * sin_q15;
     const int64_t *v = c->cov_um2;
-    ale_map_corner_t m = {.p = ale_pose_apply(sensor, c->p),
+    ale_map_corner_t m = {.p = ale_point_from(c->p, sensor),
                           .angle_bam = c->angle_bam,
-                          .bisector_bam = c->bisector_bam + sensor.theta_bam,
+                          .bisector_bam = c->bisector_bam + sensor->pose.theta_bam,
                           .seen = 1,
                           .kind = c->kind};
     m.cov_um2[0] =
@@ -130,8 +131,9 @@ uint16_t ale_map_corners_update(ale_map_corners_t *corners, const ale_features_t
     if (count == 0) {
         return 0;
     }
+    const ale_stand_t stand = ale_stand(sensor);
     for (uint32_t i = 0; i < count; i++) {
-        seen[i] = in_map(&features->corner[i], sensor);
+        seen[i] = in_map(&features->corner[i], &stand);
     }
     list_around(corners, seen, count);
     corners->once = 0;

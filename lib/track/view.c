@@ -6,17 +6,25 @@
 /* No wall is known better than this from one scan: paint, skirting boards, warped boards. */
 enum { OFFSET_FLOOR_UM2 = 250000, ANGLE_FLOOR_URAD2 = 40000, NRAD_PER_RAD = 1000000000 };
 
-ale_point_t ale_polar(int64_t length_um, uint32_t direction_bam)
+static ale_point_t in_direction(int64_t length_um, ale_direction_t d)
 {
-    const ale_direction_t d = ale_direction(direction_bam);
     return (ale_point_t){(int32_t)ale_round_shift(length_um * d.cos_q30, 30),
                          (int32_t)ale_round_shift(length_um * d.sin_q30, 30)};
 }
 
+ale_point_t ale_polar(int64_t length_um, uint32_t direction_bam)
+{
+    return in_direction(length_um, ale_direction(direction_bam));
+}
+
+static int64_t component(ale_point_t v, ale_direction_t d)
+{
+    return ale_round_shift((int64_t)v.x_um * d.cos_q30 + (int64_t)v.y_um * d.sin_q30, 30);
+}
+
 int64_t ale_along(ale_point_t v, uint32_t direction_bam)
 {
-    const ale_direction_t d = ale_direction(direction_bam);
-    return ale_round_shift((int64_t)v.x_um * d.cos_q30 + (int64_t)v.y_um * d.sin_q30, 30);
+    return component(v, ale_direction(direction_bam));
 }
 
 ale_point_t ale_point_from(ale_point_t p, const ale_stand_t *stand)
@@ -42,21 +50,21 @@ static int64_t centre_of(const ale_line_t *line, int64_t from_um, int64_t to_um)
     return ale_clamp64(t_um, ale_min64(from_um, to_um), ale_max64(from_um, to_um));
 }
 
-static void view_of(const ale_line_t *line, const ale_scan_t *scan, ale_pose_t sensor, int64_t systematic_um,
-                    ale_view_t *out)
+static void view_of(const ale_line_t *line, const ale_scan_t *scan, const ale_stand_t *sensor,
+                    int64_t systematic_um, ale_view_t *out)
 {
-    const uint32_t along_bam = line->alpha_bam + ALE_BAM_QUARTER_TURN;
-    const int64_t a_um = ale_along(line->start, along_bam);
-    const int64_t b_um = ale_along(line->end, along_bam);
+    const ale_direction_t along = ale_direction(line->alpha_bam + ALE_BAM_QUARTER_TURN);
+    const int64_t a_um = component(line->start, along);
+    const int64_t b_um = component(line->end, along);
     const bool forward = a_um <= b_um;
     const int64_t centre_um = centre_of(line, a_um, b_um);
     const ale_point_t foot = ale_polar(line->rho_um, line->alpha_bam);
-    const ale_point_t centre = ale_plus(foot, ale_polar(centre_um, along_bam));
+    const ale_point_t centre = ale_plus(foot, in_direction(centre_um, along));
     const int32_t first_us = ale_scan_beam_offset_us(scan, line->first);
     const int32_t last_us = ale_scan_beam_offset_us(scan, line->last);
     const int64_t var_um2 = line->var_rho_um2 - ale_mul_div(centre_um, line->cov_alpha_rho, NRAD_PER_RAD);
-    out->centre = ale_pose_apply(sensor, centre);
-    out->normal_bam = line->alpha_bam + ALE_BAM_HALF_TURN + sensor.theta_bam;
+    out->centre = ale_point_from(centre, sensor);
+    out->normal_bam = line->alpha_bam + ALE_BAM_HALF_TURN + sensor->pose.theta_bam;
     out->start_um = (int32_t)((forward ? a_um : b_um) - centre_um);
     out->end_um = (int32_t)((forward ? b_um : a_um) - centre_um);
     out->start_time_us = forward ? first_us : last_us;
@@ -72,10 +80,11 @@ static void view_of(const ale_line_t *line, const ale_scan_t *scan, ale_pose_t s
 uint32_t ale_views_of(const ale_features_t *features, const ale_scan_t *scan, ale_pose_t sensor,
                       int32_t systematic_um, ale_view_t out[ALE_MAX_VIEWS])
 {
+    const ale_stand_t stand = ale_stand(sensor);
     uint32_t count = 0;
     for (uint32_t i = 0; i < features->line_count; i++) {
         if (ale_is_chosen(i, features->line_count, ALE_MAX_VIEWS)) {
-            view_of(&features->line[i], scan, sensor, systematic_um, &out[count]);
+            view_of(&features->line[i], scan, &stand, systematic_um, &out[count]);
             out[count].line = (uint16_t)i;
             out[count++].kind = ALE_VIEW_WALL;
         }

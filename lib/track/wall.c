@@ -10,8 +10,9 @@ enum { OFFSET_FLOOR_UM2 = 10000, ANGLE_FLOOR_URAD2 = 2500 };
 void ale_wall_set_normal(ale_wall_t *wall, uint32_t normal_bam)
 {
     wall->normal_bam = normal_bam;
-    wall->normal_x_q30 = ale_cos_q30(normal_bam);
-    wall->normal_y_q30 = ale_sin_q30(normal_bam);
+    const ale_direction_t normal = ale_direction(normal_bam);
+    wall->normal_x_q30 = normal.cos_q30;
+    wall->normal_y_q30 = normal.sin_q30;
 }
 
 void ale_wall_from_view(ale_wall_t *wall, const ale_view_t *view)
@@ -39,8 +40,20 @@ int64_t ale_wall_offset_angle_cov(const ale_wall_t *wall, int64_t t_um)
     return wall->cov_um_urad + ale_mul_div(wall->var_angle_urad2, t_um, 1000000);
 }
 
+/* Whether the place is within 8 m of the anchor, and the wall known to some 90 mrad: the products fit int64
+ * then, and none need be asked for its width. */
+static inline bool is_plain(const ale_wall_t *wall, int64_t t_um)
+{
+    return (ale_beyond(t_um, 23) | ale_beyond(wall->var_angle_urad2, 33) |
+            ale_beyond(wall->cov_um_urad, 36)) == 0;
+}
+
 int64_t ale_wall_offset_var(const ale_wall_t *wall, int64_t t_um)
 {
+    if (is_plain(wall, t_um)) {
+        const int64_t sum = 2 * wall->cov_um_urad + ale_round_div(wall->var_angle_urad2 * t_um, 1000000);
+        return ale_max64(wall->var_offset_um2 + ale_round_div(sum * t_um, 1000000), OFFSET_FLOOR_UM2);
+    }
     const int64_t twice = wall->cov_um_urad + ale_wall_offset_angle_cov(wall, t_um);
     return ale_max64(wall->var_offset_um2 + ale_mul_div(twice, t_um, 1000000), OFFSET_FLOOR_UM2);
 }

@@ -188,6 +188,59 @@ TEST(Hypothesis, ThePoseOfAPairIsThatOfTheTwin)
     EXPECT_GT(compared, 500);
 }
 
+// Small numbers take a way without wide products, large ones do not: both ways lead to the same variance.
+TEST(Variance, IsThatOfTheTwinForNumbersOfAnySize)
+{
+    std::mt19937 rng(1);
+    const auto of_size = [&](double least, double most) {
+        return std::exp(std::uniform_real_distribution<double>(std::log(least), std::log(most))(rng));
+    };
+    const auto sign = [&] { return rng() % 2 == 0 ? 1.0 : -1.0; };
+    for (int k = 0; k < 20000; k++) {
+        ale_wall_t wall = {};
+        wall.var_offset_um2 = std::llround(of_size(1e4, 1e12));
+        wall.var_angle_urad2 = std::llround(of_size(2500, 4e12));
+        wall.cov_um_urad = std::llround(
+            sign() * of_size(1e-3, 1) *
+            std::sqrt(static_cast<double>(wall.var_offset_um2) * static_cast<double>(wall.var_angle_urad2)));
+        const int64_t t_um = std::llround(sign() * of_size(1e3, 1e8));
+        const double t_m = static_cast<double>(t_um) * 1e-6;
+        const double var = static_cast<double>(wall.var_offset_um2) +
+                           2 * t_m * static_cast<double>(wall.cov_um_urad) +
+                           t_m * t_m * static_cast<double>(wall.var_angle_urad2);
+        const double size = std::fabs(t_m * static_cast<double>(wall.cov_um_urad)) +
+                            t_m * t_m * static_cast<double>(wall.var_angle_urad2);
+        EXPECT_NEAR(static_cast<double>(ale_wall_offset_var(&wall, t_um)), std::max(var, 1e4),
+                    2 + std::fabs(t_m) + 1e-14 * size);
+
+        ale_view_t view = {};
+        view.normal_bam = rng();
+        view.centre = {convert::um(sign() * of_size(0.01, 60)), convert::um(sign() * of_size(0.01, 60))};
+        const Eigen::Vector3d a(sign() * of_size(1e3, 1e6), sign() * of_size(1e3, 1e6),
+                                sign() * of_size(100, 5e5));
+        const Eigen::Vector3d b(sign() * of_size(1e2, 1e6), sign() * of_size(1e2, 1e6),
+                                sign() * of_size(100, 5e5));
+        ale_matrix_t cov = {};
+        Eigen::Matrix3d twin;
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j < 3; j++) {
+                cov.m[i][j] = std::llround(a[i] * a[j] + b[i] * b[j]);
+                twin(i, j) = static_cast<double>(cov.m[i][j]);
+            }
+        }
+        const double normal = convert::radians(view.normal_bam);
+        const Eigen::Vector3d row(std::cos(normal), std::sin(normal),
+                                  view.centre.x_um * 1e-6 * std::sin(normal) -
+                                      view.centre.y_um * 1e-6 * std::cos(normal));
+        const Eigen::Vector3d rounded(std::round(row[0] * 16384) / 16384, std::round(row[1] * 16384) / 16384,
+                                      std::round(row[2] * 16384) / 16384);
+        const double most = rounded.cwiseAbs().transpose() * twin.cwiseAbs() * rounded.cwiseAbs();
+        EXPECT_NEAR(static_cast<double>(ale_view_offset_var(&view, &cov)),
+                    rounded.transpose() * twin * rounded,
+                    10 + 1e-4 * most + 1e-4 * std::sqrt(most * twin.maxCoeff()));
+    }
+}
+
 // Every hypothesis has the twin's score to a millimetre, and when all pairs of walls were gone through the
 // best of them is where the robot is.
 TEST(Hypothesis, TheSearchFindsThePlaceAndTheScoresOfTheTwin)
