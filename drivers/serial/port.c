@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -24,10 +25,11 @@ int ale_port_status_of_errno(int error)
     case ENODEV:
     case ENXIO:
     case ENOTDIR:
-    case ENOTTY:
     case EISDIR:
     case ELOOP:
         return ALE_PORT_ABSENT;
+    case ENOTTY:
+        return ALE_PORT_OTHER;
     default:
         return ALE_PORT_GONE;
     }
@@ -80,11 +82,28 @@ static int open_locked(ale_port_t *port, const char *real_path, int32_t baud)
     return ALE_PORT_OK;
 }
 
+/* What else the path may be than a terminal. */
+static int status_of_kind(const char *real_path)
+{
+    struct stat there;
+    if (stat(real_path, &there) < 0) {
+        return ale_port_status_of_errno(errno);
+    }
+    if (S_ISDIR(there.st_mode)) {
+        return ALE_PORT_FOLDER;
+    }
+    return S_ISREG(there.st_mode) ? ALE_PORT_FILE : S_ISCHR(there.st_mode) ? ALE_PORT_OK : ALE_PORT_OTHER;
+}
+
 static int open_device(ale_port_t *port, const char *path, int32_t baud)
 {
     char real_path[PATH_MAX];
     if (realpath(path, real_path) == NULL) {
         return ale_port_status_of_errno(errno);
+    }
+    const int kind = status_of_kind(real_path);
+    if (kind < 0) {
+        return kind;
     }
     const char *name = strrchr(real_path, '/') + 1;
     const bool real = listed_by_kernel(name);
@@ -228,6 +247,12 @@ const char *ale_port_strerror(int status)
         return "no access: permission is missing (group dialout), or another program holds the port";
     case ALE_PORT_ABSENT:
         return "no such serial device";
+    case ALE_PORT_FILE:
+        return "is an ordinary file and no serial device (ale-sim --log plays a recording)";
+    case ALE_PORT_FOLDER:
+        return "is a directory and no serial device";
+    case ALE_PORT_OTHER:
+        return "is no serial device";
     case ALE_PORT_BAUD:
         return "the port cannot do this baud rate";
     case ALE_PORT_TIMEOUT:

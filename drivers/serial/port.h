@@ -16,7 +16,10 @@ typedef enum {
     ALE_PORT_DENIED = -2, /* no permission, or another program holds it */
     ALE_PORT_ABSENT = -3, /* no such device */
     ALE_PORT_BAUD = -4,   /* rate not possible on this port */
-    ALE_PORT_TIMEOUT = -5
+    ALE_PORT_TIMEOUT = -5,
+    ALE_PORT_FILE = -6, /* the path is an ordinary file, */
+    ALE_PORT_FOLDER = -7,
+    ALE_PORT_OTHER = -8 /* or no terminal */
 } ale_port_status_t;
 
 typedef struct ale_port ale_port_t;

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <fcntl.h>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <pthread.h>
 #include <pty.h>
@@ -179,9 +180,11 @@ TEST(PortOpen, what_is_no_serial_device_is_named)
     const files::TemporaryFolder folder;
     ale_port_t *port = nullptr;
     EXPECT_EQ(ale_port_open(&port, (folder.path() / "nothing").c_str(), 115200), ALE_PORT_ABSENT);
-    EXPECT_EQ(ale_port_open(&port, folder.path().c_str(), 115200), ALE_PORT_ABSENT);
-    EXPECT_EQ(ale_port_open(&port, "/dev/null", 115200), ALE_PORT_ABSENT);
-    for (int status = ALE_PORT_TIMEOUT; status <= ALE_PORT_OK; status++) {
+    EXPECT_EQ(ale_port_open(&port, folder.path().c_str(), 115200), ALE_PORT_FOLDER);
+    std::ofstream(folder.path() / "drive.scip") << "bytes";
+    EXPECT_EQ(ale_port_open(&port, (folder.path() / "drive.scip").c_str(), 115200), ALE_PORT_FILE);
+    EXPECT_EQ(ale_port_open(&port, "/dev/null", 115200), ALE_PORT_OTHER);
+    for (int status = ALE_PORT_OTHER; status <= ALE_PORT_OK; status++) {
         EXPECT_STRNE(ale_port_strerror(status), ale_port_strerror(1));
     }
 }
