@@ -136,6 +136,9 @@ static int check_rights(const char *path, mode_t forbidden, const char *reason, 
     if (stat(path, &file) < 0) {
         return fail(error, path, strerror(errno));
     }
+    if (S_ISDIR(file.st_mode)) {
+        return fail(error, path, "is a directory");
+    }
     return (file.st_mode & forbidden) != 0 ? fail(error, path, reason) : 0;
 }
 

@@ -91,3 +91,61 @@ def test_a_file_that_is_not_there_is_named_in_one_line(name, tmp_path):
     assert (failed.returncode, failed.stdout) == (code, "")
     assert failed.stderr.startswith(f"{name}: ") and ABSENT in failed.stderr and failed.stderr.count("\n") == 1
     assert list(tmp_path.iterdir()) == [], "nothing is left behind"
+
+
+@pytest.mark.parametrize("words", ["ale-replay LOG --map FILE.svg", "ale-replay LOG --save-map FILE", "ale-replay LOG --features FILE",
+                                   "ale-replay LOG --timing FILE", "ale-calibrate LOG --plot FILE", "ale-calibrate LOG --out FILE",
+                                   "ale-mounting LOG --out FILE", "ale-inspect LOG 0 --out FILE", "ale-watch --csv FILE",
+                                   "ale-watch --trajectory FILE", "ale-explore --world WORLD --map FILE.svg",
+                                   "ale-sim --world WORLD --write-log FILE", "ale-sim --world WORLD --pty urg --truth FILE"])
+def test_a_result_that_cannot_be_written_is_told_before_the_work(words, tmp_path):
+    log = tmp_path / "some.log"
+    log.write_text("no scan is in it: to have read it would be told")
+    (tmp_path / "folder.svg").mkdir()
+    (tmp_path / "folder").mkdir()
+    before = sorted(tmp_path.iterdir())
+    for there, why in [("absent/FILE", "No such file or directory"), ("some.log/FILE", "Not a directory"), ("folder", "Is a directory")]:
+        name, *arguments = [word.replace("FILE", there.replace("FILE", "result")).replace("LOG", "some.log")
+                            .replace("WORLD", f"{ROOT}/tools/worlds/home.world") for word in words.split()]
+        failed = run(name, *arguments, cwd=tmp_path)
+        assert (failed.returncode, failed.stdout) == (1, "")
+        assert failed.stderr.endswith(f": {why}\n") and failed.stderr.count("\n") == 1, failed.stderr
+    assert sorted(tmp_path.iterdir()) == before
+
+
+@pytest.mark.parametrize("words", ["ale-replay LOG --trajectory LOG", "ale-replay LOG --features ./LOG", "ale-replay LOG --save-map LOG",
+                                   "ale-replay LOG --poses one --trajectory one", "ale-calibrate LOG --out LOG",
+                                   "ale-mounting LOG --out LOG", "ale-inspect LOG 0 --out LOG", "ale-watch --csv one --trajectory ./one",
+                                   "ale-sim --world LOG --write-log LOG", "ale-sim --log LOG --pty urg --truth LOG",
+                                   "ale-sim --world LOG --write-log one --truth one"])
+def test_no_result_takes_the_place_of_what_it_is_made_from_or_of_another(words, tmp_path):
+    log = tmp_path / "some.log"
+    log.write_text("precious")
+    name, *arguments = [word.replace("LOG", "some.log") for word in words.split()]
+    refused = run(name, *arguments, cwd=tmp_path)
+    assert (refused.returncode, refused.stdout, refused.stderr.count("\n")) == (2, "", 1)
+    assert log.read_text() == "precious" and list(tmp_path.iterdir()) == [log]
+
+
+@pytest.mark.parametrize("words", ["--points", "--save-map -", "--load-map -"])
+def test_what_replay_would_pass_over_is_refused(words, tmp_path):
+    refused = run("ale-replay", "some.log", *words.split(), cwd=tmp_path)
+    assert (refused.returncode, refused.stdout, refused.stderr.count("\n")) == (2, "", 1)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("there, what", [("file", "is an ordinary file and no serial device"), ("folder", "is a directory and no serial device"),
+                                         ("/dev/null", "is no serial device"), ("absent", "no such serial device")])
+def test_what_is_there_instead_of_a_scanner_is_said(there, what, tmp_path):
+    (tmp_path / "file").write_text("a recording")
+    (tmp_path / "folder").mkdir()
+    failed = run("ale-record", "--port", there, "--no-lcm", "--seconds", "1", "--out", "drive.scip", cwd=tmp_path)
+    assert failed.returncode == 1 and f"{there}: {what}" in failed.stderr
+    assert (tmp_path / "file").read_text() == "a recording"
+
+
+@pytest.mark.parametrize("words", ["ale-latency .", "ale-send --keys . stop", "ale-console --http 127.0.0.1:0 --keys ."])
+def test_a_folder_in_place_of_a_file_is_called_one(words, tmp_path):
+    name, *arguments = words.split()
+    failed = run(name, *arguments, cwd=tmp_path)
+    assert (failed.returncode, failed.stderr) == (1, f"{name}: .: is a directory\n")

@@ -4,6 +4,7 @@
 
 #include "calibrate/calibration.h"
 #include "cli/command_line.h"
+#include "cli/files.h"
 #include "export/text_file.h"
 
 namespace
@@ -25,6 +26,14 @@ struct Options {
     std::string out = "-";
     std::string plot;
 };
+
+void check_files(const Options &options)
+{
+    cli::Files files;
+    files.reads("LOG", options.log);
+    files.writes("--out", options.out);
+    files.writes("--plot", options.plot);
+}
 
 void run(const Options &options)
 {
@@ -48,5 +57,8 @@ int main(int argc, char **argv)
     line.argument("LOG", options.log);
     line.text("out", options.out);
     line.text("plot", options.plot);
-    return line.run(argc, argv, [&] { run(options); });
+    return line.run(argc, argv, [&] {
+        check_files(options);
+        run(options);
+    });
 }

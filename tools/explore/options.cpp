@@ -1,5 +1,6 @@
 #include "explore/options.h"
 
+#include "cli/files.h"
 #include "cli/robot_files.h"
 
 namespace explore
@@ -41,6 +42,9 @@ void complete(Options &o)
         throw cli::WrongUse("--world WORLD is missing");
     }
     sim::noise_model(o.source.noise);
+    cli::Files files;
+    files.reads("--world", o.world);
+    files.writes("--map", o.map);
     o.source.journey.slip = sim::driven_slip;
     o.source.journey.collision_radius = o.width() / 2;
 }

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "cli/files.h"
 #include "cli/robot_files.h"
 #include "inspect/picture.h"
 #include "replay/log_reader.h"
@@ -53,6 +54,14 @@ std::unique_ptr<ale_scan_t> scan_of(const Options &options)
                              std::to_string(options.scan));
 }
 
+void check_files(const Options &options)
+{
+    cli::Files files;
+    files.reads("LOG", options.log);
+    files.reads("--config", options.config);
+    files.writes("--out", options.out);
+}
+
 void run(const Options &options)
 {
     const ale_extract_config_t config = extraction_of(options);
@@ -78,5 +87,8 @@ int main(int argc, char **argv)
     });
     line.text("out", options.out);
     line.text("config", options.config);
-    return line.run(argc, argv, [&] { run(options); });
+    return line.run(argc, argv, [&] {
+        check_files(options);
+        run(options);
+    });
 }

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -63,6 +64,9 @@ uint64_t listen(const Options &options, latency::Latencies &latencies)
 
 uint64_t read(const Options &options, latency::Latencies &latencies)
 {
+    if (std::filesystem::is_directory(options.log)) {
+        throw std::runtime_error(options.log + ": is a directory");
+    }
     const std::unique_ptr<lcm_eventlog_t, decltype(&lcm_eventlog_destroy)> log(
         lcm_eventlog_create(options.log.c_str(), "r"), lcm_eventlog_destroy);
     if (!log) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli/command_line.h"
+#include "cli/files.h"
 #include "export/text_file.h"
 #include "mounting/report.h"
 
@@ -39,6 +40,14 @@ mounting::Fit fit_of(const Options &options)
     }
 }
 
+void check_files(const Options &options)
+{
+    cli::Files files;
+    files.reads("LOG", options.log);
+    files.reads("--config", options.config);
+    files.writes("--out", options.out);
+}
+
 void run(const Options &options)
 {
     const mounting::Fit fit = fit_of(options);
@@ -56,5 +65,8 @@ int main(int argc, char **argv)
     line.argument("LOG", options.log);
     line.text("out", options.out);
     line.text("config", options.config);
-    return line.run(argc, argv, [&] { run(options); });
+    return line.run(argc, argv, [&] {
+        check_files(options);
+        run(options);
+    });
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "cli/files.h"
 #include "cli/robot_files.h"
 
 extern "C" {
@@ -36,7 +37,7 @@ constexpr char usage[] =
     "  --save-map F            write the map at the end\n"
     "  --lines-only            extract only: no poses, no map\n"
     "  --help, --version\n"
-    "F may be - for the standard output. Exit 0 fine, 1 failed, 2 wrong use.\n";
+    "F.jsonl, F.tum and F.csv may be - for the standard output. Exit 0 fine, 1 failed, 2 wrong use.\n";
 
 ale_pose_t sensor_of(const std::string &word)
 {
@@ -71,6 +72,22 @@ void bind(cli::CommandLine &line, ReplayOptions &o)
     line.flag("lines-only", o.lines_only);
 }
 
+void check_files(const ReplayOptions &options)
+{
+    cli::Files files;
+    files.reads("LOG", options.log);
+    files.reads("--config", options.config);
+    files.writes("--features", options.features);
+    files.writes("--poses", options.poses);
+    files.writes("--trajectory", options.trajectory);
+    files.writes("--trajectory-live", options.trajectory_live);
+    files.writes("--timing", options.timing);
+    files.writes("--save-map", options.save_map);
+    for (const std::string &path : options.maps) {
+        files.writes("--map", path);
+    }
+}
+
 void check(const ReplayOptions &options)
 {
     const bool needs_poses = !options.poses.empty() || !options.trajectory.empty() ||
@@ -79,6 +96,13 @@ void check(const ReplayOptions &options)
     if (options.lines_only && needs_poses) {
         throw cli::WrongUse("--lines-only makes neither poses nor a map");
     }
+    if (options.points && options.maps.empty()) {
+        throw cli::WrongUse("--points are drawn behind a --map");
+    }
+    if (options.save_map == "-" || options.load_map == "-") {
+        throw cli::WrongUse("a saved map is a file");
+    }
+    check_files(options);
 }
 
 } // namespace

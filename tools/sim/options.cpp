@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cli/command_line.h"
+#include "cli/files.h"
 
 namespace sim
 {
@@ -119,6 +120,11 @@ void check(const Options &o)
     require(o.write_log.empty() || !o.world.empty(), "--write-log needs a --world");
     require(!o.drive || !o.world.empty(), "--drive needs a --world: a log cannot be steered");
     require(!o.drive || play, "--drive needs somebody who drives: not with --write-log or --describe");
+    cli::Files files;
+    files.reads("--log", o.log);
+    files.reads("--world", o.world);
+    files.writes("--write-log", o.write_log);
+    files.writes("--truth", o.truth);
     parse_faults(o.simulator.faults);
     noise_model(o.world_source.noise);
     require(!o.drive || o.world_source.odometry_lag_us == 0, "--drive and --odometry-lag do not go together");

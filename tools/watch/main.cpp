@@ -1,15 +1,11 @@
 /* ale-watch: what the robot publishes, as one line a second and as files at the end. */
-#include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <vector>
 
-#include <unistd.h>
-
+#include "cli/files.h"
 #include "cli/interrupt.h"
 #include "cli/robot_files.h"
 #include "console/lcm_feed.h"
@@ -80,24 +76,13 @@ void watch_robot(const Options &options, console::LcmFeed &feed, watch::Record &
     }
 }
 
-/* A drive is long: that its files cannot be written is told before it. */
-void require_folder(const std::string &path)
+void check_files(const Options &options)
 {
-    const std::string folder = std::filesystem::path(path).parent_path().string();
-    if (access(folder.empty() ? "." : folder.c_str(), W_OK) < 0) {
-        throw std::system_error(errno, std::generic_category(), path);
-    }
-}
-
-void require_folders(const Options &options)
-{
+    cli::Files files;
+    files.writes("--trajectory", options.trajectory);
+    files.writes("--csv", options.csv);
     for (const std::string &path : options.maps) {
-        require_folder(path);
-    }
-    for (const std::string &path : {options.trajectory, options.csv}) {
-        if (!path.empty()) {
-            require_folder(path);
-        }
+        files.writes("--map", path);
     }
 }
 
@@ -116,7 +101,7 @@ void write_files(const Options &options, const watch::Record &record)
 
 void run(const Options &options)
 {
-    require_folders(options);
+    check_files(options);
     console::LcmFeed feed(options.lcm_url);
     watch::Record record;
     record.subscribe(feed);
