@@ -14,9 +14,11 @@ typedef struct {
     int64_t xx;
     int64_t xy;
     int64_t yy;
+    int64_t pull_x;
+    int64_t pull_y;
 } information_t;
 
-static void add(information_t *sum, int64_t x_q30, int64_t y_q30, int64_t var_um2)
+static void add(information_t *sum, int64_t x_q30, int64_t y_q30, int64_t var_um2, int64_t wheel_drift_um)
 {
     const int64_t weight = ((int64_t)1000000 << WEIGHT_BITS) / ale_max64(var_um2, ALE_ROW_VAR_MIN_UM2);
     const int64_t x_q14 = ale_round_shift(x_q30, 16);
@@ -24,6 +26,8 @@ static void add(information_t *sum, int64_t x_q30, int64_t y_q30, int64_t var_um
     sum->xx += ale_round_shift(weight * x_q14 * x_q14, 28);
     sum->xy += ale_round_shift(weight * x_q14 * y_q14, 28);
     sum->yy += ale_round_shift(weight * y_q14 * y_q14, 28);
+    sum->pull_x += ale_mul_shift(weight * x_q14, wheel_drift_um, 14);
+    sum->pull_y += ale_mul_shift(weight * y_q14, wheel_drift_um, 14);
 }
 
 static bool holds(const information_t *sum)
@@ -42,7 +46,7 @@ static void add_walls(const ale_local_map_t *map, const ale_view_t view[], uint3
         if (match->wall != ALE_NO_WALL) {
             const ale_wall_t *wall = &map->wall[match->wall];
             add(sum, wall->normal_x_q30, wall->normal_y_q30,
-                ale_wall_offset_var(wall, match->error.t_um) + view[i].var_offset_um2);
+                ale_wall_offset_var(wall, match->error.t_um) + view[i].var_offset_um2, wall->wheel_drift_um);
         }
     }
 }
@@ -69,17 +73,21 @@ static void add_marks(const ale_local_map_t *map, const ale_view_t view[], uint3
         const ale_direction_t normal = ale_direction(mark->normal_bam);
         const uint32_t turned_bam = view[i].normal_bam + fit->motion.pose.theta_bam - mark->normal_bam;
         add(sum, normal.cos_q30, normal.sin_q30,
-            mark->var_um2 + view[i].var_offset_um2 + slid_um2(&view[i], ale_sin_q30(turned_bam)));
+            mark->var_um2 + view[i].var_offset_um2 + slid_um2(&view[i], ale_sin_q30(turned_bam)), 0);
     }
 }
 
 ale_hold_t ale_hold_of(const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
                        const ale_fit_t *fit)
 {
-    information_t sum = {0, 0, 0};
+    information_t sum = {0, 0, 0, 0, 0};
     add_walls(map, view, count, fit, &sum);
+    const information_t walls = sum;
     if (!holds(&sum)) {
         add_marks(map, view, count, fit, &sum);
     }
-    return (ale_hold_t){holds(&sum), ale_atan2_bam(2 * sum.xy, sum.xx - sum.yy) / 2 + ALE_BAM_QUARTER_TURN};
+    return (ale_hold_t){holds(&sum), ale_atan2_bam(2 * sum.xy, sum.xx - sum.yy) / 2 + ALE_BAM_QUARTER_TURN,
+                        walls.xx,    walls.xy,
+                        walls.yy,    walls.pull_x,
+                        walls.pull_y};
 }

@@ -16,7 +16,14 @@
 
 typedef struct {
     bool held;          /* every direction is told better than 30 mm */
-    uint32_t along_bam; /* if not: the one that is told least, map frame */
+    uint32_t along_bam; /* the one that is told least, map frame */
+    /* what the walls alone tell of the place: information, 1/mm^2 in Q20, and that times the shift that one
+     * sigma of the wheels' scale has given to them (um), see wheel_drift.h */
+    int64_t xx_q20;
+    int64_t xy_q20;
+    int64_t yy_q20;
+    int64_t pull_x_q20;
+    int64_t pull_y_q20;
 } ale_hold_t;
 
 /* What the matches of a fit hold; its heading is taken as known. */

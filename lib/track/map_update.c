@@ -4,6 +4,7 @@
 
 #include "base/fixed.h"
 #include "base/trig.h"
+#include "track/ratio.h"
 
 enum {
     CONFLICT_OFFSET_UM = 50000, /* a wall this near may be the same: better none than two of it */
@@ -20,11 +21,22 @@ static int64_t diluted(int64_t var, const ale_taking_t *taking)
     return ale_min64(var, INT64_MAX / taking->dilution) * taking->dilution;
 }
 
+/* What the wheels have made of the robot's place goes into the wall with the same gain as what it sees. */
+static void drift_along(ale_wall_t *wall, const ale_taking_t *taking, int64_t t_um, int64_t var_um2)
+{
+    const int64_t own_um2 = ale_wall_offset_var(wall, t_um);
+    const int64_t more_um =
+        ale_wheel_drift_along(taking->wheel_drift, wall->normal_x_q30, wall->normal_y_q30) -
+        wall->wheel_drift_um;
+    wall->wheel_drift_um += (int32_t)ale_mul_shift(more_um, ale_ratio_q30(own_um2, own_um2 + var_um2), 30);
+}
+
 static void sharpen(ale_wall_t *wall, const ale_view_t *view, const ale_fit_t *fit, const ale_match_t *match,
                     const ale_taking_t *taking)
 {
     const int64_t var_offset = view->var_offset_um2 + ale_view_offset_var(view, &fit->motion.cov);
     const int64_t var_angle = view->var_angle_urad2 + ale_view_angle_var(&fit->motion.cov);
+    drift_along(wall, taking, match->error.t_um, diluted(var_offset, taking));
     ale_wall_observe(wall, &match->error, diluted(var_offset, taking), diluted(var_angle, taking));
     ale_wall_extend(wall, match->error.t_um + view->start_um, match->error.t_um + view->end_um);
     wall->seen++;
@@ -34,7 +46,7 @@ static void sharpen(ale_wall_t *wall, const ale_view_t *view, const ale_fit_t *f
 
 /* The wall as the view shows it, moved by what the change of velocity says. */
 static void begin(ale_local_map_t *map, const ale_view_t *view, const ale_fit_t *fit,
-                  const ale_taking_t *taking)
+                  const ale_taking_t *taking, const ale_drift_t *drift)
 {
     ale_wall_t wall;
     ale_view_rows_t rows;
@@ -52,7 +64,9 @@ static void begin(ale_local_map_t *map, const ale_view_t *view, const ale_fit_t 
     ale_wall_set_normal(&wall, wall.normal_bam + (uint32_t)ale_nrad_to_bam(angle_urad * 1000));
     wall.var_offset_um2 += ale_view_offset_var(view, &fit->motion.cov);
     wall.var_angle_urad2 += ale_view_angle_var(&fit->motion.cov);
-    wall.drift = ale_drift_of_new_wall(taking->here, &fit->motion, wall.normal_bam);
+    wall.drift = *drift;
+    wall.wheel_drift_um =
+        (int32_t)ale_wheel_drift_along(taking->wheel_drift, wall.normal_x_q30, wall.normal_y_q30);
     wall.born = taking->scan;
     wall.seen = 1;
     wall.last_scan = taking->scan;
@@ -96,6 +110,8 @@ void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t coun
 {
     int32_t looks = MAP_LOOKS;
     int room = REPLACED;
+    bool begun = false;
+    ale_drift_t drift = *taking->here;
     const ale_stand_t stand = ale_stand(fit->motion.pose);
     const ale_gate_t conflict = {CONFLICT_OFFSET_UM, CONFLICT_ANGLE_URAD, CONFLICT_SIGMAS, 0};
     for (uint32_t i = 0; i < count; i++) {
@@ -117,7 +133,11 @@ void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t coun
         const bool full = map->count == ALE_MAP_MAX_LINES;
         if (taking->grow && (!full || room-- > 0) &&
             ale_match_view(map, &view[i], &stand, NULL, &conflict, &looks).wall == ALE_NO_WALL) {
-            begin(map, &view[i], fit, taking);
+            if (!begun) {
+                drift = ale_drift_go_on(taking->here, &fit->motion);
+                begun = true;
+            }
+            begin(map, &view[i], fit, taking, &drift);
         }
     }
     map->version++;

@@ -12,11 +12,13 @@
 #include "track/drift.h"
 #include "track/local_map.h"
 #include "track/refine.h"
+#include "track/wheel_drift.h"
 
 /* How a scan goes into the map. */
 typedef struct {
-    uint32_t scan;                /* its number */
-    const ale_drift_here_t *here; /* drift of the map at this place */
+    uint32_t scan;                        /* its number */
+    const ale_drift_t *here;              /* drift of the map at this place, */
+    const ale_wheel_drift_t *wheel_drift; /* and what the wheels have made of the robot's */
     uint32_t dilution; /* so many times the stated variance have its looks at what is known: see rest.h */
     bool grow;         /* false: no new walls */
 } ale_taking_t;

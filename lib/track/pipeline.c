@@ -89,7 +89,8 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
     ale_motion_init(&pipeline->motion, 0, (ale_pose_t){0, 0, 0}, START_SPEED_MM_S, START_TURN_MRAD_S);
     ale_smooth_init(&pipeline->smooth, (ale_pose_t){0, 0, 0});
     pipeline->scans = 0;
-    pipeline->drift = (ale_drift_here_t){0, 0, 0, 0};
+    pipeline->drift = (ale_drift_t){0};
+    pipeline->wheel_drift = (ale_wheel_drift_t){0, 0};
     pipeline->slid_um = 0;
     pipeline->held = true;
     pipeline->fade.next = 0;
@@ -213,7 +214,7 @@ static void answer(ale_pipeline_t *p, int64_t stamp_us, bool predicted, uint32_t
     out->corrections = p->corrections;
     out->smooth = p->smooth.pose;
     out->map = p->motion.pose;
-    ale_map_covariance(&p->motion, &p->drift, out->cov);
+    ale_map_covariance(&p->motion, &p->drift, &p->wheel_drift, out->cov);
     if (!predicted) {
         ale_scan_information(&p->fit.information, out->information);
         out->matched_lines = p->fit.matched;

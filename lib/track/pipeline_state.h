@@ -20,6 +20,7 @@
 #include "track/smooth_pose.h"
 #include "track/tracker.h"
 #include "track/view.h"
+#include "track/wheel_drift.h"
 #include "track/wheel_factors.h"
 #include "track/wheels.h"
 #include "track/witness.h"
@@ -41,9 +42,10 @@ struct ale_pipeline {
     ale_smooth_t smooth;
     uint32_t scans;
     ale_local_map_t map;
-    ale_drift_here_t drift; /* of the map around the robot */
-    int64_t slid_um;        /* since a scan last held the robot in every direction */
-    bool held;              /* by the last one */
+    ale_drift_t drift; /* of the map around the robot */
+    ale_wheel_drift_t wheel_drift;
+    int64_t slid_um; /* since a scan last held the robot in every direction */
+    bool held;       /* by the last one */
     ale_fade_t fade;
     ale_relocation_t relocation;
     ale_witness_t witness;

@@ -50,8 +50,10 @@ void ale_pipeline_match(ale_pipeline_t *p, const ale_motion_t *predicted, int32_
     ale_refine(predicted, &scene, &acquire_gate, &p->fit);
 }
 
-/* What a good scan teaches about the wheels: their lag from turns, their scale from the way. */
-static void teach_wheels(ale_pipeline_t *p, const ale_motion_t *before, const ale_wheel_motion_t *counted)
+/* What a good scan teaches about the wheels: their lag from turns, their scale from the way. drifted: by the
+ * wheels, before this scan. */
+static void teach_wheels(ale_pipeline_t *p, const ale_motion_t *before, const ale_wheel_motion_t *counted,
+                         const ale_wheel_drift_t *drifted)
 {
     const int64_t dt_us = p->motion.stamp_us - before->stamp_us;
     if (!p->config.use_odometry || dt_us <= 0 || dt_us > ALE_SCAN_PERIOD_MAX_US ||
@@ -63,7 +65,11 @@ static void teach_wheels(ale_pipeline_t *p, const ale_motion_t *before, const al
     ale_lag_add_heading(&p->lag, &heading);
     ale_lag_update(&p->lag, &p->wheels);
     if (counted && counted->lag_var_um2 < LEARN_LAG_VAR_UM2) {
-        ale_wheel_scale_learn(&p->scale, way.x_um, counted->counted_um);
+        const ale_wheel_drift_t erred = {p->wheel_drift.x_um - drifted->x_um,
+                                         p->wheel_drift.y_um - drifted->y_um};
+        const ale_direction_t ahead = ale_direction(p->motion.pose.theta_bam);
+        ale_wheel_scale_learn(&p->scale, way.x_um, counted->counted_um,
+                              ale_wheel_drift_along(&erred, ahead.cos_q30, ahead.sin_q30));
     }
 }
 
@@ -74,7 +80,7 @@ static void take_in(ale_pipeline_t *p, bool grow)
         return;
     }
     const ale_pose_t sensor = ale_pose_compose(p->fit.motion.pose, p->config.sensor);
-    const ale_taking_t taking = {p->scans, &p->drift, ale_rest_dilution(&p->rest), grow};
+    const ale_taking_t taking = {p->scans, &p->drift, &p->wheel_drift, ale_rest_dilution(&p->rest), grow};
     ale_map_update(&p->map, p->view, p->view_count, &p->fit, &taking);
     p->matched_corners = ale_map_corners_update(&p->map.corners, &p->features, sensor, p->scans, grow);
 }
@@ -150,9 +156,14 @@ static void anchor(ale_pipeline_t *p)
 }
 
 /* What the scan leaves open is said; the pose stays what the fit made of it. */
-static void hold(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted)
+static void hold(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted, bool counted)
 {
     const ale_hold_t hold = ale_hold_of(&p->map, p->view, p->view_count, &p->fit);
+    if (counted) {
+        ale_wheel_drift_go(&p->wheel_drift, before->pose, predicted->pose,
+                           ale_wheel_scale_error_ppm(&p->scale));
+    }
+    ale_wheel_drift_fit(&p->wheel_drift, &hold, predicted);
     p->held = hold.held;
     if (hold.held) {
         p->slid_um = 0;
@@ -280,10 +291,11 @@ void ale_pipeline_track(ale_pipeline_t *p, const ale_motion_t *before, const ale
     p->motion = p->fit.motion;
     notice(p, before, &prior, counted);
     p->drift = ale_drift_here(&p->map, p->view, p->view_count, &p->fit, &p->drift);
-    hold(p, before, &prior);
+    const ale_wheel_drift_t drifted = p->wheel_drift;
+    hold(p, before, &prior, counted);
     if (!p->tracker.jumped) {
         ale_liveliness_learn(&p->liveliness[counted], &prior, &p->motion);
-        teach_wheels(p, before, counted ? wheels : NULL);
+        teach_wheels(p, before, counted ? wheels : NULL, &drifted);
     }
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);
     anchor(p);

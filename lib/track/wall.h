@@ -17,11 +17,16 @@
 /* Number of the scan that saw first what was in the map before the drive began. */
 #define ALE_BORN_BEFORE UINT32_MAX
 
-/* Variance of where this part of the map lies to the map's origin, see drift.h. */
-#define ALE_DRIFT_MOST ((int64_t)1000000000000)
+/* How far the map around a place lies off where it should lie to the map's origin, see drift.h: covariance of
+ * the motion that has moved it, a shift x, y and a turn t about the origin. A point p was moved by
+ * (x - t p.y, y + t p.x). */
 typedef struct {
-    int64_t var_um2;
-    int64_t var_urad2;
+    int64_t xx_um2;
+    int64_t xy_um2;
+    int64_t yy_um2;
+    int64_t xt_um_urad;
+    int64_t yt_um_urad;
+    int64_t tt_urad2;
 } ale_drift_t;
 
 typedef struct {
@@ -35,6 +40,7 @@ typedef struct {
     int64_t cov_um_urad;
     int64_t var_angle_urad2;
     ale_drift_t drift;
+    int32_t wheel_drift_um; /* along the normal: see wheel_drift.h */
     uint32_t id;
     uint32_t born;      /* number of the scan that saw it first, or ALE_BORN_BEFORE */
     uint32_t seen;      /* scans that supported it */

@@ -9,6 +9,7 @@ enum {
     LEARN_SIGMA_UM = 4000,      /* error of matching at either end of a way */
     LEARN_MEMORY_UM = 20000000, /* way over which the factor is remembered */
     SCALE_FLOOR_PPM = 2000,     /* the factor swings by this much */
+    STAYS_PPM = 1000,           /* and by this much for long */
     FLOOR_UM = 400,             /* errors that are there however short the way */
     FLOOR_URAD = 700,
     SIDEWAYS_PPM = 10000,
@@ -21,9 +22,10 @@ void ale_wheel_scale_init(ale_wheel_scale_t *scale, const ale_wheel_noise_t *noi
     *scale = (ale_wheel_scale_t){.noise = *noise};
     const int64_t sigma_ppm = ale_max64(noise->scale_sigma_ppm, SCALE_FLOOR_PPM);
     scale->counted_um = scale->found_um = (int64_t)LEARN_SIGMA_UM * 1000000 / sigma_ppm;
+    scale->erred_um = LEARN_SIGMA_UM;
 }
 
-void ale_wheel_scale_learn(ale_wheel_scale_t *scale, int64_t found_um, int64_t counted_um)
+void ale_wheel_scale_learn(ale_wheel_scale_t *scale, int64_t found_um, int64_t counted_um, int64_t erred_um)
 {
     const int64_t sign = counted_um < 0 ? -1 : 1;
     if (ale_abs64(found_um - counted_um) > ale_abs64(counted_um) / 3 + LEARN_SIGMA_UM) {
@@ -31,9 +33,11 @@ void ale_wheel_scale_learn(ale_wheel_scale_t *scale, int64_t found_um, int64_t c
     }
     scale->found_um += sign * found_um;
     scale->counted_um += sign * counted_um;
+    scale->erred_um += sign * erred_um;
     if (scale->counted_um > LEARN_MEMORY_UM) {
         scale->found_um -= scale->found_um / 8;
         scale->counted_um -= scale->counted_um / 8;
+        scale->erred_um -= scale->erred_um / 8;
     }
 }
 
@@ -41,6 +45,11 @@ void ale_wheel_scale_learn(ale_wheel_scale_t *scale, int64_t found_um, int64_t c
 static int64_t sigma_ppm(const ale_wheel_scale_t *scale)
 {
     return ale_max64((int64_t)LEARN_SIGMA_UM * 1000000 / scale->counted_um, SCALE_FLOOR_PPM);
+}
+
+int64_t ale_wheel_scale_error_ppm(const ale_wheel_scale_t *scale)
+{
+    return ale_max64(scale->erred_um * 1000000 / scale->counted_um, STAYS_PPM);
 }
 
 /* (10 m)^2: beyond that wheels say nothing. */

@@ -24,12 +24,18 @@ typedef struct {
     ale_wheel_noise_t noise;
     int64_t found_um; /* way found by matching, and way counted, while both were good */
     int64_t counted_um;
+    int64_t erred_um; /* of found_um: what one sigma of the factor has made of it */
 } ale_wheel_scale_t;
 
 void ale_wheel_scale_init(ale_wheel_scale_t *scale, const ale_wheel_noise_t *noise);
 
-/* A way that matching found, forward, and the same way as counted by the wheels. */
-void ale_wheel_scale_learn(ale_wheel_scale_t *scale, int64_t found_um, int64_t counted_um);
+/* A way that matching found, forward, the same way as counted by the wheels, and what one sigma of the factor
+ * had to do with the former (wheel_drift.h). */
+void ale_wheel_scale_learn(ale_wheel_scale_t *scale, int64_t found_um, int64_t counted_um, int64_t erred_um);
+
+/* One sigma of the factor as far as it errs alike from scan to scan, parts per million: what was left of it
+ * in the ways it was learnt from, and no less than it swings by slowly. */
+int64_t ale_wheel_scale_error_ppm(const ale_wheel_scale_t *scale);
 
 /* The way between two scans. False when the buffer does not cover it. */
 bool ale_wheel_motion(const ale_wheels_t *wheels, const ale_lag_t *lag, const ale_wheel_scale_t *scale,

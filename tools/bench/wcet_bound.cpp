@@ -271,8 +271,10 @@ void matching(Parts &parts, Random &random, Crowd &crowd)
     for (int k = 0; k < ALE_MAX_VIEWS; k++) {
         fit->match[k] = {ALE_NO_WALL, ALE_NO_MARK, {}};
     }
-    const ale_drift_here_t here = {0, 0, 0, 0};
-    ale_taking_t taking = {1, &here, 1, true};
+    const ale_drift_t here = {int64_t{1} << 41, int64_t{1} << 40, int64_t{1} << 41,
+                              int64_t{1} << 38, int64_t{1} << 38, int64_t{1} << 36};
+    const ale_wheel_drift_t by_wheels = {100000, 100000};
+    ale_taking_t taking = {1, &here, &by_wheels, 1, true};
     const auto take_in = [&] {
         ale_map_update(crowd.map.get(), scene.view, scene.view_count, fit.get(), &taking);
     };
@@ -280,9 +282,13 @@ void matching(Parts &parts, Random &random, Crowd &crowd)
     ale_refine(&predicted, &scene, &gates.at("first"), fit.get());
     taking.scan = 2;
     parts.measure("walls and marks of the map", 1, take_in);
+    std::for_each(crowd.map->wall, crowd.map->wall + crowd.map->count,
+                  [&](ale_wall_t &wall) { wall.drift = here; });
     parts.measure("drift, and what holds the robot", 1, [&] {
         ale_drift_here(crowd.map.get(), scene.view, scene.view_count, fit.get(), &here);
-        ale_hold_of(crowd.map.get(), scene.view, scene.view_count, fit.get());
+        const ale_hold_t hold = ale_hold_of(crowd.map.get(), scene.view, scene.view_count, fit.get());
+        ale_wheel_drift_t drift = by_wheels;
+        ale_wheel_drift_fit(&drift, &hold, &predicted);
     });
 }
 

@@ -21,6 +21,7 @@ struct Scene {
     std::unique_ptr<ale_fit_t> fit = std::make_unique<ale_fit_t>();
     std::vector<ale_view_t> views;
     Eigen::Matrix2d told = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d pull = Eigen::Vector2d::Zero();
     double heading_rad;
 
     explicit Scene(double heading = 0.3) : heading_rad(heading)
@@ -43,14 +44,16 @@ struct Scene {
         views.push_back(view);
     }
 
-    void add_wall(double normal_rad, double sigma_m)
+    void add_wall(double normal_rad, double sigma_m, double drift_m = 0)
     {
-        const ale_wall_t wall = make_wall(0, 0, normal_rad, 1);
+        ale_wall_t wall = make_wall(0, 0, normal_rad, 1);
+        wall.wheel_drift_um = convert::um(drift_m);
         ale_local_map_add(map.get(), &wall);
         see(normal_rad, 1, sigma_m, 0.01, ALE_VIEW_WALL,
             {static_cast<uint16_t>(map->count - 1), ALE_NO_MARK, {}});
         const Eigen::Vector2d n(std::cos(normal_rad), std::sin(normal_rad));
         told += n * n.transpose() / (sigma_m * sigma_m + 4e-6);
+        pull += n * drift_m / (sigma_m * sigma_m + 4e-6);
     }
 
     void add_mark(double mark_normal_rad, double normal_rad, double length_m, double sigma_rad, int seen)
@@ -103,6 +106,23 @@ TEST(Hold, WallsHoldWhatTheLeastEigenvalueOfTheirInformationSays)
     }
     EXPECT_GT(held, 50);
     EXPECT_LT(held, 450);
+}
+
+TEST(Hold, WallsPullWithWhatTheWheelsScaleHasGivenThem)
+{
+    Scene scene;
+    scene.add_wall(0.4, 0.003, 0.02);
+    scene.add_wall(2.1, 0.005, -0.05);
+    scene.add_mark(reference::pi, reference::pi, 0.1, 0.15, 20);
+    const ale_hold_t hold = scene.hold();
+    const double per_m2 = 1e6 / 1048576; /* of what is said per mm^2 in Q20 */
+    EXPECT_NEAR(static_cast<double>(hold.xx_q20) * per_m2, scene.told(0, 0), 1e-3 * scene.told.trace());
+    EXPECT_NEAR(static_cast<double>(hold.xy_q20) * per_m2, scene.told(0, 1), 1e-3 * scene.told.trace());
+    EXPECT_NEAR(static_cast<double>(hold.yy_q20) * per_m2, scene.told(1, 1), 1e-3 * scene.told.trace());
+    EXPECT_NEAR(static_cast<double>(hold.pull_x_q20) * per_m2 * 1e-6, scene.pull[0],
+                1e-3 * scene.pull.norm());
+    EXPECT_NEAR(static_cast<double>(hold.pull_y_q20) * per_m2 * 1e-6, scene.pull[1],
+                1e-3 * scene.pull.norm());
 }
 
 TEST(Hold, WhatFacesTheRobotOutOfAGrazingWallHoldsNothing)

@@ -144,15 +144,36 @@ TEST(PipelineTrack, AWheelThatSpinsTurnsTheRobotInNoMap)
     }
 }
 
-// A drive between two bare walls, 2 m apart and without an end as far as the scanner reaches. The wheels
-// count a part more than there is (0: no wheels).
-struct BareDrive {
+// Two walls, 2 m apart and without an end as far as the scanner reaches.
+std::vector<room::Wall> bare_corridor()
+{
+    return {{-50, -1, 50, -1}, {-50, 1, 50, 1}};
+}
+
+// The same with shallow recesses, as doors make them.
+std::vector<room::Wall> corridor_of_doors()
+{
+    std::vector<room::Wall> walls;
+    for (double x = -12; x < 24; x += 3) {
+        for (const double side : {-1.0, 1.0}) {
+            const double from = x + (side > 0 ? 1.5 : 0);
+            const double depth = side * 1.2;
+            walls.push_back({from - 2, side, from, side});
+            walls.push_back({from, side, from, depth});
+            walls.push_back({from, depth, from + 1, depth});
+            walls.push_back({from + 1, depth, from + 1, side});
+        }
+    }
+    return walls;
+}
+
+// A drive along a corridor. The wheels count a part more than there is (0: no wheels).
+struct CorridorDrive {
     std::vector<ale_estimate_t> estimates;
     std::vector<double> way;
 
-    explicit BareDrive(double counted_per_metre)
+    CorridorDrive(const std::vector<room::Wall> &corridor, double counted_per_metre)
     {
-        const std::vector<room::Wall> corridor = {{-50, -1, 50, -1}, {-50, 1, 50, 1}};
         ale_pipeline_config_t config = ale_pipeline_default_config();
         config.use_odometry = counted_per_metre > 0;
         const room::Pipeline pipeline = room::make(config);
@@ -195,13 +216,28 @@ struct BareDrive {
 TEST(PipelineTrack, BetweenBareWallsNoScanIsCalledGoodAndTheVarianceAlongThemGrows)
 {
     for (const double counted : {1.03, 0.0}) {
-        const BareDrive drive(counted);
+        const CorridorDrive drive(bare_corridor(), counted);
         for (size_t k = 3; k < drive.estimates.size(); k++) {
             ASSERT_EQ(drive.estimates[k].state, ALE_STATE_WEAK) << k << " wheels " << counted;
             ASSERT_LT(std::min(drive.error_m(k), 2.5), 3 * drive.sigma_m(k)) << k << " wheels " << counted;
         }
         EXPECT_GT(drive.sigma_m(119), 0.1);
         EXPECT_LT(std::sqrt(static_cast<double>(drive.estimates[119].cov[4])) * 1e-6, 0.05) << "across";
+    }
+}
+
+/* Recesses hold the robot, but new ones are seen from where wrong wheels have put it. */
+TEST(PipelineTrack, WhatAWrongScaleOfTheWheelsDoesAlongACorridorIsInItsCovariance)
+{
+    for (const double counted : {0.95, 1.05}) {
+        const CorridorDrive drive(corridor_of_doors(), counted);
+        double squares = 0;
+        for (size_t k = 3; k < drive.estimates.size(); k++) {
+            squares += std::pow(drive.error_m(k) / drive.sigma_m(k), 2);
+        }
+        const double mean = squares / static_cast<double>(drive.estimates.size() - 3);
+        EXPECT_LT(mean, 4) << "wheels count " << counted;
+        EXPECT_GT(drive.error_m(119), 0.002);
     }
 }
 
