@@ -1,4 +1,5 @@
 """The errors of a trajectory as the benchmark of localisation and mapping tells them."""
+import json
 import math
 import subprocess
 import sys
@@ -8,7 +9,7 @@ import pytest
 np = pytest.importorskip("numpy")
 
 from at_hand import shared  # noqa: E402
-from slam_table import score, trajectory_error  # noqa: E402
+from slam_table import normalised_error, score, trajectory_error  # noqa: E402
 
 SCANS = 200
 STEP_S = 0.1
@@ -48,6 +49,21 @@ def test_a_drift_of_the_heading_shows_over_a_second(tmp_path):
     truth = write_tum(tmp_path / "truth.tum", way())
     drifts = [(x, y, a + math.radians(0.02) * k) for k, (x, y, a) in enumerate(way())]
     assert trajectory_error(write_tum(tmp_path / "drifts.tum", drifts), truth)[2] == pytest.approx(0.2, abs=1e-3)
+
+
+def test_a_pose_that_errs_by_its_sigmas_has_a_normalised_error_of_three(tmp_path):
+    truth = write_tum(tmp_path / "truth.tum", way())
+    sigmas = (0.02, 0.05, 0.01)
+    told = seen_from_elsewhere(way(), 3, -1, 2.5)
+    rows = []
+    for k, pose in enumerate(told):
+        errs = (-1) ** k if k else 0
+        x, y, a = (value + errs * sigma for value, sigma in zip(pose, sigmas))
+        cov = np.diag(np.square(sigmas)).ravel().tolist()
+        rows.append(json.dumps({"t": STEP_S * k, "map_x": x, "map_y": y, "map_theta": a, "cov": cov}))
+    poses = tmp_path / "poses.jsonl"
+    poses.write_text("\n".join(rows) + "\n", encoding="utf-8")
+    assert normalised_error(poses, truth) == pytest.approx(3, abs=1e-3)
 
 
 def test_the_errors_are_those_of_the_scorer_beside_the_project(tmp_path):

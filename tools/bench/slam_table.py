@@ -66,19 +66,35 @@ def trajectory_error(path, truth_path):
     return 1e3 * ate, 1e3 * np.sqrt(np.mean(np.abs(way - true_way) ** 2)), np.degrees(np.sqrt(np.mean(turned ** 2)))
 
 
+def normalised_error(path, truth_path):
+    """Mean normalised squared error of the map poses as they were told live, by the covariance told with each: 3 is honest. The
+    first pose has no error: there the map begins."""
+    rows = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+    times = np.array([row["t"] for row in rows])
+    poses = np.array([[row["map_x"], row["map_y"], row["map_theta"]] for row in rows])
+    covariances = np.array([row["cov"] for row in rows]).reshape(-1, 3, 3)
+    true_places, true_headings = at_times(times, read_tum(truth_path))
+    places = poses[:, 0] + 1j * poses[:, 1]
+    turn = poses[0, 2] - true_headings[0]
+    off = places - places[0] - (true_places - true_places[0]) * np.exp(1j * turn)
+    errors = np.stack([off.real, off.imag, wrapped(poses[:, 2] - true_headings - turn)], axis=1)[1:]
+    return np.mean(np.einsum("ni,nij,nj->n", errors, np.linalg.inv(covariances[1:]), errors))
+
+
 class Bench:
     """The programs under test and a folder for what they write."""
 
     def __init__(self, build, folder):
         self.build = pathlib.Path(build)
         self.folder = pathlib.Path(folder)
+        self.poses = self.folder / "poses.jsonl"
         self.correction_ms = 0.0  # the longest of all
 
     def replay(self, log, *words):
-        """Live and final trajectory, and the processor time of a scan: mean, longest, ms."""
+        """Live and final trajectory, and the processor time of a scan: mean, longest, ms. What is told with the poses is in self.poses."""
         live, final = self.folder / "live.tum", self.folder / "final.tum"
-        done = subprocess.run([self.build / "bin/ale-replay", log, "--trajectory-live", live, "--trajectory", final, *words],
-                              check=True, stderr=subprocess.STDOUT, stdout=subprocess.PIPE, text=True)
+        done = subprocess.run([self.build / "bin/ale-replay", log, "--trajectory-live", live, "--trajectory", final,
+                               "--poses", self.poses, *words], check=True, stderr=subprocess.STDOUT, stdout=subprocess.PIPE, text=True)
         mean, longest = re.search(r"([0-9.]+) ms a scan \(worst ([0-9.]+)\)", done.stdout).groups()
         correction = re.search(r"longest correction ([0-9.]+) ms", done.stdout)
         self.correction_ms = max(self.correction_ms, float(correction.group(1)) if correction else 0.0)
@@ -93,41 +109,49 @@ class Bench:
 
 
 def worlds_table(bench, seeds):
-    print(f"Worlds of the tree, with the sensor's own noise and bent scans; ATE in mm, final / live, mean of seeds {seeds} (worst final):\n")
+    print(f"Worlds of the tree, with the sensor's own noise and bent scans; ATE in mm, final / live, mean of seeds {seeds} (worst final); "
+          "mean normalised squared error of the live poses with odometry, without:\n")
     rows = []
     for world in WORLDS:
         cells = []
+        honest = []
         for odometry in ("on", "off"):
             errors = []
+            normalised = []
             for seed in seeds.split(","):
                 progress(f"{world}, seed {seed}, odometry {odometry} ...")
                 log, truth = bench.drive(world, seed)
                 live, final, _ = bench.replay(log, "--odometry", odometry)
                 errors.append([trajectory_error(path, truth)[0] for path in (final, live)])
+                normalised.append(normalised_error(bench.poses, truth))
             mean = np.mean(errors, axis=0)
             cells.append(f"{mean[0]:.1f} / {mean[1]:.1f} ({max(final for final, _ in errors):.1f})")
-        rows.append([world, *cells])
+            honest.append(f"{np.mean(normalised):.1f}")
+        rows.append([world, *cells, ", ".join(honest)])
     progress("")
-    table(["world", "with odometry", "without"], rows)
+    table(["world", "with odometry", "without", "normalised"], rows)
 
 
 def runs_table(bench, runs):
-    print("Development runs; ATE in mm, final / live, beside the best other system; relative error over 1 s, final, with odometry:\n")
+    print("Development runs; ATE in mm, final / live, beside the best other system; relative error over 1 s, final, with odometry; "
+          "mean normalised squared error of the live poses with odometry, without:\n")
     rows = []
     for name, peers in PEERS_MM.items():
         if not (runs / name).is_dir():
             continue
         row = [name]
+        honest = []
         for odometry, peer in zip(("on", "off"), peers):
             progress(f"{name}, odometry {odometry} ...")
             live, final, time_ms = bench.replay(runs / name / "scans.log.gz", "--odometry", odometry)
             ate, way, turn = trajectory_error(final, runs / name / "truth.tum")
             row += [f"{ate:.1f} / {trajectory_error(live, runs / name / 'truth.tum')[0]:.1f}", peer]
+            honest.append(f"{normalised_error(bench.poses, runs / name / 'truth.tum'):.1f}")
             if odometry == "on":
                 relative, time_on = f"{way:.1f} mm, {turn:.2f}°", time_ms
-        rows.append([*row, relative, time_on])
+        rows.append([*row, relative, ", ".join(honest), time_on])
     progress("")
-    table(["run", "with odometry", "best other", "without", "best other", "over 1 s", "ms a scan: mean, longest"], rows)
+    table(["run", "with odometry", "best other", "without", "best other", "over 1 s", "normalised", "ms a scan: mean, longest"], rows)
 
 
 def score(script, *words):
