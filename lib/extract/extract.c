@@ -280,6 +280,9 @@ static void improve_runs(ale_extractor_t *e)
     if (!effort_is_spent(e)) {
         ale_curve_find(e);
     }
+    if (e->shared_scale_q8 > 256 && ale_runs_split_at_steps(e) && !effort_is_spent(e)) {
+        ale_runs_place(e, ALE_BREAK_WIDE_STEP);
+    }
 }
 
 __attribute__((noinline)) void ale_extract_scan(ale_extractor_t *e, const ale_scan_t *scan,

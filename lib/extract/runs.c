@@ -12,7 +12,11 @@ enum {
     SETTLED_PART = 10, /* of its points that a run may gain or lose, and its breaks need not be placed anew */
     COSTLY_STEP = 4,   /* to the next try, where a costly scan has no line */
     MIN_SPLIT_POINTS = 16,
-    TRIM_MOST = 3,            /* points given up at one end, */
+    STEP_WINDOWS = 4,     /* windows of a run that is looked at for a step */
+    STEP_SHARED_Q8 = 173, /* shared variances of the difference of two adjoining windows' means, */
+    STEP_DEVIATIONS_Q4 =
+        76,        /* and its deviations that fewer than one run of 600 points in 1000 has anywhere */
+    TRIM_MOST = 3, /* points given up at one end, */
     TRIM_SUSPICIOUS_Q8 = 333, /* where a run has more than its noise: chi square of a degree of freedom. */
     TRIM_FIRST = 10,          /* Own variances that one point given up must bring, */
     TRIM_NEXT = 4,            /* each further one, */
@@ -186,6 +190,60 @@ bool ale_runs_split(ale_extractor_t *e)
             }
         }
         k++;
+    }
+    return e->run_count > before;
+}
+
+/* How far the means of the points before and after a split are apart along a direction, over a window each;
+ * in units of the direction's length, Q4 and the points of a window. */
+static int64_t step_after(const ale_extractor_t *e, const ale_normal_line_t *line, int32_t window,
+                          int32_t split)
+{
+    const ale_moments_t *before = &e->sum[split + 1 - window];
+    const ale_moments_t *here = &e->sum[split + 1];
+    const ale_moments_t *after = &e->sum[split + 1 + window];
+    return ale_abs64(line->nx * (before->x - 2 * here->x + after->x) +
+                     line->ny * (before->y - 2 * here->y + after->y));
+}
+
+/* The point after which the run has its sharpest step, if it is more than noise makes; or -1. A window is as
+ * long as the shared error holds on: its waves are longer than a step. */
+static int32_t find_step(const ale_extractor_t *e, ale_run_t *run)
+{
+    const int32_t window = e->config.noise.shared_beams;
+    if (run->curved || run->last + 1 - run->first < STEP_WINDOWS * window) {
+        return -1;
+    }
+    const ale_normal_line_t line = ale_moments_normal_line(e, run->first, run->last);
+    const int32_t direction = ale_reading_direction(e, run->first, run->last);
+    int32_t best = -1;
+    int64_t most = 0;
+    for (int32_t k = window - 1; k + window <= run->last - run->first; k++) {
+        const int32_t split = direction > 0 ? run->first + k : run->last - 1 - k;
+        const int64_t step = step_after(e, &line, window, split);
+        if (step > most) {
+            most = step;
+            best = split;
+        }
+    }
+    const ale_run_fit_t *fit = ale_fit_of_run(e, run);
+    const int64_t length = (int64_t)ale_isqrt((uint64_t)(line.nx * line.nx + line.ny * line.ny));
+    const int64_t step_q4 = most / ale_max64(length, 1);
+    const int64_t var_q8 = 2 * fit->var_q8 / window + ((STEP_SHARED_Q8 * fit->shared_q8) >> 8);
+    const int64_t limit_q8 =
+        ((int64_t)STEP_DEVIATIONS_Q4 * STEP_DEVIATIONS_Q4 * var_q8 >> 8) * window * window;
+    return step_q4 * step_q4 > limit_q8 ? best : -1;
+}
+
+bool ale_runs_split_at_steps(ale_extractor_t *e)
+{
+    const int32_t before = e->run_count;
+    for (int32_t k = 0; k < e->run_count && e->run_count < ALE_MAX_RUNS; k++) {
+        const int32_t split = find_step(e, &e->run[k]);
+        if (split >= 0) {
+            insert_run(e, k, split);
+            k++;
+        }
     }
     return e->run_count > before;
 }

@@ -18,6 +18,10 @@ void ale_runs_forget_fits(ale_extractor_t *e);
  * was one. O(lines log points) fits. */
 bool ale_runs_split(ale_extractor_t *e);
 
+/* Splits long runs at a step that is too sharp for what neighbours share, though not large beside it: two
+ * lines explain such a run little better than one. Whether there was one. O(points). */
+bool ale_runs_split_at_steps(ale_extractor_t *e);
+
 /* Places the breaks between neighbouring runs by the best joint fit, all from the same state, but for those
  * between runs that are settled. widest_step: see breakpoint.h. */
 void ale_runs_place(ale_extractor_t *e, int32_t widest_step);

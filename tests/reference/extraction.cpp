@@ -166,7 +166,16 @@ std::vector<Run> improved_runs(Prepared &p, const ExtractionSettings &settings, 
     refine_own_noise(p, runs, decisions);
     runs = with_curves(p.points, p.noise, p.segments, runs, decisions);
     runs = split_in_rounds(p, runs, decisions);
-    return effort_is_spent(p, decisions) ? runs : with_curves(p.points, p.noise, p.segments, runs, decisions);
+    if (!effort_is_spent(p, decisions)) {
+        runs = with_curves(p.points, p.noise, p.segments, runs, decisions);
+    }
+    const size_t before = runs.size();
+    if (p.shared_found) {
+        runs = split_at_steps(p.points, p.noise, runs, decisions);
+    }
+    return runs.size() > before && !effort_is_spent(p, decisions)
+               ? placed_runs(p.points, p.noise, p.segments, runs, wide_step, decisions)
+               : runs;
 }
 
 // How many of n points err together in the slope of their line: the quadratic form of the correlations

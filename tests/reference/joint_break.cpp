@@ -22,6 +22,8 @@ constexpr double suspicious_sum = 3;       // and beyond it
 constexpr int most_meetings = 3;
 constexpr int settled_part = 10; // of its points that a settled run may gain or lose
 constexpr double promising = 100.0 / 256;
+constexpr int step_windows = 4; // of a run that is looked at for a step
+constexpr double step_deviations = 4.75;
 
 // Points that a run may give away at one end while the other end gives some too.
 int spare_points(Run run)
@@ -82,6 +84,50 @@ int least_points_to_try(const ScanPoints &points, const NoiseOfScan &noise, cons
         least += least / 4;
     }
     return least;
+}
+
+// Shared variances of the difference of the means of two adjoining windows.
+double shared_in_step(const NoiseOfScan &noise, int window)
+{
+    double sum = 0;
+    for (int i = 0; i < window; i++) {
+        for (int j = 0; j < window; j++) {
+            sum += std::exp(-std::abs(i - j) / noise.shared_beams) -
+                   std::exp(-(window + j - i) / noise.shared_beams);
+        }
+    }
+    return 2 * sum / window / window;
+}
+
+// The point after which a run has its sharpest step, or -1.
+int step_of_run(const ScanPoints &points, const NoiseOfScan &noise, Run run, Decisions &decisions)
+{
+    const int window = static_cast<int>(noise.shared_beams);
+    if (run.curved || run.points() < step_windows * window) {
+        return -1;
+    }
+    const RunFit fit = fit_run(points, noise, run.first, run.last);
+    const int direction = reading_direction(points, run.first, run.last);
+    const auto mean = [&](int first) {
+        double sum = 0;
+        for (int i = first; i < first + window; i++) {
+            const ScanPoint &p = points[static_cast<size_t>(i)];
+            sum += p.x * std::cos(fit.alpha) + p.y * std::sin(fit.alpha);
+        }
+        return sum / window;
+    };
+    int best = -1;
+    double most = 0;
+    for (int k = window - 1; k + window <= run.last - run.first; k++) {
+        const int split = direction > 0 ? run.first + k : run.last - 1 - k;
+        const double step = std::fabs(mean(split + 1) - mean(split + 1 - window));
+        if (step > most) {
+            most = step;
+            best = split;
+        }
+    }
+    const double var = 2 * fit.var / window + fit.shared * shared_in_step(noise, window);
+    return decisions.below(most, step_deviations * std::sqrt(var)) ? -1 : best;
 }
 
 } // namespace
@@ -230,6 +276,22 @@ std::vector<Run> split_runs(const ScanPoints &points, const NoiseOfScan &noise,
         if (split < 0) {
             split_runs.push_back(run);
             split_runs.back().no_break = run.no_break || (tried && !run.curved);
+        } else {
+            split_runs.push_back({run.first, split});
+            split_runs.push_back({split + 1, run.last});
+        }
+    }
+    return split_runs;
+}
+
+std::vector<Run> split_at_steps(const ScanPoints &points, const NoiseOfScan &noise,
+                                const std::vector<Run> &runs, Decisions &decisions)
+{
+    std::vector<Run> split_runs;
+    for (const Run &run : runs) {
+        const int split = step_of_run(points, noise, run, decisions);
+        if (split < 0) {
+            split_runs.push_back(run);
         } else {
             split_runs.push_back({run.first, split});
             split_runs.push_back({split + 1, run.last});

@@ -61,6 +61,10 @@ std::vector<Run> split_runs(const ScanPoints &points, const NoiseOfScan &noise,
                             const std::vector<Run> &segments, const std::vector<Run> &runs,
                             Decisions &decisions);
 
+// Long runs split at their sharpest step, where noise makes none so sharp; all runs once.
+std::vector<Run> split_at_steps(const ScanPoints &points, const NoiseOfScan &noise,
+                                const std::vector<Run> &runs, Decisions &decisions);
+
 } // namespace reference
 
 #endif

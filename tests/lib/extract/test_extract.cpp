@@ -325,6 +325,43 @@ TEST(Extract, CovarianceIsCalibratedInSimulation)
     EXPECT_LT(rho2 / lines, 1.2);
 }
 
+// A wall two metres away behind 340 beams, with 1.5 mm of each beam's own and 5 mm that neighbours share over
+// 12 beams, which steps back by `step_mm` at beam 170.
+scene::scan_ptr wavy_wall(double step_mm, unsigned seed)
+{
+    std::mt19937 engine(seed);
+    std::normal_distribution<double> gauss;
+    auto scan = empty_scan(340, -170 * scene::urg_step);
+    const double kept = std::exp(-1.0 / 12);
+    double shared = gauss(engine);
+    for (int k = 0; k < scan->beams; k++) {
+        const double distance = (2000 + (k > 170 ? step_mm : 0)) / std::cos((k - 170) * scene::urg_step);
+        ale_scan_set_range(scan.get(), static_cast<uint16_t>(k),
+                           static_cast<int32_t>(1000 * (distance + 5 * shared + 1.5 * gauss(engine))));
+        shared = kept * shared + std::sqrt(1 - kept * kept) * gauss(engine);
+    }
+    return scan;
+}
+
+bool parted_near(const ale_features_t &f, int beam)
+{
+    return std::any_of(f.line, f.line + f.line_count,
+                       [&](const ale_line_t &line) { return std::abs(line.last - beam) <= 4; });
+}
+
+TEST(Extract, AStepIsToldFromTheWavesThatNeighboursShareOnALongWall)
+{
+    scene::extractor extract;
+    int whole = 0;
+    int found = 0;
+    for (unsigned seed = 0; seed < 500; seed++) {
+        whole += extract(*wavy_wall(0, seed)).line_count == 1 ? 1 : 0;
+        found += parted_near(extract(*wavy_wall(18, seed)), 170) ? 1 : 0;
+    }
+    EXPECT_GE(whole, 498);
+    EXPECT_GT(found, 300);
+}
+
 // A room of many chords of uneven length, at 2.2 to 2.5 m.
 std::vector<scene::wall> ring_of_chords(unsigned seed, int chords)
 {

@@ -78,6 +78,15 @@ TEST(Runs, BreaksArePlacedWhereTheTwinPlacesThem)
     EXPECT_GT(compare_runs(12, 0.03, ale_merge_runs, scene::place_runs, twin), 100);
 }
 
+// After merging alone, which leaves sharper steps and corners in runs than there are in the end.
+TEST(Runs, LongRunsAreSplitAtTheStepsOfTheTwin)
+{
+    const auto twin = [](const Given &g, Decisions &decisions) {
+        return reference::split_at_steps(g.points, g.noise, g.runs, decisions);
+    };
+    EXPECT_GT(compare_runs(14, 0.02, ale_merge_runs, ale_runs_split_at_steps, twin), 10);
+}
+
 // A search that skips places may miss the best one; the twin here tries them all. Where the lines meet a
 // break may be a little worse than that.
 TEST(Runs, NearlyNoBreakIsWorseThanTheBestOfAllByMoreThanAMeetingPointMayBe)
