@@ -131,6 +131,8 @@ static void add(pieces_t *p, int32_t first, int32_t last, bool spot)
         .var_angle_urad2 = angle_urad * angle_urad,
         .start_time_us = time_us,
         .end_time_us = time_us,
+        .first_beam = (uint16_t)first,
+        .last_beam = (uint16_t)last,
         .kind = spot ? ALE_VIEW_SPOT : ALE_VIEW_PIECE,
     };
 }

@@ -43,6 +43,7 @@ void ale_pipeline_look(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t v
     p->looked = true;
     memcpy(p->velocity, velocity, sizeof p->velocity);
     ale_scan_mask(&p->scan, p->config.blind, p->config.blind_count);
+    ale_carried_mask(&p->carried, &p->scan);
     ale_sensor_velocity(velocity, p->config.sensor, sensor_velocity);
     p->straightened = ale_deskew(&p->scan, sensor_velocity, p->bearing_bam);
     const uint32_t *bearing_bam = ale_pipeline_bearings(p);

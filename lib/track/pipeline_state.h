@@ -3,6 +3,7 @@
 #define ALE_TRACK_PIPELINE_STATE_H
 
 #include "extract/workspace.h"
+#include "track/carried.h"
 #include "track/drift.h"
 #include "track/elders.h"
 #include "track/fade.h"
@@ -49,6 +50,7 @@ struct ale_pipeline {
     ale_fade_t fade;
     ale_relocation_t relocation;
     ale_witness_t witness;
+    ale_carried_t carried;
     ale_elders_t elders;
     ale_rest_t rest;
     ale_registration_t registration;

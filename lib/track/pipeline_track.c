@@ -120,12 +120,26 @@ static ale_seen_t seen(const ale_pipeline_t *p, const ale_motion_t *before)
                         .view_count = p->view_count};
 }
 
+/* What has come since the last scan, and was not there when it looked, is left out: it may go along with the
+ * robot. */
+static void leave_out_carried(ale_pipeline_t *p, ale_seen_t *now)
+{
+    const ale_seen_t before = ale_witness_seen(&p->witness);
+    const ale_matrix_t *cov = &p->motion.cov;
+    const bool known =
+        2 * ale_max64(sigma_of(cov, 0), sigma_of(cov, 1)) < SLACK_UM && 2 * sigma_of(cov, 2) < SLACK_URAD;
+    if (before.view_count > 0 && known) {
+        p->view_count = ale_carried_notice(&p->carried, &before, now, &p->scan, p->view, p->fit.match);
+        now->view_count = p->view_count;
+    }
+}
+
 /* Hears the last scan when the map knows little of this one; a scan that fits is the next to be heard, one
  * that does not leaves the prediction as it is. One that showed nothing (the scanner is covered) could say
  * nothing of the next: the last that did is kept. */
 static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted, bool counted)
 {
-    const ale_seen_t now = seen(p, before);
+    ale_seen_t now = seen(p, before);
     const ale_matrix_t *cov = &p->motion.cov;
     const int64_t offset_um = SLACK_UM + 2 * ale_max64(sigma_of(cov, 0), sigma_of(cov, 1));
     const ale_slack_t slack = {
@@ -138,8 +152,14 @@ static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_moti
         const ale_scene_t scene = ale_pipeline_scene(p);
         ale_refine_reject(predicted, &scene, &p->fit);
         p->motion = *predicted;
-    } else if (p->view_count > 0) {
+        return;
+    }
+    if (!doubt) {
+        leave_out_carried(p, &now);
+    }
+    if (p->view_count > 0) {
         ale_witness_keep(&p->witness, &now);
+        ale_carried_show(&p->carried, &p->witness.seen.scan);
     }
 }
 

@@ -85,7 +85,8 @@ uint32_t ale_views_of(const ale_features_t *features, const ale_scan_t *scan, al
     for (uint32_t i = 0; i < features->line_count; i++) {
         if (ale_is_chosen(i, features->line_count, ALE_MAX_VIEWS)) {
             view_of(&features->line[i], scan, &stand, systematic_um, &out[count]);
-            out[count].line = (uint16_t)i;
+            out[count].first_beam = features->line[i].first;
+            out[count].last_beam = features->line[i].last;
             out[count++].kind = ALE_VIEW_WALL;
         }
     }

@@ -43,7 +43,8 @@ typedef struct {
     int64_t var_angle_urad2;
     int32_t start_time_us; /* when its ends were measured, relative to the scan's stamp */
     int32_t end_time_us;
-    uint16_t line;     /* index in the features */
+    uint16_t first_beam; /* of those that show it */
+    uint16_t last_beam;
     uint8_t start_end; /* ale_end_kind_t of either end */
     uint8_t end_end;
     uint8_t kind; /* ale_view_kind_t */

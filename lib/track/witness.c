@@ -24,6 +24,13 @@ void ale_witness_keep(ale_witness_t *witness, const ale_seen_t *seen)
     memcpy(witness->view, seen->view, seen->view_count * sizeof witness->view[0]);
 }
 
+ale_seen_t ale_witness_seen(const ale_witness_t *witness)
+{
+    const ale_seen_copy_t *then = &witness->seen;
+    return (ale_seen_t){&then->scan,  ale_seen_bearings(then), then->robot,
+                        then->sensor, witness->view,           witness->view_count};
+}
+
 /* What a scan says of the surfaces of another one. Spots have no side from which they are seen. */
 static void ask(const ale_seen_t *of, const ale_seen_t *asked, ale_slack_t slack, ale_testimony_t *sum)
 {
@@ -46,12 +53,10 @@ static void ask(const ale_seen_t *of, const ale_seen_t *asked, ale_slack_t slack
 
 ale_testimony_t ale_witness_hear(const ale_witness_t *witness, const ale_seen_t *seen, ale_slack_t slack)
 {
-    const ale_seen_copy_t *then = &witness->seen;
-    const ale_seen_t before = {&then->scan,  ale_seen_bearings(then), then->robot,
-                               then->sensor, witness->view,           witness->view_count};
+    const ale_seen_t before = ale_witness_seen(witness);
     ale_testimony_t sum = {0, 0, 0, false};
     if (witness->view_count > 0) {
-        sum.close = ale_are_near(then->robot, seen->robot, CLOSE_UM, CLOSE_BAM);
+        sum.close = ale_are_near(before.robot, seen->robot, CLOSE_UM, CLOSE_BAM);
         ask(seen, &before, slack, &sum);
         ask(&before, seen, slack, &sum);
     }

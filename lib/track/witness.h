@@ -36,6 +36,9 @@ void ale_witness_clear(ale_witness_t *witness);
 /* Takes the place of the scan before; copies. */
 void ale_witness_keep(ale_witness_t *witness, const ale_seen_t *seen);
 
+/* The scan that is kept, as long as it is; its view_count is 0 when there is none. */
+ale_seen_t ale_witness_seen(const ale_witness_t *witness);
+
 /* slack: how far the way between the two scans may be off. */
 ale_testimony_t ale_witness_hear(const ale_witness_t *witness, const ale_seen_t *seen, ale_slack_t slack);
 

@@ -315,6 +315,15 @@ void witnesses(Parts &parts, Random &random, Crowd &crowd)
     parts.measure("last scan heard", 1, [&] {
         ale_witness_hear(&pipeline->witness, &seen, {200000, 100000, false});
     });
+    ale_carried_t &carried = pipeline->carried;
+    carried.any = true;
+    carried.beams = scan.beams;
+    std::copy(std::begin(scan.range_um), std::end(scan.range_um), std::begin(carried.came_um));
+    ale_scan_t covered = scan;
+    parts.measure("beams that go along", 1, [&] {
+        ale_carried_mask(&carried, &covered);
+        ale_carried_show(&carried, &covered);
+    });
     for (int k = 0; k < 2 * ALE_ELDERS; k++) {
         scan.stamp_us += 10000000;
         ale_elders_keep(&pipeline->elders, &seen);
