@@ -14,9 +14,14 @@
 namespace ale
 {
 
+// Which walls are asked: those of the keyframes' own scans, or those of the scans after them too, whose
+// noise then averages out.
+enum class Witnesses { keyframes, all_scans };
+
 // Headings that the walls suggest, for every node that sees enough of them; none when the building is
 // not right-angled. Poses and nodes correspond. O(n).
-BuildingHeadings headings_by_walls(const std::vector<Node> &nodes, const std::vector<Pose> &poses);
+BuildingHeadings headings_by_walls(const std::vector<Node> &nodes, const std::vector<Pose> &poses,
+                                   Witnesses witnesses = Witnesses::keyframes);
 
 // Whether several suggestions in a row lie to the same side, farther than walls stray. O(n).
 bool have_drifted(const BuildingHeadings &headings, const std::vector<Pose> &poses);

@@ -78,6 +78,11 @@ bool LoopCloser::add(Node node, const Pose &motion)
     search_.reset();
     refinement_.reset();
     refined_ = false;
+    if (node.broken && !nodes_.empty()) {
+        // Since when, nobody knows.
+        nodes_.back().walls_after.clear();
+        nodes_.back().scans_after = 0;
+    }
     nodes_.push_back(std::move(node));
     added_++;
     link_to_previous(motion);
@@ -109,6 +114,19 @@ bool LoopCloser::add(Node node, const Pose &motion)
     }
     moved = (known_ && lay_on_known()) || moved;
     return straighten() || moved;
+}
+
+void LoopCloser::see_walls(const Pose &smooth, const std::vector<WallSight> &walls)
+{
+    if (nodes_.empty() || nodes_.back().scans_after == most_scans_after) {
+        return;
+    }
+    Node &node = nodes_.back();
+    const double turned = smooth.theta - node.smooth.theta;
+    for (const WallSight &wall : walls) {
+        node.walls_after.push_back({wrapped(wall.direction + turned), wall.length_m});
+    }
+    node.scans_after++;
 }
 
 bool LoopCloser::refine()

@@ -58,6 +58,11 @@ class LoopCloser
     // when earlier poses moved.
     bool add(Node node, const Pose &motion);
 
+    // Walls that a scan after the last node saw, `smooth` as the nodes' own: a compass for refine(). Of so
+    // many scans a node at most.
+    void see_walls(const Pose &smooth, const std::vector<WallSight> &walls);
+    static constexpr int most_scans_after = 16;
+
     // Looks for loops once more and draws all poses tighter by matching neighbours anew, a bounded piece a
     // call; poses() move with the last. False: nothing is left to do until a node is added.
     bool refine();

@@ -128,6 +128,16 @@ int ale_mapper_know(ale_mapper_t *mapper, uint32_t epoch, const ale_map_t *map)
     }
 }
 
+void ale_mapper_see_walls(ale_mapper_t *mapper, const ale_pose_t *smooth, const ale_pose_t *sensor,
+                          const ale_features_t *features)
+{
+    try {
+        mapper->closer.see_walls(ale::from_core(*smooth), ale::walls_of(*features, ale::from_core(*sensor)));
+    } catch (const std::bad_alloc &) {
+        return; // a compass with one scan less
+    }
+}
+
 bool ale_mapper_refine(ale_mapper_t *mapper)
 {
     try {

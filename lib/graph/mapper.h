@@ -70,6 +70,12 @@ int ale_mapper_know(ale_mapper_t *mapper, uint32_t epoch, const ale_map_t *map);
  * the next keyframe. */
 int ale_mapper_add(ale_mapper_t *mapper, const ale_keyframe_t *keyframe);
 
+/* What a scan that is no keyframe saw, of the same map as the last one: lines of the sensor's frame, which
+ * lies so on the robot. The directions of the walls in sixteen scans after each keyframe are a compass
+ * for ale_mapper_refine, which goes without those that memory has no room for. */
+void ale_mapper_see_walls(ale_mapper_t *mapper, const ale_pose_t *smooth, const ale_pose_t *sensor,
+                          const ale_features_t *features);
+
 /* Draws the whole graph tight, as far as the scans allow: a bounded piece of the work a call. Poses move with
  * the last one. False: nothing is left to do until a keyframe is added. For when the drive is over, or the
  * thread has nothing else to do. On a lack of memory the poses stay as they are. */

@@ -44,6 +44,9 @@ struct Node {
     std::vector<bool> vague;
     std::vector<CornerMark> corners;
     Eigen::Vector2d eye{0, 0}; // where the sensor sits
+    // Walls of the scans after it, as if seen from here: for what is done when the drive is over.
+    std::vector<WallSight> walls_after{};
+    int scans_after = 0; // that these are of
 };
 
 } // namespace ale

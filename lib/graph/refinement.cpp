@@ -144,7 +144,7 @@ std::vector<GraphEdge> Refinement::still_needed() const
 // Where the walls serve as a compass they still do.
 void Refinement::follow_walls()
 {
-    const BuildingHeadings headings = headings_by_walls(*nodes_, graph_.poses());
+    const BuildingHeadings headings = headings_by_walls(*nodes_, graph_.poses(), Witnesses::all_scans);
     if (!graph_.headings().priors.empty() || have_drifted(headings, graph_.poses())) {
         graph_.set_headings(headings);
     }

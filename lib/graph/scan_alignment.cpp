@@ -12,7 +12,7 @@ namespace ale
 namespace
 {
 
-constexpr int sweeps = 4;          // each sweep's map is what the one before has left
+constexpr int sweeps = 24;         // each sweep's map is what the one before has left
 constexpr double gate_m = 0.10;    // farther from the mean it is another surface
 constexpr double least_points = 8; // fewer are no mean
 // What a point is known to along its normal, and how many err together, as for a match of two keyframes.
@@ -20,8 +20,11 @@ constexpr double sigma_m = 0.01;
 constexpr double points_a_witness = 4;
 constexpr double point_information = 1 / (sigma_m * sigma_m * points_a_witness);
 // How well the tracker knows the way from one scan to the next.
-constexpr double way_m = 0.003;
-constexpr double way_rad = 0.002;
+constexpr double way_m = 0.004;
+constexpr double way_rad = 0.003;
+// And the graph the heading of a scan: what many scans pull at together turns whole stretches of the way.
+constexpr double graph_rad = 0.005;
+constexpr double graph_information = 1 / (graph_rad * graph_rad);
 
 SurfacePoint placed(const SurfacePoint &point, const Eigen::Matrix2d &turn, const Pose &pose)
 {
@@ -53,10 +56,12 @@ MeanSurface seen_by_all(const std::vector<AlignedScan> &scans, const std::vector
     return surface;
 }
 
-// Point to line, under Tukey's biweight.
+// Point to line, under Tukey's biweight; and to the heading that the graph knows.
 PosePull pull_of(int k, const AlignedScan &scan, const Pose &pose, const MeanSurface &surface)
 {
     PosePull pull{k, Eigen::Matrix3d::Zero(), Eigen::Vector3d::Zero()};
+    pull.information(2, 2) = graph_information;
+    pull.pull(2) = -graph_information * wrapped(pose.theta - scan.pose.theta);
     const Eigen::Matrix2d turn = rotation(pose.theta);
     for (const SurfacePoint &point : scan.points) {
         const SurfacePoint here = placed(point, turn, pose);

@@ -86,17 +86,6 @@ CornerMark corner_of(const ale_corner_t &corner, const Pose &sensor)
             corner.angle_bam / bam_per_radian, corner.kind == ALE_CORNER_CONVEX};
 }
 
-void add_walls(const ale_features_t &features, const Pose &sensor, Node *node)
-{
-    for (int k = 0; k < features.line_count; k++) {
-        const ale_line_t &line = features.line[k];
-        const double alpha = static_cast<int32_t>(line.alpha_bam) / bam_per_radian;
-        node->walls.push_back(
-            {wrapped(alpha + sensor.theta),
-             length((line.end.x_um - line.start.x_um) * 1e-6, (line.end.y_um - line.start.y_um) * 1e-6)});
-    }
-}
-
 // A scan as it was straightened, with what was found in it.
 struct Sight {
     const ale_scan_t &scan;
@@ -144,7 +133,7 @@ Node node_of(const ale_keyframe_t &keyframe)
               {},
               {},
               {sensor.x, sensor.y}};
-    add_walls(keyframe.features, sensor, &node);
+    node.walls = walls_of(keyframe.features, sensor);
     each_point(
         {keyframe.taken, keyframe.straightened ? keyframe.bearing_bam : nullptr, keyframe.features, sensor},
         [&node](const SurfacePoint &point, bool vague) {
@@ -155,6 +144,18 @@ Node node_of(const ale_keyframe_t &keyframe)
         node.corners.push_back(corner_of(keyframe.features.corner[k], sensor));
     }
     return node;
+}
+
+std::vector<WallSight> walls_of(const ale_features_t &features, const Pose &sensor)
+{
+    std::vector<WallSight> walls;
+    for (int k = 0; k < features.line_count; k++) {
+        const ale_line_t &line = features.line[k];
+        const double alpha = static_cast<int32_t>(line.alpha_bam) / bam_per_radian;
+        walls.push_back({wrapped(alpha + sensor.theta), length((line.end.x_um - line.start.x_um) * 1e-6,
+                                                               (line.end.y_um - line.start.y_um) * 1e-6)});
+    }
+    return walls;
 }
 
 std::vector<SurfacePoint> surface_of(const ale_seen_t &seen, const ale_features_t &features)

@@ -19,6 +19,9 @@ constexpr double node_point_spacing_m = 0.04;
 // one. path_m is left 0, `tracked` is the pose in the keyframe.
 Node node_of(const ale_keyframe_t &keyframe);
 
+// Its lines, robot's frame.
+std::vector<WallSight> walls_of(const ale_features_t &features, const Pose &sensor);
+
 // The same points of any scan, those alone that have a normal; robot's frame.
 std::vector<SurfacePoint> surface_of(const ale_seen_t &seen, const ale_features_t &features);
 

@@ -44,16 +44,6 @@ ale_pose_t placed(const ale_mapper_pose_t &keyframe, const ale_pose_t &smooth)
     return ale_pose_compose(ale_pose_shift(keyframe.smooth, keyframe.pose), smooth);
 }
 
-/* None: nothing was seen, or from nobody knows where. */
-std::vector<SurfacePoint> surface_seen(const ale_pipeline_t *pipeline, const ale_estimate_t &estimate)
-{
-    ale_seen_t seen;
-    if (estimate.predicted || estimate.state == ALE_STATE_LOST || !ale_pipeline_seen(pipeline, &seen)) {
-        return {};
-    }
-    return surface_of(seen, *ale_pipeline_features(pipeline));
-}
-
 } // namespace
 
 Loops::Loops()
@@ -77,8 +67,16 @@ void Loops::before_scan(ale_pipeline_t *pipeline, const Taken &taken)
 void Loops::after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate)
 {
     tracked_.push_back({estimate.smooth, estimate.map});
-    seen_.push_back(surface_seen(pipeline, estimate));
+    ale_seen_t seen;
+    const bool sees =
+        !estimate.predicted && estimate.state != ALE_STATE_LOST && ale_pipeline_seen(pipeline, &seen);
+    const ale_features_t *features = ale_pipeline_features(pipeline);
+    seen_.push_back(sees ? surface_of(seen, *features) : std::vector<SurfacePoint>());
     if (!ale_pipeline_keyframe(pipeline, keyframe_.get())) {
+        if (sees) {
+            const ale_pose_t sensor = ale_pose_between(seen.robot, seen.sensor);
+            ale_mapper_see_walls(mapper_.get(), &estimate.smooth, &sensor, features);
+        }
         return;
     }
     if (keyframe_->broken) {

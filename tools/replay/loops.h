@@ -80,11 +80,12 @@ class Loops
     std::unique_ptr<ale_keyframe_t> keyframe_;
     std::unique_ptr<ale_map_t> known_; /* until the mapper knows it */
     std::deque<std::unique_ptr<ale_correction_t>> due_;
-    std::vector<Tracked> tracked_;                /* by scan */
-    std::vector<ale_mapper_pose_t> keyframes_;    /* after finish() */
-    std::vector<std::vector<SurfacePoint>> seen_; /* by scan; until finish() */
-    std::vector<ale_pose_t> corrected_;           /* by scan; after finish() */
-    std::vector<uint32_t> breaks_;                /* scans that nothing ties to those before them */
+    std::vector<Tracked> tracked_;             /* by scan */
+    std::vector<ale_mapper_pose_t> keyframes_; /* after finish() */
+    std::vector<std::vector<SurfacePoint>>
+        seen_; /* by scan; until finish(); none: nothing, or from nobody knows where */
+    std::vector<ale_pose_t> corrected_; /* by scan; after finish() */
+    std::vector<uint32_t> breaks_;      /* scans that nothing ties to those before them */
     int64_t longest_ns_ = 0;
 };
 

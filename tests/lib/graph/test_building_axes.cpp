@@ -80,6 +80,45 @@ TEST(BuildingAxes, FurnitureAtAnAngleDoesNotTurnTheBuilding)
     EXPECT_FALSE(ale::have_drifted(headings, made.truth));
 }
 
+// Root mean square of what the priors miss the true headings by, but for what all of them miss.
+double spread(const ale::BuildingHeadings &headings, const Drive &made)
+{
+    double sum = 0;
+    double sum2 = 0;
+    for (const ale::HeadingPrior &prior : headings.priors) {
+        const double off =
+            ale::wrapped(prior.theta - made.truth[static_cast<size_t>(prior.pose)].theta - ale::pi / 8);
+        sum += off;
+        sum2 += off * off;
+    }
+    const auto count = static_cast<double>(headings.priors.size());
+    return std::sqrt(sum2 / count - (sum / count) * (sum / count));
+}
+
+TEST(BuildingAxes, ScansAfterTheKeyframesAverageTheirNoise)
+{
+    const std::vector<double> walls{0, ale::pi / 2, 0};
+    Drive made = drive(60, 0, walls, 2 * degree, 9);
+    const ale::BuildingHeadings alone = ale::headings_by_walls(made.nodes, made.truth);
+    constexpr int scans = 8;
+    for (unsigned scan = 0; scan < scans; scan++) {
+        const Drive later = drive(60, 0, walls, 2 * degree, 20 + scan);
+        for (size_t k = 0; k < made.nodes.size(); k++) {
+            const std::vector<ale::WallSight> &seen = later.nodes[k].walls;
+            made.nodes[k].walls_after.insert(made.nodes[k].walls_after.end(), seen.begin(), seen.end());
+            made.nodes[k].scans_after = scans;
+        }
+    }
+    const ale::BuildingHeadings all =
+        ale::headings_by_walls(made.nodes, made.truth, ale::Witnesses::all_scans);
+    ASSERT_EQ(all.priors.size(), made.nodes.size());
+    ASSERT_EQ(alone.priors.size(), made.nodes.size());
+    EXPECT_LT(spread(all, made), 0.5 * spread(alone, made));
+    EXPECT_GT(all.priors[0].information, 2 * alone.priors[0].information);
+    EXPECT_EQ(ale::headings_by_walls(made.nodes, made.truth).building, alone.building)
+        << "who asks the keyframes alone is told no more";
+}
+
 TEST(BuildingAxes, BuildingWithoutRightAnglesSaysNothing)
 {
     const Drive made = drive(60, 0.1 * degree, {0.2, 0.2 + ale::pi / 4, 0.2 + ale::pi / 6, 1.2}, 0, 3);

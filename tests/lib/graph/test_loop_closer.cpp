@@ -93,6 +93,27 @@ TEST(LoopCloser, AFullGraphThinsOutAndStaysRight)
 }
 
 // Four sides of a square hall that look alike: the place that was left is not the place that is reached.
+TEST(LoopCloser, WallsOfTheNextScansAreKeptAsSeenFromTheNodeBeforeThem)
+{
+    ale::LoopCloser closer(plenty);
+    closer.see_walls({0, 0, 0}, {{0.5, 1}}); // nobody to keep it
+    ale::Node node{};
+    node.smooth = {1, 2, 0.4};
+    add(&closer, node);
+    for (int scan = 0; scan < ale::LoopCloser::most_scans_after + 3; scan++) {
+        closer.see_walls({1, 2, 0.7}, {{1.0, 2.5}});
+    }
+    const ale::Node &kept = closer.nodes().back();
+    EXPECT_EQ(kept.scans_after, ale::LoopCloser::most_scans_after);
+    ASSERT_EQ(kept.walls_after.size(), static_cast<size_t>(ale::LoopCloser::most_scans_after));
+    EXPECT_NEAR(kept.walls_after[0].direction, 1.3, 1e-12);
+    EXPECT_EQ(kept.walls_after[0].length_m, 2.5);
+    node.broken = true;
+    add(&closer, node);
+    EXPECT_EQ(closer.nodes()[0].scans_after, 0) << "nobody knows since when the way was broken";
+    EXPECT_TRUE(closer.nodes()[0].walls_after.empty());
+}
+
 TEST(LoopCloser, APlaceThatOnlyLooksLikeAnotherIsNotALoop)
 {
     std::vector<ale::Node> nodes = ring_corridor::drifting(ring_corridor::truth(0.5), 0, 5);
