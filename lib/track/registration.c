@@ -15,8 +15,6 @@ enum {
     PAIR_WORK = 2,   /* and of one that votes, in votes */
     CELL_BITS = 14,
     MIDDLE_Q14 = (MIDDLE << CELL_BITS) + (1 << (CELL_BITS - 1)),
-    LEAST_Q14 = 1,
-    MOST_Q14 = (ALE_REGISTRATION_CELLS << CELL_BITS) - 1,
     SUMS = 16, /* of a row: one for every cell but the first and the last, and one of none */
     DISCOUNT_CELLS2 = 6 * MIDDLE * MIDDLE /* a sixth of the votes at the edge of the grid */
 };
@@ -107,50 +105,51 @@ static void list_pairs(ale_registration_t *r, ale_views_t now, uint32_t guess_ba
 
 /* Displacements along a line, in cells from the grid's corner, Q14, half a cell added. */
 typedef struct {
-    int32_t x_q14;
-    int32_t y_q14;
-    int32_t step_x_q14;
-    int32_t step_y_q14;
-    int32_t first; /* steps from there that are asked for, */
-    int32_t end;   /* this one excluded */
+    int64_t x_q14;
+    int64_t y_q14;
+    int64_t step_x_q14;
+    int64_t step_y_q14;
+    int32_t count;
 } cells_t;
 
-/* Leaves of the steps those that are within the grid along one axis; halves were rounded away from zero. */
-static inline void cut(cells_t *c, int32_t at_q14, int32_t step_q14)
+/* Whether a place is in a cell of the grid; halves were rounded away from zero. */
+static inline bool is_inside(int64_t x_q14, int64_t y_q14)
 {
-    const int32_t from_low = step_q14 < 0 ? MOST_Q14 - at_q14 : at_q14 - LEAST_Q14;
-    const int32_t from_high = MOST_Q14 - LEAST_Q14 - from_low;
-    const int32_t step = step_q14 < 0 ? -step_q14 : step_q14;
-    if (from_high < 0 || (from_low < 0 && step == 0)) {
-        c->end = 0;
-        return;
+    const uint64_t most_q14 = ((uint64_t)ALE_REGISTRATION_CELLS << CELL_BITS) - 1;
+    return (uint64_t)(x_q14 - 1) < most_q14 && (uint64_t)(y_q14 - 1) < most_q14;
+}
+
+/* Cuts off what of the line is outside the grid, at its beginning and at its end. */
+static inline void clip(cells_t *c)
+{
+    while (c->count > 0 && !is_inside(c->x_q14, c->y_q14)) {
+        c->x_q14 += c->step_x_q14;
+        c->y_q14 += c->step_y_q14;
+        c->count--;
     }
-    if (from_low < 0) {
-        const int32_t first = (step - 1 - from_low) / step;
-        c->first = first > c->first ? first : c->first;
-    }
-    if ((c->end - 1) * step > from_high) {
-        c->end = from_high / step + 1;
+    int64_t x_q14 = c->x_q14 + (c->count - 1) * c->step_x_q14;
+    int64_t y_q14 = c->y_q14 + (c->count - 1) * c->step_y_q14;
+    while (c->count > 0 && !is_inside(x_q14, y_q14)) {
+        x_q14 -= c->step_x_q14;
+        y_q14 -= c->step_y_q14;
+        c->count--;
     }
 }
 
 /* A view votes once for a cell. */
 static inline void vote_cells(ale_registration_t *r, cells_t c, uint16_t voter, int32_t weight_mm)
 {
-    cut(&c, c.x_q14, c.step_x_q14);
-    cut(&c, c.y_q14, c.step_y_q14);
-    int32_t x_q14 = c.x_q14 + c.first * c.step_x_q14;
-    int32_t y_q14 = c.y_q14 + c.first * c.step_y_q14;
-    for (int32_t k = c.first; k < c.end; k++) {
-        const uint32_t column = (uint32_t)x_q14 >> CELL_BITS;
-        const uint32_t row = (uint32_t)y_q14 >> CELL_BITS;
+    clip(&c);
+    for (; c.count > 0; c.count--) {
+        const uint64_t column = (uint64_t)c.x_q14 >> CELL_BITS;
+        const uint64_t row = (uint64_t)c.y_q14 >> CELL_BITS;
         if (r->voter[row][column] != voter) {
             r->voter[row][column] = voter;
             r->votes_mm[row][column] += weight_mm;
             r->row_mm[row] += weight_mm;
         }
-        x_q14 += c.step_x_q14;
-        y_q14 += c.step_y_q14;
+        c.x_q14 += c.step_x_q14;
+        c.y_q14 += c.step_y_q14;
     }
 }
 
@@ -176,14 +175,11 @@ static inline void vote_line(ale_registration_t *r, const ale_registration_pair_
     }
     const int32_t count = (int32_t)ale_min64(to + 1 - from, r->work);
     const int64_t distance_q14 = ale_round_div(distance_um * (1 << CELL_BITS), r->cell_um);
-    const cells_t cells = {(int32_t)(MIDDLE_Q14 + ale_round_shift(distance_q14 * nx, 14) + from * ny),
-                           (int32_t)(MIDDLE_Q14 + ale_round_shift(distance_q14 * ny, 14) - from * nx),
-                           (int32_t)ny,
-                           (int32_t)-nx,
-                           0,
-                           count};
     r->work -= count;
-    vote_cells(r, cells, voter, pair->weight_mm);
+    vote_cells(r,
+               (cells_t){MIDDLE_Q14 + ale_round_shift(distance_q14 * nx, 14) + from * ny,
+                         MIDDLE_Q14 + ale_round_shift(distance_q14 * ny, 14) - from * nx, ny, -nx, count},
+               voter, pair->weight_mm);
 }
 
 /* One new view, its centre placed at a heading that is turned from the guess by turn_bam. */
