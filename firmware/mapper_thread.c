@@ -58,7 +58,9 @@ static void add(ale_mapper_thread_t *thread, const ale_keyframe_t *keyframe)
                         ale_snapshot_newest(thread->exchange->known_to_mapper, &fresh));
         thread->known_epoch = keyframe->epoch;
     }
-    ale_mapper_add(thread->mapper, keyframe);
+    if (ale_mapper_add(thread->mapper, keyframe) < 0) {
+        thread->known_epoch = 0; /* forgotten with the graph */
+    }
 }
 
 static void work_off(ale_mapper_thread_t *thread)

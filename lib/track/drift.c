@@ -172,9 +172,12 @@ typedef struct {
 /* What was there before counts in all directions, and not for the heading. */
 static sums_t begin_with(const ale_drift_t *old, int64_t part_q20)
 {
+    const int64_t xx = ale_min64(old->xx_um2, most_um2);
+    const int64_t yy = ale_min64(old->yy_um2, most_um2);
+    const int64_t most_common = ale_isqrt((uint64_t)xx) * (int64_t)ale_isqrt((uint64_t)yy);
+    const int64_t xy = ale_clamp64(old->xy_um2, -most_common, most_common);
     return (sums_t){.facing_q20 = {part_q20, 0, part_q20},
-                    .var = {times(part_q20, ale_min64(old->xx_um2, most_um2)), times(part_q20, old->xy_um2),
-                            times(part_q20, ale_min64(old->yy_um2, most_um2))},
+                    .var = {times(part_q20, xx), times(part_q20, xy), times(part_q20, yy)},
                     .x_common = times(part_q20, old->xt_um_urad),
                     .y_common = times(part_q20, old->yt_um_urad)};
 }

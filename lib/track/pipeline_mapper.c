@@ -122,6 +122,7 @@ void ale_pipeline_relocate(ale_pipeline_t *p, ale_pose_t pose)
     ale_motion_widen(&p->motion, SHOWN_SIGMA_UM, SHOWN_SIGMA_URAD);
     ale_tracker_found(&p->tracker);
     p->map.near_radius_um = 0;
+    p->wheel_drift = (ale_wheel_drift_t){0, 0};
     p->moved = true;
     p->broken = true;
 }

@@ -60,9 +60,11 @@ static int64_t left_um(const ale_wheel_drift_t *drift, const ale_hold_t *hold, c
 
 void ale_wheel_drift_fit(ale_wheel_drift_t *drift, const ale_hold_t *hold, const ale_motion_t *predicted)
 {
-    const int64_t u_um = left_um(drift, hold, predicted, hold->along_bam);
-    const int64_t v_um = left_um(drift, hold, predicted, hold->along_bam + ALE_BAM_QUARTER_TURN);
-    const axis_t u = axis(hold->along_bam);
+    /* The walls' own axes: in others what they know of one direction would count as known of both. */
+    const uint32_t along_bam = ale_atan2_bam(2 * hold->xy_q20, hold->xx_q20 - hold->yy_q20) / 2;
+    const int64_t u_um = left_um(drift, hold, predicted, along_bam);
+    const int64_t v_um = left_um(drift, hold, predicted, along_bam + ALE_BAM_QUARTER_TURN);
+    const axis_t u = axis(along_bam);
     drift->x_um = ale_clamp64(along(u, u_um, -v_um), -most_um, most_um);
     drift->y_um = ale_clamp64(along(u, v_um, u_um), -most_um, most_um);
 }

@@ -77,12 +77,13 @@ void check_files(const ReplayOptions &options)
     cli::Files files;
     files.reads("LOG", options.log);
     files.reads("--config", options.config);
+    files.writes("--save-map", options.save_map); // may take the place of the one that was loaded
+    files.reads("--load-map", options.load_map);
     files.writes("--features", options.features);
     files.writes("--poses", options.poses);
     files.writes("--trajectory", options.trajectory);
     files.writes("--trajectory-live", options.trajectory_live);
     files.writes("--timing", options.timing);
-    files.writes("--save-map", options.save_map);
     for (const std::string &path : options.maps) {
         files.writes("--map", path);
     }

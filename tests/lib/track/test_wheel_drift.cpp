@@ -59,7 +59,9 @@ TEST(WheelDrift, AScanTakesFromItWhatItsWallsWeighBesideThePrediction)
         const Eigen::Vector2d before(0.1 * unit(rng), 0.1 * unit(rng));
         const Eigen::Matrix2d prior = Eigen::Matrix2d::Identity() / (sigma * sigma);
         const Eigen::Vector2d expected = (prior + information).inverse() * (prior * before + pull);
-        const ale_hold_t hold = hold_of(information, pull);
+        ale_hold_t hold = hold_of(information, pull);
+        hold.along_bam =
+            convert::bam(6 * unit(rng)); // marks may turn it: what walls tell is not asked along it
         const ale_motion_t motion = predicted(sigma);
         ale_wheel_drift_t drift = {convert::um(before[0]), convert::um(before[1])};
         ale_wheel_drift_fit(&drift, &hold, &motion);
