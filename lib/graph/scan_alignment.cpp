@@ -23,7 +23,7 @@ constexpr double point_information = 1 / (sigma_m * sigma_m * points_a_witness);
 constexpr double way_m = 0.004;
 constexpr double way_rad = 0.003;
 // And the graph the heading of a scan: what many scans pull at together turns whole stretches of the way.
-constexpr double graph_rad = 0.005;
+constexpr double graph_rad = 0.006;
 constexpr double graph_information = 1 / (graph_rad * graph_rad);
 
 SurfacePoint placed(const SurfacePoint &point, const Eigen::Matrix2d &turn, const Pose &pose)
