@@ -114,7 +114,7 @@ def test_a_result_that_cannot_be_written_is_told_before_the_work(words, tmp_path
 
 
 @pytest.mark.parametrize("words", ["ale-replay LOG --trajectory LOG", "ale-replay LOG --features ./LOG", "ale-replay LOG --save-map LOG",
-                                   "ale-replay LOG --poses one --trajectory one", "ale-calibrate LOG --out LOG",
+                                   "ale-replay LOG --poses one --trajectory one", "ale-replay a.log --load-map LOG --features LOG", "ale-calibrate LOG --out LOG",
                                    "ale-mounting LOG --out LOG", "ale-inspect LOG 0 --out LOG", "ale-watch --csv one --trajectory ./one",
                                    "ale-sim --world LOG --write-log LOG", "ale-sim --log LOG --pty urg --truth LOG",
                                    "ale-sim --world LOG --write-log one --truth one"])
