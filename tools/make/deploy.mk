@@ -29,4 +29,5 @@ deb: all ## a Debian package into build/
 	@tools/make/deb.sh $(BUILD)/deb $(DEB) $(VERSION) "$(MAKE) --no-print-directory -s BUILD=$(BUILD)"
 
 test-deb: deb ## installs the package into a layer over this machine, looks, removes and purges it (root)
+	@tools/make/deps.sh tools/make/packages-deb.txt
 	@$(PYTHON) tools/make/test_deb.py $(DEB) || [ $$? = 77 ]
