@@ -92,7 +92,10 @@ static int status_of_kind(const char *real_path)
     if (S_ISDIR(there.st_mode)) {
         return ALE_PORT_FOLDER;
     }
-    return S_ISREG(there.st_mode) ? ALE_PORT_FILE : S_ISCHR(there.st_mode) ? ALE_PORT_OK : ALE_PORT_OTHER;
+    if (S_ISREG(there.st_mode)) {
+        return ALE_PORT_FILE;
+    }
+    return S_ISCHR(there.st_mode) ? ALE_PORT_OK : ALE_PORT_OTHER;
 }
 
 static int open_device(ale_port_t *port, const char *path, int32_t baud)

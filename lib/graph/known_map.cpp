@@ -1,6 +1,8 @@
 #include "graph/known_map.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "graph/scan_node.h"
 

@@ -7,8 +7,8 @@
 //
 // Keyframes are half a metre apart; between them the way is as the tracker knew it at the time, each scan's
 // pose with its own error of a centimetre. Here all scans make the map, the mean of what they saw of each
-// surface; each scan is drawn to it, point to line, and to its neighbours along the way as it lay to them;
-// then the map is made anew.
+// surface; each scan is drawn to it, point to line, to its neighbours along the way as it lay to them, and to
+// the heading that it was given; then the map is made anew.
 #ifndef ALE_GRAPH_SCAN_ALIGNMENT_H
 #define ALE_GRAPH_SCAN_ALIGNMENT_H
 

@@ -86,8 +86,11 @@ ale_hold_t ale_hold_of(const ale_local_map_t *map, const ale_view_t view[], uint
     if (!holds(&sum)) {
         add_marks(map, view, count, fit, &sum);
     }
-    return (ale_hold_t){holds(&sum), ale_atan2_bam(2 * sum.xy, sum.xx - sum.yy) / 2 + ALE_BAM_QUARTER_TURN,
-                        walls.xx,    walls.xy,
-                        walls.yy,    walls.pull_x,
-                        walls.pull_y};
+    return (ale_hold_t){.held = holds(&sum),
+                        .along_bam = ale_atan2_bam(2 * sum.xy, sum.xx - sum.yy) / 2 + ALE_BAM_QUARTER_TURN,
+                        .xx_q20 = walls.xx,
+                        .xy_q20 = walls.xy,
+                        .yy_q20 = walls.yy,
+                        .pull_x_q20 = walls.pull_x,
+                        .pull_y_q20 = walls.pull_y};
 }

@@ -19,6 +19,7 @@ static void try_at(ale_pipeline_t *p, ale_pose_t pose)
 static void settle(ale_pipeline_t *p)
 {
     p->motion = p->fit.motion;
+    p->wheel_drift = (ale_wheel_drift_t){0, 0};
     p->claims = 0;
     ale_relocation_clear(&p->relocation);
     ale_tracker_found(&p->tracker);
