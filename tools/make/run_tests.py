@@ -9,8 +9,8 @@
     run_tests.py phase NAME               a heading, and how long it is since `run_tests.py begin`
     run_tests.py sum                      the closing line over all that ran since `run_tests.py begin`
 
-Every kind appends its counts to one file ($ALE_RESULTS, else build/test-results.txt); `sum` prints `N passed, N failed, N skipped`
-and fails when anything did.
+Every kind appends its counts to one file ($ALE_RESULTS, else build/test-results.txt), and what failed by name to one beside it;
+`sum` names what failed, prints `N passed, N failed, N skipped` and fails when anything did.
 """
 import argparse
 import concurrent.futures
@@ -27,22 +27,28 @@ RESULTS = pathlib.Path(os.environ.get("ALE_RESULTS", BUILD / "test-results.txt")
 
 
 BEGUN = RESULTS.with_suffix(".begun")
+FAILED = RESULTS.with_suffix(".failed")
 LIMIT_S = 1200  # of one step: what hangs is a failure, not a wait
 
 
-def record(kind, passed, failed, skipped):
+def record(kind, passed, failed, skipped, names=()):
+    """Adds counts, and the names of what failed where they are known, to those of this run: 1 when anything failed, else 0."""
     RESULTS.parent.mkdir(parents=True, exist_ok=True)
     with RESULTS.open("a", encoding="utf-8") as results:
         results.write(f"{kind} {passed} {failed} {skipped}\n")
+    if failed:
+        with FAILED.open("a", encoding="utf-8") as file:
+            file.writelines(f"{kind}: {name}\n" for name in names or ["no test said which"])
     return 1 if failed else 0
 
 
 def counts(report):
-    """passed, failed, skipped of a JUnit or GoogleTest XML report."""
-    passed = failed = skipped = 0
+    """passed, the names of what failed, skipped: of a JUnit or GoogleTest XML report."""
+    passed = skipped = 0
+    failed = []
     for case in ElementTree.parse(report).iter("testcase"):
         if case.find("failure") is not None or case.find("error") is not None:
-            failed += 1
+            failed.append(f"{case.get('classname')}.{case.get('name')}")
         elif case.find("skipped") is not None or case.get("status") == "notrun":
             skipped += 1
         else:
@@ -66,25 +72,25 @@ def run_gtest(program):
         report = pathlib.Path(folder) / "report.xml"
         code, output = run_limited([program, f"--gtest_output=xml:{report}", "--gtest_brief=1"],
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        found = counts(report) if report.exists() else (0, 0, 0)
+        found = counts(report) if report.exists() else (0, [], 0)
     return code, found, output.decode(errors="replace")
 
 
 def run_unit_program(program):
-    """One GoogleTest program: its name, counts, seconds, and what it printed. An expectation that is not met is tried once
+    """One GoogleTest program: its name, passed, names of what failed, skipped, seconds, and what it printed. An expectation that is not met is tried once
     more, as those of the real programs are, and told; what a sanitizer finds is not."""
     started = time.monotonic()
     code, (passed, failed, skipped), output = run_gtest(program)
     if code == 1 and failed:
         print(output, f"\n  RERUN {program}", flush=True)
         code, (passed, failed, skipped), output = run_gtest(program)
-    if code != 0 and failed == 0:
-        failed = 1
+    if code != 0 and not failed:
+        failed = [f"{program} ended with {code}"]
     return program, passed, failed, skipped, time.monotonic() - started, output
 
 
 def unit(programs):
-    total = [0, 0, 0]
+    total, names = [0, 0, 0], []
     with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
         for program, passed, failed, skipped, seconds, output in pool.map(run_unit_program, programs):
             name = program.split("/tests/", 1)[-1]
@@ -94,9 +100,10 @@ def unit(programs):
                 print(output, f"\n  again: {program}", flush=True)
             elif len(programs) == 1:
                 print(output, end="", flush=True)  # what it measured
-            for k, n in enumerate((passed, failed, skipped)):
+            names += failed
+            for k, n in enumerate((passed, len(failed), skipped)):
                 total[k] += n
-    return record("unit", *total)
+    return record("unit", *total, names)
 
 
 def system(python, arguments):
@@ -108,10 +115,10 @@ def system(python, arguments):
     code, _ = run_limited([python, "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--junitxml={report}",
                            "-n", str(2 * (os.cpu_count() or 1)), "--dist", "loadfile", "--reruns", "1", "-rR", *arguments, *where],
                           env={**os.environ, "PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1"})
-    passed, failed, skipped = counts(report) if report.exists() else (0, 1, 0)
-    if code not in (0, 5) and failed == 0:
-        failed = 1
-    return record("system", passed, failed, skipped)
+    passed, failed, skipped = counts(report) if report.exists() else (0, [], 0)
+    if code not in (0, 5) and not failed:
+        failed = [f"pytest ended with {code}"]
+    return record("system", passed, len(failed), skipped, failed)
 
 
 def run_fuzzer(program, seconds, inputs):
@@ -130,14 +137,14 @@ def run_fuzzer(program, seconds, inputs):
 
 
 def fuzz(programs, seconds, inputs):
-    failed = 0
+    failed = []
     with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
         for name, tried, trouble in pool.map(lambda program: run_fuzzer(program, seconds, inputs), programs):
             print(f"  {'FAILED' if trouble else 'ok':6} {name:40} {tried} inputs", flush=True)
             if trouble:
                 print(trouble)
-                failed += 1
-    return record("fuzz", len(programs) - failed, failed, 0)
+                failed.append(name)
+    return record("fuzz", len(programs) - len(failed), len(failed), 0, failed)
 
 
 def command(name, words):
@@ -146,7 +153,7 @@ def command(name, words):
     print(f"  {'FAILED' if code else 'ok':6} {name:44} {time.monotonic() - started:6.1f} s", flush=True)
     if code:
         print(output.decode(errors="replace")[-6000:], flush=True)
-    return record(name.replace(" ", "-"), int(code == 0), int(code != 0), 0)
+    return record(name.replace(" ", "-"), int(code == 0), int(code != 0), 0, [f"exit {code}"])
 
 
 def together(waiting, computing):
@@ -157,12 +164,13 @@ def together(waiting, computing):
         print(words.read().decode(errors="replace"), end="", flush=True)
         second.wait()
     failed = (first.returncode != 0) + (second.returncode != 0)
-    return record("together", 0, failed, 0) if failed else 0
+    return record("together", 0, failed, 0, ["one of the two ended early"]) if failed else 0
 
 
 def begin():
     RESULTS.parent.mkdir(parents=True, exist_ok=True)
     RESULTS.write_text("", encoding="utf-8")
+    FAILED.unlink(missing_ok=True)
     BEGUN.touch()
     return 0
 
@@ -178,6 +186,8 @@ def summary():
     for line in RESULTS.read_text(encoding="utf-8").splitlines():
         for k, n in enumerate(line.split()[1:]):
             total[k] += int(n)
+    if FAILED.exists():
+        print("".join(f"failed: {line}\n" for line in FAILED.read_text(encoding="utf-8").splitlines()), end="")
     print(f"{total[0]} passed, {total[1]} failed, {total[2]} skipped")
     return 1 if total[1] or not total[0] else 0
 
