@@ -5,8 +5,8 @@
  * Where a scan that fits shows a surface that the map does not hold, and the last scan looked through its
  * place, something has come. If it takes a good part of the beams all at once, they are left out as long as
  * they show about the same range, as they do while it goes along. Something that stands in the room comes to
- * another range as the robot moves; it is mapped 10 s after the robot moves on, at the most. Bounded: O(beams), and three
- * looks at the last scan for each view that was not matched. */
+ * another range as the robot moves; it is mapped 10 s after the robot moves on, at the most. Bounded:
+ * O(beams), and three looks at the last scan for each view that was not matched. */
 #ifndef ALE_TRACK_CARRIED_H
 #define ALE_TRACK_CARRIED_H
 
