@@ -16,7 +16,7 @@
 enum {
     ALE_WHEELS_SAMPLES = 128,           /* 1.28 s of wheels at 100 Hz, 12 s at 10 Hz */
     ALE_WHEELS_EXTRAPOLATE_US = 150000, /* longest look beyond the newest sample */
-    ALE_WHEELS_GAP_US = 60000000        /* samples farther apart say nothing about what lies between */
+    ALE_WHEELS_GAP_US = 600000000       /* samples farther apart begin anew */
 };
 
 typedef struct {
@@ -32,7 +32,8 @@ void ale_wheels_init(ale_wheels_t *wheels, int32_t max_speed_mm_s, int32_t max_t
 
 /* Takes a sample. One that is not newer than the newest is ignored when it lies on the way that is known;
  * when the wheels have gone on since, its stamp is wrong, and it counts as just taken. One that is older by
- * more than a second (a clock set back) or a jump begins the buffer anew with this sample. */
+ * more than a second (a clock set back) or a jump begins the buffer anew with this sample. A pause of minutes
+ * is no jump: what wheels have counted stays true, and many are silent while the robot rests. */
 void ale_wheels_add(ale_wheels_t *wheels, const ale_odometry_t *sample);
 
 /* Pose of the wheels at an instant of the samples' clock. False when the buffer does not reach there.

@@ -114,6 +114,21 @@ TEST_F(Wheels, StampsThatCrowdMakeNoJump)
     EXPECT_EQ(ale_wheels_gap_us(&wheels, 4001000), 2000);
 }
 
+TEST_F(Wheels, CountAcrossAPauseOfMinutesButNotOfMore)
+{
+    add(0, 1, 2, 0);
+    add(300000, 1.8, 2, 0.5);
+    EXPECT_EQ(wheels.jumps, 0u);
+    ale_pose_t d;
+    ASSERT_TRUE(ale_wheels_motion(&wheels, 0, 300000000, &d, &beyond_us));
+    EXPECT_NEAR(d.x_um, 800000, 1);
+    ale_pose_t p;
+    ASSERT_TRUE(at(150000, &p));
+    EXPECT_NEAR(p.x_um, 1400000, 1);
+    add(901000, 1.8, 2, 0.5);
+    EXPECT_EQ(wheels.jumps, 1u);
+}
+
 TEST_F(Wheels, AFullBufferForgetsTheOldestSample)
 {
     for (int k = 0; k < ALE_WHEELS_SAMPLES + 10; k++) {
