@@ -154,6 +154,18 @@ bool seen_apart(const std::vector<PlacedLine> &lines, const WallGroup &a, const 
     return two >= apart_least && two >= one;
 }
 
+bool is_known(const std::vector<PlacedLine> &lines, const WallGroup &group)
+{
+    return std::any_of(group.lines.begin(), group.lines.end(),
+                       [&](uint32_t k) { return lines[k].scans > 1; });
+}
+
+// A drive that began in a map was laid on its walls: what lies aside of them stands before or behind them.
+int64_t farthest_um(const std::vector<PlacedLine> &lines, const WallGroup &a, const WallGroup &b)
+{
+    return is_known(lines, a) != is_known(lines, b) ? line_offset_um : beside_offset_um;
+}
+
 bool are_one(const std::vector<PlacedLine> &lines, const WallGroup &a, const WallGroup &b)
 {
     const ale_view_t as_view = view_of(b.wall);
@@ -165,7 +177,7 @@ bool are_one(const std::vector<PlacedLine> &lines, const WallGroup &a, const Wal
                                ale_max64(a.wall.start_um, e.t_um + b.wall.start_um)) /
                               2;
     const int64_t offset_um = offset_at(e, middle_um);
-    return ale_abs64(offset_um) < beside_offset_um && !seen_apart(lines, a, b);
+    return ale_abs64(offset_um) < farthest_um(lines, a, b) && !seen_apart(lines, a, b);
 }
 
 void join(const std::vector<PlacedLine> &lines, WallGroup *into, const WallGroup &other)

@@ -3,7 +3,8 @@
 // Longest first, every line joins the group that it lies in, or begins one. Then groups that are one wall
 // are joined: those that continue or repeat each other within their errors, and those that lie side by side
 // farther than poses err, when no scan has seen them apart: of two surfaces that face the same way the nearer
-// hides the other, so that what stands twice in the map, and never in a scan, stands once.
+// hides the other, so that what stands twice in the map, and never in a scan, stands once. On a known wall
+// the drive was laid: only what lies nearer to it than poses err is that wall.
 #ifndef ALE_GRAPH_WALL_GROUPS_H
 #define ALE_GRAPH_WALL_GROUPS_H
 

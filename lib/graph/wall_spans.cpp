@@ -1,5 +1,6 @@
 #include "graph/wall_spans.h"
 
+#include <algorithm>
 #include <cstddef>
 
 extern "C" {
@@ -25,7 +26,8 @@ constexpr int64_t parallel_um = 300000;
 constexpr int64_t parallel_bam = int64_t{9} * ALE_BAM_PER_DEGREE;
 
 struct Cell {
-    uint32_t shown = 0; // by lines of so many scans
+    uint32_t shown = 0; // by lines of so many scans of the drive
+    uint32_t known = 0; // by so many more, of a map that the drive began in
     uint32_t there = 0; // looks whose beams end there
     uint32_t through = 0;
     bool yields = false; // to a wall beside it
@@ -56,7 +58,7 @@ class Cells
         const Range r = along(wall_, line.view);
         for (size_t k = 0; k < cells_.size(); k++) {
             if (middle_um(k) >= r.from_um && middle_um(k) <= r.to_um) {
-                cells_[k].shown += line.scans;
+                (line.scans > 1 ? cells_[k].known : cells_[k].shown) += line.scans;
             }
         }
     }
@@ -75,7 +77,8 @@ class Cells
     bool is_shown(size_t k) const
     {
         const Cell &cell = cells_[k];
-        return cell.shown > 0 && cell.shown + cell.there >= ALE_MAP_CONFIRMED && cell.through <= cell.there;
+        const uint32_t shown = cell.shown + cell.known;
+        return shown > 0 && shown + cell.there >= ALE_MAP_CONFIRMED && cell.through <= cell.there;
     }
     bool stands(size_t k) const
     {
@@ -83,6 +86,7 @@ class Cells
     }
 
     // Gives way to a wall beside it, cell by cell, where more scans show that one; `first` of equals stays.
+    // What the drive shows counts before what was known: it may stand before that, and hide it.
     void yield_to(const Cells &other, bool first)
     {
         const int64_t turned = ale_abs64(ale_bam_diff(wall_.normal_bam, other.wall_.normal_bam));
@@ -97,8 +101,13 @@ class Cells
                 continue;
             }
             const auto other_k = static_cast<size_t>(there);
-            const uint32_t shown = other.is_shown(other_k) ? other.cells_[other_k].shown : 0;
-            cells_[k].yields |= shown > cells_[k].shown || (shown == cells_[k].shown && !first);
+            const Cell nothing;
+            const Cell &own = cells_[k];
+            const Cell &its = other.is_shown(other_k) ? other.cells_[other_k] : nothing;
+            const bool driven = std::max(own.shown, its.shown) >= ALE_MAP_CONFIRMED;
+            const uint32_t own_scans = own.shown + (driven ? 0 : own.known);
+            const uint32_t its_scans = its.shown + (driven ? 0 : its.known);
+            cells_[k].yields |= its_scans > own_scans || (its_scans == own_scans && !first);
         }
     }
 

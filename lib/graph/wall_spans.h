@@ -3,6 +3,8 @@
 // Along the wall, cell by cell: scans whose lines cover it, looks whose beams end there, and looks that see
 // through it. What hardly a scan has shown, and what more looks see through than not, is no wall. Where two
 // walls that face the same way lie side by side only one can have been seen: the one that more scans show.
+// Scans of the drive count before those of a map that it began in: what now stands before a known wall hides
+// it.
 #ifndef ALE_GRAPH_WALL_SPANS_H
 #define ALE_GRAPH_WALL_SPANS_H
 

@@ -131,19 +131,30 @@ TEST(MapRedraw, WhatBeamsHaveGoneThroughSinceIsNotDrawn)
 class DrivenAgain : public testing::Test
 {
   protected:
-    std::unique_ptr<ale_map_t> drawn_on(const ale_map_t &map) const
+    static std::unique_ptr<ale_map_t> drawn_on(const ale_map_t &map, const Drive &again)
     {
         ale::MapRecord record;
-        record.know(drive.sightings.front()->epoch, map);
-        for (const auto &sighting : drive.sightings) {
+        record.know(again.sightings.front()->epoch, map);
+        for (const auto &sighting : again.sightings) {
             record.take(*sighting);
         }
         const ale_pose_t aside = convert::pose(reference::Pose(0.02, -0.02, 0));
         auto out = std::make_unique<ale_map_t>();
         ale::redraw_map(
-            record, [&](const ale::Sight &sight) { return ale_pose_compose(aside, drive.truth[sight.scan]); },
+            record, [&](const ale::Sight &sight) { return ale_pose_compose(aside, again.truth[sight.scan]); },
             out.get());
         return out;
+    }
+    std::unique_ptr<ale_map_t> drawn_on(const ale_map_t &map) const
+    {
+        return drawn_on(map, drive);
+    }
+    // As after many drives.
+    void is_well_known()
+    {
+        for (int k = 0; k < first->line_count; k++) {
+            first->line[k].seen *= 20;
+        }
     }
     static void add(ale_map_t *map, ale_point_t start, ale_point_t end)
     {
@@ -193,6 +204,46 @@ TEST_F(DrivenAgain, WhatTheDriveDidNotSeeStaysAndWhatItSeesThroughGoes)
     const auto again = drawn_on(*first);
     EXPECT_NEAR(drawn_m(*again, {100, 0, 103, 0}), 3, 0.06);
     EXPECT_EQ(drawn_m(*again, {0.2, 0.9, 0.2, 1.7}), 0);
+}
+
+TEST_F(DrivenAgain, WhatNowStandsBeforeAWallHidesIt)
+{
+    is_well_known();
+    const double front_m = -1.8; // the wall is at -2
+    const Drive again(80, [&](int) {
+        std::vector<room::Wall> walls = room::l_shape();
+        walls.push_back({0, -2, 0, front_m});
+        walls.push_back({0, front_m, 2, front_m});
+        walls.push_back({2, front_m, 2, -2});
+        return walls;
+    });
+    const auto map = drawn_on(*first, again);
+    EXPECT_GT(drawn_m(*map, {0, front_m, 2, front_m}), 1.7);
+    EXPECT_LT(drawn_m(*map, {0.1, -2, 1.9, -2}), 0.2);
+    EXPECT_GT(drawn_m(*map, {-1, -2, 0, -2}), 0.8);
+    EXPECT_GT(drawn_m(*map, {2, -2, 3.6, -2}), 1.3);
+}
+
+TEST_F(DrivenAgain, AWallThatWasMovedStandsWhereItStands)
+{
+    is_well_known();
+    const double now_m = 2.8; // it was at 3
+    const Drive again(80, [&](int) {
+        std::vector<room::Wall> walls = room::l_shape();
+        walls.push_back({-1, now_m, 2.5, now_m});
+        return walls;
+    });
+    const auto map = drawn_on(*first, again);
+    double most_m = 0;
+    for (int k = 0; k < map->line_count; k++) {
+        const bool is_there = distance_m({-1, 3, 2.5, 3}, map->line[k].start) < 0.25 &&
+                              distance_m({-1, 3, 2.5, 3}, map->line[k].end) < 0.25;
+        if (is_there) {
+            EXPECT_NEAR(map->line[k].start.y_um * 1e-6, now_m - 0.02, 0.03);
+            most_m = std::max(most_m, length_m(map->line[k]));
+        }
+    }
+    EXPECT_GT(most_m, 2.5);
 }
 
 TEST(MapRedraw, WithoutScansThereIsNoMap)
