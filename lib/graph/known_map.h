@@ -13,6 +13,7 @@
 
 extern "C" {
 #include "track/pipeline.h"
+#include "track/wall.h"
 }
 
 namespace ale
@@ -26,14 +27,10 @@ class KnownMap
     // Where points that are seen from about `guess` lie in the map, see match_to.
     std::optional<TightMatch> find(const std::vector<SurfacePoint> &seen, const Pose &guess) const;
 
-    // Map frame, node_point_spacing_m apart.
-    const std::vector<SurfacePoint> &points() const
-    {
-        return points_;
-    }
-
   private:
-    std::vector<SurfacePoint> points_;
+    std::vector<SurfacePoint> around(const Pose &guess, double reach_m) const;
+
+    std::vector<ale_wall_t> walls_; // and not their points: they may be as long as they like
 };
 
 } // namespace ale

@@ -85,7 +85,8 @@ void give_up_what_repeats(ale::MapRecord &record)
 
 size_t bytes_of(const ale::MapRecord &record)
 {
-    size_t sum = 0;
+    size_t sum = record.known_lines().size() * (sizeof(ale_map_line_t) + sizeof(ale::PlacedLine)) +
+                 record.known_corners().size() * sizeof(ale_map_corner_t);
     for (const ale::Sight &sight : record.sights()) {
         sum += bytes_of(sight);
     }

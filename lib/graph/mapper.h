@@ -24,7 +24,8 @@ enum { ALE_CORRECTION_DELAY_SCANS = 5 };
  */
 enum { ALE_MAPPER_KEYFRAMES = ALE_CORRECTION_SHIFTS };
 
-/* What a mapper with so many takes, working memory included: 2048 scans of a URG-04LX, whole, are 45 MB. */
+/* What a mapper with so many takes, working memory included: 2048 scans of a URG-04LX, whole, are 45 MB, and
+ * a known map less than 1 MB. */
 enum { ALE_MAPPER_HEAP_BYTES = 60 * 1024 * 1024 };
 
 typedef struct ale_mapper ale_mapper_t;
