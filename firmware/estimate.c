@@ -106,8 +106,8 @@ void ale_estimator_destroy(ale_estimator_t *estimator)
 void ale_estimator_load_map(ale_estimator_t *estimator, const ale_map_t *map, const ale_pose_t *pose)
 {
     const ale_pose_t unknown = {0};
-    ale_exchange_know(estimator->exchange, map);
-    ale_pipeline_load_map(estimator->pipeline, map, pose ? *pose : unknown, pose != NULL);
+    ale_pipeline_load_map(estimator->pipeline, map, ale_exchange_know(estimator->exchange, map),
+                          pose ? *pose : unknown, pose != NULL);
     estimator->map_waits = true;
 }
 
@@ -237,9 +237,16 @@ static void show_map(ale_estimator_t *estimator)
     estimator->map_ns = now_ns;
 }
 
-static void fulfil(ale_estimator_t *estimator, const ale_request_t *request)
+static void load_map(ale_estimator_t *estimator, const ale_request_t *request)
 {
     bool fresh = false;
+    const ale_loaded_map_t *loaded = ale_snapshot_newest(estimator->exchange->loaded_map, &fresh);
+    ale_pipeline_load_map(estimator->pipeline, &loaded->map, loaded->number, request->pose,
+                          request->pose_known);
+}
+
+static void fulfil(ale_estimator_t *estimator, const ale_request_t *request)
+{
     switch (request->kind) {
     case ALE_REQUEST_RESET:
         ale_pipeline_reset(estimator->pipeline);
@@ -251,9 +258,7 @@ static void fulfil(ale_estimator_t *estimator, const ale_request_t *request)
         ale_pipeline_freeze_map(estimator->pipeline, request->on);
         break;
     case ALE_REQUEST_LOAD_MAP:
-        ale_pipeline_load_map(estimator->pipeline,
-                              ale_snapshot_newest(estimator->exchange->loaded_map, &fresh), request->pose,
-                              request->pose_known);
+        load_map(estimator, request);
         break;
     }
     estimator->map_waits = true;

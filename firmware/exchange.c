@@ -26,9 +26,9 @@ int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock)
         .map = ale_snapshot_create(sizeof(ale_map_t)),
         .health = ale_snapshot_create(sizeof(ale_urg_health_t)),
         .requests = ale_ring_create(sizeof(ale_request_t), ALE_REQUEST_SLOTS),
-        .loaded_map = ale_snapshot_create(sizeof(ale_map_t)),
-        .known_to_mapper = ale_snapshot_create(sizeof(ale_map_t)),
-        .known_to_drawer = ale_snapshot_create(sizeof(ale_map_t)),
+        .loaded_map = ale_snapshot_create(sizeof(ale_loaded_map_t)),
+        .known_to_mapper = ale_snapshot_create(sizeof(ale_loaded_map_t)),
+        .known_to_drawer = ale_snapshot_create(sizeof(ale_loaded_map_t)),
         .drive_orders = ale_snapshot_create(sizeof(ale_drive_orders_t)),
         .drive_scan = ale_snapshot_create(sizeof(ale_scan_t)),
         .exploration = ale_snapshot_create(sizeof(ale_wish_t)),
@@ -78,16 +78,25 @@ void ale_exchange_close(ale_exchange_t *exchange)
     exchange->drive_again = exchange->under_way = -1;
 }
 
-static void show(ale_snapshot_t *snapshot, const ale_map_t *map)
+static void hand_over(ale_snapshot_t *snapshot, const ale_map_t *map, uint32_t number)
 {
-    memcpy(ale_snapshot_back(snapshot), map, sizeof *map);
+    ale_loaded_map_t *back = ale_snapshot_back(snapshot);
+    back->number = number;
+    memcpy(&back->map, map, sizeof *map);
     ale_snapshot_publish(snapshot);
 }
 
-void ale_exchange_know(const ale_exchange_t *exchange, const ale_map_t *map)
+uint32_t ale_exchange_know(ale_exchange_t *exchange, const ale_map_t *map)
 {
-    show(exchange->known_to_mapper, map);
-    show(exchange->known_to_drawer, map);
+    const uint32_t number = ++exchange->maps_loaded;
+    hand_over(exchange->known_to_mapper, map, number);
+    hand_over(exchange->known_to_drawer, map, number);
+    return number;
+}
+
+void ale_exchange_load(ale_exchange_t *exchange, const ale_map_t *map)
+{
+    hand_over(exchange->loaded_map, map, ale_exchange_know(exchange, map));
 }
 
 /* What is on its way is read first: a result that comes in between is then seen as ready. */

@@ -68,6 +68,13 @@ typedef struct {
     ale_scan_t scan; /* only when scans are published */
 } ale_result_t;
 
+/* A map that was read from a file. Each has a number of its own: who is told of a map, and later of what was
+ * seen in it, knows whether both are the same. */
+typedef struct {
+    uint32_t number; /* from 1; 0: none yet */
+    ale_map_t map;
+} ale_loaded_map_t;
+
 /* The map as it was drawn anew. */
 typedef struct {
     uint32_t epoch; /* 0: nothing was drawn yet */
@@ -103,8 +110,8 @@ typedef struct {
     ale_snapshot_t *map;               /* ale_map_t, the tracker's: estimate to telemetry */
     ale_snapshot_t *health;            /* ale_urg_health_t: acquire to telemetry */
     ale_ring_t *requests;              /* ale_request_t: telemetry to estimate */
-    ale_snapshot_t *loaded_map;        /* ale_map_t: map keeper to estimate */
-    ale_snapshot_t *known_to_mapper;   /* ale_map_t, the one that is or will be driven in: */
+    ale_snapshot_t *loaded_map;        /* ale_loaded_map_t: map keeper to estimate */
+    ale_snapshot_t *known_to_mapper;   /* ale_loaded_map_t, the one that is or will be driven in: */
     ale_snapshot_t *known_to_drawer;   /* map keeper to both */
     ale_snapshot_t *drive_orders;      /* ale_drive_orders_t: telemetry to drive */
     ale_snapshot_t *drive_scan;        /* ale_scan_t: telemetry to drive */
@@ -115,15 +122,20 @@ typedef struct {
     struct ale_last_place *last_place; /* is offered map and pose by telemetry; NULL: none is wanted */
     ale_pulse_t *pulse;                /* of the estimate task: ten beats a second or more */
     int drive_again;                   /* wakes the drive thread (wake.h): something has changed */
-    int under_way; /* event descriptor: a scan has gone to the estimate task, or health has changed */
+    int under_way;        /* event descriptor: a scan has gone to the estimate task, or health has changed */
+    uint32_t maps_loaded; /* so far */
 } ale_exchange_t;
 
 /* Everything allocated and touched. 0, or -1: out of memory or descriptors (nothing is left open). */
 int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock);
 void ale_exchange_close(ale_exchange_t *exchange);
 
-/* The map that is going to be driven in, for mapper and drawer; before the estimate task hears of it. */
-void ale_exchange_know(const ale_exchange_t *exchange, const ale_map_t *map);
+/* The map that is going to be driven in, for mapper and drawer; before the estimate task hears of it. Its
+ * number. One thread at a time. */
+uint32_t ale_exchange_know(ale_exchange_t *exchange, const ale_map_t *map);
+
+/* The same, and for the estimate task, which takes it up when that is requested. */
+void ale_exchange_load(ale_exchange_t *exchange, const ale_map_t *map);
 
 /* Telemetry: how long it may sleep for the sake of results. Not at all when one is ready, a quarter of a
  * millisecond while a scan is on its way to become one, else `otherwise_ns`. */

@@ -20,15 +20,29 @@ struct ale_map_drawer {
     int64_t next_ns;
 };
 
+/* Whether the map that the sighting was taken in, if it was loaded, is known. */
+static bool knows_map_of(ale_map_drawer_t *drawer, const ale_sighting_t *sighting)
+{
+    if (sighting->loaded == 0 || sighting->epoch == drawer->known_epoch) {
+        return true;
+    }
+    bool fresh = false;
+    const ale_loaded_map_t *known = ale_snapshot_newest(drawer->exchange->known_to_drawer, &fresh);
+    if (known->number != sighting->loaded ||
+        ale_live_map_know(drawer->live, sighting->epoch, &known->map) < 0) {
+        return false;
+    }
+    drawer->known_epoch = sighting->epoch;
+    return true;
+}
+
+/* A drawing without the walls that the drive began with would be published, and saved, as the whole: where
+ * they are not known nothing is drawn, and the tracker's map is shown. */
 static void add(ale_map_drawer_t *drawer, const ale_sighting_t *sighting)
 {
-    if (sighting->loaded && sighting->epoch != drawer->known_epoch) {
-        bool fresh = false;
-        ale_live_map_know(drawer->live, sighting->epoch,
-                          ale_snapshot_newest(drawer->exchange->known_to_drawer, &fresh));
-        drawer->known_epoch = sighting->epoch;
+    if (knows_map_of(drawer, sighting)) {
+        ale_live_map_take(drawer->live, sighting);
     }
-    ale_live_map_take(drawer->live, sighting);
 }
 
 static void take(ale_map_drawer_t *drawer)

@@ -48,9 +48,7 @@ static void load(ale_map_keeper_t *keeper, const char *path)
     ale_map_outcome_t *outcome = &keeper->outcome;
     outcome->fine = ale_map_file_load(path, &keeper->map, error) == 0;
     if (outcome->fine) {
-        ale_exchange_know(keeper->exchange, &keeper->map);
-        memcpy(ale_snapshot_back(keeper->exchange->loaded_map), &keeper->map, sizeof keeper->map);
-        ale_snapshot_publish(keeper->exchange->loaded_map);
+        ale_exchange_load(keeper->exchange, &keeper->map);
         snprintf(outcome->text, sizeof outcome->text, "loaded %.60s: %u lines, %u corners", keeper->name,
                  keeper->map.line_count, keeper->map.corner_count);
     } else {

@@ -50,15 +50,27 @@ static void show_poses(ale_mapper_thread_t *thread)
     ale_snapshot_publish(thread->exchange->keyframe_poses);
 }
 
+/* Whether the map that the keyframe was taken in, if it was loaded, is known. */
+static bool knows_map_of(ale_mapper_thread_t *thread, const ale_keyframe_t *keyframe)
+{
+    if (keyframe->loaded == 0 || keyframe->epoch == thread->known_epoch) {
+        return true;
+    }
+    bool fresh = false;
+    const ale_loaded_map_t *known = ale_snapshot_newest(thread->exchange->known_to_mapper, &fresh);
+    if (known->number != keyframe->loaded ||
+        ale_mapper_know(thread->mapper, keyframe->epoch, &known->map) < 0) {
+        return false;
+    }
+    thread->known_epoch = keyframe->epoch;
+    return true;
+}
+
+/* Without the map of a drive that began in one there would be loops to itself only, and not to the map:
+ * such keyframes are left out, until there is memory for it or the newer map is driven in. */
 static void add(ale_mapper_thread_t *thread, const ale_keyframe_t *keyframe)
 {
-    if (keyframe->loaded && keyframe->epoch != thread->known_epoch) {
-        bool fresh = false;
-        ale_mapper_know(thread->mapper, keyframe->epoch,
-                        ale_snapshot_newest(thread->exchange->known_to_mapper, &fresh));
-        thread->known_epoch = keyframe->epoch;
-    }
-    if (ale_mapper_add(thread->mapper, keyframe) < 0) {
+    if (knows_map_of(thread, keyframe) && ale_mapper_add(thread->mapper, keyframe) < 0) {
         thread->known_epoch = 0; /* forgotten with the graph */
     }
 }

@@ -16,7 +16,7 @@ enum { ALE_KEYFRAME_STEP_UM = 500000, ALE_KEYFRAME_TURN_MRAD = 500 };
 
 struct ale_keyframe {
     uint32_t epoch;       /* grows when the map is begun anew: what was mapped before is then void */
-    bool loaded;          /* that map was loaded, and not begun by this drive */
+    uint32_t loaded;      /* the number of that map, see ale_pipeline_load_map; 0: begun by this drive */
     uint32_t corrections; /* taken in by the map since then */
     uint32_t scan;
     int64_t stamp_us;

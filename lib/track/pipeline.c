@@ -101,7 +101,7 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
     ale_rest_clear(&pipeline->rest);
     pipeline->started = false;
     pipeline->looked = false;
-    pipeline->loaded = false;
+    pipeline->loaded = 0;
     pipeline->epoch++;
     pipeline->corrections = 0;
     pipeline->keyframes = 0;
@@ -265,11 +265,12 @@ void ale_pipeline_copy_map(const ale_pipeline_t *pipeline, ale_map_t *out)
     ale_map_hand_out(&pipeline->map, out);
 }
 
-void ale_pipeline_load_map(ale_pipeline_t *pipeline, const ale_map_t *map, ale_pose_t pose, bool known)
+void ale_pipeline_load_map(ale_pipeline_t *pipeline, const ale_map_t *map, uint32_t number, ale_pose_t pose,
+                           bool known)
 {
     ale_pipeline_reset(pipeline);
     ale_map_take_in(&pipeline->map, map);
-    pipeline->loaded = true;
+    pipeline->loaded = number;
     ale_motion_init(&pipeline->motion, 0, pose, START_SPEED_MM_S, START_TURN_MRAD_S);
     ale_smooth_init(&pipeline->smooth, pose);
     pipeline->tracker.state = ALE_STATE_LOST;

@@ -68,10 +68,10 @@ struct ale_pipeline {
     int32_t velocity[ALE_AXES]; /* that it was straightened with */
     bool straightened;          /* bearing_bam holds */
 
-    bool started; /* the first scan has set the origin */
-    bool looked;  /* the last answer had a scan */
-    bool frozen;  /* pure localisation: the map stays as it is */
-    bool loaded;  /* the map was begun by somebody else */
+    bool started;    /* the first scan has set the origin */
+    bool looked;     /* the last answer had a scan */
+    bool frozen;     /* pure localisation: the map stays as it is */
+    uint32_t loaded; /* number of the map when it was begun by somebody else, else 0 */
 
     /* between the pipeline and the mapper: see pipeline_mapper.c */
     uint32_t epoch;

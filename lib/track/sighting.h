@@ -15,8 +15,8 @@
 #include "track/view.h"
 
 struct ale_sighting {
-    uint32_t epoch; /* of the map */
-    bool loaded;    /* that map was loaded, and not begun by this drive */
+    uint32_t epoch;  /* of the map */
+    uint32_t loaded; /* the number of that map, see ale_pipeline_load_map; 0: begun by this drive */
     uint32_t scan;
     uint32_t keyframe; /* the scan of the last one at or before this scan */
     int64_t stamp_us;

@@ -210,7 +210,8 @@ TEST_F(Commands, AMapIsSavedAndLoadedByName)
     EXPECT_EQ(all[0].kind, ALE_REQUEST_LOAD_MAP);
     EXPECT_FALSE(all[0].pose_known);
     bool fresh = false;
-    const auto *loaded = static_cast<const ale_map_t *>(ale_snapshot_newest(exchange.loaded_map, &fresh));
+    const auto *loaded =
+        &static_cast<const ale_loaded_map_t *>(ale_snapshot_newest(exchange.loaded_map, &fresh))->map;
     EXPECT_TRUE(fresh);
     EXPECT_EQ(loaded->line_count, 3);
     EXPECT_EQ(loaded->line[0].end.x_um, 4000000);

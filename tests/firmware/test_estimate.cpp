@@ -350,8 +350,7 @@ TEST_F(Estimate, AResetBetweenTwoScansMakesTheNextOneTheOrigin)
 TEST_F(Estimate, ALoadedMapWithAKnownPoseIsWhereTheRobotIs)
 {
     auto result = std::make_unique<ale_result_t>();
-    *static_cast<ale_map_t *>(ale_snapshot_back(exchange.loaded_map)) = *map_of_the_room();
-    ale_snapshot_publish(exchange.loaded_map);
+    ale_exchange_load(&exchange, map_of_the_room().get());
     request({ALE_REQUEST_LOAD_MAP, true, false, {300000, 0, 0}});
     for (int k = 1; k <= 10; k++) {
         ASSERT_TRUE(push(kPeriod * k, false, 0.3));

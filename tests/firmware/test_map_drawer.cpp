@@ -6,6 +6,7 @@
 
 #include "comes_true.hpp"
 #include "lib/graph/room_drive.hpp"
+#include "scarce_memory.hpp"
 #include "surroundings.hpp"
 
 extern "C" {
@@ -38,7 +39,7 @@ class MapDrawer : public surroundings::WithExchange
         ale_map_drawer_stop(drawer);
         drawer = nullptr;
     }
-    void see(size_t first, size_t end, bool loaded = false)
+    void see(size_t first, size_t end, uint32_t loaded = 0)
     {
         for (size_t k = first; k < end; k++) {
             void *slot = ale_ring_reserve(exchange.sightings);
@@ -85,23 +86,70 @@ TEST_F(MapDrawer, WhatCameLastIsDrawnBeforeItEnds)
     EXPECT_GT(newest().map.line_count, before);
 }
 
-TEST_F(MapDrawer, AMapThatTheDriveBeganInIsDrawnOn)
+class MapDrawerInALoadedMap : public MapDrawer
 {
-    auto known = std::make_unique<ale_map_t>();
-    known->line_count = 1;
-    known->line[0].start = {50000000, 0};
-    known->line[0].end = {53000000, 0};
-    known->line[0].seen = 9;
-    ale_exchange_know(&exchange, known.get());
+  protected:
+    // Of one wall, far from where the robot drives.
+    static std::unique_ptr<ale_map_t> far_wall()
+    {
+        auto map = std::make_unique<ale_map_t>();
+        map->line_count = 1;
+        map->line[0].start = {50000000, 0};
+        map->line[0].end = {53000000, 0};
+        map->line[0].seen = 9;
+        return map;
+    }
+    static bool has_far_wall(const ale_map_t &drawn)
+    {
+        return std::any_of(drawn.line, drawn.line + drawn.line_count, [](const ale_map_line_t &line) {
+            return line.start.x_um == 50000000 && line.start.y_um == 0;
+        });
+    }
+    bool are_all_taken()
+    {
+        return comes_true([&] { return ale_ring_ready(exchange.sightings) == 0; });
+    }
+};
+
+TEST_F(MapDrawerInALoadedMap, ItIsDrawnOn)
+{
+    const uint32_t number = ale_exchange_know(&exchange, far_wall().get());
     place_keyframes();
-    see(0, 20, true);
+    see(0, 20, number);
     start();
     ASSERT_TRUE(comes_true([&] { return newest().epoch != 0; }));
-    const ale_map_t &drawn = newest().map;
-    EXPECT_TRUE(std::any_of(drawn.line, drawn.line + drawn.line_count, [](const ale_map_line_t &line) {
-        return line.start.x_um == 50000000 && line.start.y_um == 0;
-    }));
-    EXPECT_GE(drawn.line_count, 5);
+    EXPECT_TRUE(has_far_wall(newest().map));
+    EXPECT_GE(newest().map.line_count, 5);
+}
+
+// The next map is loaded before the drawer has come to what was seen in the one before.
+TEST_F(MapDrawerInALoadedMap, AnotherMapThanThatOfTheSightingsIsNotTakenForIt)
+{
+    const uint32_t number = ale_exchange_know(&exchange, std::make_unique<ale_map_t>().get());
+    ale_exchange_know(&exchange, far_wall().get());
+    place_keyframes();
+    see(0, 20, number);
+    start();
+    EXPECT_TRUE(are_all_taken());
+    stop();
+    EXPECT_EQ(newest().epoch, 0U);
+}
+
+TEST_F(MapDrawerInALoadedMap, NothingIsDrawnUntilThereIsMemoryForIt)
+{
+    const uint32_t number = ale_exchange_know(&exchange, far_wall().get());
+    place_keyframes();
+    start();
+    scarce_memory::none_left = true;
+    see(0, 4, number);
+    const bool taken = are_all_taken();
+    scarce_memory::none_left = false;
+    ASSERT_TRUE(taken);
+    EXPECT_GE(scarce_memory::refused, 4);
+    EXPECT_EQ(newest().epoch, 0U);
+    see(4, 24, number);
+    ASSERT_TRUE(comes_true([&] { return newest().epoch != 0; }));
+    EXPECT_TRUE(has_far_wall(newest().map));
 }
 
 TEST_F(MapDrawer, WithoutScansNothingIsDrawn)

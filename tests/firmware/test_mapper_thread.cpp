@@ -5,6 +5,7 @@
 
 #include "comes_true.hpp"
 #include "lib/graph/drifting_keyframes.hpp"
+#include "scarce_memory.hpp"
 #include "surroundings.hpp"
 
 extern "C" {
@@ -69,21 +70,64 @@ TEST_F(MapperThread, ExplorationHearsOfTheSameCorrection)
 }
 
 // Half a lap: no loop, and nothing but the map can tell of the drift.
-TEST_F(MapperThread, KeyframesAreLaidOnAMapThatWasLoaded)
+class MapperThreadInALoadedMap : public MapperThread
 {
-    auto known = std::make_unique<ale_map_t>();
-    for (const room::Wall &wall : drifting_keyframes::walls()) {
-        ale_map_line_t &line = known->line[known->line_count++];
-        line.start = {convert::um(wall.x1), convert::um(wall.y1)};
-        line.end = {convert::um(wall.x2), convert::um(wall.y2)};
-        line.seen = 9;
+  protected:
+    static std::unique_ptr<ale_map_t> map_of_the_corridor()
+    {
+        auto map = std::make_unique<ale_map_t>();
+        for (const room::Wall &wall : drifting_keyframes::walls()) {
+            ale_map_line_t &line = map->line[map->line_count++];
+            line.start = {convert::um(wall.x1), convert::um(wall.y1)};
+            line.end = {convert::um(wall.x2), convert::um(wall.y2)};
+            line.seen = 9;
+        }
+        return map;
     }
-    ale_exchange_know(&exchange, known.get());
-    const auto keyframes = drifting_keyframes::walk(0.55, 0.0012, 2);
-    for (const auto &keyframe : keyframes) {
-        keyframe->loaded = true;
-        hand_over(*keyframe);
+    void hand_over_in(uint32_t number, size_t first, size_t end)
+    {
+        for (size_t k = first; k < end; k++) {
+            keyframes[k]->loaded = number;
+            hand_over(*keyframes[k]);
+        }
     }
+    bool are_all_taken()
+    {
+        return comes_true([&] { return ale_ring_ready(exchange.keyframes) == 0; });
+    }
+
+    const std::vector<drifting_keyframes::Keyframe> keyframes = drifting_keyframes::walk(0.55, 0.0012, 2);
+};
+
+TEST_F(MapperThreadInALoadedMap, KeyframesAreLaidOnIt)
+{
+    const uint32_t number = ale_exchange_know(&exchange, map_of_the_corridor().get());
+    hand_over_in(number, 0, keyframes.size());
+    EXPECT_TRUE(comes_true([&] { return ale_ring_ready(exchange.corrections) > 0; }));
+}
+
+// The next map is loaded before the mapper has come to the first keyframe in the one before.
+TEST_F(MapperThreadInALoadedMap, AnotherMapThanTheirsIsNotTakenForIt)
+{
+    const uint32_t number = ale_exchange_know(&exchange, std::make_unique<ale_map_t>().get());
+    ale_exchange_know(&exchange, map_of_the_corridor().get());
+    hand_over_in(number, 0, keyframes.size());
+    EXPECT_TRUE(are_all_taken());
+    EXPECT_EQ(ale_ring_ready(exchange.corrections), 0U);
+}
+
+TEST_F(MapperThreadInALoadedMap, ItIsKnownAgainWhenThereIsMemoryAgain)
+{
+    const uint32_t number = ale_exchange_know(&exchange, map_of_the_corridor().get());
+    hand_over_in(number, 0, 2);
+    ASSERT_TRUE(are_all_taken());
+    scarce_memory::none_left = true;
+    hand_over_in(number, 2, 6); // the graph is lost with the first, the map not to be had with the others
+    const bool taken = are_all_taken();
+    scarce_memory::none_left = false;
+    ASSERT_TRUE(taken);
+    EXPECT_GE(scarce_memory::refused, 4);
+    hand_over_in(number, 6, keyframes.size());
     EXPECT_TRUE(comes_true([&] { return ale_ring_ready(exchange.corrections) > 0; }));
 }
 

@@ -159,7 +159,7 @@ Counts cost(InstructionCounter &counter, const Costly &costly, Tally &stages)
     Counted counted(counter, ale_pipeline_default_config());
     const auto map = bench::map_of(costly, random);
     if (map->line_count > 0) {
-        ale_pipeline_load_map(*counted, map.get(), ale_pose_t{}, true);
+        ale_pipeline_load_map(*counted, map.get(), 1, ale_pose_t{}, true);
     }
     Tally tally;
     for (int k = 0; k < scans_of_a_candidate; k++) {

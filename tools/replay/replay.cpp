@@ -129,7 +129,7 @@ void Replay::load_map()
     if (ale_map_file_load(options_.load_map.c_str(), map.get(), error) < 0) {
         throw std::runtime_error(error);
     }
-    ale_pipeline_load_map(pipeline_.get(), map.get(), ale_pose_t{}, false);
+    ale_pipeline_load_map(pipeline_.get(), map.get(), 1, ale_pose_t{}, false);
     if (loops_) {
         loops_->know(*map);
     }

@@ -206,7 +206,7 @@ TEST(Sighting, ThereIsNoneForAMapThatIsFrozenOrWasLoaded)
     EXPECT_FALSE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
     ale_pipeline_freeze_map(d.pipeline.get(), false);
     EXPECT_TRUE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
-    ale_pipeline_load_map(d.pipeline.get(), d.map().get(), d.last.map, true);
+    ale_pipeline_load_map(d.pipeline.get(), d.map().get(), 1, d.last.map, true);
     d.drive(10);
     ASSERT_NE(d.last.state, ALE_STATE_LOST);
     ASSERT_TRUE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
@@ -225,7 +225,7 @@ TEST(Correction, AMapThatWasLoadedStaysWhereItIs)
     const auto loaded = d.map();
     ASSERT_GT(loaded->corner_count, 0);
     ale_pipeline_freeze_map(d.pipeline.get(), true);
-    ale_pipeline_load_map(d.pipeline.get(), loaded.get(), d.last.map, true);
+    ale_pipeline_load_map(d.pipeline.get(), loaded.get(), 1, d.last.map, true);
     d.drive(20);
     ASSERT_NE(d.last.state, ALE_STATE_LOST);
     EXPECT_TRUE(d.keyframe->loaded);

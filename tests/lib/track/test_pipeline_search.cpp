@@ -98,7 +98,7 @@ TEST(PipelineSearch, StartsInALoadedMapWhereverItStands)
     EXPECT_LE(map->line_count, 20);
     EXPECT_GE(map->corner_count, 4);
     const room::Pipeline second = room::make(config);
-    ale_pipeline_load_map(second.get(), map.get(), {0, 0, 0}, false);
+    ale_pipeline_load_map(second.get(), map.get(), 1, {0, 0, 0}, false);
     for (int k = 0; k < 100; k++) {
         const ale_scan_t scan = room::scan_at(room::l_shape(), room::Sensor(), room::path, 9 + 0.1 * k, rng);
         ale_pipeline_scan(second.get(), &scan, &e);

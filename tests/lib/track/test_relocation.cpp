@@ -48,7 +48,7 @@ TEST(Relocation, TheRobotFindsItselfWhereOnlyOnePlaceFits)
     const auto map = map_of(room::l_shape());
     for (const double start : {3.0, 7.0, 12.0}) {
         Robot robot;
-        ale_pipeline_load_map(robot.pipeline.get(), map.get(), {0, 0, 0}, false);
+        ale_pipeline_load_map(robot.pipeline.get(), map.get(), 1, {0, 0, 0}, false);
         int found_at = -1;
         for (int k = 0; k < 60; k++) {
             const double t = start + 0.1 * k;
@@ -70,7 +70,7 @@ TEST(Relocation, WhereTwoPlacesFitItSaysLostForAsLongAsThatLasts)
 {
     const auto map = map_of(rectangle());
     Robot robot;
-    ale_pipeline_load_map(robot.pipeline.get(), map.get(), {0, 0, 0}, false);
+    ale_pipeline_load_map(robot.pipeline.get(), map.get(), 1, {0, 0, 0}, false);
     for (int k = 0; k < 150; k++) {
         robot.see(rectangle(), 5 + 0.1 * k);
         EXPECT_EQ(robot.last.state, ALE_STATE_LOST) << k;
@@ -81,7 +81,7 @@ TEST(Relocation, WhereNextToNothingTellsHowFarAlongACorridorItSaysLost)
 {
     const auto map = map_of(corridor(1.5));
     Robot robot;
-    ale_pipeline_load_map(robot.pipeline.get(), map.get(), {0, 0, 0}, false);
+    ale_pipeline_load_map(robot.pipeline.get(), map.get(), 1, {0, 0, 0}, false);
     for (int k = 0; k < 150; k++) {
         robot.see(corridor(2.5), 5 + 0.1 * k); // the board has been moved, or is another one
         EXPECT_EQ(robot.last.state, ALE_STATE_LOST) << k;
@@ -92,7 +92,7 @@ TEST(Relocation, AnotherBuildingIsNotTaken)
 {
     const auto map = map_of(room::l_shape());
     Robot robot;
-    ale_pipeline_load_map(robot.pipeline.get(), map.get(), {0, 0, 0}, false);
+    ale_pipeline_load_map(robot.pipeline.get(), map.get(), 1, {0, 0, 0}, false);
     for (int k = 0; k < 100; k++) {
         robot.see(rectangle(), 5 + 0.1 * k);
         EXPECT_EQ(robot.last.state, ALE_STATE_LOST) << k;
