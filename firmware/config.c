@@ -1,9 +1,11 @@
 #include "config.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <ini.h>
 #include <inttypes.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/fixed.h"
 #include "base/trig.h"
@@ -230,6 +232,12 @@ static char *next_line(char *buffer, int size, void *stream)
             c = fgetc(reading->file);
         }
     }
+    for (const char *c = buffer; *c != '\0'; c++) {
+        if (iscntrl((unsigned char)*c) && !isspace((unsigned char)*c)) {
+            FAIL(reading, "holds control characters: this is no text");
+            return NULL;
+        }
+    }
     const size_t indent = strspn(buffer, " \t");
     memmove(buffer, buffer + indent, strlen(buffer + indent) + 1);
     return buffer;
@@ -270,9 +278,12 @@ int ale_config_load(const char *path, ale_config_t *config, ale_config_error_t *
         snprintf(error->message, sizeof error->message, "%.150s: %s", path, strerror(errno));
         return -1;
     }
-    int result = read_stream(&reading, config);
-    if (result == 0 && ferror(reading.file)) {
-        snprintf(error->message, sizeof error->message, "%.150s: cannot be read", path);
+    struct stat status;
+    const bool folder = fstat(fileno(reading.file), &status) == 0 && S_ISDIR(status.st_mode);
+    int result = folder ? -1 : read_stream(&reading, config);
+    if (folder || (result == 0 && ferror(reading.file))) {
+        snprintf(error->message, sizeof error->message, "%.150s: %s", path,
+                 folder ? "is a directory" : "cannot be read");
         result = -1;
     }
     fclose(reading.file);

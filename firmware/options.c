@@ -2,12 +2,14 @@
 
 #include <errno.h>
 #include <getopt.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "base/version.h"
 #include "clock.h"
 #include "decimal.h"
+#include "store/map_file.h"
 
 static const char help[] =
     "usage: ale-slamd [--config FILE] [--port DEV] [--lcm-url URL] [--map FILE] [--keys FILE]\n"
@@ -20,7 +22,7 @@ static const char help[] =
     "  --lcm-url URL    where messages go (lcm.url)\n"
     "  --map FILE       map to start from (map.file)\n"
     "  --keys FILE      keys of those who may command the robot (commands.keys); ale-keys makes them\n"
-    "  --check-config   reads the configuration and says whether it is fine\n"
+    "  --check-config   reads the configuration, with keys and map, and says whether it is fine\n"
     "  --print-config   prints the whole configuration, commented, as a file to start from\n"
     "  --time-scale X   the clock runs X times as fast (0.01 to 100), with a simulator's --speed X\n"
     "  --help, --version\n"
@@ -186,6 +188,19 @@ static bool read_keys(const char *path, ale_keys_t *keys)
     return true;
 }
 
+/* A map to start from is read again by whoever starts: here it is only looked at. */
+static bool check_map(const char *path)
+{
+    char error[ALE_MAP_FILE_ERROR] = "out of memory";
+    ale_map_t *map = path[0] != '\0' ? malloc(sizeof *map) : NULL;
+    const bool fine = path[0] == '\0' || (map && ale_map_file_load(path, map, error) == 0);
+    free(map);
+    if (!fine) {
+        fprintf(stderr, "ale-slamd: %s\n", error);
+    }
+    return fine;
+}
+
 ale_options_result_t ale_options_read(int count, char **arguments, ale_options_t *options, FILE *out)
 {
     words_t words = {0};
@@ -200,6 +215,9 @@ ale_options_result_t ale_options_read(int count, char **arguments, ale_options_t
     if (words.print) {
         ale_config_print(&options->config, out);
     } else if (words.check) {
+        if (!check_map(options->config.map)) {
+            return ALE_OPTIONS_REFUSED;
+        }
         fprintf(out, "%s: fine\n", words.config ? words.config : "the default configuration");
     }
     return words.print || words.check ? ALE_OPTIONS_DONE : ALE_OPTIONS_RUN;

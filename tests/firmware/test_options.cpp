@@ -89,6 +89,8 @@ TEST(Options, WrongUseIsOneLineOnStderr)
         {"--time-scale", "fast"},
         {"--config", "/no/such/file"},
         {"--keys", "/no/such/file"},
+        {"--check-config", "--map", "/no/such/file"},
+        {"--check-config", "--map", "/"},
         {"--port", std::string(400, 'p')},
     };
     for (const auto &words : wrong) {

@@ -80,7 +80,8 @@ def test_a_configuration_changes_what_is_decided(log, tmp_path):
 
 @pytest.mark.parametrize("words", [["ale-calibrate"], ["ale-calibrate", "a", "b"], ["ale-calibrate", "--colour"],
                                    ["ale-calibrate", "a", "--out"], ["ale-inspect", "a"], ["ale-inspect", "a", "x"],
-                                   ["ale-inspect", "a", "-1"], ["ale-inspect", "a", "1", "2"]])
+                                   ["ale-inspect", "a", "-1"], ["ale-inspect", "a", "1", "--out", "a.png"], ["ale-calibrate", "a", "--plot", "a.png"],
+                                   ["ale-inspect", "a", "1", "2"]])
 def test_wrong_use_exits_2_with_one_line(words):
     done = run(*words)
     assert done.returncode == 2

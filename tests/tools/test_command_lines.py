@@ -73,7 +73,8 @@ def test_every_option_of_its_help_is_one_of_its_own(name):
 
 @pytest.mark.parametrize("words", ["ale-bridge --connect 127.0.0.1:7700", "ale-console --http 127.0.0.1:0", "ale-latency",
                                    "ale-record --port urg --out file", "ale-screen --once", "ale-send --keys KEY stop",
-                                   f"ale-sim --pty urg --world {ROOT}/tools/worlds/home.world", "ale-slamd", "ale-watch"])
+                                   f"ale-sim --pty urg --world {ROOT}/tools/worlds/home.world",
+                                   f"ale-sim --pty urg --drive --world {ROOT}/tools/worlds/home.world", "ale-slamd", "ale-watch"])
 def test_an_lcm_that_cannot_be_joined_is_told_in_one_line(words, tmp_path):
     name, *arguments = words.split()
     run("ale-keys", "alice", "--secret", "KEY", "--robot", "robot.keys", cwd=tmp_path)

@@ -5,6 +5,7 @@
 #include "calibrate/calibration.h"
 #include "cli/command_line.h"
 #include "cli/files.h"
+#include "cli/robot_files.h"
 #include "export/text_file.h"
 
 namespace
@@ -56,7 +57,7 @@ int main(int argc, char **argv)
     cli::CommandLine line("ale-calibrate", usage);
     line.argument("LOG", options.log);
     line.text("out", options.out);
-    line.text("plot", options.plot);
+    cli::drawing(line, "plot", options.plot);
     return line.run(argc, argv, [&] {
         check_files(options);
         run(options);

@@ -21,6 +21,10 @@ void map_image(CommandLine &line, std::string &path);
 /* The same, as often as wanted. */
 void map_images(CommandLine &line, std::vector<std::string> &paths);
 
+/* "--NAME F.svg" of what is drawn as SVG and as nothing else: a name that promises another kind is
+ * WrongUse. */
+void drawing(CommandLine &line, const std::string &name, std::string &path);
+
 } // namespace cli
 
 #endif

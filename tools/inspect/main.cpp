@@ -85,7 +85,7 @@ int main(int argc, char **argv)
     line.argument("SCAN", [&options](const std::string &word) {
         options.scan = cli::number_of("SCAN", word, 0L, most_scans);
     });
-    line.text("out", options.out);
+    cli::drawing(line, "out", options.out);
     line.text("config", options.config);
     return line.run(argc, argv, [&] {
         check_files(options);

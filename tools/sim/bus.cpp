@@ -8,6 +8,7 @@
 #include "sim/units.h"
 
 extern "C" {
+#include "lcm/url.h"
 #include "lcmtypes_ale_drive_t.h"
 }
 
@@ -37,8 +38,14 @@ void OdometryOut::publish(int64_t utime, const Pose &pose)
     ale_bus_send_odometry(bus_.get(), &sample);
 }
 
-DriveIn::DriveIn(const std::string &url) : lcm_(lcm_create(url.empty() ? nullptr : url.c_str()))
+DriveIn::DriveIn(const std::string &url)
 {
+    char error[ALE_LCM_URL_ERROR];
+    const char *joined = ale_lcm_url(url.c_str(), error);
+    if (!joined) {
+        throw std::runtime_error(error);
+    }
+    lcm_.reset(lcm_create(joined));
     if (!lcm_ || !lcm_subscribe(lcm_.get(), drive_channel, take, this)) {
         throw std::runtime_error("LCM: cannot listen to ALE_DRIVE");
     }
