@@ -271,7 +271,9 @@ void ale_drift_slide(ale_drift_t *here, int64_t *slid_um, uint32_t along_bam, co
     const int64_t grown_um2 = across(&now, along_bam - predicted->pose.theta_bam) -
                               across(&then, along_bam - before->pose.theta_bam);
     const int64_t slid = ale_min64(*slid_um + ale_isqrt((uint64_t)ale_max64(grown_um2, 0)), SLID_MOST_UM);
-    const int64_t more_um2 = slid * slid - *slid_um * *slid_um;
+    const ale_drift_t at = ale_drift_at(here, (ale_point_t){predicted->pose.x_um, predicted->pose.y_um});
+    const int64_t more_um2 = ale_clamp64(slid * slid - *slid_um * *slid_um, 0,
+                                         ale_max64(most_um2 - ale_max64(at.xx_um2, at.yy_um2), 0));
     const ale_direction_t along = ale_direction(along_bam);
     const int64_t x = ale_round_shift(along.cos_q30, 10);
     const int64_t y = ale_round_shift(along.sin_q30, 10);

@@ -31,7 +31,8 @@ ale_drift_t ale_drift_here(const ale_local_map_t *map, const ale_view_t view[], 
 
 /* The scan leaves one direction of the map's frame to the prediction: what that adds to the variance along it
  * errs alike from scan to scan, in the velocity as in the wheels' scale, and the sigmas of the steps add up.
- * *slid_um: their sum since the robot was last held, 0 then. */
+ * *slid_um: their sum since the robot was last held, 0 then, and 1 m at most; beyond (2 m)^2 in all it does
+ * not grow. */
 void ale_drift_slide(ale_drift_t *here, int64_t *slid_um, uint32_t along_bam, const ale_motion_t *before,
                      const ale_motion_t *predicted);
 

@@ -222,3 +222,18 @@ TEST(Drift, WhatAScanLeavesOpenGrowsWithTheStepsAndInThatDirectionAlone)
     EXPECT_NEAR(static_cast<double>(slid_um), 2000, 3);
     EXPECT_NEAR(static_cast<double>(here.xx_um2 + here.yy_um2), var + 4e6, 0.003 * var);
 }
+
+TEST(Drift, WhatScansLeaveOpenAgainAndAgainDoesNotGrowBeyondAnyMeaning)
+{
+    ale_motion_t before;
+    ale_motion_init(&before, 0, {30000000, -20000000, convert::bam(0.4)}, 1, 1);
+    ale_motion_t predicted = before;
+    predicted.cov.m[0][0] += 250000000000; /* half a metre a step */
+    ale_drift_t here = {};
+    for (int k = 0; k < 1000; k++) {
+        int64_t slid_um = 0; /* held for a moment in between */
+        ale_drift_slide(&here, &slid_um, convert::bam(0.4), &before, &predicted);
+    }
+    EXPECT_GT(here.xx_um2, 3000000000000);
+    EXPECT_LE(here.xx_um2, 4000000000000);
+}

@@ -3,6 +3,10 @@
 
 #include "room.h"
 
+extern "C" {
+#include "track/pipeline_state.h"
+}
+
 namespace
 {
 
@@ -64,6 +68,46 @@ TEST(Relocation, TheRobotFindsItselfWhereOnlyOnePlaceFits)
         EXPECT_LT(found_at, 40);
         EXPECT_EQ(robot.last.state, ALE_STATE_GOOD);
     }
+}
+
+// What the wheels' scale has made of the way is no part of a pose that the way did not lead to.
+class WheelDrift : public testing::Test
+{
+  protected:
+    WheelDrift()
+    {
+        robot.pipeline->wheel_drift = {800000, -600000};
+    }
+    void is_gone() const
+    {
+        EXPECT_EQ(robot.pipeline->wheel_drift.x_um, 0);
+        EXPECT_EQ(robot.pipeline->wheel_drift.y_um, 0);
+    }
+    Robot robot;
+};
+
+TEST_F(WheelDrift, EndsWhereARobotThatWasLostIsFound)
+{
+    const auto map = map_of(room::l_shape());
+    ale_pipeline_load_map(robot.pipeline.get(), map.get(), 1, {0, 0, 0}, false);
+    robot.pipeline->wheel_drift = {800000, -600000};
+    for (int k = 0; k < 60 && (k == 0 || robot.last.state == ALE_STATE_LOST); k++) {
+        robot.see(room::l_shape(), 3 + 0.1 * k);
+    }
+    EXPECT_NE(robot.last.state, ALE_STATE_LOST);
+    is_gone();
+}
+
+TEST_F(WheelDrift, EndsWhereTheRobotIsShownAPlace)
+{
+    ale_pipeline_relocate(robot.pipeline.get(), {1000000, 0, 0});
+    is_gone();
+}
+
+TEST_F(WheelDrift, EndsWithTheMap)
+{
+    ale_pipeline_reset(robot.pipeline.get());
+    is_gone();
 }
 
 TEST(Relocation, WhereTwoPlacesFitItSaysLostForAsLongAsThatLasts)
