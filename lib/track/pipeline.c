@@ -246,7 +246,11 @@ void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estima
     ale_wheel_motion_t wheels;
     pipeline->looked = false;
     if (pipeline->started) {
-        predict(pipeline, stamp_us, &wheels);
+        const ale_pose_t before = pipeline->motion.pose;
+        if (predict(pipeline, stamp_us, &wheels)) {
+            ale_wheel_drift_go(&pipeline->wheel_drift, before, pipeline->motion.pose,
+                               ale_wheel_scale_error_ppm(&pipeline->scale));
+        }
         ale_smooth_follow(&pipeline->smooth, pipeline->motion.pose);
         ale_tracker_skip(&pipeline->tracker, &pipeline->motion);
     } else {

@@ -235,6 +235,22 @@ TEST(Pipeline, AKnownErrorOfTheWheelsIsTakenOff)
     EXPECT_NEAR(ahead_by_wheels(1250000) / ahead_by_wheels(1000000), 1.25, 0.01);
 }
 
+/* The wheels' scale errs alike all the way: by 5 % of 0.8 m. */
+TEST(Pipeline, WithoutScansTheErrorOfTheWheelsScaleGrowsWithTheWay)
+{
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    std::mt19937 rng(1);
+    ale_estimate_t e;
+    const ale_scan_t scan = room::scan_at(room::l_shape(), room::Sensor(), room::path, 1, rng);
+    for (int k = 0; k <= 20; k++) {
+        const int64_t stamp_us = scan.stamp_us + 100000 * k;
+        const ale_odometry_t sample = {stamp_us, {40000 * k, 0, 0}};
+        ale_pipeline_odometry(p.get(), &sample);
+        k == 0 ? ale_pipeline_scan(p.get(), &scan, &e) : ale_pipeline_dropped(p.get(), stamp_us, &e);
+    }
+    EXPECT_GT(std::sqrt(static_cast<double>(e.cov[0])), 0.05 * 800000);
+}
+
 TEST(Pipeline, WithoutScansTheCovarianceGrowsAndTheStateSaysSo)
 {
     const room::Pipeline p = room::make(ale_pipeline_default_config());
