@@ -47,6 +47,10 @@ enum {
     ALE_LOOKS_OF_A_MOVE = 16   /* a view that is only laid on walls */
 };
 
+/* What a scan that is fitted twice may cost. Its beams have taken their part before: straightening, lines and
+ * views of one cost as much as so many looks. Of 682 beams six whole passes are left, whatever they show. */
+enum { ALE_LOOKS_OF_A_SCAN = 73728, ALE_LOOKS_OF_A_BEAM = 40 };
+
 /* The wall, of those that the map is focused on, that fits a view seen from a pose with covariance `cov`
  * (NULL: known exactly). What is looked at is taken from *looks; with none left nothing more is found. */
 ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,

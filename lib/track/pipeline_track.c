@@ -271,8 +271,9 @@ static bool match_again(ale_pipeline_t *p, const ale_motion_t *before, bool coun
     const bool slips = may_slip && (!registered || is_nearer(from, &as_before, predicted));
     const ale_motion_t *prior = slips ? &as_before : predicted;
     const ale_gate_t *unguided = slips ? &acquire_gate : &narrow_gate;
+    const int32_t most_looks = ALE_LOOKS_OF_A_SCAN - ALE_LOOKS_OF_A_BEAM * p->scan.beams;
     ale_refine_again(prior, slips, registered ? from : prior->pose, &scene,
-                     registered ? &register_gate : unguided, &p->other, &p->fit);
+                     registered ? &register_gate : unguided, most_looks, &p->other, &p->fit);
     const bool slipped = slips && p->fit.matched_um > found_um;
     if (slipped) {
         *predicted = as_before;

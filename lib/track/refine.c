@@ -173,6 +173,7 @@ static void find_all(const ale_scene_t *scene, const ale_matrix_t *cov, const al
             fit->matched_pieces = (uint16_t)(fit->matched_pieces + (view->kind != ALE_VIEW_WALL));
         }
     }
+    fit->looks += ALE_LOOKS - (looks < 0 ? 0 : looks);
 }
 
 /* The rows of all that was found. */
@@ -231,6 +232,7 @@ static void note_velocity_change(const ale_motion_t *predicted, const ale_scene_
 static void start(const ale_motion_t *predicted, const ale_scene_t *scene, ale_fit_t *fit)
 {
     fit->motion = *predicted;
+    fit->looks = 0;
     note_velocity_change(predicted, scene, fit);
 }
 
@@ -266,17 +268,18 @@ static void set_prior(const ale_motion_t *predicted, ale_fit_t *fit)
     ale_matrix_invert(&factors, ALE_MATRIX_BITS, &fit->prior);
 }
 
-/* Newton's steps from where out->motion is, with out->prior; the gates narrow from the first to the last. */
+/* Newton's steps from where out->motion is, with out->prior; the gates narrow from the first to the last.
+ * `left` may be looked at: where that does not do for two more passes like the first, there is one step. */
 static void fit_from(const ale_motion_t *predicted, const ale_scene_t *scene,
-                     const ale_gate_t *const gates[ALE_REFINE_ITERATIONS], ale_fit_t *out)
+                     const ale_gate_t *const gates[ALE_REFINE_ITERATIONS], int32_t left, ale_fit_t *out)
 {
     const ale_pose_t ahead = ale_pose_between(predicted->pose, out->motion.pose);
     int64_t total[ALE_STATES] = {ahead.x_um, ahead.y_um, ale_bam_to_nrad((int32_t)ahead.theta_bam) / 1000};
     int64_t size = INT64_MAX;
     ale_local_map_focus(scene->map, (ale_point_t){out->motion.pose.x_um, out->motion.pose.y_um},
                         reach_um(scene));
-    for (out->iterations = 0; out->iterations < ALE_REFINE_ITERATIONS && size > CONVERGED_UM;
-         out->iterations++) {
+    uint8_t most = ALE_REFINE_ITERATIONS;
+    for (out->iterations = 0; out->iterations < most && size > CONVERGED_UM; out->iterations++) {
         if (out->iterations > 0) {
             find_covariance(out);
         }
@@ -285,6 +288,7 @@ static void fit_from(const ale_motion_t *predicted, const ale_scene_t *scene,
         add_all(scene, out);
         size = step(&out->prior, total, out);
         note_velocity_change(predicted, scene, out);
+        most = out->iterations == 0 && 3 * out->looks > left ? 1 : most;
     }
 }
 
@@ -322,7 +326,7 @@ void ale_refine_pose(const ale_motion_t *predicted, const ale_scene_t *scene, co
     const ale_gate_t *const wide[ALE_REFINE_ITERATIONS] = {gate, &second, &later};
     start(predicted, scene, out);
     set_prior(predicted, out);
-    fit_from(predicted, scene, wide, out);
+    fit_from(predicted, scene, wide, INT32_MAX, out);
 }
 
 void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
@@ -334,7 +338,7 @@ void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const a
 }
 
 void ale_refine_again(const ale_motion_t *predicted, bool anew, ale_pose_t from, const ale_scene_t *scene,
-                      const ale_gate_t *gate, ale_fit_t *other, ale_fit_t *fit)
+                      const ale_gate_t *gate, int32_t most_looks, ale_fit_t *other, ale_fit_t *fit)
 {
     const ale_gate_t *const gates[ALE_REFINE_ITERATIONS] = {gate, &later, &later};
     start(predicted, scene, other);
@@ -344,7 +348,7 @@ void ale_refine_again(const ale_motion_t *predicted, bool anew, ale_pose_t from,
     } else {
         other->prior = fit->prior;
     }
-    fit_from(predicted, scene, gates, other);
+    fit_from(predicted, scene, gates, most_looks - fit->looks, other);
     ale_refine_look(scene, other);
     if (other->matched_um >= fit->matched_um) {
         *fit = *other;

@@ -40,6 +40,7 @@ typedef struct {
     uint16_t matched_pieces; /* pieces and spots that found a wall or a mark */
     int64_t matched_um;      /* their length, and that of all views */
     int64_t shown_um;
+    int32_t looks; /* of its passes over the views: see match.h */
     uint8_t iterations;
 } ale_fit_t;
 
@@ -64,10 +65,10 @@ void ale_refine_look(const ale_scene_t *scene, ale_fit_t *fit);
 void ale_refine_weigh(const ale_scene_t *scene, ale_fit_t *fit);
 
 /* Fits once more, from another pose, with another gate to begin with and, if anew, another prediction than
- * that of fit, and keeps what explains more. fit was looked at and not yet weighed, and is so again. other:
- * working memory. */
+ * that of fit, and keeps what explains more. fit was looked at and not yet weighed, and is so again. Where
+ * both would look at more than most_looks, this one takes one step and a look. other: working memory. */
 void ale_refine_again(const ale_motion_t *predicted, bool anew, ale_pose_t from, const ale_scene_t *scene,
-                      const ale_gate_t *gate, ale_fit_t *other, ale_fit_t *fit);
+                      const ale_gate_t *gate, int32_t most_looks, ale_fit_t *other, ale_fit_t *fit);
 
 /* Makes a fit of a scan that is not to be believed: the prediction stands, nothing is matched. */
 void ale_refine_reject(const ale_motion_t *predicted, const ale_scene_t *scene, ale_fit_t *fit);

@@ -191,6 +191,45 @@ TEST(Refine, WithoutAnyViewThePredictionStays)
     EXPECT_NEAR(static_cast<double>(fit.motion.cov.m[0][0]), 1e10, 1e6);
 }
 
+TEST(Refine, ASecondFitLooksAtNoMoreThanIsLeftUnlessItTakesOneStep)
+{
+    std::mt19937 rng(12);
+    Scene s;
+    s.look({0.4, 0.3, -1.2}, 0, rng);
+    const ale_scene_t scene = {s.map.get(), s.views.data(), 5, nullptr};
+    const ale_motion_t predicted = at({0.48, 0.25, -1.17}, 0.1, 0.05);
+    const ale_fit_t first = s.fit(predicted);
+    const ale_gate_t gate = {250000, 200000, 6, 100000};
+    EXPECT_GE(first.looks, 3 * 5 * ALE_LOOKS_OF_A_VIEW);
+    int brief = 0;
+    int whole = 0;
+    for (int32_t most_looks = 0; most_looks < 4 * first.looks; most_looks += 50) {
+        ale_fit_t fit = first;
+        ale_fit_t other;
+        ale_refine_again(&predicted, false, predicted.pose, &scene, &gate, most_looks, &other, &fit);
+        const double off_m =
+            (convert::pose(fit.motion.pose) - reference::Pose(0.4, 0.3, -1.2)).head<2>().norm();
+        EXPECT_EQ(fit.matched, 5);
+        if (other.iterations == 1) {
+            EXPECT_EQ(whole, 0) << "it had less before, and took more steps";
+            EXPECT_LT(off_m, 0.01);
+            brief++;
+        } else {
+            EXPECT_EQ(other.iterations, ALE_REFINE_ITERATIONS);
+            EXPECT_LE(first.looks + other.looks, most_looks);
+            EXPECT_LT(off_m, 0.001);
+            whole++;
+        }
+    }
+    EXPECT_GT(brief, 10);
+    EXPECT_GT(whole, 10);
+}
+
+TEST(Refine, AScanOf682BeamsHasLooksEnoughForTwoWholeFits)
+{
+    EXPECT_GE(ALE_LOOKS_OF_A_SCAN - 682 * ALE_LOOKS_OF_A_BEAM, 2 * ALE_REFINE_ITERATIONS * ALE_LOOKS);
+}
+
 TEST(Refine, AScanThatDeterminesAllDirectionsSaysSo)
 {
     std::mt19937 rng(7);
