@@ -184,12 +184,17 @@ std::vector<std::pair<std::string, Costly>> beginnings()
     dropouts.dropped = 0.5;
     Costly turning = zigzag;
     turning.turn_rad_s = 1;
+    Costly jolted = turning; /* what the map does not explain is fitted twice */
+    jolted.noise_m = 0.01;
+    jolted.dropped = 0.01;
+    jolted.jump_rad = 0.15;
     Costly full_map = turning;
     full_map.map_walls = ALE_MAP_MAX_LINES;
     Costly lost = full_map;
     lost.jump_rad = 2;
-    return {{"zigzag", zigzag},   {"all corners", corners}, {"every other beam dropped", dropouts},
-            {"turning", turning}, {"full map", full_map},   {"full map, lost", lost}};
+    return {{"zigzag", zigzag},      {"all corners", corners},    {"every other beam dropped", dropouts},
+            {"turning", turning},    {"turning, jolted", jolted}, {"full map", full_map},
+            {"full map, lost", lost}};
 }
 
 struct Effort {

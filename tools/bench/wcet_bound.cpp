@@ -244,6 +244,9 @@ ale_motion_t any_motion(Random &random)
     return motion;
 }
 
+/* What the fits of a scan of full size may look at together. */
+constexpr int32_t most_looks = ALE_LOOKS_OF_A_SCAN - ALE_LOOKS_OF_A_BEAM * ALE_MAX_BEAMS;
+
 const std::map<std::string, ale_gate_t> gates = {{"first", {600000, 300000, 4, 100000}},
                                                  {"second", {250000, 200000, 6, 100000}}};
 
@@ -258,11 +261,16 @@ void matching(Parts &parts, Random &random, Crowd &crowd)
         crowd.map->near_radius_um = 0;
         ale_local_map_approach(crowd.map.get(), {0, 0}, 30000000);
     });
-    parts.measure("fit", 1, [&] { ale_refine(&predicted, &scene, &gates.at("first"), fit.get()); });
-    parts.measure("second fit", 1, [&] {
-        ale_refine_again(&predicted, true, predicted.pose, &scene, &gates.at("second"), other.get(),
-                         fit.get());
-    });
+    for (uint32_t views = 4; views <= scene.view_count; views += 4) { /* the fewer, the more steps */
+        const ale_scene_t some = {crowd.map.get(), crowd.views.data(), views, nullptr};
+        parts.measure("two fits", 1, [&] {
+            ale_refine_pose(&predicted, &some, &gates.at("first"), fit.get());
+            ale_refine_look(&some, fit.get());
+            ale_refine_again(&predicted, true, predicted.pose, &some, &gates.at("second"), most_looks,
+                             other.get(), fit.get());
+            ale_refine_weigh(&some, fit.get());
+        });
+    }
     auto memory = std::make_unique<ale_registration_t>();
     const ale_views_t all = {scene.view, scene.view_count};
     ale_pose_t way = {0, 0, 0};
@@ -302,6 +310,34 @@ ale_scan_t far_scan(Random &random)
     return scan;
 }
 
+/* The last scan is looked through for what has come: all views but one, which is in the map. late: something
+ * came before. */
+void notice(Parts &parts, const std::string &name, const ale_scan_t &before, const uint32_t *bearing_bam,
+            std::vector<ale_view_t> views, bool late)
+{
+    std::vector<ale_match_t> match(views.size(), {ALE_NO_WALL, ALE_NO_MARK, {}});
+    match.back().wall = 0;
+    ale_scan_t scan = before;
+    const int beams = scan.beams / static_cast<int>(views.size());
+    for (size_t k = 0; k < views.size(); k++) {
+        views[k].first_beam = static_cast<uint16_t>(static_cast<int>(k) * beams);
+        views[k].last_beam = static_cast<uint16_t>(views[k].first_beam + beams - 1);
+        for (uint16_t beam = views[k].first_beam; beam <= views[k].last_beam; beam++) {
+            ale_scan_set_range(&scan, beam, k % 2 == 0 ? 1000000 : 2000000);
+        }
+    }
+    scan.stamp_us = before.stamp_us + 100000;
+    auto carried = std::make_unique<ale_carried_t>();
+    carried->any = late;
+    carried->beams = scan.beams;
+    carried->came_us = before.stamp_us;
+    const auto count = static_cast<uint32_t>(views.size());
+    const ale_seen_t then = {&before, bearing_bam, {0, 0, 0}, {0, 0, 0}, views.data(), count};
+    const ale_seen_t now = {&scan, bearing_bam, {0, 0, 0}, {0, 0, 0}, views.data(), count};
+    parts.measure(name, 1,
+                  [&] { ale_carried_notice(carried.get(), &then, &now, &scan, views.data(), match.data()); });
+}
+
 void witnesses(Parts &parts, Random &random, Crowd &crowd)
 {
     auto pipeline = std::make_unique<ale_pipeline>();
@@ -312,9 +348,10 @@ void witnesses(Parts &parts, Random &random, Crowd &crowd)
     const ale_seen_t seen = {&scan,     bearing.data(),     {0, 0, 0},
                              {0, 0, 0}, crowd.views.data(), static_cast<uint32_t>(crowd.views.size())};
     parts.measure("last scan kept", 1, [&] { ale_witness_keep(&pipeline->witness, &seen); });
-    parts.measure("last scan heard", 1, [&] {
-        ale_witness_hear(&pipeline->witness, &seen, {200000, 100000, false});
-    });
+    const std::string heard = "last scan heard, or what has come"; /* the one or the other */
+    parts.measure(heard, 1, [&] { ale_witness_hear(&pipeline->witness, &seen, {200000, 100000, false}); });
+    notice(parts, heard, scan, bearing.data(), crowd.views, false);
+    notice(parts, heard, scan, bearing.data(), crowd.views, true);
     ale_carried_t &carried = pipeline->carried;
     carried.any = true;
     carried.beams = scan.beams;
