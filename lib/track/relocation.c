@@ -8,17 +8,18 @@
 enum {
     BLAME_MEMORY = 8,   /* fits that the mean remembers where a place explains less than before, */
     PRAISE_MEMORY = 40, /* and where it explains more: a wrong place must not recover in the next cell */
-    THROUGH_MOST_UM = 1000000, /* of a wall that is seen through */
-    PROBATION = 4,             /* fits before a place may be dropped */
-    HELD_LEAST_Q8 = 140,       /* places that explain less are dropped */
-    ANSWER_SCANS = 8,          /* fits of the answer */
-    ANSWER_Q8 = 205,           /* it explains 80 % */
-    MARGIN_Q8 = 36,            /* and 14 % more than any other place, */
-    TOLD_Q8 = 2 * MARGIN_Q8,   /* when rounds would have found those even if one in two missed them */
-    TOLD_WAY_UM = 5000000,     /* and for so far: wheels stray, and a place may be lost on the way */
-    TRAIL_LOOKS = 4096,        /* at walls, for all that is proposed in a scan */
-    TRAIL_SCANS = 4,           /* fits that what was seen before counts for */
-    SAME_UM = 250000,          /* places nearer than this are one */
+    THROUGH_MOST_UM = 1000000,      /* of a wall that is seen through */
+    PROBATION = 4,                  /* fits before a place may be dropped */
+    HELD_LEAST_Q8 = 140,            /* places that explain less are dropped */
+    ANSWER_SCANS = 8,               /* fits of the answer */
+    ANSWER_Q8 = 205,                /* it explains 80 % */
+    MARGIN_Q8 = 36,                 /* and 14 % more than any other place, */
+    TOLD_Q8 = 2 * MARGIN_Q8,        /* when rounds would have found those even if one in two missed them */
+    TOLD_WAY_UM = 5000000,          /* and for so far: wheels stray, and a place may be lost on the way; */
+    TOLD_MOST_Q8 = TOLD_Q8 * 6 / 5, /* at most a metre of that ahead, until the next round has told */
+    TRAIL_LOOKS = 4096,             /* at walls, for all that is proposed in a scan */
+    TRAIL_SCANS = 4,                /* fits that what was seen before counts for */
+    SAME_UM = 250000,               /* places nearer than this are one */
     SAME_BAM = 150 * ALE_BAM_PER_MRAD,
     FIT_OFFSET_UM = 400000, /* how far a place may be off when it is fitted */
     FIT_ANGLE_URAD = 200000,
@@ -149,7 +150,7 @@ static void choose_query(ale_relocation_t *r, const ale_scene_t *scene)
 static void end_round(ale_relocation_t *r)
 {
     for (uint32_t i = 0; r->pair_q8 >= TELLING_Q8 && !r->crowded && i < r->count; i++) {
-        r->place[i].told_q8 = (int32_t)ale_min64(r->place[i].told_q8 + r->pair_q8, TOLD_Q8);
+        r->place[i].told_q8 = (int32_t)ale_min64(r->place[i].told_q8 + r->pair_q8, TOLD_MOST_Q8);
     }
     r->searching = false;
 }

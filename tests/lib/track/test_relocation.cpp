@@ -29,9 +29,18 @@ struct Robot {
 
     void see(const std::vector<room::Wall> &walls, double t)
     {
+        see(walls, t, room::path);
+    }
+    template <typename Path> void count(double t, Path path)
+    {
+        const ale_odometry_t sample = {std::llround(t * 1e6), convert::pose(path(t))};
+        ale_pipeline_odometry(pipeline.get(), &sample);
+    }
+    template <typename Path> void see(const std::vector<room::Wall> &walls, double t, Path path)
+    {
         room::Sensor sensor;
         sensor.noise = 0.003;
-        const ale_scan_t scan = room::scan_at(walls, sensor, room::path, t, rng);
+        const ale_scan_t scan = room::scan_at(walls, sensor, path, t, rng);
         ale_pipeline_scan(pipeline.get(), &scan, &last);
     }
 };
@@ -108,6 +117,24 @@ TEST_F(WheelDrift, EndsWithTheMap)
 {
     ale_pipeline_reset(robot.pipeline.get());
     is_gone();
+}
+
+// About 1 m/s: what was told of its rivals has to last longer than from one scan to the next.
+TEST(Relocation, ARobotThatDrivesOnFastFindsItselfToo)
+{
+    const auto map = map_of(room::l_shape());
+    const auto fast = [](double t) { return room::path(2.5 * t); };
+    for (const double start : {1.0, 2.0, 3.0, 4.0}) {
+        Robot robot;
+        ale_pipeline_load_map(robot.pipeline.get(), map.get(), 1, {0, 0, 0}, false);
+        int found_at = -1;
+        for (int k = 0; k < 60 && found_at < 0; k++) {
+            robot.count(start + 0.1 * k, fast);
+            robot.see(room::l_shape(), start + 0.1 * k, fast);
+            found_at = robot.last.state != ALE_STATE_LOST ? k : -1;
+        }
+        EXPECT_GT(found_at, 0) << start;
+    }
 }
 
 TEST(Relocation, WhereTwoPlacesFitItSaysLostForAsLongAsThatLasts)
