@@ -184,8 +184,10 @@ def test_a_saved_map_can_be_started_from(room_log, tmp_path):
     replay(room_log, "--save-map", tmp_path / "a.map")
     text = (tmp_path / "a.map").read_text()
     assert text.startswith("ALE-SLAM map 1\n") and text.count("\nwall ") >= 3
-    replay(room_log, "--load-map", tmp_path / "a.map", "--poses", tmp_path / "p.jsonl")
-    assert len(read_json_lines(tmp_path / "p.jsonl")) == 60
+    done = replay(room_log, "--load-map", tmp_path / "a.map", "--poses", tmp_path / "p.jsonl")
+    states = [pose["state"] for pose in read_json_lines(tmp_path / "p.jsonl")]
+    assert len(states) == 60 and 0 in states
+    assert f"lost in {states.count(0)} scans, its pose weak in {states.count(1)}" in done.stderr
     (tmp_path / "a.map").write_text(text.replace("wall", "well", 1))
     assert "a.map: line" in replay(room_log, "--load-map", tmp_path / "a.map", code=1).stderr
 

@@ -165,7 +165,7 @@ void Replay::lose(int64_t stamp_us)
         ale_pipeline_dropped(pipeline_.get(), stamp_us, &estimate_);
         put_estimate(estimate_);
     }
-    counts_.lost++;
+    counts_.dropped++;
     put_results(stamp_us, nullptr);
 }
 
@@ -204,6 +204,8 @@ void Replay::put_estimate(const ale_estimate_t &estimate)
         }
         record_->take(*sighting_);
     }
+    counts_.weak += estimate.state == ALE_STATE_WEAK;
+    counts_.lost += estimate.state == ALE_STATE_LOST;
     track_.push_back({estimate.stamp_us, estimate.map, estimate.velocity_x_um_s, estimate.velocity_y_um_s,
                       estimate.velocity_theta_urad_s, !estimate.predicted});
     if (poses_file_) {

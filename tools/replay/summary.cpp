@@ -46,11 +46,16 @@ void print_summary(const std::string &path, const LogReader &log, const ReplayCo
     const auto scans = static_cast<double>(counts.scans);
     std::fprintf(
         stderr,
-        "%s: %s, %llu scans, %llu lost, %.1f lines and %.1f corners a scan, %.3f ms a scan (worst %.3f)\n",
+        "%s: %s, %llu scans, %llu dropped, %.1f lines and %.1f corners a scan, %.3f ms a scan (worst %.3f)\n",
         path.c_str(), log.info().format, static_cast<unsigned long long>(counts.scans),
-        static_cast<unsigned long long>(counts.lost), static_cast<double>(counts.lines) / scans,
+        static_cast<unsigned long long>(counts.dropped), static_cast<double>(counts.lines) / scans,
         static_cast<double>(counts.corners) / scans, static_cast<double>(counts.cpu_ns) * 1e-6 / scans,
         static_cast<double>(counts.worst_ns) * 1e-6);
+    if (counts.lost + counts.weak > 0) {
+        std::fprintf(stderr, "ale-replay: the robot was lost in %llu scans, its pose weak in %llu\n",
+                     static_cast<unsigned long long>(counts.lost),
+                     static_cast<unsigned long long>(counts.weak));
+    }
     const unsigned long long bad = statistics.bad_lines + statistics.bad_chunks;
     const unsigned long long too_large = statistics.too_many_beams;
     if (bad + too_large > 0) {

@@ -33,7 +33,9 @@ class Progress
 
 struct ReplayCounts {
     uint64_t scans = 0;
-    uint64_t lost = 0;
+    uint64_t dropped = 0; /* that nobody could read */
+    uint64_t weak = 0;    /* poses that rest on the prediction, */
+    uint64_t lost = 0;    /* and of a robot that does not know where it is */
     uint64_t lines = 0;
     uint64_t corners = 0;
     int64_t cpu_ns = 0;
