@@ -109,6 +109,7 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
     pipeline->broken = false;
     pipeline->moved = false;
     pipeline->claims = 0;
+    pipeline->slips = false;
     pipeline->view_count = 0;
     memset(&pipeline->features, 0, sizeof pipeline->features);
     memset(&pipeline->fit, 0, sizeof pipeline->fit);
@@ -184,18 +185,32 @@ static void begin(ale_pipeline_t *p, const ale_scan_t *scan)
     ale_pipeline_first(p);
 }
 
+/* Believes the wheels, or, as long as they slip, that the robot goes on as before. */
+static void choose_way(ale_pipeline_t *p, const ale_motion_t *before, bool counted)
+{
+    if (!counted) {
+        p->ways = (ale_ways_t){.believed = p->motion, .rival = p->motion};
+        return;
+    }
+    ale_motion_t as_before = *before;
+    ale_pipeline_go_on(p, &as_before, p->motion.stamp_us, NULL);
+    p->ways = ale_ways_of(&p->motion, &as_before, p->slips && p->tracker.state != ALE_STATE_LOST);
+    p->motion = p->ways.believed;
+}
+
 static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
 {
     const ale_motion_t before = p->motion;
     const int64_t instant_us = instant_of(p, scan->stamp_us);
     ale_wheel_motion_t wheels;
     const bool counted = predict(p, instant_us, &wheels);
+    choose_way(p, &before, counted);
     const ale_motion_t predicted = p->motion;
     ale_pipeline_look(p, scan, predicted.velocity);
     if (p->tracker.state == ALE_STATE_LOST) {
-        ale_pipeline_search(p, ale_pose_between(before.pose, predicted.pose), counted);
+        ale_pipeline_search(p, ale_pose_between(before.pose, predicted.pose), p->ways.counted);
     } else {
-        ale_pipeline_track(p, &before, &predicted, counted ? &wheels : NULL);
+        ale_pipeline_track(p, &before, &wheels);
     }
     advance_smooth(p, before.pose, predicted.pose, instant_us - before.stamp_us);
     ale_stage_end(&p->hook, ALE_STAGE_MAP);

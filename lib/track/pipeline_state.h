@@ -18,6 +18,7 @@
 #include "track/registration.h"
 #include "track/relocation.h"
 #include "track/rest.h"
+#include "track/slip.h"
 #include "track/smooth_pose.h"
 #include "track/tracker.h"
 #include "track/view.h"
@@ -82,6 +83,8 @@ struct ale_pipeline {
     bool broken; /* since the last keyframe: see ale_keyframe_t */
     bool moved;  /* the map pose was put elsewhere: how it settles there is no way of the robot */
     ale_marks_t spare_marks;
+    ale_ways_t ways; /* to the scan at hand */
+    bool slips;      /* the last time that wheels could have slipped they did */
     uint16_t claims; /* scans that may still show that the robot is where it is said to be */
 };
 

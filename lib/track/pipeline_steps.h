@@ -28,10 +28,9 @@ void ale_pipeline_match(ale_pipeline_t *p, const ale_motion_t *predicted, int32_
 /* The first scan: it is where it is, and all that it shows is new. */
 void ale_pipeline_first(ale_pipeline_t *p);
 
-/* Matches where the prediction puts the robot, judges the result, and takes it into the map. wheels NULL:
- * they told nothing of the way since `before`. */
-void ale_pipeline_track(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted,
-                        const ale_wheel_motion_t *wheels);
+/* Matches where the prediction (p->ways) puts the robot, judges the result, and takes it into the map.
+ * wheels: what they told of the way since `before`, if they did. */
+void ale_pipeline_track(ale_pipeline_t *p, const ale_motion_t *before, const ale_wheel_motion_t *wheels);
 
 /* Looks for the place that fits, with bounded work a scan, and leaves the map alone. way: how the robot went
  * since the scan before; counted: wheels told it. */

@@ -24,7 +24,6 @@ enum {
     SLACK_URAD = 30000,
     SLACK_MOST_UM = 200000, /* a way that may be off by more says nothing of what was seen where */
     SLACK_MOST_URAD = 100000,
-    APART_SIGMAS = 3, /* of the wheels: nearer than that, least squares finds it from where they say */
     CHANCE_PARTS = 10 /* less than this part of what is shown, found in the map, may be found by chance */
 };
 
@@ -192,39 +191,16 @@ static void hold(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion
     }
 }
 
-static int64_t turn_urad(ale_pose_t way)
-{
-    return ale_abs64(ale_bam_to_nrad((int32_t)way.theta_bam)) / 1000;
-}
-
-/* How far two poses lie apart. */
-typedef struct {
-    int64_t way_um;
-    int64_t turn_urad;
-} apart_t;
-
-static apart_t apart(ale_pose_t a, ale_pose_t b)
-{
-    const ale_pose_t way = ale_pose_between(a, b);
-    return (apart_t){ale_max64(ale_abs64(way.x_um), ale_abs64(way.y_um)), turn_urad(way)};
-}
-
-/* Whether a pose is nearer to one prediction than to another; a radian counts as a metre. */
-static bool is_nearer(ale_pose_t pose, const ale_motion_t *one, const ale_motion_t *other)
-{
-    const apart_t a = apart(pose, one->pose);
-    const apart_t b = apart(pose, other->pose);
-    return a.way_um + a.turn_urad < b.way_um + b.turn_urad;
-}
-
 /* Where the last scan says that the robot is, to be fitted from there. */
-static bool register_scan(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted,
-                          const apart_t *beyond, ale_pose_t *from)
+static bool register_scan(ale_pipeline_t *p, const ale_motion_t *before, ale_pose_t *from)
 {
+    const ale_motion_t *predicted = &p->ways.believed;
     const ale_matrix_t *cov = &predicted->cov;
+    const ale_apart_t beyond =
+        p->ways.part ? ale_apart(predicted->pose, p->ways.rival.pose) : (ale_apart_t){0, 0};
     const int64_t reach_um =
-        REGISTER_UM + ale_max64(5 * ale_max64(sigma_of(cov, 0), sigma_of(cov, 1)), beyond->way_um);
-    const int64_t reach_urad = REGISTER_URAD + ale_max64(5 * sigma_of(cov, 2), beyond->turn_urad);
+        REGISTER_UM + ale_max64(5 * ale_max64(sigma_of(cov, 0), sigma_of(cov, 1)), beyond.way_um);
+    const int64_t reach_urad = REGISTER_URAD + ale_max64(5 * sigma_of(cov, 2), beyond.turn_urad);
     /* on the way that is smooth, as the witness is */
     const ale_pose_t guess =
         ale_pose_compose(p->smooth.pose, ale_pose_between(before->pose, predicted->pose));
@@ -239,49 +215,29 @@ static bool register_scan(ale_pipeline_t *p, const ale_motion_t *before, const a
     return true;
 }
 
-/* How the robot went on if its wheels slip, which then tell nothing: as before. False when that is hardly
- * known, or about where the wheels put it. */
-static bool go_on_as_before(const ale_pipeline_t *p, const ale_motion_t *before,
-                            const ale_motion_t *predicted, ale_motion_t *out)
-{
-    const ale_matrix_t *cov = &predicted->cov;
-    *out = *before;
-    ale_pipeline_go_on(p, out, predicted->stamp_us, NULL);
-    const ale_pose_t way = ale_pose_between(predicted->pose, out->pose);
-    const bool elsewhere = ale_abs64(way.x_um) > APART_SIGMAS * sigma_of(cov, 0) ||
-                           ale_abs64(way.y_um) > APART_SIGMAS * sigma_of(cov, 1) ||
-                           turn_urad(way) > APART_SIGMAS * sigma_of(cov, 2);
-    return elsewhere && sigma_of(&out->cov, 0) < SLACK_MOST_UM && sigma_of(&out->cov, 1) < SLACK_MOST_UM &&
-           sigma_of(&out->cov, 2) < SLACK_MOST_URAD;
-}
-
 /* The map explains too little of the scan: once more from where the last scan says that the robot is, or,
  * since wide gates may have caught the wrong walls, with narrow ones. If wheels may have slipped, the last
- * scan decides whether they are believed; when it says nothing, the map does. What only little speaks for is
- * not believed. Returns whether wheels count; if they slipped, *predicted becomes the motion without them. */
-static bool match_again(ale_pipeline_t *p, const ale_motion_t *before, bool counted, ale_motion_t *predicted)
+ * scan decides which way is believed; when it says nothing, the map does. What only little speaks for is
+ * not believed. */
+static void match_again(ale_pipeline_t *p, const ale_motion_t *before)
 {
     const ale_scene_t scene = ale_pipeline_scene(p);
     const int64_t found_um = p->fit.matched_um;
-    ale_motion_t as_before;
-    const bool may_slip = counted && go_on_as_before(p, before, predicted, &as_before);
-    const apart_t beyond = may_slip ? apart(predicted->pose, as_before.pose) : (apart_t){0, 0};
-    ale_pose_t from = predicted->pose;
-    const bool registered = register_scan(p, before, predicted, &beyond, &from);
-    const bool slips = may_slip && (!registered || is_nearer(from, &as_before, predicted));
-    const ale_motion_t *prior = slips ? &as_before : predicted;
-    const ale_gate_t *unguided = slips ? &acquire_gate : &narrow_gate;
+    ale_ways_t *ways = &p->ways;
+    ale_pose_t from = ways->believed.pose;
+    const bool registered = register_scan(p, before, &from);
+    const bool turns = ways->part && (!registered || ale_ways_rival_is_nearer(ways, from));
+    const ale_motion_t *prior = turns ? &ways->rival : &ways->believed;
+    const ale_gate_t *unguided = turns ? &acquire_gate : &narrow_gate;
     const int32_t most_looks = ALE_LOOKS_OF_A_SCAN - ALE_LOOKS_OF_A_BEAM * p->scan.beams;
-    ale_refine_again(prior, slips, registered ? from : prior->pose, &scene,
+    ale_refine_again(prior, turns, registered ? from : prior->pose, &scene,
                      registered ? &register_gate : unguided, most_looks, &p->other, &p->fit);
-    const bool slipped = slips && p->fit.matched_um > found_um;
-    if (slipped) {
-        *predicted = as_before;
+    if (turns && p->fit.matched_um > found_um) {
+        ale_ways_swap(ways);
     }
     if (p->fit.matched_um * CHANCE_PARTS < p->fit.shown_um) {
-        ale_refine_reject(predicted, &scene, &p->fit);
+        ale_refine_reject(&ways->believed, &scene, &p->fit);
     }
-    return counted && !slipped;
 }
 
 /* What has come while the robot stood begins no wall. */
@@ -296,27 +252,27 @@ static void leave_out_newcomers(ale_pipeline_t *p, const ale_motion_t *before)
     }
 }
 
-void ale_pipeline_track(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted,
-                        const ale_wheel_motion_t *wheels)
+void ale_pipeline_track(ale_pipeline_t *p, const ale_motion_t *before, const ale_wheel_motion_t *wheels)
 {
     const ale_scene_t scene = ale_pipeline_scene(p);
-    ale_motion_t prior = *predicted;
-    bool counted = wheels != NULL;
+    const ale_motion_t *predicted = &p->ways.believed;
     approach(p, predicted->pose, p->scan.range_max_um);
     ale_refine_pose(predicted, &scene, &acquire_gate, &p->fit);
     ale_refine_look(&scene, &p->fit);
     if (ale_tracker_doubts(&p->fit)) {
-        counted = match_again(p, before, counted, &prior);
+        match_again(p, before);
     }
     ale_refine_weigh(&scene, &p->fit);
+    const bool counted = p->ways.counted;
     p->motion = p->fit.motion;
-    notice(p, before, &prior, counted);
+    notice(p, before, predicted, counted);
     p->drift = ale_drift_here(&p->map, p->view, p->view_count, &p->fit, &p->drift);
     const ale_wheel_drift_t drifted = p->wheel_drift;
-    hold(p, before, &prior, counted);
+    hold(p, before, predicted, counted);
     if (!p->tracker.jumped) {
-        ale_liveliness_learn(&p->liveliness[counted], &prior, &p->motion);
+        ale_liveliness_learn(&p->liveliness[counted], predicted, &p->motion);
         teach_wheels(p, before, counted ? wheels : NULL, &drifted);
+        p->slips = p->ways.part ? ale_ways_slip(&p->ways, p->motion.pose, p->slips) : p->slips;
     }
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);
     anchor(p);

@@ -1,0 +1,77 @@
+#include "track/slip.h"
+
+#include "base/fixed.h"
+#include "base/trig.h"
+
+enum {
+    APART_SIGMAS = 3, /* of the wheels: nearer than that, least squares finds it from where they say */
+    SLIP = 40000,     /* um and urad that wheels must be off, before they are said to slip */
+    KNOWN_UM = 200000,
+    KNOWN_URAD = 100000
+};
+
+static int64_t turn_urad(ale_pose_t way)
+{
+    return ale_abs64(ale_bam_to_nrad((int32_t)way.theta_bam)) / 1000;
+}
+
+ale_apart_t ale_apart(ale_pose_t a, ale_pose_t b)
+{
+    const ale_pose_t way = ale_pose_between(a, b);
+    return (ale_apart_t){ale_max64(ale_abs64(way.x_um), ale_abs64(way.y_um)), turn_urad(way)};
+}
+
+/* A radian counts as a metre. */
+static int64_t distance(ale_pose_t a, const ale_motion_t *b)
+{
+    const ale_apart_t d = ale_apart(a, b->pose);
+    return d.way_um + d.turn_urad;
+}
+
+bool ale_ways_rival_is_nearer(const ale_ways_t *ways, ale_pose_t pose)
+{
+    return distance(pose, &ways->rival) < distance(pose, &ways->believed);
+}
+
+static int64_t sigma_of(const ale_motion_t *m, int axis)
+{
+    return (int64_t)ale_isqrt((uint64_t)ale_max64(m->cov.m[axis][axis], 0));
+}
+
+static bool are_apart(const ale_motion_t *by_wheels, const ale_motion_t *as_before)
+{
+    const ale_pose_t way = ale_pose_between(by_wheels->pose, as_before->pose);
+    return ale_abs64(way.x_um) > APART_SIGMAS * sigma_of(by_wheels, 0) ||
+           ale_abs64(way.y_um) > APART_SIGMAS * sigma_of(by_wheels, 1) ||
+           turn_urad(way) > APART_SIGMAS * sigma_of(by_wheels, 2);
+}
+
+static bool is_known(const ale_motion_t *m)
+{
+    return sigma_of(m, 0) < KNOWN_UM && sigma_of(m, 1) < KNOWN_UM && sigma_of(m, 2) < KNOWN_URAD;
+}
+
+ale_ways_t ale_ways_of(const ale_motion_t *by_wheels, const ale_motion_t *as_before, bool slips)
+{
+    ale_ways_t ways = {*by_wheels, *as_before, false, true};
+    ways.part = is_known(as_before) && are_apart(by_wheels, as_before);
+    if (ways.part && slips) {
+        ale_ways_swap(&ways);
+    }
+    return ways;
+}
+
+void ale_ways_swap(ale_ways_t *ways)
+{
+    const ale_motion_t rival = ways->rival;
+    ways->rival = ways->believed;
+    ways->believed = rival;
+    ways->counted = !ways->counted;
+}
+
+bool ale_ways_slip(const ale_ways_t *ways, ale_pose_t found, bool slips)
+{
+    const int64_t wheels = distance(found, ways->counted ? &ways->believed : &ways->rival);
+    const int64_t as_before = distance(found, ways->counted ? &ways->rival : &ways->believed);
+    return slips ? as_before <= wheels : wheels > SLIP && 2 * as_before < wheels;
+}

@@ -1,0 +1,41 @@
+/* Two tales of how the robot went on: its wheels', and, if they slip, that it goes on as before.
+ *
+ * A wheel that spins in the air, or under a robot that something holds up, counts what nobody drives, and
+ * does so for a while. Where the tales part by more than wheels promise, the one is believed that came nearer
+ * to where the robot was found the last time they did. Pure functions, constant time. */
+#ifndef ALE_TRACK_SLIP_H
+#define ALE_TRACK_SLIP_H
+
+#include <stdbool.h>
+
+#include "track/motion.h"
+
+typedef struct {
+    ale_motion_t believed;
+    ale_motion_t rival; /* holds when they part */
+    bool part;
+    bool counted; /* what is believed is by wheels */
+} ale_ways_t;
+
+/* How far two poses lie apart. */
+typedef struct {
+    int64_t way_um;
+    int64_t turn_urad;
+} ale_apart_t;
+
+ale_apart_t ale_apart(ale_pose_t a, ale_pose_t b);
+
+/* Whether a pose is nearer to the rival than to what is believed; a radian counts as a metre. */
+bool ale_ways_rival_is_nearer(const ale_ways_t *ways, ale_pose_t pose);
+
+/* Of the motion by wheels and the one as before, which may be hardly known: then there is no rival. slips:
+ * what ale_ways_slip said the last time. */
+ale_ways_t ale_ways_of(const ale_motion_t *by_wheels, const ale_motion_t *as_before, bool slips);
+
+/* The rival is right. */
+void ale_ways_swap(ale_ways_t *ways);
+
+/* Whether wheels slipped, now that the robot was found at a pose; only where the tales part. */
+bool ale_ways_slip(const ale_ways_t *ways, ale_pose_t found, bool slips);
+
+#endif
