@@ -18,6 +18,9 @@ constexpr size_t least_nodes = 10;        // before anything is concluded
 constexpr double stray_rad = 0.0175;      // of what a scan shows of walls and furniture, one sigma
 constexpr double shared_stray = 0.08;     // of its square: the same in all scans nearby
 constexpr double line_stray_rad_m = 0.01; // and of what a metre of them measures
+// And so near where many scans are asked: a narrow gate about a heading that is off cuts what strays on one
+// side only, and holds the heading where it is.
+constexpr double along_all_rad = 0.26;
 constexpr int refine_rounds = 3;
 constexpr size_t run_nodes = 8; // whose mean is looked at for drift
 
@@ -64,13 +67,14 @@ struct Opinion {
 
 Opinion opinion_of(const Node &node, double heading, double building, Witnesses witnesses)
 {
+    const double gate = witnesses == Witnesses::all_scans ? along_all_rad : along_rad;
     double sum = 0;
     double along_m = 0;
     double all_m = 0;
     each_wall(node, witnesses, [&](const WallSight &wall) {
         const double off = modulo_quarter(building - wall.direction - heading);
         all_m += wall.length_m;
-        if (std::abs(off) < along_rad) {
+        if (std::abs(off) < gate) {
             sum += wall.length_m * off;
             along_m += wall.length_m;
         }

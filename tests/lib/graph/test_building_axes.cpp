@@ -95,6 +95,26 @@ double spread(const ale::BuildingHeadings &headings, const Drive &made)
     return std::sqrt(sum2 / count - (sum / count) * (sum / count));
 }
 
+TEST(BuildingAxes, WhereHeadingsAreOffAsManyStraysAreHeardFromEitherSide)
+{
+    const Drive made = drive(400, 0, {0, 0, 0, ale::pi / 2, ale::pi / 2, ale::pi / 2}, 4 * degree, 10);
+    std::vector<ale::Pose> turned = made.truth;
+    for (size_t k = turned.size() / 2; k < turned.size(); k++) {
+        turned[k].theta = ale::wrapped(turned[k].theta + 4 * degree);
+    }
+    const ale::BuildingHeadings headings =
+        ale::headings_by_walls(made.nodes, turned, ale::Witnesses::all_scans);
+    double sum[2] = {0, 0};
+    double count[2] = {0, 0};
+    for (const ale::HeadingPrior &prior : headings.priors) {
+        const auto pose = static_cast<size_t>(prior.pose);
+        const size_t half = pose < turned.size() / 2 ? 0 : 1;
+        sum[half] += ale::wrapped(prior.theta - made.truth[pose].theta);
+        count[half] += 1;
+    }
+    EXPECT_NEAR(sum[1] / count[1], sum[0] / count[0], 0.5 * degree);
+}
+
 TEST(BuildingAxes, ScansAfterTheKeyframesAverageTheirNoise)
 {
     const std::vector<double> walls{0, ale::pi / 2, 0};
