@@ -4,7 +4,8 @@
 
 #include "extract/extract.h"
 
-/* Fills out->corner from out->line (in beam order). O(lines). */
-void ale_corner_find(ale_features_t *out);
+/* Fills out->corner from out->line (in beam order), and says how well the ends of adjoining lines are known,
+ * which is what they are told apart by. step_nrad: from beam to beam, without sign. O(lines). */
+void ale_corner_find(int64_t step_nrad, ale_features_t *out);
 
 #endif

@@ -190,7 +190,7 @@ static void write_features(ale_extractor_t *e, uint32_t frame_bam, ale_features_
             write_line(e, run, &frame, out);
         }
     }
-    ale_corner_find(out);
+    ale_corner_find(e->step_nrad, out);
     out->outliers = e->outliers;
     memcpy(out->refused, e->refused, sizeof out->refused);
 }

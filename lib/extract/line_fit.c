@@ -3,6 +3,11 @@
 #include "base/fixed.h"
 #include "base/trig.h"
 
+enum {
+    SAMPLES = 8,  /* points of a line at which its noise is looked at, */
+    VAR_BITS = 16 /* and as how many bits: times a squared place along the line it fits int64 */
+};
+
 /* A Q8 variance in mm^2 as um^2. */
 static int64_t um2_of_q8(int64_t v_q8)
 {
@@ -52,34 +57,102 @@ static int64_t together_in_slope_q8(int64_t n, int64_t beams)
     return 512 * beams * n * n / (n * n + 3 * beams * n + 11 * beams * beams);
 }
 
+/* What of the mean own variance counts in the slope, Q16, from a few points that stand for all: far points
+ * see their ranges from the side, and near ones their bearings. Along the normal a constant noise is as rho^2
+ * / range^2, that of the bearing as range^2 - rho^2. */
+static int64_t slope_share_q16(const ale_extractor_t *e, ale_segment_t run, const ale_spread_t *m,
+                               int64_t rho_um, int64_t mean_along_um, ale_direction_t normal)
+{
+    const ale_scan_noise_t *noise = &e->noise;
+    const int64_t n = m->fit.n;
+    const int64_t rho2_mm2 = (rho_um / 1000) * (rho_um / 1000);
+    const int64_t even_q36 = rho2_mm2 * ale_min64(noise->own_relative_q36, ALE_MOST_RELATIVE_Q36);
+    int64_t constant_q36[SAMPLES];
+    int64_t bearing_q36[SAMPLES];
+    int64_t along2_mm2[SAMPLES];
+    int64_t most_q36 = ale_max64(even_q36, 1);
+    for (int32_t k = 0; k < SAMPLES; k++) {
+        const int64_t i = run.first + (2 * k + 1) * n / (2 * SAMPLES);
+        const int64_t range_mm = e->range_um[i] / 1000;
+        const int64_t range2_mm2 = ale_max64(range_mm * range_mm, rho2_mm2 + 1);
+        constant_q36[k] = rho2_mm2 * ale_min64(noise->own_mm2_q36 / range2_mm2, ALE_MOST_RELATIVE_Q36);
+        bearing_q36[k] = (range2_mm2 - rho2_mm2) * noise->bearing_rad2_q36;
+        most_q36 = ale_max64(most_q36, ale_max64(constant_q36[k], bearing_q36[k]));
+        const int64_t along_q4 = dot_q30(e->x_q4[i], e->y_q4[i], -normal.sin_q30, normal.cos_q30);
+        const int64_t off_mm = ale_round_div(((along_q4 * 1000) >> ALE_POINT_SHIFT) - mean_along_um, 1000);
+        along2_mm2[k] = off_mm * off_mm;
+    }
+    const unsigned bits = ale_bit_length((uint64_t)most_q36);
+    const unsigned shift = bits > VAR_BITS ? bits - VAR_BITS : 0;
+    int64_t all = SAMPLES * ((even_q36 >> shift) + 1);
+    int64_t in_slope = all;
+    int64_t along2 = 1;
+    int64_t along2_constant = 0;
+    int64_t along2_bearing = 0;
+    for (int32_t k = 0; k < SAMPLES; k++) {
+        all += (constant_q36[k] + bearing_q36[k]) >> shift;
+        along2 += along2_mm2[k];
+        along2_constant += along2_mm2[k] * (constant_q36[k] >> shift);
+        along2_bearing += along2_mm2[k] * (bearing_q36[k] >> shift);
+    }
+    in_slope += (along2_constant << 8) / ale_max64(m->along2_q8 / n, 1) + along2_bearing / along2 * SAMPLES;
+    return (in_slope << 16) / all;
+}
+
+/* Points at an end where another wall adjoins that may be of either: they lie within a deviation of both, if
+ * the walls are at right angles. To which of them each is given depends on its error, so they tell nothing.
+ */
+static int64_t doubtful_points_q8(const ale_extractor_t *e, int32_t i, int32_t beyond, int64_t sigma_um,
+                                  int64_t along_um)
+{
+    if (beyond < 0 || beyond >= e->count || e->jump_after[i < beyond ? i : beyond]) {
+        return 0;
+    }
+    const int64_t across_um = ale_max64(ale_mul_nano(e->range_um[i], e->step_nrad), 1);
+    return 2 * ((sigma_um * ale_abs64(along_um)) << 8) / (across_um * e->range_um[i]);
+}
+
 /* The shared error counts as far as the scan shows it, or as configured where the scan is too small to tell.
  */
-static void set_covariance(const ale_extractor_t *e, const ale_spread_t *m, ale_line_t *line,
-                           int64_t mean_along_um)
+static void set_covariance(const ale_extractor_t *e, const ale_spread_t *m, int64_t doubtful_q8,
+                           int64_t slope_q16, int64_t mean_along_um, ale_line_t *line)
 {
     const int64_t n = line->points;
     const int64_t beams = e->config.noise.shared_beams;
     const int64_t shared_q8 = e->shared_absent ? 0 : m->fit.shared_q8;
     const int64_t mean_q8 = m->fit.var_q8 + ((shared_q8 * together_in_mean_q8(n, beams)) >> 8);
-    const int64_t slope_q8 = m->fit.var_q8 + ((shared_q8 * together_in_slope_q8(n, beams)) >> 8);
+    /* a point at an end has 3 / n of what is known of the slope */
+    const int64_t told_q8 = (n << 8) + 3 * ale_min64(doubtful_q8, (n << 8) / 4);
+    const int64_t own_q8 = (((m->fit.var_q8 * slope_q16) >> 16) * told_q8 / n) >> 8;
+    const int64_t slope_q8 = own_q8 + ((shared_q8 * together_in_slope_q8(n, beams)) >> 8);
     const int64_t along2_q8 = ale_max64(m->along2_q8, 1);
-    line->var_alpha_nrad2 = nano_nano(slope_q8, along2_q8);
+    line->var_alpha_nrad2 = nano_nano(ale_max64(slope_q8, 1), along2_q8);
     line->cov_alpha_rho = ale_mul_nano(line->var_alpha_nrad2, mean_along_um);
     line->var_rho_um2 = um2_of_q8(mean_q8) / n + ale_mul_nano(line->cov_alpha_rho, mean_along_um);
 }
 
-/* Variance of an end along the line. The wall ends anywhere between its last beam and the next one, which
- * would meet it range^2 step / rho farther: a third of that squared. Where the surface goes on, the break may
- * be a beam off, and what both lines err by along their normals moves the place where they meet. */
-static int64_t end_var_um2(const ale_extractor_t *e, int32_t i, bool at_break, int64_t var_um2,
-                           int32_t rho_um)
+/* Variance of an end along the line, where beyond is the next point. The wall ends anywhere between its last
+ * beam and that of the next point, where the following beam would meet it range^2 step / rho farther: a third
+ * of that squared, for each of them. Where the surface goes on, but not as a line, the end may be a beam and
+ * more off. */
+static int64_t end_var_um2(const ale_extractor_t *e, int32_t i, int32_t beyond, int32_t rho_um)
 {
     const int64_t range_um = e->range_um[i];
     const int64_t across_um = ale_mul_nano(range_um, e->step_nrad);
     const int64_t along_um = ale_round_div(across_um * range_um, ale_max64(rho_um, 1));
     const int64_t spacing_um = ale_min64(along_um, range_um);
     const int64_t spacing2_um2 = spacing_um * spacing_um;
-    return at_break ? spacing2_um2 * 2 / 5 + var_um2 : spacing2_um2 / 3;
+    if (beyond < 0 || beyond >= e->count) {
+        return spacing2_um2 / 3;
+    }
+    const int64_t gap = ale_abs64(e->beam[beyond] - e->beam[i]);
+    const int64_t unseen = gap <= ALE_MAX_GAP_BEAMS ? gap * gap : 1;
+    return spacing2_um2 * unseen / (e->jump_after[i < beyond ? i : beyond] ? 3 : 1);
+}
+
+static int64_t along_line_um(ale_point_t p, int64_t c_q30, int64_t s_q30)
+{
+    return dot_q30(p.x_um, p.y_um, -s_q30, c_q30);
 }
 
 ale_run_fit_t ale_line_fit(const ale_extractor_t *e, ale_segment_t run, ale_line_t *line)
@@ -106,12 +179,16 @@ ale_run_fit_t ale_line_fit(const ale_extractor_t *e, ale_segment_t run, ale_line
     line->end = end_on_line(e, run.last, line, c, s);
     const int64_t mse_q8 = m.fit.sse_q8 / ale_max64(m.fit.n - 2, 1);
     line->rmse_um = (int32_t)ale_isqrt((uint64_t)um2_of_q8(mse_q8));
-    set_covariance(e, &m, line, dot_q30(m.mean_x_um, m.mean_y_um, -s, c));
-    const int64_t shared_q8 = e->shared_absent ? 0 : m.fit.shared_q8;
-    const int64_t var_um2 = um2_of_q8(m.fit.var_q8 / 8 + shared_q8);
-    const bool from_break = run.first > 0 && !e->jump_after[run.first - 1];
-    const bool to_break = run.last + 1 < e->count && !e->jump_after[run.last];
-    line->var_start_um2 = end_var_um2(e, run.first, from_break, var_um2, line->rho_um);
-    line->var_end_um2 = end_var_um2(e, run.last, to_break, var_um2, line->rho_um);
+    const int64_t mean_along_um =
+        along_line_um((ale_point_t){(int32_t)m.mean_x_um, (int32_t)m.mean_y_um}, c, s);
+    const int64_t sigma_um = ale_isqrt((uint64_t)um2_of_q8(m.fit.var_q8));
+    const int64_t doubtful_q8 =
+        doubtful_points_q8(e, run.first, run.first - 1, sigma_um, along_line_um(line->start, c, s)) +
+        doubtful_points_q8(e, run.last, run.last + 1, sigma_um, along_line_um(line->end, c, s));
+    const int64_t slope_q16 =
+        slope_share_q16(e, run, &m, rho, mean_along_um, (ale_direction_t){(int32_t)c, (int32_t)s});
+    set_covariance(e, &m, doubtful_q8, slope_q16, mean_along_um, line);
+    line->var_start_um2 = end_var_um2(e, run.first, run.first - 1, line->rho_um);
+    line->var_end_um2 = end_var_um2(e, run.last, run.last + 1, line->rho_um);
     return m.fit;
 }

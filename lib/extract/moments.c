@@ -6,7 +6,6 @@ _Static_assert(ALE_POINT_MAX_Q4 *ALE_POINT_MAX_Q4 <= INT64_MAX / 2 / ALE_MAX_BEA
                "twice the centred moments of the largest scan must fit int64");
 
 enum {
-    MOST_RELATIVE_Q36 = 1 << 29,       /* no error is believed to exceed 9 % of the range */
     INVERSE2_SHIFT = 34,               /* from Q88 */
     MOST_INVERSE2_Q54 = (1 << 26) - 1, /* of ranges from 16 mm on, */
     OWN_BITS = 37,                     /* and of the own variance: their product fits int64 */
@@ -116,7 +115,7 @@ static inline noise_at_t noise_of(const ale_scan_noise_t *noise, int64_t n, cons
 {
     const int64_t inverse2_q54 = ale_min64(s->inverse2_q54 / n, MOST_INVERSE2_Q54);
     const int64_t own_q36 = (inverse2_q54 * noise->own_um2_q8 >> 26) + noise->own_relative_q36;
-    const noise_at_t at = {ale_min64(own_q36, MOST_RELATIVE_Q36),
+    const noise_at_t at = {ale_min64(own_q36, ALE_MOST_RELATIVE_Q36),
                            (s->xx + s->yy) / (n << (2 * ALE_POINT_SHIFT))};
     return at;
 }
@@ -133,7 +132,7 @@ fit_of(const ale_scan_noise_t *noise, int64_t n, ale_moments_t s, const scatter_
     const int64_t rho2 = squared_rho_mm2(m, s.x / q2_points, s.y / q2_points);
     const int64_t own = rho2 * at.own_q36 + ale_max64(at.range2 - rho2, 0) * noise->bearing_rad2_q36;
     const int64_t shared_q36 = ale_min64(
-        noise->shared_mm2_q36 / ale_max64(at.range2, 1) + noise->shared_relative_q36, MOST_RELATIVE_Q36);
+        noise->shared_mm2_q36 / ale_max64(at.range2, 1) + noise->shared_relative_q36, ALE_MOST_RELATIVE_Q36);
     const ale_run_fit_t fit = {
         .n = (int32_t)n,
         .sse_q8 = (m->lambda << m->shift) / n,

@@ -20,6 +20,9 @@
 #define ALE_SIGMA_FLOOR_UM 400
 #define ALE_SIGMA_MOST_UM 100000
 
+/* No variance is believed to exceed (9 % of the range)^2: Q36 of the squared range. */
+#define ALE_MOST_RELATIVE_Q36 (1 << 29)
+
 /* Fewest points that ALE fits a line to while it searches; shorter runs say nothing about a line. */
 #define ALE_MIN_RUN 5
 #define ALE_COSTLY_RUN 12 /* the same in a costly scan */

@@ -132,7 +132,7 @@ void extraction(Parts &parts, ale_extractor_t *e, const ale_scan_t &scan, const 
         });
     }
     ale_extract_scan(e, &scan, nullptr, out);
-    parts.measure("corners", 1, [&] { ale_corner_find(out); });
+    parts.measure("corners", 1, [&] { ale_corner_find(e->step_nrad, out); });
 }
 
 void looking(Parts &parts)

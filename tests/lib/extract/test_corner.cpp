@@ -15,6 +15,7 @@ namespace
 {
 
 constexpr double pi = 3.14159265358979323846;
+constexpr int64_t step_nrad = 6135923; // of the URG-04LX
 
 uint32_t bam(double radians)
 {
@@ -64,7 +65,7 @@ std::unique_ptr<ale_features_t> found(const ale_line_t &a, const ale_line_t &b, 
     features->line[1] = b;
     features->line[1].first = static_cast<uint16_t>(50 + gap_beams);
     features->line[1].last = 150;
-    ale_corner_find(features.get());
+    ale_corner_find(step_nrad, features.get());
     return features;
 }
 
@@ -127,6 +128,38 @@ TEST(Corner, a_wall_that_is_seen_past_the_other_ends_at_no_corner)
     a.line.rmse_um = 20000;
     b.line.rmse_um = 20000;
     EXPECT_EQ(found(a.line, b.line)->corner_count, 1);
+}
+
+// Two walls of 1 m at right angles at (2, 1) m, the corner known to 10 and 20 mm along them: their ends lie
+// half way between the beams that see them, give or take as little as neither sees.
+TEST(Corner, facing_ends_are_known_as_well_as_their_beams_are_apart_and_the_walls_meet)
+{
+    const Eigen::Vector2d p(2e6, 1e6);
+    const Wall a = wall({2e6, 0}, p, 1, 0, 400000000);
+    const Wall b = wall(p, {1e6, 1e6}, 1, 0, 100000000);
+    const double across = p.norm() * static_cast<double>(step_nrad) * 1e-9;
+    for (const int gap : {1, 2, 4}) {
+        const auto features = found(a.line, b.line, gap);
+        const double share = (3 * gap * gap + 1) / 12.0;
+        const double along_a = std::pow(across * p.norm() / p.x(), 2) * share + 1e8;
+        const double along_b = std::pow(across * p.norm() / p.y(), 2) * share + 4e8;
+        EXPECT_NEAR(static_cast<double>(features->line[0].var_end_um2), along_a, 1e-3 * along_a) << gap;
+        EXPECT_NEAR(static_cast<double>(features->line[1].var_start_um2), along_b, 1e-3 * along_b) << gap;
+    }
+}
+
+// Walls that go on side by side do not meet: they part where a step of 50 mm is told from 5 mm of noise,
+// which is within a tenth of a beam. One of 10 mm is told to within two.
+TEST(Corner, facing_ends_of_a_step_are_known_as_well_as_it_shows)
+{
+    const double spacing = 2e6 * static_cast<double>(step_nrad) * 1e-9;
+    for (const double step : {50e3, 10e3}) {
+        const Wall a = wall({-1e6, 2e6}, {0, 2e6}, 1000000000000, 0, 1000000);
+        const Wall b = wall({0, 2e6 + step}, {1e6, 2e6 + step}, 1000000000000, 0, 1000000);
+        const auto features = found(a.line, b.line);
+        const double expected = spacing * spacing * (1.0 / 3 + 26 * std::pow(5e3 / step, 4));
+        EXPECT_NEAR(static_cast<double>(features->line[0].var_end_um2), expected, 0.02 * expected) << step;
+    }
 }
 
 TEST(Corner, lines_far_apart_or_nearly_parallel_make_none)

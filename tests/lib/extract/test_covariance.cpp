@@ -2,7 +2,8 @@
 // simulated rooms, whose truth is known. A covariance that holds gives the number of dimensions.
 //
 // Asked of lines of 20 beams and more that end within two beams of where their wall ends: a shorter one, or
-// one with beams of its neighbour, errs by what no noise model knows.
+// one with beams of its neighbour, errs by what no noise model knows. So does one that is seven deviations
+// off, which chance makes of none in 10^10: it is counted, not averaged.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,13 +19,18 @@ namespace
 {
 
 constexpr int least_beams = 20;
-constexpr int scans = 400;
+constexpr int scans = 1000;
+constexpr double gross = 50; // squared deviations
 
 class Mean
 {
   public:
     void add(double value)
     {
+        if (value > gross) {
+            strays++;
+            return;
+        }
         sum += value;
         count++;
     }
@@ -36,10 +42,15 @@ class Mean
     {
         return count;
     }
+    double stray_share() const
+    {
+        return static_cast<double>(strays) / count;
+    }
 
   private:
     double sum = 0;
     int count = 0;
+    int strays = 0;
 };
 
 struct Errors {
@@ -143,35 +154,27 @@ void report(const std::string &kind, const Errors &e)
                 e.corners.value());
 }
 
-TEST(Covariance, HoldsWithinATenthOverTheNoisesOfEachBeamsOwn)
+TEST(Covariance, HoldsWithinATenthAtEveryNoiseOfEachBeamsOwn)
 {
-    Mean lines;
-    Mean ends;
-    Mean corners;
     for (const std::string kind : {"urg", "3mm", "10mm", "20mm"}) {
         const Errors e = errors_under(kind);
         report(kind, e);
-        EXPECT_GT(e.lines.samples(), 1000) << kind;
-        EXPECT_NEAR(e.lines.value(), 2, 0.3) << kind;
-        EXPECT_NEAR(e.ends.value(), 1, 0.3) << kind;
-        EXPECT_NEAR(e.corners.value(), 2, 0.4) << kind;
-        lines.add(e.lines.value());
-        ends.add(e.ends.value());
-        corners.add(e.corners.value());
+        EXPECT_GT(e.lines.samples(), 4000) << kind;
+        EXPECT_LT(e.lines.stray_share() + e.ends.stray_share() + e.corners.stray_share(), 0.001) << kind;
+        EXPECT_NEAR(e.lines.value(), 2, 0.2) << kind;
+        EXPECT_NEAR(e.ends.value(), 1, 0.1) << kind;
+        EXPECT_NEAR(e.corners.value(), 2, 0.2) << kind;
     }
-    EXPECT_NEAR(lines.value(), 2, 0.2);
-    EXPECT_NEAR(ends.value(), 1, 0.1);
-    EXPECT_NEAR(corners.value(), 2, 0.2);
 }
 
 // How much is shared is measured anew in every scan, from few independent pieces: it is less sure.
-TEST(Covariance, HoldsWithinAThirdWhereNeighboursShareMostOfTheirError)
+TEST(Covariance, HoldsWithinAFifthWhereNeighboursShareMostOfTheirError)
 {
     const Errors e = errors_under("real");
     report("real", e);
-    EXPECT_NEAR(e.lines.value(), 2, 0.6);
-    EXPECT_NEAR(e.ends.value(), 1, 0.3);
-    EXPECT_NEAR(e.corners.value(), 2, 0.6);
+    EXPECT_NEAR(e.lines.value(), 2, 0.4);
+    EXPECT_NEAR(e.ends.value(), 1, 0.1);
+    EXPECT_NEAR(e.corners.value(), 2, 0.4);
 }
 
 } // namespace

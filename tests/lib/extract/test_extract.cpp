@@ -44,6 +44,10 @@ void expect_sane(const ale_scan_t &scan, const ale_features_t &f)
         EXPECT_GE(l.rho_um, 0);
         EXPECT_GT(l.var_alpha_nrad2, 0);
         EXPECT_GT(l.var_rho_um2, 0);
+        EXPECT_LT(std::pow(static_cast<double>(l.cov_alpha_rho), 2),
+                  static_cast<double>(l.var_alpha_nrad2) * static_cast<double>(l.var_rho_um2));
+        EXPECT_GE(l.var_start_um2, 0);
+        EXPECT_GE(l.var_end_um2, 0);
         if (k > 0) {
             EXPECT_GT(l.first, f.line[k - 1].last);
         }
