@@ -8,7 +8,8 @@ enum {
     COSTLY_REACH = 2, /* times the points accepted that a costly scan is tried for before the first refusal */
     SHARED_SHARE = 2, /* shared variances that a point may add in the mean, */
     SHARED_PEAK = 6,  /* and those that are in error together on top of it */
-    GRID = 9,         /* places at which a run is tried for a break */
+    SEARCH_FIT_EFFORT = 2,  /* in residual sums of runs: a fit has its variances, too, and is judged */
+    GRID = 9,               /* places at which a run is tried for a break */
     MEETING_UNIT = 1 << 20, /* so that the difference of two lines times a point fits int64 */
     MEETING_LOSS_Q8 =
         12 * 256,            /* own variances that a break where the lines meet may fit worse than the best */
@@ -64,7 +65,7 @@ static bool acceptable(const ale_extractor_t *e, const ale_run_fit_t *fit, const
 static ale_run_fit_t search_fit(ale_extractor_t *e, int32_t a, int32_t b)
 {
     e->search_fits++;
-    e->effort++;
+    e->effort += SEARCH_FIT_EFFORT;
     return a <= b ? ale_moments_fit(e, a, b) : ale_moments_fit(e, b, a);
 }
 

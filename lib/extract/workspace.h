@@ -35,9 +35,9 @@
 /* The search of a room takes fewer fits. */
 #define ALE_MANY_SEARCH_FITS 144
 
-/* A room is searched and made good with less effort, in residual sums of runs; a fit of the search and a
- * suspect cost as much. */
-#define ALE_MOST_EFFORT 768
+/* A room is searched and made good with less effort, in residual sums of runs; a suspect costs as much,
+ * a fit of the search twice that. */
+#define ALE_MOST_EFFORT 840
 
 /* Beams without a value that one surface may have. */
 #define ALE_MAX_GAP_BEAMS 8

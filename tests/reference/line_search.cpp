@@ -16,6 +16,7 @@ constexpr int costly_reach = 2; // times the points accepted that a costly scan 
 constexpr int costly_run = 12;
 constexpr int costly_step = 4; // to the next try where there is no line
 constexpr int many_fits = 144;
+constexpr int fit_effort = 2; // in residual sums of runs
 
 // Squared residuals that n points of a true line may have.
 double allowed(const NoiseOfScan &noise, const RunFit &fit, int n, double chi)
@@ -54,7 +55,7 @@ int end_of_line(const ScanPoints &points, const NoiseOfScan &noise, int from, in
     const auto fit_to = [&](int count) {
         const int end = from + direction * (count - 1);
         search.fits++;
-        decisions.spend(1);
+        decisions.spend(fit_effort);
         return fit_run(points, noise, std::min(from, end), std::max(from, end));
     };
     int good = search.costly(noise) ? costly_run : least_run;

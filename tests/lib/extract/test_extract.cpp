@@ -388,7 +388,7 @@ std::vector<scene::wall> ring_of_chords(unsigned seed, int chords)
     return ring;
 }
 
-// Each pass begins within the bound, so the last one may end beyond it: but not by half of it.
+// Each pass begins within the bound, so the last one may end beyond it: but not by two thirds of it.
 TEST(Extract, SearchBreaksSplitsAndCurvesTogetherSpendNoMoreThanTheirBound)
 {
     scene::extractor extract;
@@ -399,10 +399,10 @@ TEST(Extract, SearchBreaksSplitsAndCurvesTogetherSpendNoMoreThanTheirBound)
         see(*scan, ring_of_chords(seed, 26), seed % 2 == 0 ? 10 : 15, seed);
         extract(*scan);
         most = std::max(most, extract.get()->effort);
-        beyond += extract.get()->effort > 768 ? 1 : 0;
+        beyond += extract.get()->effort > ALE_MOST_EFFORT ? 1 : 0;
     }
     EXPECT_GT(beyond, 100) << "the rooms are too simple";
-    EXPECT_LT(most, 768 * 3 / 2);
+    EXPECT_LT(most, ALE_MOST_EFFORT * 5 / 3);
 }
 
 TEST(Extract, AnyInputGivesASaneResult)

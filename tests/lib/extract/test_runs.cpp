@@ -38,8 +38,8 @@ Given given(const ale_extractor_t *e)
 using Stage = std::function<void(ale_extractor_t *)>;
 using Twin = std::function<Runs(const Given &, Decisions &)>;
 
-// Leads simulated scans to a stage and compares the runs that it leaves with those of the twin. Returns how
-// many scans the stage changed.
+// Leads simulated scans to a stage and compares the runs that it leaves, and the effort that it takes, with
+// those of the twin. Returns how many scans the stage changed.
 int compare_runs(unsigned seed, double share, const Stage &before, const Stage &stage, const Twin &twin)
 {
     scene::extractor extractor;
@@ -53,8 +53,10 @@ int compare_runs(unsigned seed, double share, const Stage &before, const Stage &
         const Given input = given(e);
         Decisions decisions;
         const Runs expected = twin(input, decisions);
+        const int effort_before = e->effort;
         stage(e);
-        agreement.compare(scene::runs_of(*e) == expected, decisions, k);
+        const bool same_effort = e->effort - effort_before == decisions.spent();
+        agreement.compare(scene::runs_of(*e) == expected && same_effort, decisions, k);
         changed += expected == input.runs ? 0 : 1;
     }
     agreement.expect_differences_below(share);
