@@ -340,9 +340,7 @@ void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const a
 void ale_refine_again(const ale_motion_t *predicted, bool anew, ale_pose_t from, const ale_scene_t *scene,
                       const ale_gate_t *gate, int32_t most_looks, ale_fit_t *other, ale_fit_t *fit)
 {
-    const ale_gate_t second = {(gate->offset_um + LATER_OFFSET_UM) / 3, gate->angle_urad, LATER_SIGMAS,
-                               gate->piece_um};
-    const ale_gate_t *const gates[ALE_REFINE_ITERATIONS] = {gate, &second, &later};
+    const ale_gate_t *const gates[ALE_REFINE_ITERATIONS] = {gate, &later, &later};
     start(predicted, scene, other);
     other->motion.pose = from;
     if (anew) {

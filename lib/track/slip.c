@@ -5,7 +5,7 @@
 
 enum {
     APART_SIGMAS = 3, /* of the wheels: nearer than that, least squares finds it from where they say */
-    SLIP = 40000,     /* um and urad that wheels must be off, before they are said to slip */
+    SLIP = 100000,    /* um and urad that wheels must be off, before they are said to slip */
     KNOWN_UM = 200000,
     KNOWN_URAD = 100000
 };
