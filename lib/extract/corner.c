@@ -132,10 +132,8 @@ static int64_t facing_end_var_um2(const ale_line_t *a, const ale_line_t *b, dire
                                   ale_point_t end, int64_t gap, int64_t step_nrad)
 {
     const int64_t range2_um2 = squared_distance(end, (ale_point_t){0, 0});
-    const int64_t range_um = ale_isqrt((uint64_t)range2_um2);
-    const int64_t across_um = ale_mul_nano(range_um, step_nrad);
     const int64_t spacing_um =
-        ale_min64(ale_round_div(across_um * range_um, ale_max64(a->rho_um, 1)), range_um);
+        ale_min64(ale_mul_nano(range2_um2 / ale_max64(a->rho_um, 1), step_nrad), ALE_MAX_RANGE_UM);
     const int64_t spacing2_um2 = spacing_um * spacing_um;
     const int64_t parting_um2 = ale_min64(var_of_meeting_um2(a, b, na, nb, end),
                                           var_of_step_um2(a, b, distance_um(b, nb, end), spacing2_um2));

@@ -4,7 +4,7 @@
 #include "base/trig.h"
 
 enum {
-    SAMPLES = 8,  /* points of a line at which its noise is looked at, */
+    SAMPLES = 4,  /* points of a line at which its noise is looked at, */
     VAR_BITS = 16 /* and as how many bits: times a squared place along the line it fits int64 */
 };
 

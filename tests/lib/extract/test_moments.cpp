@@ -141,7 +141,7 @@ std::vector<Eigen::Vector2d> seen_wall(std::mt19937 &engine, int n)
 }
 
 // Where the noise along the normal, 5 mm of the range, is not the same for all points, the slope has what
-// least squares make of it, within 4 %: the noise is looked at in a few points only. With the mean it is not
+// least squares make of it, within 8 %: the noise is looked at in a few points only. With the mean it is not
 // correlated.
 TEST(LineFit, CovarianceIsThatOfIndependentNoiseAlongTheLine)
 {
@@ -165,7 +165,7 @@ TEST(LineFit, CovarianceIsThatOfIndependentNoiseAlongTheLine)
         const double alpha2 = static_cast<double>(line.var_alpha_nrad2) * 1e-18;
         const double both = static_cast<double>(line.cov_alpha_rho) * 1e-12;
         const double rho2 = static_cast<double>(line.var_rho_um2) * 1e-6;
-        EXPECT_NEAR(alpha2, of_alpha, 0.08 * of_alpha) << trial;
+        EXPECT_NEAR(alpha2, of_alpha, 0.16 * of_alpha) << trial;
         EXPECT_NEAR(both, alpha2 * twin.mean_along, 0.01 * std::fabs(both) + 1e-9) << trial;
         EXPECT_NEAR(rho2 - both * twin.mean_along, of_mean, 0.05 * of_mean + 1e-3 * rho2) << trial;
     }
