@@ -5,6 +5,7 @@
 
 enum {
     SAMPLES = 4,  /* points of a line at which its noise is looked at, */
+    EVEN = 16,    /* fewer points than these see it alike, */
     VAR_BITS = 16 /* and as how many bits: times a squared place along the line it fits int64 */
 };
 
@@ -65,6 +66,9 @@ static int64_t slope_share_q16(const ale_extractor_t *e, ale_segment_t run, cons
 {
     const ale_scan_noise_t *noise = &e->noise;
     const int64_t n = m->fit.n;
+    if (n < EVEN) {
+        return 1 << 16;
+    }
     const int64_t rho2_mm2 = (rho_um / 1000) * (rho_um / 1000);
     const int64_t even_q36 = rho2_mm2 * ale_min64(noise->own_relative_q36, ALE_MOST_RELATIVE_Q36);
     int64_t constant_q36[SAMPLES];
