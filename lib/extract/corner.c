@@ -102,16 +102,22 @@ static bool ends_at_corner(const ale_line_t *a, const ale_line_t *b, direction_t
     return off_um <= OVERSHOOT * (a->rmse_um + b->rmse_um + width_um);
 }
 
-/* Variance of the place where two lines meet, along the first of them, whose ends lie near p. */
-static int64_t var_of_meeting_um2(const ale_line_t *a, const ale_line_t *b, direction_t na, direction_t nb,
-                                  ale_point_t p)
+/* Variances of the place where two lines meet, whose ends lie near p, along each of them. */
+typedef struct {
+    int64_t first_um2;
+    int64_t second_um2;
+} meeting_t;
+
+static meeting_t meeting_of(const ale_line_t *a, const ale_line_t *b, direction_t na, direction_t nb,
+                            ale_point_t p)
 {
     const int64_t ua = ale_min64(var_at_um2(a, na, p), MAX_VAR_UM2);
     const int64_t ub = ale_min64(var_at_um2(b, nb, p), MAX_VAR_UM2);
     const int64_t sine_q30 = ale_round_shift(na.c * nb.s - na.s * nb.c, 30);
-    const int64_t sine2_q20 = ale_round_shift(sine_q30 * sine_q30, 40);
+    const int64_t sine2_q20 = ale_max64(ale_round_shift(sine_q30 * sine_q30, 40), 1);
     const int64_t cosine2_q20 = ((int64_t)1 << 20) - sine2_q20;
-    return (ua * cosine2_q20 + (ub << 20)) / ale_max64(sine2_q20, 1);
+    return (meeting_t){(ua * cosine2_q20 + (ub << 20)) / sine2_q20,
+                       (ub * cosine2_q20 + (ua << 20)) / sine2_q20};
 }
 
 /* Variance of the place where they part because the second goes on beside the first, if beams are so far
@@ -125,18 +131,19 @@ static int64_t var_of_step_um2(const ale_line_t *a, const ale_line_t *b, int64_t
     return ((((spacing2_um2 * STEP_BEAMS2) >> 8) * part_q8) >> 8) * part_q8;
 }
 
-/* Variance of an end of line a along it, where line b adjoins. The place where they part lies half way
- * between the ends that face each other, give or take a beam where neither is seen: (3 g^2 + 1) / 12 of the
- * beams' distance on the wall squared, for g beams from end to end. It errs by what moves that place. */
-static int64_t facing_end_var_um2(const ale_line_t *a, const ale_line_t *b, direction_t na, direction_t nb,
-                                  ale_point_t end, int64_t gap, int64_t step_nrad)
+/* Variance of an end of line a along it, where line b adjoins, which it meets with a variance. The place
+ * where they part lies half way between the ends that face each other, give or take a beam where neither is
+ * seen: (3 g^2 + 1) / 12 of the beams' distance on the wall squared, for g beams from end to end. It errs by
+ * what moves that place. */
+static int64_t facing_end_var_um2(const ale_line_t *a, const ale_line_t *b, direction_t nb, ale_point_t end,
+                                  int64_t meeting_um2, int64_t gap, int64_t step_nrad)
 {
     const int64_t range2_um2 = squared_distance(end, (ale_point_t){0, 0});
     const int64_t spacing_um =
         ale_min64(ale_mul_nano(range2_um2 / ale_max64(a->rho_um, 1), step_nrad), ALE_MAX_RANGE_UM);
     const int64_t spacing2_um2 = spacing_um * spacing_um;
-    const int64_t parting_um2 = ale_min64(var_of_meeting_um2(a, b, na, nb, end),
-                                          var_of_step_um2(a, b, distance_um(b, nb, end), spacing2_um2));
+    const int64_t parting_um2 =
+        ale_min64(meeting_um2, var_of_step_um2(a, b, distance_um(b, nb, end), spacing2_um2));
     return spacing2_um2 * (3 * gap * gap + 1) / 12 + parting_um2;
 }
 
@@ -181,8 +188,9 @@ void ale_corner_find(int64_t step_nrad, ale_features_t *out)
         if (gap > MAX_GAP_BEAMS) {
             continue;
         }
-        a->var_end_um2 = facing_end_var_um2(a, b, here, next, a->end, gap, step_nrad);
-        b->var_start_um2 = facing_end_var_um2(b, a, next, here, b->start, gap, step_nrad);
+        const meeting_t meeting = meeting_of(a, b, here, next, a->end);
+        a->var_end_um2 = facing_end_var_um2(a, b, next, a->end, meeting.first_um2, gap, step_nrad);
+        b->var_start_um2 = facing_end_var_um2(b, a, here, b->start, meeting.second_um2, gap, step_nrad);
         if (!corner_of(a, b, here, next, corner)) {
             continue;
         }
