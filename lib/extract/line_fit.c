@@ -5,7 +5,7 @@
 
 enum {
     SAMPLES = 4,  /* points of a line at which its noise is looked at, */
-    EVEN = 24,    /* fewer points than these see it alike, */
+    EVEN = 32,    /* fewer points than these see it alike, */
     VAR_BITS = 16 /* and as how many bits: times a squared place along the line it fits int64 */
 };
 
