@@ -1,8 +1,9 @@
 /* Two tales of how the robot went on: its wheels', and, if they slip, that it goes on as before.
  *
  * A wheel that spins in the air, or under a robot that something holds up, counts what nobody drives, and
- * does so for a while. Where the tales part by more than wheels promise, the one is believed that came nearer
- * to where the robot was found the last time they did. Pure functions, constant time. */
+ * does so for a while. Where the tales part by more than wheels promise, the wheels are believed until they
+ * were off by 0.1 m and rad together and twice as far as the other tale, which is believed then until they
+ * were nearer again. Pure functions, constant time. */
 #ifndef ALE_TRACK_SLIP_H
 #define ALE_TRACK_SLIP_H
 

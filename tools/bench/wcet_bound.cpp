@@ -26,6 +26,7 @@ extern "C" {
 #include "track/map_update.h"
 #include "track/piece.h"
 #include "track/pipeline_state.h"
+#include "track/pipeline_steps.h"
 }
 
 namespace bench
@@ -470,6 +471,13 @@ void always(Parts &parts)
     ale_pipeline_scan(pipeline.get(), &scan, &estimate);
     parts.measure("prediction and answer", 1,
                   [&] { ale_pipeline_dropped(pipeline.get(), scan.stamp_us + 100000, &estimate); });
+    const ale_motion_t by_wheels = pipeline->motion;
+    ale_ways_t ways;
+    parts.measure("going on as before", 1, [&] {
+        ale_motion_t as_before = by_wheels;
+        ale_pipeline_go_on(pipeline.get(), &as_before, by_wheels.stamp_us + 100000, nullptr);
+        ways = ale_ways_of(&by_wheels, &as_before, true);
+    });
 }
 
 } // namespace
