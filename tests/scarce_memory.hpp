@@ -17,14 +17,19 @@ inline const std::thread::id test_thread = std::this_thread::get_id();
 
 } // namespace scarce_memory
 
-void *operator new(std::size_t bytes)
+void *operator new(std::size_t bytes, const std::nothrow_t &) noexcept
 {
     using namespace scarce_memory;
     if (none_left && std::this_thread::get_id() != test_thread) {
         refused++;
-        throw std::bad_alloc();
+        return nullptr;
     }
-    void *memory = std::malloc(bytes > 0 ? bytes : 1);
+    return std::malloc(bytes > 0 ? bytes : 1);
+}
+
+void *operator new(std::size_t bytes)
+{
+    void *memory = ::operator new(bytes, std::nothrow);
     if (!memory) {
         throw std::bad_alloc();
     }
