@@ -75,8 +75,8 @@ static int64_t slope_share_q16(const ale_extractor_t *e, ale_segment_t run, cons
     int64_t bearing_q36[SAMPLES];
     int64_t along2_mm2[SAMPLES];
     int64_t most_q36 = ale_max64(even_q36, 1);
-    for (int32_t k = 0; k < SAMPLES; k++) {
-        const int64_t i = run.first + (2 * k + 1) * n / (2 * SAMPLES);
+    for (int64_t k = 0; k < SAMPLES; k++) {
+        const int64_t i = run.first + (2 * k + 1) * n / SAMPLES / 2;
         const int64_t range_mm = e->range_um[i] / 1000;
         const int64_t range2_mm2 = ale_max64(range_mm * range_mm, rho2_mm2 + 1);
         constant_q36[k] = rho2_mm2 * ale_min64(noise->own_mm2_q36 / range2_mm2, ALE_MOST_RELATIVE_Q36);
@@ -93,7 +93,7 @@ static int64_t slope_share_q16(const ale_extractor_t *e, ale_segment_t run, cons
     int64_t along2 = 1;
     int64_t along2_constant = 0;
     int64_t along2_bearing = 0;
-    for (int32_t k = 0; k < SAMPLES; k++) {
+    for (int64_t k = 0; k < SAMPLES; k++) {
         all += (constant_q36[k] + bearing_q36[k]) >> shift;
         along2 += along2_mm2[k];
         along2_constant += along2_mm2[k] * (constant_q36[k] >> shift);
