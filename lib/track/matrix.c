@@ -142,3 +142,8 @@ void ale_matrix_congruence(const int64_t f_q20[ALE_STATES][ALE_STATES], const al
         }
     }
 }
+
+int64_t ale_matrix_sigma(const ale_matrix_t *cov, int axis)
+{
+    return (int64_t)ale_isqrt((uint64_t)ale_max64(cov->m[axis][axis], 0));
+}

@@ -35,6 +35,9 @@ void ale_matrix_solve(const ale_factors_t *factors, const int64_t b[ALE_STATES],
 /* Inverse of a factored matrix, times 2^shift: symmetric. */
 void ale_matrix_invert(const ale_factors_t *factors, int32_t shift, ale_matrix_t *out);
 
+/* Square root of a variance on the diagonal. */
+int64_t ale_matrix_sigma(const ale_matrix_t *cov, int axis);
+
 /* f p f^T with f in Q20; the result is symmetric. p and out may not be the same. */
 void ale_matrix_congruence(const int64_t f_q20[ALE_STATES][ALE_STATES], const ale_matrix_t *p,
                            ale_matrix_t *out);

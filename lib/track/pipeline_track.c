@@ -101,11 +101,6 @@ static ale_sights_t look_around(ale_pipeline_t *p)
                     p->tracker.state == ALE_STATE_GOOD && !p->frozen);
 }
 
-static int64_t sigma_of(const ale_matrix_t *cov, int axis)
-{
-    return (int64_t)ale_isqrt((uint64_t)ale_max64(cov->m[axis][axis], 0));
-}
-
 /* The scan at hand as the witness hears of it: on the way that is smooth, which no correction of the map
  * bends. */
 static ale_seen_t seen(const ale_pipeline_t *p, const ale_motion_t *before)
@@ -125,8 +120,8 @@ static void leave_out_carried(ale_pipeline_t *p, ale_seen_t *now)
 {
     const ale_seen_t before = ale_witness_seen(&p->witness);
     const ale_matrix_t *cov = &p->motion.cov;
-    const bool known =
-        2 * ale_max64(sigma_of(cov, 0), sigma_of(cov, 1)) < SLACK_UM && 2 * sigma_of(cov, 2) < SLACK_URAD;
+    const bool known = 2 * ale_max64(ale_matrix_sigma(cov, 0), ale_matrix_sigma(cov, 1)) < SLACK_UM &&
+                       2 * ale_matrix_sigma(cov, 2) < SLACK_URAD;
     if (before.view_count > 0 && known) {
         p->view_count = ale_carried_notice(&p->carried, &before, now, &p->scan, p->view, p->fit.match);
         now->view_count = p->view_count;
@@ -140,10 +135,10 @@ static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_moti
 {
     ale_seen_t now = seen(p, before);
     const ale_matrix_t *cov = &p->motion.cov;
-    const int64_t offset_um = SLACK_UM + 2 * ale_max64(sigma_of(cov, 0), sigma_of(cov, 1));
+    const int64_t offset_um = SLACK_UM + 2 * ale_max64(ale_matrix_sigma(cov, 0), ale_matrix_sigma(cov, 1));
     const ale_slack_t slack = {
         (int32_t)ale_min64(offset_um, counted ? SLACK_MOST_UM : 2 * SLACK_UM),
-        (int32_t)ale_min64(2 * sigma_of(cov, 2), counted ? SLACK_MOST_URAD : SLACK_URAD), false};
+        (int32_t)ale_min64(2 * ale_matrix_sigma(cov, 2), counted ? SLACK_MOST_URAD : SLACK_URAD), false};
     const bool doubt = ale_tracker_is_strange(&p->tracker, &p->fit);
     const ale_testimony_t heard = doubt ? ale_witness_hear(&p->witness, &now, slack) : (ale_testimony_t){0};
     ale_tracker_notice(&p->tracker, doubt ? &heard : NULL, counted, p->map.count > 0);
@@ -199,8 +194,9 @@ static bool register_scan(ale_pipeline_t *p, const ale_motion_t *before, ale_pos
     const ale_apart_t beyond =
         p->ways.part ? ale_apart(predicted->pose, p->ways.rival.pose) : (ale_apart_t){0, 0};
     const int64_t reach_um =
-        REGISTER_UM + ale_max64(5 * ale_max64(sigma_of(cov, 0), sigma_of(cov, 1)), beyond.way_um);
-    const int64_t reach_urad = REGISTER_URAD + ale_max64(5 * sigma_of(cov, 2), beyond.turn_urad);
+        REGISTER_UM +
+        ale_max64(5 * ale_max64(ale_matrix_sigma(cov, 0), ale_matrix_sigma(cov, 1)), beyond.way_um);
+    const int64_t reach_urad = REGISTER_URAD + ale_max64(5 * ale_matrix_sigma(cov, 2), beyond.turn_urad);
     /* on the way that is smooth, as the witness is */
     const ale_pose_t guess =
         ale_pose_compose(p->smooth.pose, ale_pose_between(before->pose, predicted->pose));

@@ -33,22 +33,18 @@ bool ale_ways_rival_is_nearer(const ale_ways_t *ways, ale_pose_t pose)
     return distance(pose, &ways->rival) < distance(pose, &ways->believed);
 }
 
-static int64_t sigma_of(const ale_motion_t *m, int axis)
-{
-    return (int64_t)ale_isqrt((uint64_t)ale_max64(m->cov.m[axis][axis], 0));
-}
-
 static bool are_apart(const ale_motion_t *by_wheels, const ale_motion_t *as_before)
 {
     const ale_pose_t way = ale_pose_between(by_wheels->pose, as_before->pose);
-    return ale_abs64(way.x_um) > APART_SIGMAS * sigma_of(by_wheels, 0) ||
-           ale_abs64(way.y_um) > APART_SIGMAS * sigma_of(by_wheels, 1) ||
-           turn_urad(way) > APART_SIGMAS * sigma_of(by_wheels, 2);
+    return ale_abs64(way.x_um) > APART_SIGMAS * ale_matrix_sigma(&by_wheels->cov, 0) ||
+           ale_abs64(way.y_um) > APART_SIGMAS * ale_matrix_sigma(&by_wheels->cov, 1) ||
+           turn_urad(way) > APART_SIGMAS * ale_matrix_sigma(&by_wheels->cov, 2);
 }
 
 static bool is_known(const ale_motion_t *m)
 {
-    return sigma_of(m, 0) < KNOWN_UM && sigma_of(m, 1) < KNOWN_UM && sigma_of(m, 2) < KNOWN_URAD;
+    return ale_matrix_sigma(&m->cov, 0) < KNOWN_UM && ale_matrix_sigma(&m->cov, 1) < KNOWN_UM &&
+           ale_matrix_sigma(&m->cov, 2) < KNOWN_URAD;
 }
 
 ale_ways_t ale_ways_of(const ale_motion_t *by_wheels, const ale_motion_t *as_before, bool slips)
