@@ -30,6 +30,39 @@ Extent extent_of(const std::vector<SurfacePoint> &points)
     return e;
 }
 
+// What of it lies within so much of the origin, to each side.
+Extent within(const Extent &e, double half_m)
+{
+    const Eigen::Vector2d corner(half_m, half_m);
+    return {e.low.cwiseMax(-corner).cwiseMin(corner), e.high.cwiseMin(corner).cwiseMax(-corner)};
+}
+
+int cells_along(double metres)
+{
+    return static_cast<int>((metres + 2 * SurfaceField::reach_m) * SurfaceField::cells_per_m) + 1;
+}
+
+double cells_of(const Extent &e)
+{
+    const Eigen::Vector2d size = e.high - e.low;
+    return static_cast<double>(cells_along(size.x())) * cells_along(size.y());
+}
+
+// The most around the origin that max_cells hold: of a narrow corridor all, of a wide hall a square.
+Extent held_of(const Extent &all)
+{
+    double least_m = 0;
+    double most_m = std::max(all.high.cwiseAbs().maxCoeff(), all.low.cwiseAbs().maxCoeff());
+    if (cells_of(all) <= SurfaceField::max_cells) {
+        return all;
+    }
+    while (most_m - least_m > SurfaceField::cell_m) {
+        const double middle_m = (least_m + most_m) / 2;
+        (cells_of(within(all, middle_m)) <= SurfaceField::max_cells ? least_m : most_m) = middle_m;
+    }
+    return within(all, least_m);
+}
+
 double likeness_at(double distance2)
 {
     const double x2 = distance2 / (likeness_sigma_m * likeness_sigma_m);
@@ -48,13 +81,10 @@ size_t facing_of(const Eigen::Vector2d &normal)
 
 SurfaceField::SurfaceField(const std::vector<SurfacePoint> &points)
 {
-    const Extent e = extent_of(points);
-    const Eigen::Vector2d margin(reach_m, reach_m);
-    const double side = std::sqrt(static_cast<double>(max_cells)) * cell_m;
-    const Eigen::Vector2d size = (e.high - e.low + 2 * margin).cwiseMin(Eigen::Vector2d(side, side));
-    origin_ = (e.low + e.high) / 2 - size / 2;
-    width_ = static_cast<int>(size.x() / cell_m) + 1;
-    height_ = static_cast<int>(size.y() / cell_m) + 1;
+    const Extent held = held_of(extent_of(points));
+    origin_ = held.low - Eigen::Vector2d(reach_m, reach_m);
+    width_ = cells_along(held.high.x() - held.low.x());
+    height_ = cells_along(held.high.y() - held.low.y());
     const auto cells = static_cast<size_t>(width_) * static_cast<size_t>(height_);
     nearest_.assign(cells, -1);
     thin_out(points);

@@ -22,8 +22,8 @@ class SurfaceField
     static constexpr double reach_m = 0.30; // beyond this a point has no neighbour
     static constexpr int max_cells = 1 << 18;
 
-    // Points in the frame of the patch, overlapping views of one surface welcome. Points outside max_cells
-    // around the middle are left out.
+    // Points in the frame of the patch, overlapping views of one surface welcome. What max_cells around the
+    // origin do not hold is left out: the origin is where the patch was seen from.
     explicit SurfaceField(const std::vector<SurfacePoint> &points);
 
     // The nearest surface point, or nullptr when none lies within about reach_m.
