@@ -15,9 +15,10 @@ enum {
     PERCENT = 75,     /* a quantile of the Gauss curve that is known better than the median */
     QUARTILE_PER_MILLE = 2818,
     SIGMA_BITS = 4,
-    MOST_MISFIT = 16, /* variances that an octave's own one may be */
-    ROW_BITS = 20,    /* of the rows of the fit: variances of one scan differ a hundredfold */
-    NORMAL_BITS = 19  /* of its normal equations: their products fit int64 */
+    MOST_MISFIT = 16,   /* variances that an octave's own one may be */
+    CLUTTER_FACTOR = 2, /* 3.4 deviations of what the quartile of MIN_SAMPLES is off by chance */
+    ROW_BITS = 20,      /* of the rows of the fit: variances of one scan differ a hundredfold */
+    NORMAL_BITS = 19    /* of its normal equations: their products fit int64 */
 };
 static const int64_t micro_q36 = 68719; /* 2^36 / 10^6 */
 static const int64_t nrad2_per_rad2 = 1000000000000000000;
@@ -135,6 +136,32 @@ static noise_model_t fit_model(const octaves_t *o)
     return (noise_model_t){py * (1 << 15) / ale_max64(pp, 1), 0};
 }
 
+/* Noise does not fall with the range, and rises no faster than it. An octave that says more than this allows
+ * beside a better known one has changes of the range for noise: clutter. */
+static bool shows_clutter(const octave_t *octave, const octave_t *other)
+{
+    return octave->samples < other->samples &&
+           octave->sigma_q4 * other->range_um >
+               CLUTTER_FACTOR * other->sigma_q4 * ale_max64(octave->range_um, other->range_um);
+}
+
+/* Puts the octaves that are no clutter beside the best known one first, and says how many they are. */
+static int32_t leave_clutter_out(octave_t *octave, int32_t used)
+{
+    int32_t best_known = 0;
+    for (int32_t k = 1; k < used; k++) {
+        best_known = octave[k].samples > octave[best_known].samples ? k : best_known;
+    }
+    const octave_t best = octave[best_known];
+    int32_t kept = 0;
+    for (int32_t k = 0; k < used; k++) {
+        if (!shows_clutter(&octave[k], &best)) {
+            octave[kept++] = octave[k];
+        }
+    }
+    return kept;
+}
+
 static void set_variance_unit(octaves_t *o)
 {
     o->var_unit_q8 = INT64_MAX;
@@ -183,7 +210,7 @@ void ale_scan_noise_measure(ale_extractor_t *e, const ale_scan_t *scan)
     const int64_t curvature_q30 = 2 * (((int64_t)1 << 30) - ale_cos_q30((uint32_t)scan->step_bam));
     const int32_t used = collect(e, curvature_q30, octave);
     if (used > 0) {
-        measure_own(e, octave, used);
+        measure_own(e, octave, leave_clutter_out(octave, used));
     }
     e->noise.sigma_um = ((int64_t)ale_isqrt((uint64_t)e->noise.own_mm2_q36) * 1000) >> 18;
     e->noise.sigma_per_range_q20 = (int64_t)ale_isqrt((uint64_t)e->noise.own_relative_q36 << 24) >> 10;

@@ -1,5 +1,7 @@
 #include "reference/scan_noise.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 
 #include <Eigen/Dense>
@@ -13,6 +15,7 @@ namespace
 
 constexpr size_t least_samples = 20;    // of an octave
 constexpr double most_misfit = 16;      // variances that an octave's own one may be
+constexpr double clutter_factor = 2;    // beyond what the model allows beside a better known octave
 constexpr size_t difference_stride = 3; // neighbouring differences share two of three points
 constexpr double difference_share = 0.75;
 constexpr double counts_per_mm = 16000; // the bins count sixteenths of a micrometre
@@ -95,6 +98,23 @@ struct VarianceAtRange {
     double variance;
 };
 
+// Without the octaves that have more noise than a range may have beside the noise of the best known one: it
+// does not fall with the range, nor rise faster than it.
+std::vector<VarianceAtRange> without_clutter(const std::vector<VarianceAtRange> &all)
+{
+    const VarianceAtRange best =
+        *std::max_element(all.begin(), all.end(), [](const VarianceAtRange &a, const VarianceAtRange &b) {
+            return a.samples < b.samples;
+        });
+    std::vector<VarianceAtRange> kept;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(kept), [&best](const VarianceAtRange &octave) {
+        const double rise = std::max(octave.range2 / best.range2, 1.0);
+        return octave.samples >= best.samples ||
+               octave.variance <= clutter_factor * clutter_factor * best.variance * rise;
+    });
+    return kept;
+}
+
 // Least squares of the misfits, each in its unit, weighted by the samples; where one of the two parts would
 // be negative, or the ranges do not tell them apart, the other alone.
 Eigen::Vector2d noise_model(const std::vector<VarianceAtRange> &measured, const std::vector<double> &unit)
@@ -141,20 +161,23 @@ double binned_quantile(const std::vector<double> &values, double share)
 NoiseOfScan own_noise(const ScanPoints &points, const NoiseOfScan &prior, double step)
 {
     NoiseOfScan noise = prior;
-    std::vector<VarianceAtRange> measured;
-    std::vector<double> unit;
+    std::vector<VarianceAtRange> all;
     for (const auto &[number, octave] : octaves_of(points, step)) {
         const auto n = static_cast<double>(octave.difference.size());
         if (octave.difference.size() >= least_samples) {
             const double quartile = binned_quantile(octave.difference, difference_share) / counts_per_mm;
             const double sigma = std::clamp(quartile / quartile_of_difference, least_sigma, most_sigma);
             const double range = octave.range / n;
-            measured.push_back({n, range * range, sigma * sigma});
-            unit.push_back(sigma * sigma);
+            all.push_back({n, range * range, sigma * sigma});
         }
     }
-    if (measured.empty()) {
+    if (all.empty()) {
         return noise;
+    }
+    const std::vector<VarianceAtRange> measured = without_clutter(all);
+    std::vector<double> unit;
+    for (const VarianceAtRange &octave : measured) {
+        unit.push_back(octave.variance);
     }
     const Eigen::Vector2d first = noise_model(measured, unit);
     for (size_t k = 0; k < unit.size(); k++) {

@@ -59,6 +59,35 @@ TEST(ScanNoise, FewPointsThatAreNearEachOtherByChanceDoNotMakeTheNoiseOfAllOther
     EXPECT_EQ(too_small, 0);
 }
 
+// Clutter of 70 beams beside 500 of a wall, whose ranges have 3 mm of noise.
+void expect_the_walls_noise(double clutter_mm, double jumps_mm, double wall_mm)
+{
+    scene::extractor extractor;
+    ale_extractor_t *e = extractor.get();
+    for (unsigned seed = 0; seed < 100; seed++) {
+        std::mt19937 engine(seed);
+        std::normal_distribution<double> gauss;
+        const auto scan = scene::empty_scan();
+        for (int k = 0; k < 570; k++) {
+            const double range_mm =
+                k < 70 ? clutter_mm + jumps_mm * gauss(engine) : wall_mm + 3 * gauss(engine);
+            ale_scan_set_range(scan.get(), static_cast<uint16_t>(k), static_cast<int32_t>(1000 * range_mm));
+        }
+        scene::list_points(e, *scan);
+        EXPECT_LT(std::sqrt(scene::noise_of(*e).own(wall_mm)), 4) << "seed " << seed;
+    }
+}
+
+TEST(ScanNoise, NearClutterDoesNotMakeTheNoiseOfFarWallsLarge)
+{
+    expect_the_walls_noise(1500, 40, 3000);
+}
+
+TEST(ScanNoise, FarClutterDoesNotMakeTheNoiseOfNearWallsLarge)
+{
+    expect_the_walls_noise(3000, 80, 1500);
+}
+
 // Bound: the factor on the own variance within one part in a hundred; on the shared one within six, for a
 // value that one of them counts in the next bin moves a quantile of few; but for near misses of a limit.
 TEST(ScanNoise, SharedNoiseAndTheCorrectionByResidualsAreThoseOfTheTwin)
