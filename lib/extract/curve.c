@@ -110,9 +110,8 @@ static bool is_suspect(const ale_run_t *run, const shape_t *shape, int64_t limit
 }
 
 /* The bulge beyond which single runs are tried. */
-static int64_t suspect_bulge_q8(const ale_extractor_t *e, const shape_t *shape)
+static int64_t suspect_bulge_q8(const ale_extractor_t *e, const shape_t *shape, int32_t most)
 {
-    const int32_t most = ale_costly(e) ? MOST_SUSPECTS / 3 : MOST_SUSPECTS;
     int64_t limit_q8 = SINGLE_Q8;
     int32_t suspects;
     do {
@@ -203,7 +202,7 @@ static void join_marked(ale_extractor_t *e, const uint8_t *curve_of)
     e->run_count = (uint16_t)kept;
 }
 
-void ale_curve_find(ale_extractor_t *e)
+void ale_curve_find(ale_extractor_t *e, bool again)
 {
     shape_t shape[ALE_MAX_RUNS];
     uint8_t curve_of[ALE_MAX_RUNS] = {0};
@@ -213,7 +212,8 @@ void ale_curve_find(ale_extractor_t *e)
         const bool enough = e->run[k].last - e->run[k].first + 1 >= MIN_POINTS;
         shape[k] = enough ? shape_of(e, &e->run[k]) : (shape_t){0};
     }
-    const int64_t limit_q8 = suspect_bulge_q8(e, shape);
+    const int32_t most = again || ale_costly(e) ? MOST_SUSPECTS / 3 : MOST_SUSPECTS;
+    const int64_t limit_q8 = suspect_bulge_q8(e, shape, most);
     for (int32_t k = 0; k < e->run_count; k++) {
         if (is_suspect(&e->run[k], &shape[k], limit_q8) && run_is_curve(e, k)) {
             curve_of[k] = ++curves;

@@ -237,25 +237,18 @@ static void search_runs(ale_extractor_t *e, const ale_scan_t *scan)
     }
 }
 
-/* More than a room asks for: what was found so far has to do. */
-static bool effort_is_spent(const ale_extractor_t *e)
-{
-    return e->effort > ALE_MOST_EFFORT;
-}
-
 /* A break that was missed spoils those beside it: once it is found, and they are placed anew, others show.
  * Not so where neighbours share an error, whose waves every further round would follow. */
 static void split_runs(ale_extractor_t *e)
 {
     const int32_t rounds = e->shared_scale_q8 > 256 || ale_costly(e) ? 1 : MOST_ROUNDS;
     bool changed = true;
-    for (int32_t round = 0; changed && round < rounds && !effort_is_spent(e); round++) {
+    for (int32_t round = 0; changed && round < rounds && !ale_effort_is_spent(e); round++) {
         const bool split = ale_runs_split(e);
         changed = ale_merge_runs(e) || split;
-        if (effort_is_spent(e)) {
+        if (!ale_runs_place_again(e, round == 0 ? ALE_BREAK_FINE_STEP : ALE_BREAK_WIDE_STEP)) {
             break; /* new breaks are placed well enough: see ale_break_find */
         }
-        ale_runs_place(e, round == 0 ? ALE_BREAK_FINE_STEP : ALE_BREAK_WIDE_STEP);
         if (changed) {
             ale_scan_noise_refine_own(e);
         }
@@ -275,13 +268,13 @@ static void improve_runs(ale_extractor_t *e)
     ale_merge_runs(e);
     ale_runs_place(e, ALE_BREAK_WIDE_STEP);
     ale_scan_noise_refine_own(e); /* each run now has the points that are its own */
-    ale_curve_find(e);
+    ale_curve_find(e, false);
     split_runs(e);
-    if (!effort_is_spent(e)) {
-        ale_curve_find(e);
+    if (!ale_effort_is_spent(e)) {
+        ale_curve_find(e, true);
     }
-    if (e->shared_scale_q8 > 256 && ale_runs_split_at_steps(e) && !effort_is_spent(e)) {
-        ale_runs_place(e, ALE_BREAK_WIDE_STEP);
+    if (e->shared_scale_q8 > 256 && ale_runs_split_at_steps(e)) {
+        ale_runs_place_again(e, ALE_BREAK_WIDE_STEP);
     }
 }
 

@@ -21,7 +21,10 @@ enum {
     TRIM_FIRST = 10,          /* Own variances that one point given up must bring, */
     TRIM_NEXT = 4,            /* each further one, */
     TRIM_SHARED = 12,         /* and shared variances each */
-    MOST_TRIED = 12           /* runs that are tried for a break: of polygons seldom more are suspicious */
+    MOST_EFFORT_PLACED = ALE_MOST_EFFORT + 120, /* with the breaks that are placed again, */
+    FINE_EFFORT = 8,                            /* which take each so much from a narrow step on, */
+    WIDE_EFFORT = 16,                           /* and from a wide one */
+    MOST_TRIED = 12 /* runs that are tried for a break: of polygons seldom more are suspicious */
 };
 
 static void add_run(ale_extractor_t *e, int32_t a, int32_t b, const ale_run_fit_t *fit)
@@ -140,6 +143,26 @@ void ale_runs_place(ale_extractor_t *e, int32_t widest_step)
         const int32_t end = split_before[k + 1];
         move_ends(run, begin >= 0 ? begin + 1 : run->first, end >= 0 ? end : run->last);
     }
+}
+
+static int32_t breaks_to_place(const ale_extractor_t *e)
+{
+    int32_t breaks = 0;
+    for (int32_t k = 1; k < e->run_count; k++) {
+        breaks += may_move(e, &e->run[k - 1], &e->run[k]);
+    }
+    return breaks;
+}
+
+bool ale_runs_place_again(ale_extractor_t *e, int32_t widest_step)
+{
+    const int32_t breaks = breaks_to_place(e);
+    if (ale_effort_is_spent(e) || e->effort + breaks * FINE_EFFORT > MOST_EFFORT_PLACED) {
+        return false;
+    }
+    const bool fine = e->effort + breaks * WIDE_EFFORT > MOST_EFFORT_PLACED;
+    ale_runs_place(e, fine ? ALE_BREAK_FINE_STEP : widest_step);
+    return true;
 }
 
 static void insert_run(ale_extractor_t *e, int32_t k, int32_t split)
@@ -298,32 +321,40 @@ void ale_runs_forget_fits(ale_extractor_t *e)
     }
 }
 
-static int32_t runs_with(const ale_extractor_t *e, int32_t points)
+/* Longer runs first, of equally long ones those nearer to the middle of the points: the same from either
+ * side, and no more than two are alike. */
+static int32_t rank_of(const ale_extractor_t *e, const ale_run_t *run)
 {
-    int32_t count = 0;
-    for (int32_t k = 0; k < e->run_count; k++) {
-        count += e->run[k].last + 1 - e->run[k].first >= points;
-    }
-    return count;
+    const int32_t points = run->last + 1 - run->first;
+    return points * ALE_MAX_BEAMS - (int32_t)ale_abs64(run->first + run->last + 1 - e->count);
 }
 
 void ale_runs_drop_short(ale_extractor_t *e, int32_t fewest, int32_t enough)
 {
-    int32_t too_many = e->count / enough + 1; /* points for enough runs to have them */
-    while (too_many - fewest > 1) {
-        const int32_t middle = (fewest + too_many) / 2;
-        if (runs_with(e, middle) >= enough) {
-            fewest = middle;
+    int32_t rank[ALE_MAX_RUNS];
+    for (int32_t k = 0; k < e->run_count; k++) {
+        rank[k] = rank_of(e, &e->run[k]);
+    }
+    int32_t least = (fewest - 1) * ALE_MAX_BEAMS + 1;         /* of runs with enough points */
+    int32_t too_high = e->count / enough * ALE_MAX_BEAMS + 1; /* for enough runs to reach it */
+    while (too_high - least > 1) {
+        const int32_t middle = (least + too_high) / 2;
+        int32_t reach_it = 0;
+        for (int32_t k = 0; k < e->run_count; k++) {
+            reach_it += rank[k] >= middle;
+        }
+        if (reach_it >= enough) {
+            least = middle;
         } else {
-            too_many = middle;
+            too_high = middle;
         }
     }
     int32_t kept = 0;
     for (int32_t k = 0; k < e->run_count; k++) {
-        const int32_t points = e->run[k].last + 1 - e->run[k].first;
-        if (points >= fewest) {
+        if (rank[k] >= least) {
             e->run[kept++] = e->run[k];
         } else {
+            const int32_t points = e->run[k].last + 1 - e->run[k].first;
             e->refused[points < e->config.min_points ? ALE_REFUSED_FEW_POINTS : ALE_REFUSED_CAPACITY]++;
         }
     }

@@ -150,4 +150,10 @@ static inline bool ale_costly(const ale_extractor_t *e)
     return e->unruly || e->search_fits > ALE_MANY_SEARCH_FITS || e->run_count > ALE_MANY_RUNS;
 }
 
+/* More than a room asks for: what was found so far has to do. */
+static inline bool ale_effort_is_spent(const ale_extractor_t *e)
+{
+    return e->effort > ALE_MOST_EFFORT;
+}
+
 #endif

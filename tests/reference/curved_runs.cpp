@@ -105,14 +105,12 @@ bool is_arc(const ScanPoints &points, const NoiseOfScan &noise, const std::vecto
 }
 
 // Of many suspects only the strongest are tried.
-double least_suspect_bulge(const NoiseOfScan &noise, const std::vector<Run> &runs,
-                           const std::vector<Shape> &shape)
+double least_suspect_bulge(const std::vector<Run> &runs, const std::vector<Shape> &shape, size_t most)
 {
-    const size_t most = noise.costly ? most_suspects / 3 : most_suspects;
     const auto suspects = [&](double limit) {
         size_t count = 0;
         for (size_t k = 0; k < runs.size(); k++) {
-            count += !runs[k].curved && std::fabs(shape[k].bulge) > limit ? 1 : 0;
+            count += !runs[k].curved && !runs[k].no_arc && std::fabs(shape[k].bulge) > limit ? 1 : 0;
         }
         return count;
     };
@@ -233,7 +231,7 @@ double bulge_of(const ScanPoints &points, const NoiseOfScan &noise, Run run)
 }
 
 std::vector<Run> with_curves(const ScanPoints &points, const NoiseOfScan &noise,
-                             const std::vector<Run> &segments, const std::vector<Run> &runs,
+                             const std::vector<Run> &segments, std::vector<Run> runs, bool again,
                              Decisions &decisions)
 {
     std::vector<Shape> shape;
@@ -243,12 +241,14 @@ std::vector<Run> with_curves(const ScanPoints &points, const NoiseOfScan &noise,
     for (const Run &run : runs) {
         shape.push_back(shape_of(points, noise, run));
     }
-    const double least_bulge = least_suspect_bulge(noise, runs, shape);
+    const size_t most = again || noise.costly ? most_suspects / 3 : most_suspects;
+    const double least_bulge = least_suspect_bulge(runs, shape, most);
     for (size_t k = 0; k < runs.size(); k++) {
-        if (!runs[k].curved && !decisions.below(std::fabs(shape[k].bulge), least_bulge) &&
-            is_arc(points, noise, runs, k, decisions)) {
-            curve_of[k] = ++curves;
+        if (runs[k].curved || runs[k].no_arc || decisions.below(std::fabs(shape[k].bulge), least_bulge)) {
+            continue;
         }
+        runs[k].no_arc = !is_arc(points, noise, runs, k, decisions);
+        curve_of[k] = runs[k].no_arc ? 0 : ++curves;
     }
     for (size_t first = 0; first < runs.size();) {
         const Chain chain = chain_from(segments, runs, shape, first, decisions);

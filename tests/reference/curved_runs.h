@@ -20,9 +20,9 @@ Circle circle_through(const ScanPoints &points, int first, int last);
 // How far the middle third of a run lies off the chord of the outer thirds, to the left of it, in deviations.
 double bulge_of(const ScanPoints &points, const NoiseOfScan &noise, Run run);
 
-// Marks the runs that lie on curves and joins those of one curve.
+// Marks the runs that lie on curves and joins those of one curve. again: they were looked for before.
 std::vector<Run> with_curves(const ScanPoints &points, const NoiseOfScan &noise,
-                             const std::vector<Run> &segments, const std::vector<Run> &runs,
+                             const std::vector<Run> &segments, std::vector<Run> runs, bool again,
                              Decisions &decisions);
 
 } // namespace reference

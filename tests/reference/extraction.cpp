@@ -23,7 +23,6 @@ constexpr double rough_own = 1.5;   // the measured noise errs too
 constexpr double rough_shared = 12; // shared variances that a long wall may be wavy by,
 constexpr double rough_reaches = 4; // and the reaches of the shared error from which on it is a long one
 constexpr double calmer = 64000.0 / 65536; // change of the own noise from which on breaks may show
-constexpr int most_effort_of_rooms = 840;  // residual sums of runs, and suspects
 constexpr double most_sigma_alpha = 8 * pi / 180;
 constexpr int corner_gap = 5;        // beams
 constexpr double corner_reach = 150; // mm
@@ -90,20 +89,23 @@ std::vector<Run> searched_runs(Prepared &p, const ExtractionSettings &settings, 
     return shared.scale > 1 && !p.noise.costly ? search(p, decisions) : runs;
 }
 
-// Of clutter, to bound the work: its longer runs, of more than a room has the longest, joined where they are
-// one line.
+// Of clutter, to bound the work: its longer runs, of more than a room has the longest, of equally long ones
+// those in the middle, joined where they are one line.
 std::vector<Run> improved_clutter(const Prepared &p, const std::vector<Run> &runs, int least,
                                   Decisions &decisions)
 {
-    std::vector<int> points;
+    const int count = static_cast<int>(p.points.size());
+    const auto rank = [count](const Run &run) {
+        return std::pair(run.points(), -std::abs(run.first + run.last + 1 - count));
+    };
+    std::vector<std::pair<int, int>> ranks;
     for (const Run &run : runs) {
-        points.push_back(run.points());
+        ranks.push_back(rank(run));
     }
-    std::sort(points.rbegin(), points.rend());
-    least = std::max(least, points.size() < many_runs ? 0 : points[many_runs - 1]);
+    std::sort(ranks.rbegin(), ranks.rend());
     std::vector<Run> longer;
     for (const Run &run : runs) {
-        if (run.points() >= least) {
+        if (run.points() >= least && (ranks.size() < many_runs || rank(run) >= ranks[many_runs - 1])) {
             longer.push_back(run);
         }
     }
@@ -126,9 +128,9 @@ void refine_own_noise(Prepared &p, std::vector<Run> &runs, Decisions &decisions)
     }
 }
 
-bool effort_is_spent(const Prepared &p, const Decisions &decisions)
+int effort_left(const Prepared &p, const Decisions &decisions)
 {
-    return p.suspects + decisions.spent() > most_effort_of_rooms;
+    return most_effort - p.suspects - decisions.spent();
 }
 
 // Until a round changes nothing or the effort is spent, two at most.
@@ -136,17 +138,18 @@ std::vector<Run> split_in_rounds(Prepared &p, std::vector<Run> runs, Decisions &
 {
     const int rounds = p.shared_found || p.noise.costly ? 1 : 2;
     bool changed = true;
-    for (int round = 0; changed && round < rounds && !effort_is_spent(p, decisions); round++) {
+    for (int round = 0; changed && round < rounds && effort_left(p, decisions) >= 0; round++) {
         const size_t before = runs.size();
         runs = split_runs(p.points, p.noise, p.segments, runs, decisions);
         const size_t split = runs.size();
         runs = merged_runs(p.points, p.noise, p.segments, runs, decisions);
         changed = split > before || runs.size() < split;
-        if (effort_is_spent(p, decisions)) {
+        const int step =
+            affordable_step(p.segments, runs, round == 0 ? fine_step : wide_step, effort_left(p, decisions));
+        if (step == 0) {
             break;
         }
-        runs =
-            placed_runs(p.points, p.noise, p.segments, runs, round == 0 ? fine_step : wide_step, decisions);
+        runs = placed_runs(p.points, p.noise, p.segments, runs, step, decisions);
         if (changed) {
             refine_own_noise(p, runs, decisions);
         }
@@ -164,18 +167,18 @@ std::vector<Run> improved_runs(Prepared &p, const ExtractionSettings &settings, 
     runs = merged_runs(p.points, p.noise, p.segments, runs, decisions);
     runs = placed_runs(p.points, p.noise, p.segments, runs, wide_step, decisions);
     refine_own_noise(p, runs, decisions);
-    runs = with_curves(p.points, p.noise, p.segments, runs, decisions);
+    runs = with_curves(p.points, p.noise, p.segments, runs, false, decisions);
     runs = split_in_rounds(p, runs, decisions);
-    if (!effort_is_spent(p, decisions)) {
-        runs = with_curves(p.points, p.noise, p.segments, runs, decisions);
+    if (effort_left(p, decisions) >= 0) {
+        runs = with_curves(p.points, p.noise, p.segments, runs, true, decisions);
     }
     const size_t before = runs.size();
     if (p.shared_found) {
         runs = split_at_steps(p.points, p.noise, runs, decisions);
     }
-    return runs.size() > before && !effort_is_spent(p, decisions)
-               ? placed_runs(p.points, p.noise, p.segments, runs, wide_step, decisions)
-               : runs;
+    const int step =
+        runs.size() > before ? affordable_step(p.segments, runs, wide_step, effort_left(p, decisions)) : 0;
+    return step > 0 ? placed_runs(p.points, p.noise, p.segments, runs, step, decisions) : runs;
 }
 
 // How many of n points err together in the slope of their line: the quadratic form of the correlations

@@ -20,7 +20,10 @@ constexpr size_t most_tried = 12;          // runs that are tried for a break
 constexpr double suspicious = 236.0 / 256; // of the chi square that noise alone makes,
 constexpr double suspicious_sum = 3;       // and beyond it
 constexpr int most_meetings = 3;
-constexpr int settled_part = 10; // of its points that a settled run may gain or lose
+constexpr int fine_effort = 8;      // of a break that is placed from a narrow step on, in residual sums,
+constexpr int wide_effort = 16;     // and from a wide one
+constexpr int placing_credit = 120; // by which both may exceed the effort that is left
+constexpr int settled_part = 10;    // of its points that a settled run may gain or lose
 constexpr double promising = 100.0 / 256;
 constexpr int step_windows = 4; // of a run that is looked at for a step
 constexpr double step_deviations = 4.75;
@@ -204,6 +207,19 @@ int placed_break(const ScanPoints &points, const NoiseOfScan &noise, Run a, Run 
     return best;
 }
 
+int affordable_step(const std::vector<Run> &segments, const std::vector<Run> &runs, int widest_step,
+                    int effort_left)
+{
+    int breaks = 0;
+    for (size_t k = 0; k + 1 < runs.size(); k++) {
+        breaks += may_move(segments, runs[k], runs[k + 1]) ? 1 : 0;
+    }
+    if (effort_left < 0 || breaks * fine_effort > effort_left + placing_credit) {
+        return 0;
+    }
+    return breaks * wide_effort > effort_left + placing_credit ? fine_step : widest_step;
+}
+
 std::vector<Run> placed_runs(const ScanPoints &points, const NoiseOfScan &noise,
                              const std::vector<Run> &segments, std::vector<Run> runs, int widest_step,
                              Decisions &decisions)
@@ -220,6 +236,7 @@ std::vector<Run> placed_runs(const ScanPoints &points, const NoiseOfScan &noise,
     for (size_t k = 0; k < runs.size(); k++) {
         const int moved = std::abs(runs[k].first - before[k].first) + std::abs(runs[k].last - before[k].last);
         runs[k].no_break = before[k].no_break && moved == 0;
+        runs[k].no_arc = before[k].no_arc && moved == 0;
         runs[k].settled = moved * settled_part <= runs[k].points();
     }
     return runs;

@@ -40,6 +40,13 @@ int best_break(const ScanPoints &points, const NoiseOfScan &noise, Run a, Run b,
 // Breaks where two runs may part: both keep enough points, whatever their other ends do.
 BreakRange range_between(const ScanPoints &points, Run a, Run b, int widest_step);
 
+// Residual sums of runs, and suspects, after which no pass over the runs is begun.
+constexpr int most_effort = 840;
+
+// The widest step with which the effort left is enough to place breaks again, or 0.
+int affordable_step(const std::vector<Run> &segments, const std::vector<Run> &runs, int widest_step,
+                    int effort_left);
+
 // Places the breaks between runs that meet on one surface and are not both settled, all from the same state.
 std::vector<Run> placed_runs(const ScanPoints &points, const NoiseOfScan &noise,
                              const std::vector<Run> &segments, std::vector<Run> runs, int widest_step,

@@ -23,6 +23,7 @@ struct Run {
     bool curved = false;
     bool no_break = false; // looked at: one line explains it as well as two
     bool settled = false;  // its ends have hardly moved when they were placed
+    bool no_arc = false;   // looked at: lines explain it better than a circle
 
     int points() const
     {

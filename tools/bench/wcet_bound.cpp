@@ -116,7 +116,7 @@ void extraction(Parts &parts, ale_extractor_t *e, const ale_scan_t &scan, const 
     } else {
         parts.measure("runs joined", 1, [&] { ale_merge_runs(e); });
         parts.measure("breaks placed", 1, [&] { ale_runs_place(e, ALE_BREAK_WIDE_STEP); });
-        parts.measure("curves", 1, [&] { ale_curve_find(e); });
+        parts.measure("curves", 1, [&] { ale_curve_find(e, false); });
         parts.measure("runs split", 1, [&] { ale_runs_split(e); });
         parts.measure("runs joined again", 1, [&] { ale_merge_runs(e); });
         parts.measure("breaks placed again", 1, [&] { ale_runs_place(e, ALE_BREAK_FINE_STEP); });
@@ -124,7 +124,7 @@ void extraction(Parts &parts, ale_extractor_t *e, const ale_scan_t &scan, const 
         parts.measure("runs split again", 1, [&] { ale_runs_split(e); });
         parts.measure("runs joined, third time", 1, [&] { ale_merge_runs(e); });
         parts.measure("breaks placed, third time", 1, [&] { ale_runs_place(e, ALE_BREAK_WIDE_STEP); });
-        parts.measure("curves again", 1, [&] { ale_curve_find(e); });
+        parts.measure("curves again", 1, [&] { ale_curve_find(e, true); });
     }
     for (int32_t k = 0; k < e->run_count; k++) {
         ale_line_t line;

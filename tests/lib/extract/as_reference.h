@@ -82,7 +82,8 @@ inline std::vector<reference::Run> runs_of(const ale_extractor_t &e)
 {
     std::vector<reference::Run> runs;
     for (int k = 0; k < e.run_count; k++) {
-        runs.push_back({e.run[k].first, e.run[k].last, e.run[k].curved, e.run[k].no_break, e.run[k].settled});
+        const ale_run_t &run = e.run[k];
+        runs.push_back({run.first, run.last, run.curved, run.no_break, run.settled, run.no_arc});
     }
     return runs;
 }
@@ -97,6 +98,7 @@ inline void set_runs(ale_extractor_t *e, const std::vector<reference::Run> &runs
         e->run[k].curved = runs[k].curved;
         e->run[k].no_break = runs[k].no_break;
         e->run[k].settled = runs[k].settled;
+        e->run[k].no_arc = runs[k].no_arc;
     }
 }
 

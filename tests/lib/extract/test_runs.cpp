@@ -128,6 +128,30 @@ TEST(Runs, NearlyNoBreakIsWorseThanTheBestOfAllByMoreThanAMeetingPointMayBe)
     EXPECT_GE(good, 0.95 * breaks) << good << " of " << breaks;
 }
 
+// Rooms with all breaks unsettled, so that some ask for more than there is left.
+TEST(Runs, BreaksAreThosePlacedAgainOfTheTwinAndTakeNoMoreEffortThanIsLeft)
+{
+    for (const int effort : {0, 700, 780, 820, ALE_MOST_EFFORT, ALE_MOST_EFFORT + 1}) {
+        int most = 0;
+        const auto before = [effort](ale_extractor_t *e) {
+            ale_merge_runs(e);
+            e->effort = effort;
+        };
+        const auto place = [&](ale_extractor_t *e) {
+            ale_runs_place_again(e, ALE_BREAK_WIDE_STEP);
+            most = std::max(most, e->effort);
+        };
+        const auto twin = [effort](const Given &g, Decisions &decisions) {
+            const int step = reference::affordable_step(g.segments, g.runs, reference::wide_step,
+                                                        reference::most_effort - effort);
+            return step == 0 ? g.runs
+                             : reference::placed_runs(g.points, g.noise, g.segments, g.runs, step, decisions);
+        };
+        compare_runs(18, 0.05, before, place, twin);
+        EXPECT_LT(most, ALE_MOST_EFFORT * 5 / 4) << effort;
+    }
+}
+
 // Walls that bend by 4 to 12 degrees two metres away, behind beam 49 to 68, 10 mm of noise: the joint chi
 // square is nearly the same over many beams there.
 TEST(Runs, ABendIsFoundNearerToItsPlaceThanTheBestJointFitIs)
@@ -225,42 +249,70 @@ TEST(Curve, CurvesAreThoseOfTheTwin)
         ale_merge_runs(e);
         scene::place_runs(e);
     };
-    const auto twin = [](const Given &g, Decisions &decisions) {
-        return reference::with_curves(g.points, g.noise, g.segments, g.runs, decisions);
-    };
-    EXPECT_GT(compare_runs(16, 0.02, straight, ale_curve_find, twin), 15);
+    for (const bool again : {false, true}) {
+        const auto find = [again](ale_extractor_t *e) { ale_curve_find(e, again); };
+        const auto twin = [again](const Given &g, Decisions &decisions) {
+            return reference::with_curves(g.points, g.noise, g.segments, g.runs, again, decisions);
+        };
+        EXPECT_GT(compare_runs(16, 0.02, straight, find, twin), 15) << again;
+    }
 }
 
-// Edge cases: nothing, one point, the fewest points of a run, all ranges equal.
-TEST(Runs, OfEnoughLongOnesTheShorterAreDropped)
+// Runs of random lengths, one after the other, of at most so many points.
+Runs random_runs(int most, std::mt19937 &engine)
+{
+    Runs runs;
+    std::uniform_int_distribution<int> points(ALE_MIN_RUN, most);
+    for (int at = 0; at + most <= ALE_MAX_BEAMS && runs.size() < ALE_MAX_RUNS; at = runs.back().last + 1) {
+        runs.push_back({at, at + points(engine) - 1});
+    }
+    return runs;
+}
+
+Runs mirrored(const Runs &runs)
+{
+    Runs result;
+    for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
+        result.push_back({ALE_MAX_BEAMS - 1 - run->last, ALE_MAX_BEAMS - 1 - run->first});
+    }
+    return result;
+}
+
+TEST(Runs, OfEnoughLongOnesTheShorterAndOfEquallyLongOnesTheOuterAreDropped)
 {
     constexpr int fewest = 12;
     constexpr int enough = 24;
     scene::extractor extractor;
     ale_extractor_t *e = extractor.get();
-    std::mt19937 engine(3);
-    for (const int most : {8, 12, 20, 30, 90}) {
-        std::vector<int> points;
-        e->run_count = 0;
-        for (int at = 0; at + most <= ALE_MAX_BEAMS && e->run_count < ALE_MAX_RUNS; at += points.back()) {
-            points.push_back(std::uniform_int_distribution<int>(ALE_MIN_RUN, most)(engine));
-            e->run[e->run_count++] = {.first = static_cast<uint16_t>(at),
-                                      .last = static_cast<uint16_t>(at + points.back() - 1)};
-        }
-        e->count = ALE_MAX_BEAMS;
-        std::vector<int> sorted = points;
-        std::sort(sorted.rbegin(), sorted.rend());
-        const int least =
-            std::max(fewest, sorted.size() < enough ? 0 : sorted[static_cast<size_t>(enough - 1)]);
+    e->count = ALE_MAX_BEAMS;
+    const auto kept_of = [&](const Runs &runs) {
+        scene::set_runs(e, runs);
         ale_runs_drop_short(e, fewest, enough);
-        const auto kept = std::count_if(points.begin(), points.end(), [&](int n) { return n >= least; });
-        EXPECT_EQ(e->run_count, kept) << most;
-        for (int k = 0; k < e->run_count; k++) {
-            EXPECT_GE(e->run[k].last + 1 - e->run[k].first, least) << most;
+        return scene::runs_of(*e);
+    };
+    const auto rank = [](const reference::Run &run) {
+        return std::pair(run.points(), -std::abs(run.first + run.last + 1 - ALE_MAX_BEAMS));
+    };
+    std::mt19937 engine(3);
+    for (const int most : {5, 8, 12, 13, 14, 15, 16, 20, 30, 45, 90}) {
+        const Runs runs = random_runs(most, engine);
+        const Runs kept = kept_of(runs);
+        const auto long_enough = std::count_if(
+            runs.begin(), runs.end(), [](const reference::Run &run) { return run.points() >= fewest; });
+        EXPECT_GE(kept.size(), std::min<size_t>(enough, static_cast<size_t>(long_enough))) << most;
+        EXPECT_LE(kept.size(), std::min<size_t>(enough + 1, static_cast<size_t>(long_enough))) << most;
+        for (const reference::Run &run : runs) {
+            if (std::find(kept.begin(), kept.end(), run) == kept.end() && run.points() >= fewest) {
+                EXPECT_TRUE(std::all_of(kept.begin(), kept.end(), [&](const reference::Run &other) {
+                    return rank(other) > rank(run);
+                }));
+            }
         }
+        EXPECT_EQ(kept_of(mirrored(runs)), mirrored(kept)) << most;
     }
 }
 
+// Edge cases: nothing, one point, the fewest points of a run, all ranges equal.
 TEST(Runs, OfVeryFewPointsAreThoseOfTheTwin)
 {
     scene::extractor extractor;
