@@ -211,8 +211,8 @@ double PoseGraph::linearise(NormalEquations *equations, double kernel) const
         const double e =
             wrapped(poses_[static_cast<size_t>(prior.pose)].theta - headings_.building - prior.theta);
         const double chi2 = e * e * prior.information;
-        equations->add(prior, e, kernel_weight(chi2, kernel));
-        sum += robust_cost(chi2, kernel);
+        equations->add(prior, e, prior.robust ? kernel_weight(chi2, kernel) : 1);
+        sum += prior.robust ? robust_cost(chi2, kernel) : chi2;
     }
     for (const PoseAnchor &anchor : anchors_) {
         const Eigen::Vector3d e = error_of(anchor, poses_);

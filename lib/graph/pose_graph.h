@@ -33,12 +33,12 @@ struct GraphEdge {
     bool recognised = false; // not measured: the tracker's word that it has been here
 };
 
-// A heading against one direction that all of them share and that is an unknown too: the building's. Always
-// under the robust kernel.
+// A heading against one direction that all of them share and that is an unknown too: the building's.
 struct HeadingPrior {
     int pose;
     double theta;       // as seen from the building's direction
     double information; // 1/rad^2
+    bool robust = true;
 };
 struct BuildingHeadings {
     double building = 0; // its direction in the map

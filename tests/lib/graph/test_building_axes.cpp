@@ -145,6 +145,16 @@ TEST(BuildingAxes, BuildingWithoutRightAnglesSaysNothing)
     EXPECT_TRUE(ale::headings_by_walls(made.nodes, made.drifted).priors.empty());
 }
 
+TEST(BuildingAxes, AWingAtAnAngleIsNoDrift)
+{
+    Drive made = drive(64, 0, {0, ale::pi / 2, 0}, 0.3 * degree, 11);
+    const Drive wing = drive(64, 0, {30 * degree, 120 * degree, 30 * degree}, 0.3 * degree, 12);
+    std::copy(wing.nodes.begin() + 32, wing.nodes.end(), made.nodes.begin() + 32);
+    const auto headings = ale::headings_by_walls(made.nodes, made.truth);
+    EXPECT_LE(headings.priors.size(), 32);
+    EXPECT_FALSE(ale::have_drifted(headings, made.truth));
+}
+
 TEST(BuildingAxes, TooFewNodesOrTooLittleWallSayNothing)
 {
     const Drive few = drive(5, degree, {0, 0, 0}, 0, 4);
@@ -154,17 +164,23 @@ TEST(BuildingAxes, TooFewNodesOrTooLittleWallSayNothing)
     EXPECT_TRUE(ale::headings_by_walls({}, {}).priors.empty());
 }
 
-TEST(BuildingAxes, GraphTurnsDriftedHeadingsBackButForTheFirstPoseThatIsHeld)
+ale::PoseGraph chain_of(const Drive &made, double turn_sigma)
 {
-    const Drive made = drive(100, 0.05 * degree, {0, ale::pi / 2, 0}, 0.3 * degree, 6);
     ale::PoseGraph graph;
     graph.add_pose(made.drifted[0]);
-    const Eigen::Matrix3d information = ale::known_to(0.01, 0.003);
+    const Eigen::Matrix3d information = ale::known_to(0.01, turn_sigma);
     for (size_t k = 1; k < made.nodes.size(); k++) {
         const ale::Pose motion = ale::between(made.drifted[k - 1], made.drifted[k]);
         graph.add_pose(made.drifted[k]);
         graph.add_edge({static_cast<int>(k) - 1, static_cast<int>(k), motion, information, false});
     }
+    return graph;
+}
+
+TEST(BuildingAxes, GraphTurnsDriftedHeadingsBackButForTheFirstPoseThatIsHeld)
+{
+    const Drive made = drive(100, 0.05 * degree, {0, ale::pi / 2, 0}, 0.3 * degree, 6);
+    ale::PoseGraph graph = chain_of(made, 0.003);
     for (int round = 0; round < 2; round++) {
         graph.set_headings(ale::headings_by_walls(made.nodes, graph.poses()));
         ASSERT_TRUE(graph.optimise(10).solved);
@@ -173,6 +189,19 @@ TEST(BuildingAxes, GraphTurnsDriftedHeadingsBackButForTheFirstPoseThatIsHeld)
         EXPECT_NEAR(ale::wrapped(graph.poses()[k].theta - made.truth[k].theta), 0, 1.2 * degree) << k;
     }
     EXPECT_FALSE(ale::have_drifted(ale::headings_by_walls(made.nodes, graph.poses()), graph.poses()));
+}
+
+TEST(BuildingAxes, DriftThatTurnsTheWholeDriveAgainstItselfIsMendedToo)
+{
+    const Drive made = drive(150, 0.35 * degree, {0, ale::pi / 2, 0}, 0.3 * degree, 13);
+    ale::PoseGraph graph = chain_of(made, 0.01);
+    for (int round = 0; round < 2; round++) {
+        graph.set_headings(ale::headings_by_walls(made.nodes, graph.poses()));
+        ASSERT_TRUE(graph.optimise(10).solved);
+    }
+    for (size_t k = 0; k < made.nodes.size(); k++) {
+        EXPECT_NEAR(ale::wrapped(graph.poses()[k].theta - made.truth[k].theta), 0, 1.2 * degree) << k;
+    }
 }
 
 } // namespace
