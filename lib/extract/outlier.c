@@ -80,13 +80,20 @@ bool ale_outlier_remove_strays(ale_extractor_t *e)
     return true;
 }
 
+/* How far the point lies off where two neighbours on one side lead. */
+static int64_t off_course_um(const int32_t *range_um, int32_t side)
+{
+    return ale_abs64((int64_t)range_um[0] - 2 * (int64_t)range_um[side] + range_um[2 * side]);
+}
+
 /* A point stands out when both neighbours agree with each other and it lies off both on the same side,
- * the local slope taken off. 2 <= i < count - 2. */
+ * the local slope taken off, but goes on on neither: that is a step. Where the bearing errs more than the
+ * range none is told. 2 <= i < count - 2. */
 static inline bool is_spike(const ale_extractor_t *e, int32_t i)
 {
     const int32_t *range_um = &e->range_um[i];
-    const int64_t limit_um =
-        SPIKE_FACTOR * (e->noise.sigma_um + (range_um[0] * e->noise.sigma_per_range_q20 >> 20));
+    const int64_t sigma_um = e->noise.sigma_um + (range_um[0] * e->noise.sigma_per_range_q20 >> 20);
+    const int64_t limit_um = SPIKE_FACTOR * sigma_um;
     if (ale_abs64(2 * (int64_t)range_um[0] - range_um[-1] - range_um[1]) <= 2 * limit_um) {
         return false; /* most are not worth the slope */
     }
@@ -98,8 +105,13 @@ static inline bool is_spike(const ale_extractor_t *e, int32_t i)
     }
     const int64_t left = ale_abs64(left_um);
     const int64_t right = ale_abs64(right_um);
-    return left > limit_um && right > limit_um && ale_abs64(left - right) <= limit_um &&
-           e->beam[i + 2] - e->beam[i - 2] <= SPIKE_REACH;
+    if (left <= limit_um || right <= limit_um || ale_abs64(left - right) > limit_um ||
+        e->beam[i + 2] - e->beam[i - 2] > SPIKE_REACH) {
+        return false;
+    }
+    const int64_t bearing_error = ale_abs64(slope_um) * e->config.noise.bearing_nrad;
+    return bearing_error > sigma_um * e->step_nrad ||
+           (off_course_um(range_um, -1) > limit_um && off_course_um(range_um, 1) > limit_um);
 }
 
 /* The suspects keep their places among the points that stay; those at a removed point become the place where

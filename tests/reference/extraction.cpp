@@ -58,7 +58,7 @@ Prepared prepare(const ScanPoints &valid, const ExtractionSettings &settings, De
     p.noise = own_noise(valid, settings.prior, settings.step);
     p.noise.unruly = is_unruly(valid, p.noise);
     p.suspects = suspects(valid, p.noise);
-    p.points = without_spikes(valid, p.noise, decisions);
+    p.points = without_spikes(valid, p.noise, settings.step, decisions);
     p.segments = surface_segments(p.points, p.noise, settings.step, decisions);
     p.points = without_strays(p.points, p.segments);
     p.segments = surface_segments(p.points, p.noise, settings.step, decisions);

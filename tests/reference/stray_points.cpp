@@ -35,33 +35,42 @@ bool is_unruly(const ScanPoints &points, const NoiseOfScan &noise)
 }
 
 // The line from the second neighbour to the second neighbour gives the slope; with it taken off, the point is
-// off both neighbours by more than the limit, to the same side, and by nearly the same amount.
-bool is_spike(const ScanPoints &points, const NoiseOfScan &noise, int i, Decisions &decisions)
+// off both neighbours by more than the limit, to the same side, and by nearly the same amount; and off where
+// two neighbours on either side lead, unless the bearing errs more there than the range.
+bool is_spike(const ScanPoints &points, const NoiseOfScan &noise, double step, int i, Decisions &decisions)
 {
     if (i < 2 || i + 2 >= static_cast<int>(points.size())) {
         return false;
     }
     const ScanPoint *p = &points[static_cast<size_t>(i)];
-    const double limit =
-        deviations * (std::sqrt(noise.own_constant) + std::sqrt(noise.own_relative) * p->range);
+    const double sigma = std::sqrt(noise.own_constant) + std::sqrt(noise.own_relative) * p->range;
+    const double limit = deviations * sigma;
     const double slope = (p[2].range - p[-2].range) / 4;
     const double left = p->range - (p[-1].range + slope);
     const double right = p->range - (p[1].range - slope);
     if (p[2].beam - p[-2].beam > widest || left * right <= 0) {
         return false;
     }
-    return !decisions.below(std::fabs(left), limit) && !decisions.below(std::fabs(right), limit) &&
-           decisions.below(std::fabs(left - right), limit);
+    if (decisions.below(std::fabs(left), limit) || decisions.below(std::fabs(right), limit) ||
+        !decisions.below(std::fabs(left - right), limit)) {
+        return false;
+    }
+    const double off_before = std::fabs(p->range - 2 * p[-1].range + p[-2].range);
+    const double off_after = std::fabs(p->range - 2 * p[1].range + p[2].range);
+    const double bearing_error = std::fabs(slope / step) * std::sqrt(noise.bearing_variance);
+    return !decisions.below(bearing_error, sigma) ||
+           (!decisions.below(off_before, limit) && !decisions.below(off_after, limit));
 }
 
-ScanPoints without_spikes(const ScanPoints &points, const NoiseOfScan &noise, Decisions &decisions)
+ScanPoints without_spikes(const ScanPoints &points, const NoiseOfScan &noise, double step,
+                          Decisions &decisions)
 {
     if (noise.unruly) {
         return points; // where changes stand out everywhere no point does
     }
     ScanPoints kept;
     for (int i = 0; i < static_cast<int>(points.size()); i++) {
-        if (!is_spike(points, noise, i, decisions)) {
+        if (!is_spike(points, noise, step, i, decisions)) {
             kept.push_back(points[static_cast<size_t>(i)]);
         }
     }
