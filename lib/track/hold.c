@@ -5,6 +5,7 @@
 
 enum {
     HELD_UM = 30000,
+    BARE_UM = 200000,
     CONFIRMED = 3, /* a mark that was seen less often holds nothing */
     WEIGHT_BITS = 20
 };
@@ -30,9 +31,10 @@ static void add(information_t *sum, int64_t x_q30, int64_t y_q30, int64_t var_um
     sum->pull_y += ale_mul_shift(weight * y_q14, wheel_drift_um, 14);
 }
 
-static bool holds(const information_t *sum)
+/* Whether every direction is told better than to one sigma of so much. */
+static bool tells(const information_t *sum, int64_t sigma_um)
 {
-    const int64_t least = ((int64_t)1000000 << WEIGHT_BITS) / ((int64_t)HELD_UM * HELD_UM);
+    const int64_t least = ((int64_t)1000000 << WEIGHT_BITS) / (sigma_um * sigma_um);
     const int64_t xx = sum->xx - least;
     const int64_t yy = sum->yy - least;
     return xx > 0 && yy > 0 && xx * yy > sum->xy * sum->xy;
@@ -83,10 +85,11 @@ ale_hold_t ale_hold_of(const ale_local_map_t *map, const ale_view_t view[], uint
     information_t sum = {0, 0, 0, 0, 0};
     add_walls(map, view, count, fit, &sum);
     const information_t walls = sum;
-    if (!holds(&sum)) {
+    if (!tells(&sum, HELD_UM)) {
         add_marks(map, view, count, fit, &sum);
     }
-    return (ale_hold_t){.held = holds(&sum),
+    return (ale_hold_t){.held = tells(&sum, HELD_UM),
+                        .bare = !tells(&sum, BARE_UM),
                         .along_bam = ale_atan2_bam(2 * sum.xy, sum.xx - sum.yy) / 2 + ALE_BAM_QUARTER_TURN,
                         .xx_q20 = walls.xx,
                         .xy_q20 = walls.xy,

@@ -3,8 +3,9 @@
  * The least squares believes what it matched. Along a corridor that is not enough: the last beams of a wall
  * seen at a grazing angle make small surfaces that face the robot and go along with it, and a mark that was
  * made of such ones says that it stands. Here every match counts as what it is: a surface shows its place
- * across itself, and along itself as well as its direction is known, no better than its own length. Changes
- * no pose; the state and the stated covariance follow it. O(views). */
+ * across itself, and along itself as well as its direction is known, no better than its own length. The state
+ * and the stated covariance follow it; where nothing holds and no wheels count, the robot goes on as it did
+ * (ale_motion_keep_along). O(views). */
 #ifndef ALE_TRACK_HOLD_H
 #define ALE_TRACK_HOLD_H
 
@@ -16,6 +17,7 @@
 
 typedef struct {
     bool held;          /* every direction is told better than 30 mm */
+    bool bare;          /* one is not told to 200 mm: what was matched there goes along with the robot */
     uint32_t along_bam; /* the one that is told least, map frame */
     /* what the walls alone tell of the place: information, 1/mm^2 in Q20, and that times the shift that one
      * sigma of the wheels' scale has given to them (um), see wheel_drift.h */

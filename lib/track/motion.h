@@ -63,6 +63,11 @@ void ale_motion_jump(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_mot
 /* Applies an error in the robot's frame to the state: pose, then velocity. */
 void ale_motion_correct(ale_motion_t *motion, const int64_t delta[ALE_STATES]);
 
+/* Of what a scan found from a prediction, takes back place and speed along a direction (map frame) that it
+ * says nothing of: there the robot goes on as predicted, with the variance of that (Schmidt's gain, the rows
+ * along that direction zero). The two headings differ by what one scan may turn a prediction. */
+void ale_motion_keep_along(ale_motion_t *found, const ale_motion_t *predicted, uint32_t along_bam);
+
 /* The covariance of the pose in the map's frame; that of the velocity is left out. */
 void ale_motion_map_covariance(const ale_motion_t *motion, ale_matrix_t *out);
 

@@ -93,6 +93,7 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
     pipeline->wheel_drift = (ale_wheel_drift_t){0, 0};
     pipeline->slid_um = 0;
     pipeline->held = true;
+    pipeline->paced = false;
     pipeline->fade.next = 0;
     ale_relocation_clear(&pipeline->relocation);
     ale_witness_clear(&pipeline->witness);
@@ -208,6 +209,7 @@ static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
     const ale_motion_t predicted = p->motion;
     ale_pipeline_look(p, scan, predicted.velocity);
     if (p->tracker.state == ALE_STATE_LOST) {
+        p->paced = false;
         ale_pipeline_search(p, ale_pose_between(before.pose, predicted.pose), p->ways.counted);
     } else {
         ale_pipeline_track(p, &before, &wheels);

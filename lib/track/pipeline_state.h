@@ -48,6 +48,7 @@ struct ale_pipeline {
     ale_wheel_drift_t wheel_drift;
     int64_t slid_um; /* since a scan last held the robot in every direction */
     bool held;       /* by the last one */
+    bool paced;      /* its speed is known: one has, and it has gone on evenly since */
     ale_fade_t fade;
     ale_relocation_t relocation;
     ale_witness_t witness;

@@ -24,6 +24,7 @@ enum {
     SLACK_URAD = 30000,
     SLACK_MOST_UM = 200000, /* a way that may be off by more says nothing of what was seen where */
     SLACK_MOST_URAD = 100000,
+    EVEN_US = 250000, /* a scan that comes later says nothing of a speed */
     CHANCE_PARTS = 10 /* less than this part of what is shown, found in the map, may be found by chance */
 };
 
@@ -169,7 +170,8 @@ static void anchor(ale_pipeline_t *p)
     }
 }
 
-/* What the scan leaves open is said; the pose stays what the fit made of it. */
+/* What the scan leaves open is said. Where nothing holds the robot, wheels outvote what the fit made of
+ * chance matches; without them it goes on as it did: such matches go along with it and would stop it. */
 static void hold(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted, bool counted)
 {
     const ale_hold_t hold = ale_hold_of(&p->map, p->view, p->view_count, &p->fit);
@@ -183,6 +185,13 @@ static void hold(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion
         p->slid_um = 0;
     } else {
         ale_drift_slide(&p->drift, &p->slid_um, hold.along_bam, before, predicted);
+    }
+    const int64_t dt_us = predicted->stamp_us - before->stamp_us;
+    const bool even = dt_us <= EVEN_US && ale_pace_believes(&p->pace, dt_us) && !p->tracker.jumped;
+    p->paced = hold.held || (p->paced && even);
+    if (hold.bare && p->paced && !counted) {
+        ale_motion_keep_along(&p->fit.motion, predicted, hold.along_bam);
+        p->motion = p->fit.motion;
     }
 }
 

@@ -298,6 +298,8 @@ void matching(Parts &parts, Random &random, Crowd &crowd)
         const ale_hold_t hold = ale_hold_of(crowd.map.get(), scene.view, scene.view_count, fit.get());
         ale_wheel_drift_t drift = by_wheels;
         ale_wheel_drift_fit(&drift, &hold, &predicted);
+        ale_motion_t found = predicted;
+        ale_motion_keep_along(&found, &predicted, hold.along_bam);
     });
 }
 

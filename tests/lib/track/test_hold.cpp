@@ -146,6 +146,17 @@ TEST(Hold, ASurfaceAcrossTheWayHoldsOnceItWasSeenThreeTimes)
     EXPECT_TRUE(confirmed.hold().held);
 }
 
+TEST(Hold, WhereNothingTellsTheWayToTwentyCentimetresItIsBare)
+{
+    Scene scene = corridor();
+    EXPECT_TRUE(scene.hold().bare);
+    scene.add_mark(reference::pi, reference::pi, 0.5, 0.5, 20);
+    EXPECT_TRUE(scene.hold().bare) << "to 250 mm";
+    scene.add_mark(reference::pi, reference::pi, 0.2, 0.5, 20);
+    EXPECT_FALSE(scene.hold().bare) << "to 100 mm";
+    EXPECT_FALSE(scene.hold().held);
+}
+
 TEST(Hold, APieceOfTheWallThatMetAMarkWhichFacesAlongHoldsNothing)
 {
     Scene scene = corridor();

@@ -133,6 +133,68 @@ TEST(Motion, GoodWheelsDecideTheWayAndPoorOnesHardly)
     EXPECT_NEAR(x[1], 50000, 200);
 }
 
+// Twin: Joseph's form with the gain's rows along the direction zero.
+TEST(Motion, WhatAScanSaysNothingOfStaysAsPredicted)
+{
+    std::mt19937 rng(3);
+    std::normal_distribution<double> normal;
+    for (int n = 0; n < 200; n++) {
+        Matrix6 b = Matrix6::Zero();
+        Matrix6 h = Matrix6::Zero();
+        Eigen::Matrix<double, 6, 1> error;
+        for (int i = 0; i < 6; i++) {
+            error[i] = 1000 * normal(rng);
+            for (int j = 0; j < 6; j++) {
+                b(i, j) = 3000 * normal(rng);
+                h(i, j) = normal(rng);
+            }
+        }
+        const Matrix6 p = b * b.transpose();
+        const Matrix6 r = 1e6 * Matrix6::Identity();
+        const Matrix6 gain = p * h.transpose() * (h * p * h.transpose() + r).inverse();
+        const double heading = normal(rng);
+        const double direction = normal(rng);
+        const Eigen::Vector2d u(std::cos(direction - heading), std::sin(direction - heading));
+        Matrix6 rest = Matrix6::Identity();
+        rest.block<2, 2>(0, 0) -= u * u.transpose();
+        rest.block<2, 2>(3, 3) -= u * u.transpose();
+        const Matrix6 left = Matrix6::Identity() - rest * gain * h;
+        const Matrix6 twin =
+            left * p * left.transpose() + rest * gain * r * gain.transpose() * rest.transpose();
+
+        ale_motion_t predicted = moving(0.5, 0);
+        predicted.pose = convert::pose(reference::Pose(3, -2, heading));
+        ale_motion_t found = predicted;
+        const Eigen::Matrix<double, 6, 1> step = gain * error;
+        found.pose =
+            ale_pose_compose(predicted.pose, {convert::um(step[0] * 1e-6), convert::um(step[1] * 1e-6), 0});
+        found.velocity[0] += convert::um(step[3] * 1e-6);
+        found.velocity[1] += convert::um(step[4] * 1e-6);
+        const Matrix6 less = p - gain * h * p;
+        for (int i = 0; i < 6; i++) {
+            for (int j = 0; j < 6; j++) {
+                predicted.cov.m[i][j] = std::llround(p(i, j));
+                found.cov.m[i][j] = std::llround(less(i, j));
+            }
+        }
+        ale_motion_keep_along(&found, &predicted, convert::bam(direction));
+
+        const Eigen::Matrix<double, 6, 1> kept = rest * step;
+        const ale_pose_t way = ale_pose_between(predicted.pose, found.pose);
+        EXPECT_NEAR(way.x_um, kept[0], 4);
+        EXPECT_NEAR(way.y_um, kept[1], 4);
+        EXPECT_NEAR(found.velocity[0] - predicted.velocity[0], kept[3], 2);
+        EXPECT_NEAR(found.velocity[1] - predicted.velocity[1], kept[4], 2);
+        for (int i = 0; i < 6; i++) {
+            for (int j = 0; j < 6; j++) {
+                EXPECT_NEAR(static_cast<double>(found.cov.m[i][j]), twin(i, j),
+                            1e-4 * std::sqrt(p(i, i) * p(j, j)) + 10)
+                    << n << ": " << i << ", " << j;
+            }
+        }
+    }
+}
+
 TEST(Motion, LivelinessGrowsWhenCorrectionsSurpriseAndFallsBack)
 {
     ale_liveliness_t l;

@@ -149,11 +149,11 @@ std::vector<room::Wall> bare_corridor()
     return {{-50, -1, 50, -1}, {-50, 1, 50, 1}};
 }
 
-// The same with shallow recesses, as doors make them.
-std::vector<room::Wall> corridor_of_doors()
+// The same with shallow recesses up to some place, as doors make them.
+std::vector<room::Wall> corridor_of_doors(double end = 24)
 {
-    std::vector<room::Wall> walls;
-    for (double x = -12; x < 24; x += 3) {
+    std::vector<room::Wall> walls = {{end - 2, -1, 50, -1}, {end - 0.5, 1, 50, 1}};
+    for (double x = -12; x < end; x += 3) {
         for (const double side : {-1.0, 1.0}) {
             const double from = x + (side > 0 ? 1.5 : 0);
             const double depth = side * 1.2;
@@ -171,12 +171,12 @@ struct CorridorDrive {
     std::vector<ale_estimate_t> estimates;
     std::vector<double> way;
 
-    CorridorDrive(const std::vector<room::Wall> &corridor, double counted_per_metre)
+    CorridorDrive(const std::vector<room::Wall> &corridor, double counted_per_metre, unsigned seed = 7)
     {
         ale_pipeline_config_t config = ale_pipeline_default_config();
         config.use_odometry = counted_per_metre > 0;
         const room::Pipeline pipeline = room::make(config);
-        std::mt19937 rng(7);
+        std::mt19937 rng(seed);
         room::Sensor sensor;
         sensor.noise = 0.01;
         const auto path = [](double t) {
@@ -223,6 +223,21 @@ TEST(PipelineTrack, BetweenBareWallsNoScanIsCalledGoodAndTheVarianceAlongThemGro
         EXPECT_GT(drive.sigma_m(119), 0.1);
         EXPECT_LT(std::sqrt(static_cast<double>(drive.estimates[119].cov[4])) * 1e-6, 0.05) << "across";
     }
+}
+
+/* The far ends of the walls go along with the robot, and would stop it. */
+TEST(PipelineTrack, WithoutWheelsItGoesOnAsItDidWhereNothingHoldsIt)
+{
+    const unsigned seeds = 12;
+    double sum_m = 0;
+    for (unsigned seed = 1; seed <= seeds; seed++) {
+        const CorridorDrive drive(corridor_of_doors(3), 0, seed);
+        EXPECT_EQ(drive.estimates[119].state, ALE_STATE_WEAK) << seed;
+        EXPECT_LT(drive.error_m(119), drive.sigma_m(119)) << seed;
+        EXPECT_LT(drive.error_m(60), 0.12) << seed;
+        sum_m += drive.error_m(119);
+    }
+    EXPECT_LT(sum_m / seeds, 0.2);
 }
 
 /* Recesses hold the robot, but new ones are seen from where wrong wheels have put it. */
