@@ -24,6 +24,7 @@ ale_hold_t hold_of(const Eigen::Matrix2d &information, const Eigen::Vector2d &pu
     const Eigen::Vector2d pulled = pull * 1e-6 * per_mm2_q20 * 1e6;
     const double along = std::atan2(2 * told(0, 1), told(0, 0) - told(1, 1)) / 2 + reference::pi / 2;
     return {true,
+            false,
             convert::bam(along),
             std::llround(told(0, 0)),
             std::llround(told(0, 1)),
