@@ -147,7 +147,7 @@ typedef struct {
 
 /* The meeting point of the lines that part at a place is known better than the least joint chi square, which
  * is nearly the same over many points where a wall bends a little. It is taken unless it fits worse. Whether
- * the break has moved. */
+ * the break has moved so far that the lines are others now. */
 static bool move_to_meeting(ale_extractor_t *e, const pair_t *pair, const ale_break_range_t *range,
                             placing_t *best)
 {
@@ -156,8 +156,9 @@ static bool move_to_meeting(ale_extractor_t *e, const pair_t *pair, const ale_br
         joint_chi_q8(e, pair, meeting) > best->chi_q8 + MEETING_LOSS_Q8) {
         return false;
     }
+    const bool moved_far = ale_abs64(meeting - best->split) > 1;
     best->split = meeting;
-    return true;
+    return moved_far;
 }
 
 /* One step of the pattern search: the better of both sides, or false. */

@@ -202,7 +202,11 @@ int placed_break(const ScanPoints &points, const NoiseOfScan &noise, Run a, Run 
         if (meeting < 0 || meeting == best || !decisions.below(chi_at(meeting), least + meeting_loss)) {
             break;
         }
+        const bool moved_on = std::abs(meeting - best) > 1;
         best = meeting;
+        if (!moved_on) {
+            break;
+        }
     }
     return best;
 }
