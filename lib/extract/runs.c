@@ -197,6 +197,57 @@ static int32_t fewest_to_split(ale_extractor_t *e)
     return fewest;
 }
 
+/* Squared residuals that k points at an end of a run may add to it. */
+static int64_t most_of_end_q8(const ale_run_fit_t *fit, int32_t k)
+{
+    return (TRIM_FIRST + TRIM_NEXT * (k - 1)) * fit->var_q8 + (int64_t)TRIM_SHARED * k * fit->shared_q8;
+}
+
+/* Points of the surface beyond an end of a run, when they are too few for a run of their own and none has
+ * them.
+ */
+static int32_t points_beyond(const ale_extractor_t *e, int32_t k, bool at_first)
+{
+    int32_t i = at_first ? e->run[k].first : e->run[k].last;
+    int32_t points = 0;
+    while (points < ALE_MIN_RUN && (at_first ? i > 0 && !e->jump_after[i - 1] : !e->jump_after[i])) {
+        i += at_first ? -1 : 1;
+        points++;
+    }
+    const bool taken =
+        at_first ? k > 0 && e->run[k - 1].last >= i : k + 1 < e->run_count && e->run[k + 1].first <= i;
+    return points < ALE_MIN_RUN && !taken ? points : 0;
+}
+
+/* Takes in all of them, or the half: what would not be given up again. */
+static void take_points_beyond(ale_extractor_t *e, int32_t k, bool at_first)
+{
+    ale_run_t *run = &e->run[k];
+    for (int32_t points = points_beyond(e, k, at_first); points > 0; points /= 2) {
+        const int32_t first = run->first - (at_first ? points : 0);
+        const int32_t last = run->last + (at_first ? 0 : points);
+        const ale_run_fit_t *fit = ale_fit_of_run(e, run);
+        e->effort++;
+        if (ale_moments_sse_q8(e, first, last) - fit->sse_q8 <= most_of_end_q8(fit, points)) {
+            run->first = (uint16_t)first;
+            run->last = (uint16_t)last;
+            ale_run_changed(run);
+            return;
+        }
+    }
+}
+
+/* Where the surface ends behind a break that was missed, the search has often left out the last points: they
+ * did not lie on the line of both parts. Where neighbours share an error they are waves as well. */
+static void split_run(ale_extractor_t *e, int32_t k, int32_t split)
+{
+    insert_run(e, k, split);
+    if (e->shared_scale_q8 <= 256) {
+        take_points_beyond(e, k, true);
+        take_points_beyond(e, k + 1, false);
+    }
+}
+
 bool ale_runs_split(ale_extractor_t *e)
 {
     const int32_t fewest = fewest_to_split(e);
@@ -208,7 +259,7 @@ bool ale_runs_split(ale_extractor_t *e)
             const int32_t split = ale_break_find(e, run, ale_reading_direction(e, run->first, run->last));
             run->no_break = true;
             if (split >= 0) {
-                insert_run(e, k, split);
+                split_run(e, k, split);
                 k++;
             }
         }
@@ -279,9 +330,8 @@ static int32_t points_to_trim(const ale_extractor_t *e, const ale_run_t *run, bo
     for (int32_t k = 1; k <= TRIM_MOST && 2 * k <= run->fit.n - e->config.min_points; k++) {
         const int32_t first = run->first + (at_first ? k : 0);
         const int32_t last = run->last - (at_first ? 0 : k);
-        const int64_t gain = run->fit.sse_q8 - ale_moments_sse_q8(e, first, last) -
-                             (TRIM_FIRST + TRIM_NEXT * (k - 1)) * run->fit.var_q8 -
-                             (int64_t)TRIM_SHARED * k * run->fit.shared_q8;
+        const int64_t gain =
+            run->fit.sse_q8 - ale_moments_sse_q8(e, first, last) - most_of_end_q8(&run->fit, k);
         if (gain > most) {
             most = gain;
             best = k;

@@ -15,8 +15,9 @@ void ale_runs_drop_short(ale_extractor_t *e, int32_t fewest, int32_t enough);
 /* The points have moved: their runs are to be fitted anew. */
 void ale_runs_forget_fits(ale_extractor_t *e);
 
-/* Splits the runs that two lines explain better than one, and that are not known to be whole. Whether there
- * was one. O(lines log points) fits. */
+/* Splits the runs that two lines explain better than one, and that are not known to be whole; their parts
+ * take in what few points are left to the end of the surface, as far as they lie on their lines. Whether
+ * there was one. O(lines log points) fits. */
 bool ale_runs_split(ale_extractor_t *e);
 
 /* Splits long runs at a step that is too sharp for what neighbours share, though not large beside it: two

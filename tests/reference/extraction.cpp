@@ -33,7 +33,6 @@ struct Prepared {
     ScanPoints points;
     std::vector<Run> segments;
     NoiseOfScan noise;
-    bool shared_found = false;
     int suspects = 0; // changes of the range
     double frame = 0; // direction of the points' x axis in the sensor's frame
 };
@@ -85,7 +84,7 @@ std::vector<Run> searched_runs(Prepared &p, const ExtractionSettings &settings, 
     p.noise.shared_constant *= shared.scale;
     p.noise.shared_relative *= shared.scale;
     p.noise.shared_absent = shared.absent;
-    p.shared_found = shared.scale > 1;
+    p.noise.shared_found = shared.scale > 1;
     return shared.scale > 1 && !p.noise.costly ? search(p, decisions) : runs;
 }
 
@@ -116,7 +115,7 @@ std::vector<Run> improved_clutter(const Prepared &p, const std::vector<Run> &run
 // again.
 void refine_own_noise(Prepared &p, std::vector<Run> &runs, Decisions &decisions)
 {
-    if (p.shared_found) {
+    if (p.noise.shared_found) {
         return;
     }
     const double before = p.noise.own_scale;
@@ -136,7 +135,7 @@ int effort_left(const Prepared &p, const Decisions &decisions)
 // Until a round changes nothing or the effort is spent, two at most.
 std::vector<Run> split_in_rounds(Prepared &p, std::vector<Run> runs, Decisions &decisions)
 {
-    const int rounds = p.shared_found || p.noise.costly ? 1 : 2;
+    const int rounds = p.noise.shared_found || p.noise.costly ? 1 : 2;
     bool changed = true;
     for (int round = 0; changed && round < rounds && effort_left(p, decisions) >= 0; round++) {
         const size_t before = runs.size();
@@ -173,7 +172,7 @@ std::vector<Run> improved_runs(Prepared &p, const ExtractionSettings &settings, 
         runs = with_curves(p.points, p.noise, p.segments, runs, true, decisions);
     }
     const size_t before = runs.size();
-    if (p.shared_found) {
+    if (p.noise.shared_found) {
         runs = split_at_steps(p.points, p.noise, runs, decisions);
     }
     const int step =

@@ -7,6 +7,7 @@
 #include "reference/run_fit.h"
 #include "reference/run_merge.h"
 #include "reference/surface_segments.h"
+#include "reference/trimmed_run.h"
 
 namespace reference
 {
@@ -298,8 +299,14 @@ std::vector<Run> split_runs(const ScanPoints &points, const NoiseOfScan &noise,
             split_runs.push_back(run);
             split_runs.back().no_break = run.no_break || (tried && !run.curved);
         } else {
-            split_runs.push_back({run.first, split});
-            split_runs.push_back({split + 1, run.last});
+            Run a = {run.first, split};
+            Run b = {split + 1, run.last};
+            if (!noise.shared_found) {
+                a = with_points_beyond(points, noise, segments, runs, a, true, decisions);
+                b = with_points_beyond(points, noise, segments, runs, b, false, decisions);
+            }
+            split_runs.push_back(a);
+            split_runs.push_back(b);
         }
     }
     return split_runs;

@@ -47,6 +47,7 @@ struct NoiseOfScan {
     double shared_beams = 12;
     double bearing_variance = 0;
     bool shared_absent = false; // measured, and there is none
+    bool shared_found = false;  // measured, and there is one
     bool unruly = false;        // more changes of the range are suspicious than surfaces make
     bool costly = false;        // unruly, or hard to search: less is tried
 

@@ -56,6 +56,12 @@ std::vector<Run> surface_segments(const ScanPoints &points, const NoiseOfScan &n
     return segments;
 }
 
+Run segment_of(const std::vector<Run> &segments, int i)
+{
+    return *std::find_if(segments.begin(), segments.end(),
+                         [=](const Run &s) { return s.first <= i && i <= s.last; });
+}
+
 bool on_one_surface(const std::vector<Run> &segments, int i, int j)
 {
     return std::any_of(segments.begin(), segments.end(),

@@ -15,6 +15,9 @@ bool is_jump(const ScanPoints &points, const NoiseOfScan &noise, double step, in
 std::vector<Run> surface_segments(const ScanPoints &points, const NoiseOfScan &noise, double step,
                                   Decisions &decisions);
 
+// The segment that a point lies in.
+Run segment_of(const std::vector<Run> &segments, int i);
+
 // Whether two points lie in one segment.
 bool on_one_surface(const std::vector<Run> &segments, int i, int j);
 

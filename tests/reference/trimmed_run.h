@@ -1,4 +1,5 @@
-// Twin of ale_run_trim in lib/extract/runs.c: outer points that a run gives up.
+// Twin of ale_run_trim and take_points_beyond in lib/extract/runs.c: outer points that a run gives up or
+// takes in.
 #ifndef ALE_TESTS_REFERENCE_TRIMMED_RUN_H
 #define ALE_TESTS_REFERENCE_TRIMMED_RUN_H
 
@@ -12,6 +13,11 @@ namespace reference
 // would. It keeps least_points.
 Run trimmed_run(const ScanPoints &points, const NoiseOfScan &noise, Run run, int least_points,
                 Decisions &decisions);
+
+// The run with the points beyond one of its ends where the surface ends, if they are too few for a run and no
+// other run has them: all or half of them, what would not be given up again.
+Run with_points_beyond(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &segments,
+                       const std::vector<Run> &others, Run run, bool at_first, Decisions &decisions);
 
 } // namespace reference
 

@@ -209,6 +209,26 @@ TEST(Extract, AStepOfFourCentimetresIsTwoWalls)
     }
 }
 
+// A wall two metres away bends by 18 degrees 14 beams before the scan ends: behind a break that the search
+// missed the last of them lie on no line that it tried.
+TEST(Extract, AShortWallBehindABendReachesTheEndOfTheScan)
+{
+    scene::extractor extract;
+    const double y = 2 * std::tan(45.5 * scene::urg_step);
+    const double turn = 18 * pi / 180;
+    int found = 0;
+    int whole = 0;
+    for (unsigned k = 0; k < 5000; k++) {
+        const auto scan = empty_scan(120, -60 * scene::urg_step);
+        see(*scan, {{2, -2, 2, y}, {2, y, 2 - 2 * std::sin(turn), y + 2 * std::cos(turn)}}, 14, k);
+        const ale_features_t &f = extract(*scan);
+        found += f.line_count == 2 ? 1 : 0;
+        whole += f.line_count == 2 && f.line[1].last == 119 ? 1 : 0;
+    }
+    EXPECT_GT(found, 3700);
+    EXPECT_LT(found - whole, 35);
+}
+
 TEST(Extract, ARoundColumnIsACurveAndNoLine)
 {
     scene::extractor extract;
