@@ -8,12 +8,21 @@ from at_hand import ROOT
 OBJECT = "obj/lib/graph/block_cholesky.cpp.o"
 
 
+def told(tmp_path, target, *variables):
+    """What would be done for one file."""
+    alone = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS", "OPT"))}
+    done = subprocess.run(["make", "-n", "-C", ROOT, f"BUILD={tmp_path}", "CC=gcc", *variables, f"{tmp_path}/{target}"],
+                          stdin=subprocess.DEVNULL, capture_output=True, text=True, check=True, env=alone, timeout=180)
+    return done.stdout
+
+
 def prelude(tmp_path, *variables):
     """The precompiled header that one file would be compiled with."""
-    alone = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
-    told = subprocess.run(["make", "-n", "-C", ROOT, f"BUILD={tmp_path}", "CC=gcc", *variables, f"{tmp_path}/{OBJECT}"],
-                          stdin=subprocess.DEVNULL, capture_output=True, text=True, check=True, env=alone, timeout=180)
-    return re.search(r"-include (\S+)", told.stdout)[1]
+    return re.search(r"-include (\S+)", told(tmp_path, OBJECT, *variables))[1]
+
+
+def optimisation(tmp_path, source, *variables):
+    return re.findall(r" (-O\d|-funroll-loops)\b", told(tmp_path, f"obj/{source}.o", *variables))
 
 
 def test_each_compiler_and_each_choice_of_flags_has_a_precompiled_header_of_its_own(tmp_path):
@@ -22,3 +31,10 @@ def test_each_compiler_and_each_choice_of_flags_has_a_precompiled_header_of_its_
     made = [prelude(tmp_path, *words) for words in choices]
     assert len(set(made)) == len(made)
     assert prelude(tmp_path, *choices[0]) == made[0]
+
+
+def test_the_loops_of_the_extractor_are_unrolled_unless_other_flags_are_asked_for(tmp_path):
+    for source in ("lib/extract/moments.c", "lib/base/fixed.c"):
+        assert optimisation(tmp_path, source) == ["-O3", "-funroll-loops"]
+        assert optimisation(tmp_path, source, "OPT=-O1") == ["-O1"]
+    assert optimisation(tmp_path, "lib/track/match.c") == ["-O2"]
