@@ -81,7 +81,7 @@ bool ale_outlier_remove_strays(ale_extractor_t *e)
 }
 
 /* How far the point lies off where two neighbours on one side lead. */
-static int64_t off_course_um(const int32_t *range_um, int32_t side)
+static int64_t off_course_um(const int32_t *range_um, int64_t side)
 {
     return ale_abs64((int64_t)range_um[0] - 2 * (int64_t)range_um[side] + range_um[2 * side]);
 }
