@@ -97,6 +97,7 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
     pipeline->fade.next = 0;
     ale_relocation_clear(&pipeline->relocation);
     ale_witness_clear(&pipeline->witness);
+    ale_overview_clear(&pipeline->overview);
     ale_carried_clear(&pipeline->carried);
     ale_elders_clear(&pipeline->elders);
     ale_rest_clear(&pipeline->rest);

@@ -11,6 +11,7 @@
 #include "track/local_map.h"
 #include "track/motion.h"
 #include "track/odometry.h"
+#include "track/overview.h"
 #include "track/pace.h"
 #include "track/piece.h"
 #include "track/pipeline.h"
@@ -56,6 +57,7 @@ struct ale_pipeline {
     ale_elders_t elders;
     ale_rest_t rest;
     ale_registration_t registration;
+    ale_overview_t overview; /* on the way that is smooth */
 
     /* the scan at hand */
     ale_scan_t scan;

@@ -20,6 +20,7 @@ enum {
     REGISTER_URAD = 60000,
     REGISTER_MOST_UM = 1000000,
     REGISTER_MOST_URAD = 450000,
+    STRAIGHT_URAD = 100000, /* that tales of the way part by, and a scan is not bent by the wrong one */
     SLACK_UM = 60000,
     SLACK_URAD = 30000,
     SLACK_MOST_UM = 200000, /* a way that may be off by more says nothing of what was seen where */
@@ -152,6 +153,7 @@ static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_moti
     if (!doubt) {
         leave_out_carried(p, &now);
     }
+    ale_overview_keep(&p->overview, &now, p->motion.stamp_us);
     if (p->view_count > 0) {
         ale_witness_keep(&p->witness, &now);
         ale_carried_show(&p->carried, &p->witness.seen.scan);
@@ -195,7 +197,7 @@ static void hold(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion
     }
 }
 
-/* Where the last scan says that the robot is, to be fitted from there. */
+/* Where the last scan, or a better one shortly before it, says that the robot is, to be fitted from there. */
 static bool register_scan(ale_pipeline_t *p, const ale_motion_t *before, ale_pose_t *from)
 {
     const ale_motion_t *predicted = &p->ways.believed;
@@ -209,13 +211,19 @@ static bool register_scan(ale_pipeline_t *p, const ale_motion_t *before, ale_pos
     /* on the way that is smooth, as the witness is */
     const ale_pose_t guess =
         ale_pose_compose(p->smooth.pose, ale_pose_between(before->pose, predicted->pose));
-    ale_pose_t way = ale_pose_between(p->witness.seen.robot, guess);
-    if (!ale_register(&p->registration, (ale_views_t){p->witness.view, p->witness.view_count},
-                      (ale_views_t){p->view, p->view_count}, (int32_t)ale_min64(reach_um, REGISTER_MOST_UM),
+    const ale_overview_t *overview = &p->overview;
+    const bool richer = beyond.turn_urad < STRAIGHT_URAD &&
+                        ale_overview_is_richer(overview, p->witness.view, p->witness.view_count);
+    const ale_views_t then = richer ? (ale_views_t){overview->view, overview->view_count}
+                                    : (ale_views_t){p->witness.view, p->witness.view_count};
+    const ale_pose_t stood = richer ? overview->robot : p->witness.seen.robot;
+    ale_pose_t way = ale_pose_between(stood, guess);
+    if (!ale_register(&p->registration, then, (ale_views_t){p->view, p->view_count},
+                      (int32_t)ale_min64(reach_um, REGISTER_MOST_UM),
                       (int32_t)ale_min64(reach_urad, REGISTER_MOST_URAD), &way)) {
         return false;
     }
-    const ale_pose_t there = ale_pose_compose(p->witness.seen.robot, way);
+    const ale_pose_t there = ale_pose_compose(stood, way);
     *from = ale_pose_compose(before->pose, ale_pose_between(p->smooth.pose, there));
     return true;
 }

@@ -143,6 +143,47 @@ TEST(PipelineTrack, AWheelThatSpinsTurnsTheRobotInNoMap)
     }
 }
 
+/* The wheel spins slowly in a bend, while all but a few beams are covered for a quarter of a second. How far
+ * off the heading is in the end. */
+double turned_by_spinning_unseen(unsigned seed)
+{
+    const double drives_s = 2.5;
+    const double covered_s = 0.25;
+    const auto path = [&](double t) {
+        const double driven_s = std::min(t, drives_s);
+        return reference::Pose(0.4 * driven_s, 0, 0.8 * driven_s);
+    };
+    std::mt19937 rng(seed);
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    room::Sensor sensor;
+    sensor.noise = 0.004;
+    ale_estimate_t e = {};
+    for (int k = 0; k < 40; k++) {
+        const double t = 0.1 * k;
+        const double since_s = t - drives_s;
+        reference::Pose counted = path(t);
+        counted[2] += 0.9 * std::clamp(since_s, 0.0, covered_s);
+        const ale_odometry_t wheels = {std::llround(t * 1e6), convert::pose(counted)};
+        ale_pipeline_odometry(p.get(), &wheels);
+        ale_scan_t scan = room::scan_at(room::l_shape(), sensor, path, t, rng);
+        for (int beam = 0; since_s > 0 && since_s < covered_s && beam < scan.beams; beam++) {
+            if (std::abs(beam - 300) > 5) {
+                scan.flag[beam] = ALE_BEAM_NO_RETURN;
+            }
+        }
+        ale_pipeline_scan(p.get(), &scan, &e);
+    }
+    const reference::Pose truth = room::since_start(path(0), path(drives_s));
+    return reference::compose(reference::inverse(truth), convert::pose(e.map))[2];
+}
+
+TEST(PipelineTrack, AWheelThatSpinsUnseenTurnsTheRobotInNoMap)
+{
+    for (unsigned seed = 1; seed <= 6; seed++) {
+        EXPECT_LT(std::abs(turned_by_spinning_unseen(seed)), 0.02) << "seed " << seed;
+    }
+}
+
 // Two walls, 2 m apart and without an end as far as the scanner reaches.
 std::vector<room::Wall> bare_corridor()
 {

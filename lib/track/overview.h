@@ -1,0 +1,32 @@
+/* The last scan that showed much: which of those before tells best where the next one was taken.
+ *
+ * A scanner that is covered for a moment, or comes close to something, shows next to nothing, and the last
+ * such scan says little of the first good one after it. The better one before is kept for two seconds, as
+ * long as the robot has not gone half a metre or turned half a radian. One owner. */
+#ifndef ALE_TRACK_OVERVIEW_H
+#define ALE_TRACK_OVERVIEW_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "track/seen.h"
+#include "track/view.h"
+
+typedef struct {
+    ale_view_t view[ALE_MAX_VIEWS]; /* robot's frame */
+    uint32_t view_count;            /* 0: nobody saw anything */
+    int64_t shown_um;               /* their length */
+    int64_t stamp_us;
+    ale_pose_t robot;
+} ale_overview_t;
+
+void ale_overview_clear(ale_overview_t *overview);
+
+/* A scan that fitted: it takes the place of the one that is kept unless it shows less than half as much.
+ * Copies; O(views). */
+void ale_overview_keep(ale_overview_t *overview, const ale_seen_t *seen, int64_t stamp_us);
+
+/* Whether it shows more than twice as much as these views. O(views). */
+bool ale_overview_is_richer(const ale_overview_t *overview, const ale_view_t view[], uint32_t count);
+
+#endif
