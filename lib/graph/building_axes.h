@@ -1,8 +1,9 @@
 // The directions in which a building's walls run. Most buildings are right-angled, and then every keyframe
 // that sees walls tells its own heading, but for quarter turns: a compass against slow drift.
 //
-// Only for a building that is one (most of what was seen agrees), and only where headings have drifted by
-// more than walls stray from the right angle: where the tracker is right nothing moves.
+// Only for a building that is one (most of what was seen agrees), only where headings have drifted by
+// more than walls stray from the right angle, so that nothing moves where the tracker is right, and only
+// where what neighbouring views show of each other bears it: in a bent building they do not.
 #ifndef ALE_GRAPH_BUILDING_AXES_H
 #define ALE_GRAPH_BUILDING_AXES_H
 
@@ -25,6 +26,10 @@ BuildingHeadings headings_by_walls(const std::vector<Node> &nodes, const std::ve
 
 // Whether several suggestions in a row lie to the same side, farther than walls stray. O(n).
 bool have_drifted(const BuildingHeadings &headings, const std::vector<Pose> &poses);
+
+// Whether it was no drift, but the building that bends: what matches of views miss the poses by, turned to
+// the walls' headings and not turned (PoseGraph::misfit, summed over so many matches).
+bool are_torn(double misfit_turned, double misfit_free, size_t matches);
 
 } // namespace ale
 

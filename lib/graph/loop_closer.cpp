@@ -6,7 +6,9 @@
 
 #include "graph/building_axes.h"
 #include "graph/patch.h"
+#include "graph/surface_field.h"
 #include "graph/thinning.h"
+#include "graph/tight_match.h"
 
 namespace ale
 {
@@ -41,6 +43,7 @@ constexpr int straighten_rounds = 2;
 constexpr int iterations_a_keyframe = optimise_iterations * (1 + straighten_rounds);
 static_assert(iterations_a_keyframe >= optimise_iterations * static_cast<int>(loop_candidates));
 constexpr size_t straighten_every = 8; // keyframes
+constexpr int neighbours_back = 2;     // nodes
 constexpr double believable_chi2 = 30; // of a loop edge after optimisation
 constexpr double weak_doubt = 3;       // how much worse a motion is known that wheels had to tell
 constexpr double broken_doubt = 50;    // or nobody
@@ -70,6 +73,8 @@ LoopCloser::LoopCloser(size_t capacity) : capacity_(std::max(capacity, least_cap
     nodes_.resize(capacity_); // touched
     nodes_.clear();
     graph_.reserve(capacity_, capacity_ * (1 + loop_candidates));
+    neighbours_.resize(capacity_ * neighbours_back); // touched
+    neighbours_.clear();
 }
 
 bool LoopCloser::add(Node node, const Pose &motion)
@@ -86,6 +91,7 @@ bool LoopCloser::add(Node node, const Pose &motion)
     nodes_.push_back(std::move(node));
     added_++;
     link_to_previous(motion);
+    match_neighbours();
     bool moved = false;
     iterations_left_ = iterations_a_keyframe;
     for (const int there : candidates()) {
@@ -171,6 +177,10 @@ bool LoopCloser::straighten()
             return false;
         }
     }
+    if (are_neighbours_torn()) {
+        graph_ = before; // no drift: the building bends
+        return false;
+    }
     statistics_.straightened++;
     return true;
 }
@@ -231,6 +241,14 @@ void LoopCloser::make_room()
         loop.from -= loop.from > k ? 1 : 0;
         loop.to -= loop.to > k ? 1 : 0;
     }
+    const auto ends_there = [k](const Neighbours &pair) {
+        return pair.match.from == k || pair.match.to == k;
+    };
+    neighbours_.erase(std::remove_if(neighbours_.begin(), neighbours_.end(), ends_there), neighbours_.end());
+    for (Neighbours &pair : neighbours_) {
+        pair.match.from -= pair.match.from > k ? 1 : 0;
+        pair.match.to -= pair.match.to > k ? 1 : 0;
+    }
     statistics_.thinned++;
 }
 
@@ -240,6 +258,7 @@ void LoopCloser::begin_anew()
     graph_.clear();
     known_.reset();
     pending_.clear();
+    neighbours_.clear();
     search_.reset();
     refinement_.reset();
     refined_ = false;
@@ -264,6 +283,30 @@ void LoopCloser::link_to_previous(const Pose &motion)
     }
     graph_.add_pose(compose(graph_.poses().back(), motion));
     graph_.add_edge({k - 1, k, motion, motion_information(motion, here), false});
+}
+
+void LoopCloser::match_neighbours()
+{
+    const int here = static_cast<int>(nodes_.size()) - 1;
+    const SurfaceField field(nodes_.back().points);
+    for (int there = std::max(0, here - neighbours_back); there < here; there++) {
+        const Pose guess = between(graph_.poses().back(), graph_.poses()[static_cast<size_t>(there)]);
+        if (const auto match = match_to(field, nodes_[static_cast<size_t>(there)].points, guess)) {
+            const GraphEdge edge{here, there, match->pose, match->information, true};
+            neighbours_.push_back({edge, graph_.misfit(edge)});
+        }
+    }
+}
+
+bool LoopCloser::are_neighbours_torn() const
+{
+    double misfit = 0;
+    double tracked = 0;
+    for (const Neighbours &pair : neighbours_) {
+        misfit += graph_.misfit(pair.match);
+        tracked += pair.misfit;
+    }
+    return are_torn(misfit, tracked, neighbours_.size());
 }
 
 // Earlier nodes near the present pose, visited long ago: the nearest of each visit.

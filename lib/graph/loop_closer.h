@@ -6,8 +6,8 @@
 // A loop is believed only when matching finds the place clearly (overlap, no second place nearly as good),
 // and other nodes nearby find the same shift; it is taken back when the graph then contradicts it. Where the
 // tracker has recognised the place itself nothing is to be corrected: the tie is noted as the tracker knows
-// it, so that later corrections keep it. Work of one call: at most loop_candidates matches, and 30 iterations
-// of the graph, however many loops are tried.
+// it, so that later corrections keep it. Work of one call: at most loop_candidates matches and two of
+// neighbours, and 30 iterations of the graph, however many loops are tried.
 //
 // Memory is bounded: when it holds as many nodes as it may, the next one takes the place of the most
 // redundant (thinning.h), whose ties go over to its neighbours on the way.
@@ -86,9 +86,16 @@ class LoopCloser
 
   private:
     enum class Sight { unclear, known, displaced };
+    // Two nodes of the way that show the same, matched tightly: drift plays no part in it.
+    struct Neighbours {
+        GraphEdge match;
+        double misfit; // as the tracker has placed the two
+    };
 
     void make_room();
     void link_to_previous(const Pose &motion);
+    void match_neighbours();
+    bool are_neighbours_torn() const;
     std::vector<int> candidates() const;
     Sight look_for_loop(int there, Loop *loop) const;
     std::vector<Loop> partners_of(const Loop &loop) const;
@@ -104,9 +111,10 @@ class LoopCloser
     PoseGraph graph_;
     std::optional<KnownMap> known_;
     std::deque<Loop> pending_;
-    size_t added_ = 0;           // nodes, ever
-    size_t straightened_at_ = 0; // how many had been added then
-    int iterations_left_ = 0;    // of those that may follow from the present node
+    std::vector<Neighbours> neighbours_; // along the way
+    size_t added_ = 0;                   // nodes, ever
+    size_t straightened_at_ = 0;         // how many had been added then
+    int iterations_left_ = 0;            // of those that may follow from the present node
     std::optional<LoopSearch> search_;
     std::optional<Refinement> refinement_;
     bool refined_ = false; // nothing was added since

@@ -126,6 +126,11 @@ double PoseGraph::residual2(const PoseAnchor &anchor) const
     return e.dot(anchor.information * e);
 }
 
+double PoseGraph::misfit(const GraphEdge &edge) const
+{
+    return std::min(robust_kernel, residual2(edge));
+}
+
 double PoseGraph::weight(const GraphEdge &edge) const
 {
     return edge.robust ? kernel_weight(residual2(edge), robust_kernel) : 1;

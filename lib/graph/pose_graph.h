@@ -137,6 +137,8 @@ class PoseGraph
     // Mahalanobis square of an edge's residual at the present poses, not scaled.
     double residual2(const GraphEdge &edge) const;
     double residual2(const PoseAnchor &anchor) const;
+    // The same, but no more than the robust kernel.
+    double misfit(const GraphEdge &edge) const;
     // What the robust kernel leaves of it there, 0..1.
     double weight(const GraphEdge &edge) const;
 

@@ -46,7 +46,8 @@ bool Refinement::step()
         return true;
     }
     solve();
-    if (++solved_ == solves_per_round) {
+    if (is_solved()) {
+        choose();
         matched_.clear();
         anchors_.clear();
         next_ = 0;
@@ -160,7 +161,38 @@ void Refinement::solve()
         }
         graph_.set_anchors(anchors_);
     }
+    if (solved_ == solves_per_round) {
+        turned_ = graph_;
+        graph_.set_headings({});
+    }
     graph_.optimise(1);
+    solved_++;
+}
+
+// Where walls serve as a compass the graph is solved without them, too.
+bool Refinement::is_solved() const
+{
+    return solved_ == 2 * solves_per_round ||
+           (solved_ == solves_per_round && graph_.headings().priors.empty());
+}
+
+// The compass stays unless it tears what views show of each other.
+void Refinement::choose()
+{
+    if (!turned_) {
+        return;
+    }
+    const auto misfit = [this](const PoseGraph &graph) {
+        double sum = 0;
+        for (const GraphEdge &edge : matched_) {
+            sum += graph.misfit(edge);
+        }
+        return sum;
+    };
+    if (!are_torn(misfit(*turned_), misfit(graph_), matched_.size())) {
+        graph_ = std::move(*turned_);
+    }
+    turned_.reset();
 }
 
 } // namespace ale

@@ -12,6 +12,7 @@
 #ifndef ALE_GRAPH_REFINEMENT_H
 #define ALE_GRAPH_REFINEMENT_H
 
+#include <optional>
 #include <vector>
 
 #include "graph/known_map.h"
@@ -43,12 +44,15 @@ class Refinement
     std::vector<GraphEdge> still_needed() const;
     void follow_walls();
     void solve();
+    bool is_solved() const;
+    void choose();
 
     const std::vector<Node> *nodes_;
     const KnownMap *known_;
     PoseGraph graph_;
-    std::vector<GraphEdge> given_;   // motions and loops
-    std::vector<GraphEdge> matched_; // of this round
+    std::optional<PoseGraph> turned_; // to the walls' headings, while it is solved without them
+    std::vector<GraphEdge> given_;    // motions and loops
+    std::vector<GraphEdge> matched_;  // of this round
     std::vector<PoseAnchor> anchors_;
     int round_ = 0;
     int next_ = 0; // node to match

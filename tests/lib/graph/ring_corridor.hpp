@@ -73,13 +73,13 @@ inline std::vector<ale::Pose> truth(double laps)
     return poses;
 }
 
-inline ale::Node seen_from(const ale::Pose &pose, std::mt19937 *random)
+inline ale::Node seen_from(const std::vector<Wall> &walls, const ale::Pose &pose, std::mt19937 *random)
 {
     std::normal_distribution<double> noise(0, 0.004);
     ale::Node node = {};
     const ale::Pose to_robot = ale::inverse(pose);
     const Eigen::Vector2d eye(pose.x, pose.y);
-    for (const Wall &wall : walls()) {
+    for (const Wall &wall : walls) {
         const Eigen::Vector2d n = normal_of(wall);
         const double length = (wall.b - wall.a).norm();
         for (double u = 0.02; u < length; u += 0.08) {
@@ -123,7 +123,7 @@ inline std::vector<ale::Node> drifting(const std::vector<ale::Pose> &truth, doub
     const std::vector<ale::Pose> tracked = drifting_poses(truth, bend_rad_m, seed);
     std::vector<ale::Node> nodes;
     for (size_t k = 0; k < truth.size(); k++) {
-        ale::Node node = seen_from(truth[k], &random);
+        ale::Node node = seen_from(walls(), truth[k], &random);
         node.scan = static_cast<uint32_t>(k);
         node.smooth = tracked[k];
         node.path_m = 0.5 * static_cast<double>(k);

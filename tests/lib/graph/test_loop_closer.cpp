@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bent_corridor.hpp"
 #include "graph/loop_closer.h"
 #include "ring_corridor.hpp"
 
@@ -59,6 +60,46 @@ TEST(LoopCloser, WhereTheTrackerIsRightNothingMoves)
     const Walk w = walk(1.3, 0, 2);
     EXPECT_LT(w.tracked, 0.3);
     EXPECT_LE(w.corrected, w.tracked + 0.02);
+}
+
+// The largest error of a heading, along the corridor that bends or in which headings drift.
+struct Compass {
+    double tracked_rad = 0;
+    double turned_rad = 0;
+    uint32_t straightened = 0;
+
+    Compass(double bend_rad, double drift_rad_m)
+    {
+        ale::LoopCloser closer(plenty);
+        for (const ale::Node &node : bent_corridor::nodes(bend_rad, drift_rad_m, 4)) {
+            add(&closer, node);
+        }
+        const std::vector<ale::Pose> truth = bent_corridor::truth(bend_rad);
+        for (size_t k = 0; k < truth.size(); k++) {
+            const double tracked = closer.nodes()[k].smooth.theta;
+            tracked_rad = std::max(tracked_rad, std::abs(ale::wrapped(tracked - truth[k].theta)));
+            turned_rad =
+                std::max(turned_rad, std::abs(ale::wrapped(closer.poses()[k].theta - truth[k].theta)));
+        }
+        straightened = closer.statistics().straightened;
+    }
+};
+
+TEST(LoopCloser, HeadingsThatDriftAreTurnedToTheWalls)
+{
+    const Compass compass(0, 0.006);
+    EXPECT_GT(compass.straightened, 0U);
+    EXPECT_GT(compass.tracked_rad, 0.1);
+    EXPECT_LT(compass.turned_rad, 0.5 * compass.tracked_rad);
+}
+
+TEST(LoopCloser, ACorridorThatBendsIsNotStraightened)
+{
+    for (const double bend_rad : {0.05, -0.14}) {
+        const Compass compass(bend_rad, 0);
+        EXPECT_EQ(compass.straightened, 0U) << bend_rad;
+        EXPECT_EQ(compass.turned_rad, compass.tracked_rad) << bend_rad;
+    }
 }
 
 // Twice around the block with room for less than half of one round.

@@ -1,6 +1,7 @@
 // lib/graph/refinement: a graph whose loops are known to centimetres, drawn tight, against the truth.
 #include <gtest/gtest.h>
 
+#include "bent_corridor.hpp"
 #include "graph/refinement.h"
 #include "ring_corridor.hpp"
 
@@ -88,6 +89,40 @@ TEST(Refinement, WhatIsRightStaysRight)
     ale::Refinement refinement(&walk.nodes, walk.graph(0));
     refine(&refinement);
     EXPECT_LT(walk.error_m(refinement.graph()), 0.03);
+}
+
+// Once along the corridor that bends or in which headings drift: the largest error of a heading.
+double heading_error(double bend_rad, double drift_rad_m)
+{
+    const std::vector<ale::Node> nodes = bent_corridor::nodes(bend_rad, drift_rad_m, 6);
+    ale::PoseGraph graph;
+    for (size_t k = 0; k < nodes.size(); k++) {
+        const int here = graph.add_pose(nodes[k].smooth);
+        if (k > 0) {
+            graph.add_edge({here - 1, here, ale::between(nodes[k - 1].smooth, nodes[k].smooth),
+                            ale::known_to(0.008, 0.0025), false});
+        }
+    }
+    ale::Refinement refinement(&nodes, graph);
+    refine(&refinement);
+    const std::vector<ale::Pose> truth = bent_corridor::truth(bend_rad);
+    double largest = 0;
+    for (size_t k = 0; k < truth.size(); k++) {
+        const double off = ale::wrapped(refinement.graph().poses()[k].theta - truth[k].theta);
+        largest = std::max(largest, std::abs(off));
+    }
+    return largest;
+}
+
+TEST(Refinement, TheCompassTurnsWhatHasDrifted)
+{
+    EXPECT_LT(heading_error(0, 0.006), 0.02);
+}
+
+TEST(Refinement, TheCompassDoesNotStraightenACorridorThatBends)
+{
+    EXPECT_LT(heading_error(0.05, 0), 0.01);
+    EXPECT_LT(heading_error(-0.14, 0), 0.01);
 }
 
 TEST(Refinement, ALoopThatNoMatchBearsOutHasNoSay)
