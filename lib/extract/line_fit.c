@@ -116,14 +116,22 @@ static int64_t doubtful_points_q8(const ale_extractor_t *e, int32_t i, int32_t b
     return 2 * ((sigma_um * ale_abs64(along_um)) << 8) / (across_um * e->range_um[i]);
 }
 
-/* The shared error counts as far as the scan shows it, or as configured where the scan is too small to tell.
- */
+/* The shared error of a run as far as the scan shows it, without the margin that decisions have, or as
+ * configured where the scan is too small to tell. */
+static int64_t stated_shared_q8(const ale_extractor_t *e, const ale_run_fit_t *fit)
+{
+    if (e->shared_scale_q8 > 256) {
+        return fit->shared_q8 * e->shared_stated_q8 / e->shared_scale_q8;
+    }
+    return e->shared_absent ? 0 : fit->shared_q8;
+}
+
 static void set_covariance(const ale_extractor_t *e, const ale_spread_t *m, int64_t doubtful_q8,
                            int64_t slope_q16, int64_t mean_along_um, ale_line_t *line)
 {
     const int64_t n = line->points;
     const int64_t beams = e->config.noise.shared_beams;
-    const int64_t shared_q8 = e->shared_absent ? 0 : m->fit.shared_q8;
+    const int64_t shared_q8 = stated_shared_q8(e, &m->fit);
     const int64_t mean_q8 = m->fit.var_q8 + ((shared_q8 * together_in_mean_q8(n, beams)) >> 8);
     /* a point at an end has 3 / n of what is known of the slope */
     const int64_t told_q8 = (n << 8) + 3 * ale_min64(doubtful_q8, (n << 8) / 4);

@@ -226,8 +226,10 @@ enum {
     STRIDE = 6, /* from one window of three blocks to the next */
     SHARED_GAIN_Q8 = 299,
     MIN_BLOCKS = 12,
-    RATIO_Q8 = 2 * 256, /* of what own noise gives: up to 1.4 are measured where there is no shared error */
-    SHARED_LEAST_Q8 = 3 * 256, /* once there is a shared error it is at least so large, */
+    HELD_Q8 = 8 * 256,         /* what a ratio counts at most: a block across a step has any */
+    PLAIN_Q8 = 480,            /* mean ratio that own noise exceeds in 6 scans of 1000; its own is 0.98 */
+    SHARED_LEAST_Q8 = 3 * 256, /* once there is a shared error decisions take it for at least so large, */
+    STATED_LEAST_Q8 = 2 * 256, /* the covariance of lines for at least this, without their margin, */
     SHARED_MOST_Q8 = 4 * 256,  /* and at most: one scan knows it no better */
     SHARED_NONE_Q8 = 64,       /* where there is none some of it is left, for what the blocks do not show */
     OWN_PRIOR_POINTS = 100,    /* weight of the second differences beside the residuals of the runs */
@@ -257,32 +259,53 @@ static int64_t block_ratio_q8(const ale_extractor_t *e, int32_t start, int64_t c
     return d_um * d_um * (BLOCK << 8) / ale_max64((own_q20 * 6000000) >> 20, 1);
 }
 
-static void count_block(const ale_extractor_t *e, int32_t start, int64_t curvature_q30, uint16_t *bins,
-                        int32_t *samples, int64_t *range_mm)
+/* What the windows of a scan show, over what own noise would give. */
+typedef struct {
+    int32_t count;
+    int64_t range_mm; /* sums */
+    int64_t held_q8;
+    uint16_t ratio_q8[ALE_MAX_BEAMS]; /* a run has fewer windows than points */
+} blocks_t;
+
+static void look_at_block(const ale_extractor_t *e, int32_t start, int64_t curvature_q30, blocks_t *blocks)
 {
     if (e->beam[start + THREE_BLOCKS - 1] - e->beam[start] == THREE_BLOCKS - 1) {
-        const uint32_t bin = ale_histogram_bin((uint64_t)block_ratio_q8(e, start, curvature_q30));
-        bins[bin]++;
-        *range_mm += middle_range_um(e, start) / 1000;
-        (*samples)++;
+        const int64_t ratio_q8 = block_ratio_q8(e, start, curvature_q30);
+        blocks->held_q8 += ale_min64(ratio_q8, HELD_Q8);
+        blocks->range_mm += middle_range_um(e, start) / 1000;
+        blocks->ratio_q8[blocks->count++] = (uint16_t)ale_min64(ratio_q8, UINT16_MAX);
     }
 }
 
-/* The shared variance in units of the configured one, Q8: up to 256 where blocks show no more than own noise.
- */
-static int64_t shared_scale_q8(const ale_extractor_t *e, const uint16_t *bins, int32_t samples,
-                               int64_t range_mm)
+/* The ratio whose squares have the upper quartile of the measured ones. */
+static int64_t quartile_ratio_q8(ale_extractor_t *e, const blocks_t *blocks)
 {
+    uint16_t *bins = e->histogram[0];
+    memset(bins, 0, sizeof e->histogram[0]);
+    for (int32_t k = 0; k < blocks->count; k++) {
+        bins[ale_histogram_bin(blocks->ratio_q8[k])]++;
+    }
+    /* three quarters of chi square of one degree are below 1.323 */
+    return ale_histogram_quantile(bins, blocks->count, PERCENT) * 1000 / 1323;
+}
+
+/* The shared variance in units of the configured one, Q8: up to 256 where blocks show no more than own noise,
+ * beyond it otherwise, and then what the covariance of lines states, too. */
+static int64_t shared_scale_q8(ale_extractor_t *e, const blocks_t *blocks)
+{
+    const int64_t mean_q8 = blocks->held_q8 / blocks->count;
+    if (mean_q8 <= PLAIN_Q8) {
+        return ale_clamp64(256 - 2 * (PLAIN_Q8 - mean_q8), SHARED_NONE_Q8, 256);
+    }
+    const int64_t range_mm = blocks->range_mm / blocks->count;
     const int64_t range_mm2 = range_mm * range_mm;
     const int64_t own_q20 = (e->noise.own_mm2_q36 + e->noise.own_relative_q36 * range_mm2) >> 16;
     const int64_t model_q20 = (e->shared_prior_mm2_q36 + e->shared_prior_relative_q36 * range_mm2) >> 16;
-    /* three quarters of chi square of one degree are below 1.323 */
-    const int64_t ratio_q8 = ale_histogram_quantile(bins, samples, PERCENT) * 1000 / 1323;
-    if (ratio_q8 <= RATIO_Q8) {
-        return ale_clamp64(2 * ratio_q8 - (int64_t)3 * 256, SHARED_NONE_Q8, 256);
-    }
-    const int64_t excess_q8 = (ratio_q8 - 256) * 6 * 256 / ((int64_t)BLOCK * SHARED_GAIN_Q8);
-    return ale_clamp64(excess_q8 * own_q20 / ale_max64(model_q20, 1), SHARED_LEAST_Q8, SHARED_MOST_Q8);
+    const int64_t excess_q8 =
+        (quartile_ratio_q8(e, blocks) - 256) * 6 * 256 / ((int64_t)BLOCK * SHARED_GAIN_Q8);
+    const int64_t measured_q8 = excess_q8 * own_q20 / ale_max64(model_q20, 1);
+    e->shared_stated_q8 = ale_clamp64(measured_q8, STATED_LEAST_Q8, SHARED_MOST_Q8);
+    return ale_clamp64(measured_q8, SHARED_LEAST_Q8, SHARED_MOST_Q8);
 }
 
 static void scale_shared_of_runs(ale_extractor_t *e)
@@ -295,21 +318,22 @@ static void scale_shared_of_runs(ale_extractor_t *e)
 bool ale_scan_noise_measure_shared(ale_extractor_t *e, const ale_scan_t *scan)
 {
     const int64_t curvature_q30 = 2 * (((int64_t)1 << 30) - ale_cos_q30((uint32_t)scan->step_bam * BLOCK));
-    uint16_t *bins = e->histogram[0];
-    memset(bins, 0, sizeof e->histogram[0]);
-    int32_t samples = 0;
-    int64_t range_mm = 0;
+    blocks_t blocks;
+    blocks.count = 0;
+    blocks.range_mm = 0;
+    blocks.held_q8 = 0;
     for (int32_t k = 0; k < e->run_count; k++) {
         const int32_t windows = e->run[k].last + 1 - e->run[k].first - 3 * BLOCK + 1;
         for (int32_t o = 0; 2 * o < windows; o += STRIDE) {
-            count_block(e, e->run[k].first + o, curvature_q30, bins, &samples, &range_mm);
+            look_at_block(e, e->run[k].first + o, curvature_q30, &blocks);
             if (2 * o + 1 < windows) {
-                count_block(e, e->run[k].first + windows - 1 - o, curvature_q30, bins, &samples, &range_mm);
+                look_at_block(e, e->run[k].first + windows - 1 - o, curvature_q30, &blocks);
             }
         }
     }
-    e->shared_scale_q8 = samples < MIN_BLOCKS ? 256 : shared_scale_q8(e, bins, samples, range_mm / samples);
-    e->shared_absent = samples >= MIN_BLOCKS && e->shared_scale_q8 <= 256;
+    e->shared_stated_q8 = 256;
+    e->shared_scale_q8 = blocks.count < MIN_BLOCKS ? 256 : shared_scale_q8(e, &blocks);
+    e->shared_absent = blocks.count >= MIN_BLOCKS && e->shared_scale_q8 <= 256;
     e->noise.shared_mm2_q36 = (e->shared_prior_mm2_q36 * e->shared_scale_q8) >> 8;
     e->noise.shared_relative_q36 = (e->shared_prior_relative_q36 * e->shared_scale_q8) >> 8;
     if (e->shared_absent) {

@@ -125,7 +125,8 @@ struct ale_extractor {
 
     ale_scan_noise_t noise;
     int64_t shared_scale_q8;
-    bool shared_absent; /* measured, and there is none */
+    int64_t shared_stated_q8; /* the same for the covariance of lines, where a shared error shows */
+    bool shared_absent;       /* measured, and there is none */
     int64_t inverse_sum[ALE_MAX_BEAMS + 1];
     int64_t shared_prior_mm2_q36;
     int64_t shared_prior_relative_q36;

@@ -85,6 +85,7 @@ std::vector<Run> searched_runs(Prepared &p, const ExtractionSettings &settings, 
     p.noise.shared_relative *= shared.scale;
     p.noise.shared_absent = shared.absent;
     p.noise.shared_found = shared.scale > 1;
+    p.noise.shared_stated = shared.scale > 1 ? shared.stated / shared.scale : 1;
     return shared.scale > 1 && !p.noise.costly ? search(p, decisions) : runs;
 }
 
@@ -225,7 +226,8 @@ bool is_line(const Prepared &p, const ExtractionSettings &settings, Run run, con
 {
     const Eigen::Vector2d start = end_on_line(p.points[static_cast<size_t>(run.first)], fit);
     const Eigen::Vector2d end = end_on_line(p.points[static_cast<size_t>(run.last)], fit);
-    const double shared = p.noise.shared_absent ? 0 : fit.shared * together_in_slope(p.noise, fit.n);
+    const double shared =
+        p.noise.shared_absent ? 0 : p.noise.shared_stated * fit.shared * together_in_slope(p.noise, fit.n);
     const double var_alpha = (fit.var + shared) / fit.along2;
     return !decisions.below((end - start).norm(), settings.least_length) &&
            decisions.below(std::sqrt(var_alpha), most_sigma_alpha);

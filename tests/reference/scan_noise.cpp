@@ -28,8 +28,10 @@ constexpr int block = 8; // beams
 constexpr int stride = 6;
 constexpr size_t least_blocks = 12;
 constexpr double shared_gain = 299.0 / 256; // of three block means, for an error correlated over 12 beams
-constexpr double plain_ratio = 2;           // own noise alone gives up to this
+constexpr double held_ratio = 8;            // what a ratio counts at most in the mean
+constexpr double plain_mean = 480.0 / 256;  // own noise alone gives up to this
 constexpr double least_scale = 3;
+constexpr double least_stated = 2;
 constexpr double most_scale = 4;
 constexpr double least_remainder = 0.25; // where there is none
 
@@ -211,15 +213,20 @@ SharedNoise shared_noise(const ScanPoints &points, const NoiseOfScan &noise, con
         }
     }
     if (ratio.size() < least_blocks) {
-        return {1, false};
+        return {1, 1, false};
     }
     range /= static_cast<double>(ratio.size());
-    const double quartile = binned_quantile(ratio, 0.75) / 256 / quartile_of_chi_square;
-    if (decisions.below(quartile, plain_ratio)) {
-        return {std::clamp(2 * quartile - 3, least_remainder, 1.0), true};
+    double mean = 0;
+    for (const double r : ratio) {
+        mean += std::min(r / 256, held_ratio) / static_cast<double>(ratio.size());
     }
+    if (decisions.below(mean, plain_mean)) {
+        return {std::clamp(1 - 2 * (plain_mean - mean), least_remainder, 1.0), 1, true};
+    }
+    const double quartile = binned_quantile(ratio, 0.75) / 256 / quartile_of_chi_square;
     const double shared = (quartile - 1) * noise.own(range) * 6 / block / shared_gain;
-    return {std::clamp(shared / noise.shared(range), least_scale, most_scale), false};
+    const double scale = shared / noise.shared(range);
+    return {std::clamp(scale, least_scale, most_scale), std::clamp(scale, least_stated, most_scale), false};
 }
 
 double own_scale(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &runs,

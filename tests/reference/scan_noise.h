@@ -20,7 +20,8 @@ NoiseOfScan own_noise(const ScanPoints &points, const NoiseOfScan &prior, double
 // is too little to tell, up to 1 where there is none.
 struct SharedNoise {
     double scale;
-    bool absent; // measured, and there is none
+    double stated; // the same for the covariance of lines, which has no margin; 1 where nothing shows
+    bool absent;   // measured, and there is none
 };
 SharedNoise shared_noise(const ScanPoints &points, const NoiseOfScan &noise, const std::vector<Run> &runs,
                          double step, Decisions &decisions);

@@ -46,6 +46,7 @@ struct NoiseOfScan {
     double shared_relative = 0;
     double shared_beams = 12;
     double bearing_variance = 0;
+    double shared_stated = 1;   // part of the shared variances that the covariance of lines has
     bool shared_absent = false; // measured, and there is none
     bool shared_found = false;  // measured, and there is one
     bool unruly = false;        // more changes of the range are suspicious than surfaces make

@@ -56,6 +56,9 @@ inline reference::NoiseOfScan noise_of(const ale_extractor_t &e)
             static_cast<double>(e.noise.shared_relative_q36) * q36,
             static_cast<double>(e.config.noise.shared_beams),
             static_cast<double>(e.noise.bearing_rad2_q36) * q36,
+            e.shared_scale_q8 > 256
+                ? static_cast<double>(e.shared_stated_q8) / static_cast<double>(e.shared_scale_q8)
+                : 1,
             e.shared_absent,
             e.shared_scale_q8 > 256,
             e.unruly,

@@ -154,27 +154,20 @@ void report(const std::string &kind, const Errors &e)
                 e.corners.value());
 }
 
-TEST(Covariance, HoldsWithinATenthAtEveryNoiseOfEachBeamsOwn)
+// How much is shared is measured anew in every scan, from few independent pieces: more lines are far off.
+TEST(Covariance, HoldsWithinATenthAtEveryNoise)
 {
-    for (const std::string kind : {"urg", "3mm", "10mm", "20mm"}) {
+    for (const std::string kind : {"urg", "3mm", "10mm", "20mm", "real"}) {
         const Errors e = errors_under(kind);
         report(kind, e);
         EXPECT_GT(e.lines.samples(), 4000) << kind;
-        EXPECT_LT(e.lines.stray_share() + e.ends.stray_share() + e.corners.stray_share(), 0.001) << kind;
+        EXPECT_LT(e.lines.stray_share() + e.ends.stray_share() + e.corners.stray_share(),
+                  kind == "real" ? 0.003 : 0.001)
+            << kind;
         EXPECT_NEAR(e.lines.value(), 2, 0.2) << kind;
         EXPECT_NEAR(e.ends.value(), 1, 0.1) << kind;
         EXPECT_NEAR(e.corners.value(), 2, 0.2) << kind;
     }
-}
-
-// How much is shared is measured anew in every scan, from few independent pieces: it is less sure.
-TEST(Covariance, HoldsWithinAFifthWhereNeighboursShareMostOfTheirError)
-{
-    const Errors e = errors_under("real");
-    report("real", e);
-    EXPECT_NEAR(e.lines.value(), 2, 0.4);
-    EXPECT_NEAR(e.ends.value(), 1, 0.1);
-    EXPECT_NEAR(e.corners.value(), 2, 0.4);
 }
 
 } // namespace

@@ -88,6 +88,39 @@ TEST(ScanNoise, FarClutterDoesNotMakeTheNoiseOfNearWallsLarge)
     expect_the_walls_noise(3000, 80, 1500);
 }
 
+// In how many of 1000 scans of three walls, two of them far, an error shared by neighbours is recognised.
+int recognised(double shared_mm, double own_mm)
+{
+    scene::extractor extractor;
+    ale_extractor_t *e = extractor.get();
+    int count = 0;
+    for (unsigned seed = 0; seed < 1000; seed++) {
+        std::mt19937 engine(seed);
+        std::normal_distribution<double> gauss;
+        const double kept = std::exp(-1.0 / 12);
+        const auto scan = scene::empty_scan(240, -120 * scene::urg_step);
+        double shared = gauss(engine);
+        for (int k = 0; k < scan->beams; k++) {
+            const double bearing = (k % 80 - 40) * scene::urg_step;
+            const double range_mm = (k / 80 == 1 ? 1500 : 3000) / std::cos(bearing);
+            ale_scan_set_range(
+                scan.get(), static_cast<uint16_t>(k),
+                static_cast<int32_t>(1000 * (range_mm + shared_mm * shared + own_mm * gauss(engine))));
+            shared = kept * shared + std::sqrt(1 - kept * kept) * gauss(engine);
+        }
+        scene::prepare_points(e, *scan);
+        ale_runs_search(e);
+        count += ale_scan_noise_measure_shared(e, scan.get()) ? 1 : 0;
+    }
+    return count;
+}
+
+TEST(ScanNoise, AnErrorThatNeighboursShareIsToldFromNoneInAScanOfFewWalls)
+{
+    EXPECT_LE(recognised(0, 10), 10);
+    EXPECT_GE(recognised(5, 3), 955);
+}
+
 // Bound: the factor on the own variance within one part in a hundred; on the shared one within six, for a
 // value that one of them counts in the next bin moves a quantile of few; but for near misses of a limit.
 TEST(ScanNoise, SharedNoiseAndTheCorrectionByResidualsAreThoseOfTheTwin)
@@ -108,7 +141,9 @@ TEST(ScanNoise, SharedNoiseAndTheCorrectionByResidualsAreThoseOfTheTwin)
             reference::shared_noise(points, before, runs, scene::step_of(*scan), decisions);
         ale_scan_noise_measure_shared(e, scan.get());
         const double scale = static_cast<double>(e->shared_scale_q8) / 256;
+        const double stated = static_cast<double>(e->shared_stated_q8) / 256;
         agreement.compare(std::fabs(scale - twin.scale) < 0.06 * std::max(twin.scale, 1.0) &&
+                              std::fabs(stated - twin.stated) < 0.06 * twin.stated &&
                               e->shared_absent == twin.absent,
                           decisions, k);
         shared += twin.scale > 1 ? 1 : 0;
