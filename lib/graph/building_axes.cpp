@@ -27,10 +27,10 @@ constexpr int refine_rounds = 3;
 constexpr double followed_m = 3; // of walls a scan that move the direction followed half as far as they say
 constexpr size_t run_nodes = 8;  // whose mean is looked at for drift
 // How much worse views that match may fit when they are turned to the walls: in buildings at right angles
-// they do by a tenth at the most, in bent ones by a sixth at the least. A match may miss by so much anyway (a
-// Mahalanobis square) before its word is worth less.
-constexpr double worst_excess = 0.12;
-constexpr double clear_misfit = 2;
+// they do by a tenth at the most where matches are poor, in bent ones by a tenth at the least. A match may
+// miss by so much anyway (a Mahalanobis square) before its word is worth less.
+constexpr double worst_excess = 0.08;
+constexpr double clear_misfit = 1.5;
 
 // An angle but for quarter turns, -pi/4 .. pi/4.
 double modulo_quarter(double angle)
