@@ -215,7 +215,10 @@ static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
     } else {
         ale_pipeline_track(p, &before, &wheels);
     }
-    advance_smooth(p, before.pose, predicted.pose, instant_us - before.stamp_us);
+    const int64_t dt_us = instant_us - before.stamp_us;
+    /* a time that cannot be believed forbids no way */
+    advance_smooth(p, before.pose, predicted.pose,
+                   ale_pace_believes(&p->pace, dt_us) ? dt_us : p->pace.usual_us);
     ale_stage_end(&p->hook, ALE_STAGE_MAP);
 }
 
