@@ -66,6 +66,11 @@ void add_walls(const Node &node, double heading, Witnesses witnesses, Axes *axes
     });
 }
 
+int scans_of(const Node &node, Witnesses witnesses)
+{
+    return 1 + (witnesses == Witnesses::all_scans ? node.scans_after : 0);
+}
+
 Axes axes_of(const std::vector<Node> &nodes, const std::vector<Pose> &poses, Witnesses witnesses)
 {
     Axes axes;
@@ -150,8 +155,8 @@ std::vector<double> followed(const Run &clearest, const std::vector<Node> &nodes
     std::vector<double> directions(nodes.size());
     const auto hear = [&](size_t k, double direction) {
         const Opinion opinion = opinion_of(nodes[k], poses[k].theta, direction, witnesses);
-        const int scans = 1 + (witnesses == Witnesses::all_scans ? nodes[k].scans_after : 0);
-        const double weight = opinion.along_m / (opinion.along_m + followed_m * scans);
+        const double weight =
+            opinion.along_m / (opinion.along_m + followed_m * scans_of(nodes[k], witnesses));
         return direction - weight * opinion.off;
     };
     double direction = clearest.direction;
@@ -199,10 +204,9 @@ BuildingHeadings headings_by(double building, const std::vector<double> &directi
         const Opinion opinion = opinion_of(nodes[k], poses[k].theta, directions[k], witnesses);
         if (opinion.counts) {
             const double measured = line_stray_rad_m / opinion.along_m;
-            const int scans = 1 + (witnesses == Witnesses::all_scans ? nodes[k].scans_after : 0);
-            headings.priors.push_back({static_cast<int>(k),
-                                       wrapped(poses[k].theta + opinion.off - directions[k]),
-                                       1 / (stray2_of(scans) + measured * measured), robust});
+            headings.priors.push_back(
+                {static_cast<int>(k), wrapped(poses[k].theta + opinion.off - directions[k]),
+                 1 / (stray2_of(scans_of(nodes[k], witnesses)) + measured * measured), robust});
         }
     }
     return headings;

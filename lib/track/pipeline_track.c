@@ -172,8 +172,21 @@ static void anchor(ale_pipeline_t *p)
     }
 }
 
-/* What the scan leaves open is said. Where nothing holds the robot, wheels outvote what the fit made of
- * chance matches; without them it goes on as it did: such matches go along with it and would stop it. */
+/* Where nothing holds the robot, wheels outvote what the fit made of chance matches; without them it goes on
+ * as it did: such matches go along with it and would stop it. */
+static void keep_pace(ale_pipeline_t *p, const ale_hold_t *hold, const ale_motion_t *before,
+                      const ale_motion_t *predicted, bool counted)
+{
+    const int64_t dt_us = predicted->stamp_us - before->stamp_us;
+    const bool even = dt_us <= EVEN_US && ale_pace_believes(&p->pace, dt_us) && !p->tracker.jumped;
+    p->paced = hold->held || (p->paced && even);
+    if (hold->bare && p->paced && !counted) {
+        ale_motion_keep_along(&p->fit.motion, predicted, hold->along_bam);
+        p->motion = p->fit.motion;
+    }
+}
+
+/* What the scan leaves open is said, and left to the prediction. */
 static void hold(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted, bool counted)
 {
     const ale_hold_t hold = ale_hold_of(&p->map, p->view, p->view_count, &p->fit);
@@ -188,13 +201,7 @@ static void hold(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion
     } else {
         ale_drift_slide(&p->drift, &p->slid_um, hold.along_bam, before, predicted);
     }
-    const int64_t dt_us = predicted->stamp_us - before->stamp_us;
-    const bool even = dt_us <= EVEN_US && ale_pace_believes(&p->pace, dt_us) && !p->tracker.jumped;
-    p->paced = hold.held || (p->paced && even);
-    if (hold.bare && p->paced && !counted) {
-        ale_motion_keep_along(&p->fit.motion, predicted, hold.along_bam);
-        p->motion = p->fit.motion;
-    }
+    keep_pace(p, &hold, before, predicted, counted);
 }
 
 /* Where the last scan, or a better one shortly before it, says that the robot is, to be fitted from there. */

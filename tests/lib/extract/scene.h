@@ -62,6 +62,14 @@ inline scan_ptr empty_scan(int beams = 682, double first = -340 * urg_step, doub
     return scan;
 }
 
+// The ranges of the beams from first to before end: millimetres by beam.
+template <class RangeMm> void set_ranges(ale_scan_t *scan, int first, int end, const RangeMm &range_mm)
+{
+    for (int k = first; k < end; k++) {
+        ale_scan_set_range(scan, static_cast<uint16_t>(k), static_cast<int32_t>(1000 * range_mm(k)));
+    }
+}
+
 inline double bearing_of(const ale_scan_t &scan, int beam)
 {
     return ale_scan_bearing(&scan, beam) * (2 * pi / 4294967296.0);

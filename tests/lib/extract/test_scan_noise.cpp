@@ -48,11 +48,8 @@ TEST(ScanNoise, FewPointsThatAreNearEachOtherByChanceDoNotMakeTheNoiseOfAllOther
         std::mt19937 engine(seed);
         std::normal_distribution<double> gauss;
         const auto scan = scene::empty_scan();
-        for (int k = 0; k < scan->beams; k++) {
-            const double range_um = k < 60 ? 1.4e6 : 3.4e6;
-            ale_scan_set_range(scan.get(), static_cast<uint16_t>(k),
-                               static_cast<int32_t>(range_um * (1 + 0.007 * gauss(engine))));
-        }
+        scene::set_ranges(scan.get(), 0, scan->beams,
+                          [&](int k) { return (k < 60 ? 1400 : 3400) * (1 + 0.007 * gauss(engine)); });
         scene::list_points(e, *scan);
         too_small += std::sqrt(scene::noise_of(*e).own(3400)) < 0.8 * 0.007 * 3400 ? 1 : 0;
     }
@@ -68,11 +65,9 @@ void expect_the_walls_noise(double clutter_mm, double jumps_mm, double wall_mm)
         std::mt19937 engine(seed);
         std::normal_distribution<double> gauss;
         const auto scan = scene::empty_scan();
-        for (int k = 0; k < 570; k++) {
-            const double range_mm =
-                k < 70 ? clutter_mm + jumps_mm * gauss(engine) : wall_mm + 3 * gauss(engine);
-            ale_scan_set_range(scan.get(), static_cast<uint16_t>(k), static_cast<int32_t>(1000 * range_mm));
-        }
+        scene::set_ranges(scan.get(), 0, 570, [&](int k) {
+            return k < 70 ? clutter_mm + jumps_mm * gauss(engine) : wall_mm + 3 * gauss(engine);
+        });
         scene::list_points(e, *scan);
         EXPECT_LT(std::sqrt(scene::noise_of(*e).own(wall_mm)), 4) << "seed " << seed;
     }
@@ -100,14 +95,12 @@ int recognised(double shared_mm, double own_mm)
         const double kept = std::exp(-1.0 / 12);
         const auto scan = scene::empty_scan(240, -120 * scene::urg_step);
         double shared = gauss(engine);
-        for (int k = 0; k < scan->beams; k++) {
-            const double bearing = (k % 80 - 40) * scene::urg_step;
-            const double range_mm = (k / 80 == 1 ? 1500 : 3000) / std::cos(bearing);
-            ale_scan_set_range(
-                scan.get(), static_cast<uint16_t>(k),
-                static_cast<int32_t>(1000 * (range_mm + shared_mm * shared + own_mm * gauss(engine))));
+        scene::set_ranges(scan.get(), 0, scan->beams, [&](int k) {
+            const double wall_mm = (k / 80 == 1 ? 1500 : 3000) / std::cos((k % 80 - 40) * scene::urg_step);
+            const double range_mm = wall_mm + shared_mm * shared + own_mm * gauss(engine);
             shared = kept * shared + std::sqrt(1 - kept * kept) * gauss(engine);
-        }
+            return range_mm;
+        });
         scene::prepare_points(e, *scan);
         ale_runs_search(e);
         count += ale_scan_noise_measure_shared(e, scan.get()) ? 1 : 0;

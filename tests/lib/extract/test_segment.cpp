@@ -53,11 +53,9 @@ TEST(Outlier, APointBesideAStepIsKept)
         std::mt19937 engine(seed);
         std::normal_distribution<double> gauss;
         const auto scan = scene::empty_scan();
-        for (int k = 240; k < 440; k++) {
-            const double distance = (k > 360 ? 2030 : 2000) / std::cos((k - 340) * scene::urg_step);
-            ale_scan_set_range(scan.get(), static_cast<uint16_t>(k),
-                               static_cast<int32_t>(1000 * (distance + 3 * gauss(engine))));
-        }
+        scene::set_ranges(scan.get(), 240, 440, [&](int k) {
+            return (k > 360 ? 2030 : 2000) / std::cos((k - 340) * scene::urg_step) + 3 * gauss(engine);
+        });
         scene::list_points(e, *scan);
         ale_outlier_remove_spikes(e);
         removed += 200 - e->count;
