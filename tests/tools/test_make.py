@@ -8,12 +8,20 @@ from at_hand import ROOT
 OBJECT = "obj/lib/graph/block_cholesky.cpp.o"
 
 
-def told(tmp_path, target, *variables):
-    """What would be done for one file."""
+def make(tmp_path, target, *words):
     alone = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS", "OPT"))}
-    done = subprocess.run(["make", "-n", "-C", ROOT, f"BUILD={tmp_path}", "CC=gcc", *variables, f"{tmp_path}/{target}"],
+    done = subprocess.run(["make", "-C", ROOT, f"BUILD={tmp_path}", "CC=gcc", *words, f"{tmp_path}/{target}"],
                           stdin=subprocess.DEVNULL, capture_output=True, text=True, check=True, env=alone, timeout=180)
     return done.stdout
+
+
+def told(tmp_path, target, *variables):
+    """How one file would be compiled."""
+    return re.search(rf"^.* -c .* -o \S*{target}$", make(tmp_path, target, "-n", *variables), re.MULTILINE)[0]
+
+
+def is_compiled(tmp_path, *variables):
+    return "cc\tlib/extract/moments.c" in make(tmp_path, "obj/lib/extract/moments.c.o", *variables)
 
 
 def prelude(tmp_path, *variables):
@@ -38,3 +46,20 @@ def test_the_loops_of_the_extractor_are_unrolled_unless_other_flags_are_asked_fo
         assert optimisation(tmp_path, source) == ["-O3", "-funroll-loops"]
         assert optimisation(tmp_path, source, "OPT=-O1") == ["-O1"]
     assert optimisation(tmp_path, "lib/track/match.c") == ["-O2"]
+
+
+def test_objects_of_other_flags_are_compiled_again(tmp_path):
+    """Who pulls has a build folder of the flags before."""
+    assert is_compiled(tmp_path)
+    assert not is_compiled(tmp_path)
+    assert is_compiled(tmp_path, "EXTRACT_OPT=-O2")
+    assert is_compiled(tmp_path)
+    assert is_compiled(tmp_path, "CC=clang")
+    assert not is_compiled(tmp_path, "CC=clang", "DEBUG=-g1")
+    (tmp_path / "obj/flags").unlink()
+    assert is_compiled(tmp_path, "CC=clang")
+
+
+def test_what_the_hardest_scan_is_searched_with_is_compiled_as_what_is_measured(tmp_path):
+    counted = told(tmp_path, "obj/counted/lib/extract/moments.o")
+    assert re.findall(r" (-O\d|-funroll-loops)\b", counted) == optimisation(tmp_path, "lib/extract/moments.c")

@@ -44,7 +44,8 @@ relocalise: programs ## lost at random places of every bundled world, with a sav
 
 # The costliest scan: the extractor compiled with a call at every basic block, which are counted.
 COUNTED_OBJECTS = $(patsubst %.c,$(OBJ)/counted/%.o,$(wildcard lib/base/*.c lib/extract/*.c))
-$(COUNTED_OBJECTS): $(OBJ)/counted/%.o: %.c
+$(COUNTED_OBJECTS): OPT = $(EXTRACT_OPT)
+$(COUNTED_OBJECTS): $(OBJ)/counted/%.o: %.c $(FLAGS_STAMP)
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(C_FLAGS) -fsanitize-coverage=trace-pc $(LIB_INCLUDES) -c $< -o $@
 
