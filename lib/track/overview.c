@@ -35,6 +35,13 @@ void ale_overview_keep(ale_overview_t *overview, const ale_seen_t *seen, int64_t
     overview->robot = seen->robot;
 }
 
+void ale_overview_stand(ale_overview_t *overview, int64_t stamp_us, ale_pose_t robot)
+{
+    if (overview->stamp_us == stamp_us) {
+        overview->robot = robot;
+    }
+}
+
 bool ale_overview_is_richer(const ale_overview_t *overview, const ale_view_t view[], uint32_t count)
 {
     return overview->shown_um > RICHER * shown_um(view, count);

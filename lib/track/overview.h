@@ -26,6 +26,9 @@ void ale_overview_clear(ale_overview_t *overview);
  * Copies; O(views). */
 void ale_overview_keep(ale_overview_t *overview, const ale_seen_t *seen, int64_t stamp_us);
 
+/* The scan of this stamp was taken from here, if it is the one that is kept. */
+void ale_overview_stand(ale_overview_t *overview, int64_t stamp_us, ale_pose_t robot);
+
 /* Whether it shows more than twice as much as these views. O(views). */
 bool ale_overview_is_richer(const ale_overview_t *overview, const ale_view_t view[], uint32_t count);
 

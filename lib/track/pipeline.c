@@ -219,6 +219,7 @@ static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
     /* a time that cannot be believed forbids no way */
     advance_smooth(p, before.pose, predicted.pose,
                    ale_pace_believes(&p->pace, dt_us) ? dt_us : p->pace.usual_us);
+    ale_pipeline_stand(p);
     ale_stage_end(&p->hook, ALE_STAGE_MAP);
 }
 

@@ -53,6 +53,7 @@ struct ale_pipeline {
     ale_fade_t fade;
     ale_relocation_t relocation;
     ale_witness_t witness;
+    bool witnessed; /* by the scan at hand: it is the one that is kept */
     ale_carried_t carried;
     ale_elders_t elders;
     ale_rest_t rest;

@@ -36,4 +36,8 @@ void ale_pipeline_track(ale_pipeline_t *p, const ale_motion_t *before, const ale
  * since the scan before; counted: wheels told it. */
 void ale_pipeline_search(ale_pipeline_t *p, ale_pose_t way, bool counted);
 
+/* After the smooth pose has followed: what is kept of the scan at hand was seen from there, however the map
+ * pose settles after a correction. */
+void ale_pipeline_stand(ale_pipeline_t *p);
+
 #endif

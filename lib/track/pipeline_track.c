@@ -156,6 +156,7 @@ static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_moti
     ale_overview_keep(&p->overview, &now, p->motion.stamp_us);
     if (p->view_count > 0) {
         ale_witness_keep(&p->witness, &now);
+        p->witnessed = true;
         ale_carried_show(&p->carried, &p->witness.seen.scan);
     }
 }
@@ -272,10 +273,20 @@ static void leave_out_newcomers(ale_pipeline_t *p, const ale_motion_t *before)
     }
 }
 
+void ale_pipeline_stand(ale_pipeline_t *p)
+{
+    if (p->witnessed) {
+        const ale_pose_t robot = p->smooth.pose;
+        ale_overview_stand(&p->overview, p->motion.stamp_us, robot);
+        ale_witness_stand(&p->witness, robot, ale_pose_compose(robot, p->config.sensor));
+    }
+}
+
 void ale_pipeline_track(ale_pipeline_t *p, const ale_motion_t *before, const ale_wheel_motion_t *wheels)
 {
     const ale_scene_t scene = ale_pipeline_scene(p);
     const ale_motion_t *predicted = &p->ways.believed;
+    p->witnessed = false;
     approach(p, predicted->pose, p->scan.range_max_um);
     ale_refine_pose(predicted, &scene, &acquire_gate, &p->fit);
     ale_refine_look(&scene, &p->fit);

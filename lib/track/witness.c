@@ -24,6 +24,12 @@ void ale_witness_keep(ale_witness_t *witness, const ale_seen_t *seen)
     memcpy(witness->view, seen->view, seen->view_count * sizeof witness->view[0]);
 }
 
+void ale_witness_stand(ale_witness_t *witness, ale_pose_t robot, ale_pose_t sensor)
+{
+    witness->seen.robot = robot;
+    witness->seen.sensor = sensor;
+}
+
 ale_seen_t ale_witness_seen(const ale_witness_t *witness)
 {
     const ale_seen_copy_t *then = &witness->seen;

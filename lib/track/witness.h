@@ -36,6 +36,9 @@ void ale_witness_clear(ale_witness_t *witness);
 /* Takes the place of the scan before; copies. */
 void ale_witness_keep(ale_witness_t *witness, const ale_seen_t *seen);
 
+/* The scan that is kept was taken from here. */
+void ale_witness_stand(ale_witness_t *witness, ale_pose_t robot, ale_pose_t sensor);
+
 /* The scan that is kept, as long as it is; its view_count is 0 when there is none. */
 ale_seen_t ale_witness_seen(const ale_witness_t *witness);
 

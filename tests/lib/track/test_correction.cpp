@@ -9,6 +9,7 @@ extern "C" {
 #include "track/correction.h"
 #include "track/keyframe.h"
 #include "track/local_map.h"
+#include "track/pipeline_state.h"
 #include "track/sighting.h"
 }
 
@@ -130,6 +131,24 @@ TEST(Correction, TrackingGoesOnAsIfNothingHadHappened)
     EXPECT_LT((convert::pose(bent.last.map) - expected).head<2>().norm(), 0.006);
     EXPECT_EQ(bent.last.state, ALE_STATE_GOOD);
     EXPECT_LE(bent.map()->line_count, plain.map()->line_count + 2);
+}
+
+TEST(Correction, WhileTheRobotSettlesTheLastScanStaysOnTheWayThatIsSmooth)
+{
+    Driven d;
+    d.drive(80);
+    const reference::Pose shift(0.04, 0.03, 0.02); // of the robot; nearly all walls were there before
+    ale_pipeline_correct(d.pipeline.get(),
+                         correction_of({{d.keyframe->scan, shift}}, d.keyframe->epoch).get());
+    for (int k = 0; k < 3; k++) {
+        d.drive(1);
+        const ale_pipeline_t &p = *d.pipeline;
+        ASSERT_GT(p.witness.view_count, 0U);
+        EXPECT_EQ(p.witness.seen.robot.x_um, d.last.smooth.x_um) << k;
+        EXPECT_EQ(p.witness.seen.robot.y_um, d.last.smooth.y_um) << k;
+        EXPECT_EQ(p.witness.seen.robot.theta_bam, d.last.smooth.theta_bam) << k;
+        EXPECT_EQ(p.overview.robot.theta_bam, d.last.smooth.theta_bam) << k;
+    }
 }
 
 TEST(Correction, ACorrectionOfAnotherMapIsIgnored)
