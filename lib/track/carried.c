@@ -191,7 +191,7 @@ static bool is_explained(const come_t *come, const ale_seen_t *now, const ale_ma
     int64_t shown_um = 0;
     int64_t matched_um = 0;
     for (uint32_t i = 0; i < now->view_count; i++) {
-        const int64_t length_um = (int64_t)now->view[i].end_um - now->view[i].start_um;
+        const int64_t length_um = ale_view_length_um(&now->view[i]);
         if (!is_out(come, &now->view[i])) {
             shown_um += length_um;
             matched_um += is_matched(&match[i]) ? length_um : 0;

@@ -2,6 +2,7 @@
 
 #include "base/fixed.h"
 #include "base/trig.h"
+#include "track/projection.h"
 
 enum {
     STEP_UM2 = 500000, /* what a scan's surfaces add that its covariance does not know */
@@ -27,7 +28,7 @@ typedef struct {
 static int64_t weight_mm(const ale_view_t *view, const ale_match_t *match)
 {
     return match->wall != ALE_NO_WALL && view->kind == ALE_VIEW_WALL
-               ? ale_max64(((int64_t)view->end_um - view->start_um) / 1000, 1)
+               ? ale_max64(ale_view_length_um(view) / 1000, 1)
                : 0;
 }
 
@@ -238,12 +239,9 @@ ale_drift_t ale_drift_here(const ale_local_map_t *map, const ale_view_t view[], 
 /* Variance of the place in the direction of a normal, of a matrix in the same frame. */
 static int64_t across(const square_t *var, uint32_t normal_bam)
 {
-    const ale_direction_t n = ale_direction(normal_bam);
-    const int64_t x = ale_round_shift(n.cos_q30, 10);
-    const int64_t y = ale_round_shift(n.sin_q30, 10);
-    return ale_mul_shift(var->xx, ale_round_shift(x * x, 20), 20) +
-           2 * ale_mul_shift(var->xy, ale_round_shift(x * y, 20), 20) +
-           ale_mul_shift(var->yy, ale_round_shift(y * y, 20), 20);
+    const ale_projection_t n_nt = ale_projection(normal_bam);
+    return ale_mul_shift(var->xx, n_nt.xx_q20, 20) + 2 * ale_mul_shift(var->xy, n_nt.xy_q20, 20) +
+           ale_mul_shift(var->yy, n_nt.yy_q20, 20);
 }
 
 ale_drift_t ale_drift_go_on(const ale_drift_t *here, const ale_motion_t *motion)

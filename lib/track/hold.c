@@ -57,7 +57,7 @@ static void add_walls(const ale_local_map_t *map, const ale_view_t view[], uint3
  * of the mark. */
 static int64_t slid_um2(const ale_view_t *view, int64_t turned_q30)
 {
-    const int64_t length_mm = ((int64_t)view->end_um - view->start_um) / 1000;
+    const int64_t length_mm = ale_view_length_um(view) / 1000;
     const int64_t turned_mrad = ale_round_shift(turned_q30 * 1000, 30);
     return length_mm * length_mm * (turned_mrad * turned_mrad + view->var_angle_urad2 / 1000000);
 }

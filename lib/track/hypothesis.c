@@ -27,11 +27,6 @@ static bool is_open(int32_t angle_bam)
     return size > LEAST_ENCLOSED_BAM && size < (int64_t)ALE_BAM_HALF_TURN - LEAST_ENCLOSED_BAM;
 }
 
-static int64_t length_of(const ale_view_t *v)
-{
-    return (int64_t)v->end_um - v->start_um;
-}
-
 typedef struct {
     uint32_t first;
     uint32_t second;
@@ -42,7 +37,7 @@ typedef struct {
 static int64_t usable_um(const ale_view_t view[], uint32_t i, const pair_t *other)
 {
     const bool taken = other && (i == other->first || i == other->second);
-    return view[i].kind == ALE_VIEW_WALL && !taken ? length_of(&view[i]) : 0;
+    return view[i].kind == ALE_VIEW_WALL && !taken ? ale_view_length_um(&view[i]) : 0;
 }
 
 /* The two views that fix a pose best, without those of another pair: long, and far from parallel. */
@@ -52,7 +47,7 @@ static pair_t choose_pair(const ale_view_t view[], uint32_t count, const pair_t 
     for (uint32_t i = 0; i < count; i++) {
         const int64_t length_um = usable_um(view, i, other);
         for (uint32_t k = i + 1; length_um > best.shorter_um && k < count; k++) {
-            const int64_t shorter_um = ale_min64(length_um, length_of(&view[k]));
+            const int64_t shorter_um = ale_min64(length_um, ale_view_length_um(&view[k]));
             if (shorter_um > best.shorter_um && usable_um(view, k, other) > 0 &&
                 is_open(enclosed(view[i].normal_bam, view[k].normal_bam))) {
                 best = (pair_t){i, k, shorter_um};
@@ -78,7 +73,7 @@ int32_t ale_search_pair_q8(const ale_search_t *search, const ale_view_t view[], 
     const pair_t pair = pair_of_round(search, view, count);
     int64_t shown_um = 0;
     for (uint32_t i = 0; i < count; i++) {
-        shown_um += view[i].kind == ALE_VIEW_WALL ? length_of(&view[i]) : 0;
+        shown_um += view[i].kind == ALE_VIEW_WALL ? ale_view_length_um(&view[i]) : 0;
     }
     return shown_um > 0 ? (int32_t)(pair.shorter_um * 256 / shown_um) : 0;
 }
@@ -118,9 +113,9 @@ ale_hypothesis_t ale_hypothesis_at(const ale_local_map_t *map, const ale_view_t 
         }
         *looks -= ALE_LOOKS_OF_A_MOVE;
         const ale_match_t match = ale_match_view(map, &view[i], &stand, NULL, gate, looks);
-        h.shown_um += length_of(&view[i]);
+        h.shown_um += ale_view_length_um(&view[i]);
         if (match.wall != ALE_NO_WALL) {
-            h.score_um += ale_min64(match.error.overlap_um, length_of(&view[i]));
+            h.score_um += ale_min64(match.error.overlap_um, ale_view_length_um(&view[i]));
             h.views++;
         }
     }
@@ -132,13 +127,13 @@ static bool lies_on(const ale_wall_t *wall, const ale_view_t *view, ale_pose_t p
 {
     const ale_stand_t stand = ale_stand(pose);
     const ale_view_t placed = ale_view_from(view, &stand);
-    return ale_wall_error(wall, &placed).overlap_um * 100 >= length_of(view) * SHARED_PERCENT;
+    return ale_wall_error(wall, &placed).overlap_um * 100 >= ale_view_length_um(view) * SHARED_PERCENT;
 }
 
 /* No pose can lay as much of the view on the wall as lies_on asks for. */
 static bool is_too_short(const ale_wall_t *wall, const ale_view_t *view)
 {
-    return ((int64_t)wall->end_um - wall->start_um) * 100 < length_of(view) * SHARED_PERCENT;
+    return ((int64_t)wall->end_um - wall->start_um) * 100 < ale_view_length_um(view) * SHARED_PERCENT;
 }
 
 static void next_first(ale_search_t *s, uint16_t count)

@@ -116,7 +116,7 @@ void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t coun
     const ale_gate_t conflict = {CONFLICT_OFFSET_UM, CONFLICT_ANGLE_URAD, CONFLICT_SIGMAS, 0};
     for (uint32_t i = 0; i < count; i++) {
         const ale_match_t *match = &fit->match[i];
-        const int64_t length_um = (int64_t)view[i].end_um - view[i].start_um;
+        const int64_t length_um = ale_view_length_um(&view[i]);
         if (match->wall == ALE_NO_WALL && (view[i].kind != ALE_VIEW_WALL || length_um < ALE_WALL_LENGTH_UM)) {
             update_mark(&map->marks, &view[i], fit, match, taking);
             continue;

@@ -78,8 +78,7 @@ static inline bool overlaps(const ale_wall_t *wall, const ale_view_t *view, int6
     if (overlap_um <= 0) {
         return false;
     }
-    const int64_t shorter_um =
-        ale_min64(wall->end_um - wall->start_um, (int64_t)view->end_um - view->start_um);
+    const int64_t shorter_um = ale_min64(wall->end_um - wall->start_um, ale_view_length_um(view));
     return overlap_um * 10 > shorter_um * 8 ||
            (overlap_um > OVERLAP_LEAST_UM && overlap_um * 100 > shorter_um * OVERLAP_PERCENT);
 }

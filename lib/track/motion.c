@@ -2,6 +2,7 @@
 
 #include "base/fixed.h"
 #include "base/trig.h"
+#include "track/projection.h"
 #include "track/ratio.h"
 
 enum {
@@ -289,29 +290,14 @@ void ale_motion_correct(ale_motion_t *motion, const int64_t delta[ALE_STATES])
     }
 }
 
-/* What of a vector of the plane points along a direction: that direction times itself. */
-typedef struct {
-    int64_t xx_q20;
-    int64_t xy_q20;
-    int64_t yy_q20;
-} along_t;
-
-static along_t along(uint32_t direction_bam)
-{
-    const ale_direction_t d = ale_direction(direction_bam);
-    const int64_t x = ale_round_shift(d.cos_q30, 10);
-    const int64_t y = ale_round_shift(d.sin_q30, 10);
-    return (along_t){ale_round_shift(x * x, 20), ale_round_shift(x * y, 20), ale_round_shift(y * y, 20)};
-}
-
-static ale_point_t part_along(const along_t *a, int64_t x, int64_t y)
+static ale_point_t part_along(const ale_projection_t *a, int64_t x, int64_t y)
 {
     return (ale_point_t){(int32_t)ale_round_shift(a->xx_q20 * x + a->xy_q20 * y, 20),
                          (int32_t)ale_round_shift(a->xy_q20 * x + a->yy_q20 * y, 20)};
 }
 
 /* The variance that the scan took away along that direction comes back. */
-static void give_back(const along_t *a, const ale_matrix_t *predicted, ale_matrix_t *found)
+static void give_back(const ale_projection_t *a, const ale_matrix_t *predicted, ale_matrix_t *found)
 {
     int64_t f_q20[ALE_STATES][ALE_STATES] = {{0}};
     for (int i = 0; i < ALE_STATES; i += ALE_AXES) {
@@ -336,7 +322,7 @@ static void give_back(const along_t *a, const ale_matrix_t *predicted, ale_matri
 
 void ale_motion_keep_along(ale_motion_t *found, const ale_motion_t *predicted, uint32_t along_bam)
 {
-    const along_t a = along(along_bam - predicted->pose.theta_bam);
+    const ale_projection_t a = ale_projection(along_bam - predicted->pose.theta_bam);
     give_back(&a, &predicted->cov, &found->cov);
     ale_pose_t step = ale_pose_between(predicted->pose, found->pose);
     const ale_point_t way = part_along(&a, step.x_um, step.y_um);

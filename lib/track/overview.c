@@ -6,15 +6,6 @@
 
 enum { KEPT_US = 2000000, KEPT_UM = 500000, KEPT_BAM = 500 * ALE_BAM_PER_MRAD, RICHER = 2 };
 
-static int64_t shown_um(const ale_view_t view[], uint32_t count)
-{
-    int64_t sum_um = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        sum_um += (int64_t)view[i].end_um - view[i].start_um;
-    }
-    return sum_um;
-}
-
 void ale_overview_clear(ale_overview_t *overview)
 {
     overview->view_count = 0;
@@ -30,7 +21,7 @@ void ale_overview_keep(ale_overview_t *overview, const ale_seen_t *seen, int64_t
     }
     memcpy(overview->view, seen->view, seen->view_count * sizeof overview->view[0]);
     overview->view_count = seen->view_count;
-    overview->shown_um = shown_um(seen->view, seen->view_count);
+    overview->shown_um = ale_views_length_um(seen->view, seen->view_count);
     overview->stamp_us = stamp_us;
     overview->robot = seen->robot;
 }
@@ -44,5 +35,5 @@ void ale_overview_stand(ale_overview_t *overview, int64_t stamp_us, ale_pose_t r
 
 bool ale_overview_is_richer(const ale_overview_t *overview, const ale_view_t view[], uint32_t count)
 {
-    return overview->shown_um > RICHER * shown_um(view, count);
+    return overview->shown_um > RICHER * ale_views_length_um(view, count);
 }

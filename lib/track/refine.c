@@ -31,7 +31,7 @@ static int64_t ticks_q20(int64_t time_us)
 /* Time at the view's centre, and how it grows along the wall (ticks per metre), Q20. */
 static void view_time(const ale_view_t *v, int64_t *centre_q20, int64_t *slope_q20)
 {
-    const int64_t length_um = ale_max64((int64_t)v->end_um - v->start_um, 10000);
+    const int64_t length_um = ale_max64(ale_view_length_um(v), 10000);
     const int64_t start = ticks_q20(v->start_time_us);
     const int64_t growth = ticks_q20(v->end_time_us) - start;
     *centre_q20 = start + ale_round_div(growth * -v->start_um, length_um);
@@ -110,7 +110,7 @@ static void add_mark_rows(const ale_view_t *view, const ale_mark_t *mark, uint32
     ale_information_add(sum, rows.offset_row_q14, match->error.offset_um,
                         robust_var(match->error.offset_um, var));
     if (view->kind == ALE_VIEW_SPOT && mark->spot) {
-        const int64_t width_um = (int64_t)view->end_um - view->start_um;
+        const int64_t width_um = ale_view_length_um(view);
         const int64_t var_across = var + width_um * width_um / 12;
         ale_wall_error_t across = {.offset_um = match->error.t_um};
         ale_view_rows(view, theta_bam, ale_tangent_bam(mark->normal_bam), &rows);
@@ -133,8 +133,7 @@ static ale_match_t find(const ale_scene_t *scene, const ale_view_t *view, const 
 {
     if (view->kind == ALE_VIEW_WALL) {
         const ale_match_t wall = ale_match_view(scene->map, view, stand, cov, gate, looks);
-        const bool found =
-            wall.wall != ALE_NO_WALL || (int64_t)view->end_um - view->start_um >= ALE_WALL_LENGTH_UM;
+        const bool found = wall.wall != ALE_NO_WALL || ale_view_length_um(view) >= ALE_WALL_LENGTH_UM;
         return found ? wall : ale_match_mark(scene->map, view, stand, gate->piece_um);
     }
     const ale_gate_t loose = {gate->piece_um, PIECE_ANGLE_URAD, gate->sigmas, 0};
@@ -162,7 +161,7 @@ static void find_all(const ale_scene_t *scene, const ale_matrix_t *cov, const al
     for (uint32_t i = 0; i < scene->view_count; i++) {
         const ale_view_t *view = &scene->view[i];
         ale_match_t *match = &fit->match[i];
-        const int64_t length_um = (int64_t)view->end_um - view->start_um;
+        const int64_t length_um = ale_view_length_um(view);
         looks -= ALE_LOOKS_OF_A_VIEW;
         *match = looks < 0 ? (ale_match_t){.wall = ALE_NO_WALL, .mark = ALE_NO_MARK}
                            : find(scene, view, &stand, cov, gate, &looks);
@@ -240,11 +239,11 @@ void ale_refine_reject(const ale_motion_t *predicted, const ale_scene_t *scene, 
 {
     start(predicted, scene, fit);
     clear(fit);
+    fit->shown_um = ale_views_length_um(scene->view, scene->view_count);
     fit->information = no_information;
     fit->iterations = 0;
     for (uint32_t i = 0; i < scene->view_count; i++) {
         fit->match[i] = (ale_match_t){.wall = ALE_NO_WALL, .mark = ALE_NO_MARK};
-        fit->shown_um += (int64_t)scene->view[i].end_um - scene->view[i].start_um;
     }
 }
 

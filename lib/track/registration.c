@@ -21,7 +21,7 @@ enum {
 
 static int32_t length_mm(const ale_view_t *v)
 {
-    return (v->end_um - v->start_um) / 1000;
+    return (int32_t)(ale_view_length_um(v) / 1000);
 }
 
 /* Indices of the longest views, in order of length: insertion into a bounded list. */

@@ -280,8 +280,7 @@ static const ale_view_t *longest_view(const ale_scene_t *scene)
     const ale_view_t *longest = &scene->view[0];
     for (uint32_t i = 1; i < scene->view_count; i++) {
         const ale_view_t *view = &scene->view[i];
-        if (view->kind == ALE_VIEW_WALL &&
-            view->end_um - view->start_um > longest->end_um - longest->start_um) {
+        if (view->kind == ALE_VIEW_WALL && ale_view_length_um(view) > ale_view_length_um(longest)) {
             longest = view;
         }
     }

@@ -71,7 +71,7 @@ static void view_of(const ale_line_t *line, const ale_scan_t *scan, const ale_st
     out->end_time_us = forward ? last_us : first_us;
     out->start_end = forward ? line->first_end : line->last_end;
     out->end_end = forward ? line->last_end : line->first_end;
-    const int64_t length_mm = ale_max64((out->end_um - out->start_um) / 1000, 10);
+    const int64_t length_mm = ale_max64(ale_view_length_um(out) / 1000, 10);
     const int64_t bend_urad = systematic_um * 4000 / length_mm;
     out->var_offset_um2 = ale_max64(var_um2, 0) + OFFSET_FLOOR_UM2 + systematic_um * systematic_um;
     out->var_angle_urad2 = line->var_alpha_nrad2 / 1000000 + ANGLE_FLOOR_URAD2 + bend_urad * bend_urad;
@@ -91,4 +91,13 @@ uint32_t ale_views_of(const ale_features_t *features, const ale_scan_t *scan, al
         }
     }
     return count;
+}
+
+int64_t ale_views_length_um(const ale_view_t view[], uint32_t count)
+{
+    int64_t sum_um = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        sum_um += ale_view_length_um(&view[i]);
+    }
+    return sum_um;
 }

@@ -50,6 +50,14 @@ typedef struct {
     uint8_t kind; /* ale_view_kind_t */
 } ale_view_t;
 
+static inline int64_t ale_view_length_um(const ale_view_t *view)
+{
+    return (int64_t)view->end_um - view->start_um;
+}
+
+/* Length of all of them together. */
+int64_t ale_views_length_um(const ale_view_t view[], uint32_t count);
+
 /* Views of the lines of a scan. systematic_um: one sigma of what bends and shifts a line the same way in
  * scan after scan (the surface, the range), which no number of beams or scans averages away. Returns their
  * number, ALE_MAX_VIEWS at most. O(lines). */
