@@ -58,8 +58,3 @@ def test_objects_of_other_flags_are_compiled_again(tmp_path):
     assert not is_compiled(tmp_path, "CC=clang", "DEBUG=-g1")
     (tmp_path / "obj/flags").unlink()
     assert is_compiled(tmp_path, "CC=clang")
-
-
-def test_what_the_hardest_scan_is_searched_with_is_compiled_as_what_is_measured(tmp_path):
-    counted = told(tmp_path, "obj/counted/lib/extract/moments.o")
-    assert re.findall(r" (-O\d|-funroll-loops)\b", counted) == optimisation(tmp_path, "lib/extract/moments.c")
