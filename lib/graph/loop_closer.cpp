@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "graph/building_axes.h"
 #include "graph/patch.h"
 #include "graph/surface_field.h"
 #include "graph/thinning.h"
 #include "graph/tight_match.h"
+#include "graph/visits.h"
 
 namespace ale
 {
@@ -59,11 +61,15 @@ Eigen::Matrix3d motion_information(const Pose &motion, const Node &to)
     return known_to(sigma_m, sigma_rad);
 }
 
-bool near(const Pose &guess, const LoopMatch &match, double overlap)
+bool is_known(const Pose &guess, const Pose &matched)
 {
-    const Pose off = between(guess, match.pose);
-    return match.found && match.overlap >= overlap && length(off.x, off.y) < known_m &&
-           std::abs(off.theta) < known_rad;
+    const Pose off = between(guess, matched);
+    return length(off.x, off.y) < known_m && std::abs(off.theta) < known_rad;
+}
+
+bool is_recognised(const Pose &guess, const LoopMatch &match, double overlap)
+{
+    return match.found && match.overlap >= overlap && is_known(guess, match.pose);
 }
 
 } // namespace
@@ -195,8 +201,7 @@ bool LoopCloser::lay_on_known()
     if (!match) {
         return false;
     }
-    const Pose off = between(guess, match->pose);
-    const bool known = length(off.x, off.y) < known_m && std::abs(off.theta) < known_rad;
+    const bool known = is_known(guess, match->pose);
     if (known || iterations_left_ < optimise_iterations) {
         graph_.add_anchor({here, known ? guess : match->pose, match->information});
         return false;
@@ -312,12 +317,8 @@ bool LoopCloser::are_neighbours_torn() const
 // Earlier nodes near the present pose, visited long ago: the nearest of each visit.
 std::vector<int> LoopCloser::candidates() const
 {
-    struct Place {
-        int k;
-        double distance;
-    };
     const Pose &here = graph_.poses().back();
-    std::vector<Place> places;
+    std::vector<NearPlace> places;
     for (size_t k = 0; k < nodes_.size(); k++) {
         const double driven_m = nodes_.back().path_m - nodes_[k].path_m;
         if (driven_m < loop_min_path_m) {
@@ -329,17 +330,7 @@ std::vector<int> LoopCloser::candidates() const
             places.push_back({static_cast<int>(k), distance});
         }
     }
-    std::stable_sort(places.begin(), places.end(),
-                     [](const Place &a, const Place &b) { return a.distance < b.distance; });
-    std::vector<int> chosen;
-    for (const Place &place : places) {
-        const bool same_visit = std::any_of(chosen.begin(), chosen.end(),
-                                            [&](int k) { return std::abs(k - place.k) <= 2 * patch_nodes; });
-        if (!same_visit && chosen.size() < loop_candidates) {
-            chosen.push_back(place.k);
-        }
-    }
-    return chosen;
+    return nearest_of_each_visit(std::move(places), 2 * patch_nodes, loop_candidates);
 }
 
 LoopCloser::Sight LoopCloser::look_for_loop(int there, Loop *loop) const
@@ -352,7 +343,7 @@ LoopCloser::Sight LoopCloser::look_for_loop(int there, Loop *loop) const
     const Pose guess = between(graph_.poses()[static_cast<size_t>(there)], graph_.poses().back());
     const std::vector<SurfacePoint> seen = patch_around(nodes_, graph_.poses(), here, patch_here);
     *loop = {there, here, guess, known_to(recognised_m, recognised_rad), 1};
-    if (near(guess, match_near(seen, field, guess), clear_overlap)) {
+    if (is_recognised(guess, match_near(seen, field, guess), clear_overlap)) {
         return Sight::known;
     }
     const LoopMatch match =
@@ -361,7 +352,7 @@ LoopCloser::Sight LoopCloser::look_for_loop(int there, Loop *loop) const
     if (!is_sight(match)) {
         return Sight::unclear;
     }
-    if (near(guess, match, least_overlap)) {
+    if (is_recognised(guess, match, least_overlap)) {
         return Sight::known;
     }
     *loop = loop_by(match, there, here);

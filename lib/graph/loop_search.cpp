@@ -7,6 +7,7 @@
 #include "graph/loop_match.h"
 #include "graph/patch.h"
 #include "graph/surface_field.h"
+#include "graph/visits.h"
 
 namespace ale
 {
@@ -47,6 +48,12 @@ constexpr int partners_when_sparse = 2;
 // The robust kernel narrows by half every other iteration, to its normal width.
 constexpr double widest_kernel = 10000;
 constexpr int iterations = 32;
+
+SearchWindow window_of(const Spread &spread)
+{
+    return {std::min(max_window_m, window_m + deviations * spread.metres),
+            std::min(max_window_rad, window_rad + deviations * spread.radians)};
+}
 
 GraphEdge edge_by(const Loop &loop)
 {
@@ -95,32 +102,23 @@ std::vector<LoopSearch::Place> LoopSearch::places_near(int k) const
 {
     const std::vector<Spread> spread = spread_->from(k);
     const Node &here = (*nodes_)[static_cast<size_t>(k)];
-    std::vector<Place> places;
+    std::vector<NearPlace> near;
     for (int there = 0; there < k; there++) {
         const auto at = static_cast<size_t>(there);
         if (here.path_m - (*nodes_)[at].path_m < loop_min_path_m) {
             break;
         }
-        const SearchWindow window{std::min(max_window_m, window_m + deviations * spread[at].metres),
-                                  std::min(max_window_rad, window_rad + deviations * spread[at].radians)};
         const Pose off = between(graph_.poses()[at], graph_.poses()[static_cast<size_t>(k)]);
         const double distance = length(off.x, off.y);
-        if (distance < reach_m + window.half_m) {
-            places.push_back({there, distance + metres_a_radian * std::abs(off.theta), window});
+        if (distance < reach_m + window_of(spread[at]).half_m) {
+            near.push_back({there, distance + metres_a_radian * std::abs(off.theta)});
         }
     }
-    std::stable_sort(places.begin(), places.end(),
-                     [](const Place &a, const Place &b) { return a.distance < b.distance; });
-    std::vector<Place> chosen;
-    for (const Place &place : places) {
-        const bool same_visit = std::any_of(chosen.begin(), chosen.end(), [&](const Place &other) {
-            return std::abs(other.k - place.k) <= same_visit_nodes;
-        });
-        if (!same_visit && chosen.size() < most_places) {
-            chosen.push_back(place);
-        }
+    std::vector<Place> places;
+    for (const int there : nearest_of_each_visit(std::move(near), same_visit_nodes, most_places)) {
+        places.push_back({there, window_of(spread[static_cast<size_t>(there)])});
     }
-    return chosen;
+    return places;
 }
 
 void LoopSearch::look_from(int k)

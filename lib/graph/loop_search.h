@@ -45,7 +45,6 @@ class LoopSearch
   private:
     struct Place {
         int k;
-        double distance;
         SearchWindow window;
     };
     struct Found {

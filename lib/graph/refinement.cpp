@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "graph/building_axes.h"
 #include "graph/surface_field.h"
 #include "graph/tight_match.h"
+#include "graph/visits.h"
 
 namespace ale
 {
@@ -60,12 +62,8 @@ bool Refinement::step()
 // Later nodes that may see the same: the next few along the way, and the nearest of each other visit.
 std::vector<int> Refinement::neighbours_of(int k) const
 {
-    struct Place {
-        int k;
-        double distance;
-    };
     const int count = static_cast<int>(nodes_->size());
-    std::vector<Place> places;
+    std::vector<NearPlace> places;
     for (int there = k + nodes_along + 1; there < count; there++) {
         const Pose off =
             between(graph_.poses()[static_cast<size_t>(k)], graph_.poses()[static_cast<size_t>(there)]);
@@ -74,17 +72,7 @@ std::vector<int> Refinement::neighbours_of(int k) const
             places.push_back({there, distance});
         }
     }
-    std::stable_sort(places.begin(), places.end(),
-                     [](const Place &a, const Place &b) { return a.distance < b.distance; });
-    std::vector<int> chosen;
-    for (const Place &place : places) {
-        const bool same_visit = std::any_of(chosen.begin(), chosen.end(), [&](int other) {
-            return std::abs(other - place.k) <= same_visit_nodes;
-        });
-        if (!same_visit && chosen.size() < other_visits) {
-            chosen.push_back(place.k);
-        }
-    }
+    std::vector<int> chosen = nearest_of_each_visit(std::move(places), same_visit_nodes, other_visits);
     for (int there = k + 1; there < std::min(count, k + 1 + nodes_along); there++) {
         chosen.push_back(there);
     }
