@@ -288,6 +288,7 @@ def test_without_keys_nobody_is_obeyed_and_the_sender_is_told(rover):
 @pytest.mark.parametrize("words, status, part", [
     ([], 2, "--keys is missing"),
     (["--keys", "KEY"], 2, "which verb"),
+    (["stop", "--keys", "KEY"], 2, "options come before the verb: --keys"),
     (["--keys", "absent", "stop"], 1, "absent"),
     (["--keys", "KEY", "--seconds", "2", "stop"], 2, "--seconds"),
     (["--keys", "KEY", "fly"], 2, "no verb fly"),

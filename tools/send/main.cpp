@@ -61,9 +61,20 @@ ale_command_t command_of(const std::vector<std::string> &words)
     return command;
 }
 
+/* Words after the verb are its own: a robot may be driven backwards. */
+void check_order(const std::vector<std::string> &words)
+{
+    const auto option = std::find_if(words.begin(), words.end(),
+                                     [](const std::string &word) { return word.rfind("--", 0) == 0; });
+    if (option != words.end()) {
+        throw cli::WrongUse("options come before the verb: " + *option);
+    }
+}
+
 /* A command that no robot could obey is told before one is looked for. */
 void check(const Options &options)
 {
+    check_order(options.words);
     if (options.keys.empty() || options.words.empty()) {
         throw cli::WrongUse(options.keys.empty() ? "--keys is missing" : "which verb?");
     }
