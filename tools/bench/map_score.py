@@ -10,6 +10,7 @@ Found: of what five beams or more could see within 4 m, that which lies within 6
 """
 import argparse
 import math
+import sys
 
 import numpy as np
 
@@ -20,7 +21,7 @@ STEP_M, SIGHT_M, BEAMS_LEAST, POSE_EVERY = 0.05, 4.0, 5, 5
 
 def read_walls(path):
     """Lines of the layer WALLS, one a row: x1 y1 x2 y2."""
-    with open(path, encoding="ascii") as file:
+    with open(path, encoding="ascii", errors="replace") as file:
         words = [word.strip() for word in file]
     walls, entity = [], {}
     for code, value in zip(words[::2], words[1::2]):
@@ -29,12 +30,16 @@ def read_walls(path):
                 walls.append([float(entity[key]) for key in ("10", "20", "11", "21")])
             entity = {}
         entity[code] = value
+    if not walls:
+        raise ValueError(f"{path}: no walls in it: is it a map of ale-replay --map F.dxf?")
     return np.array(walls).reshape(-1, 4)
 
 
-def read_numbers(path):
-    with open(path, encoding="ascii") as file:
-        return np.array([[float(word) for word in line.split()] for line in file if line.strip() and line[0] != "#"])
+def read_numbers(path, columns):
+    try:
+        return np.loadtxt(path, ndmin=2, usecols=range(columns), encoding="utf-8")
+    except ValueError as error:
+        raise ValueError(f"{path}: not {columns} numbers in every line") from error
 
 
 def directions(walls):
@@ -117,6 +122,19 @@ def in_plan(walls, start):
     return np.concatenate([walls[:, :2] @ turn + [x, y], walls[:, 2:] @ turn + [x, y]], 1)
 
 
+def told(options):
+    walls = read_walls(options.map)
+    pairs, along = standing_twice(walls)
+    words = f"{len(walls)} walls, {directions(walls)[1].sum():.1f} m; standing twice: {pairs} pairs, {along:.1f} m"
+    if options.plan:
+        plan, truth = read_numbers(options.plan, 4), read_numbers(options.truth, 8)
+        poses = np.stack([truth[:, 1], truth[:, 2], 2 * np.arctan2(truth[:, 6], truth[:, 7])], 1)
+        drawn = in_plan(walls, poses[0])
+        right, found = are_right(drawn, plan).mean(), are_found(seen_points(plan, poses), drawn).mean()
+        words += f"; right {100 * right:.1f} %, found {100 * found:.1f} %"
+    return words
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("map")
@@ -125,16 +143,12 @@ def main():
     options = parser.parse_args()
     if options.plan and not options.truth:
         parser.error("PLAN needs TRUTH.tum")
-    walls = read_walls(options.map)
-    pairs, along = standing_twice(walls)
-    words = f"{len(walls)} walls, {directions(walls)[1].sum():.1f} m; standing twice: {pairs} pairs, {along:.1f} m"
-    if options.plan:
-        plan, truth = read_numbers(options.plan)[:, :4], read_numbers(options.truth)
-        poses = np.stack([truth[:, 1], truth[:, 2], 2 * np.arctan2(truth[:, 6], truth[:, 7])], 1)
-        drawn = in_plan(walls, poses[0])
-        right, found = are_right(drawn, plan).mean(), are_found(seen_points(plan, poses), drawn).mean()
-        words += f"; right {100 * right:.1f} %, found {100 * found:.1f} %"
-    print(words)
+    try:
+        print(told(options))
+    except OSError as error:
+        sys.exit(f"map_score.py: {error.filename}: {error.strerror}")
+    except ValueError as error:
+        sys.exit(f"map_score.py: {error}")
 
 
 if __name__ == "__main__":

@@ -29,7 +29,11 @@ ROBOT_M = 0.25  # room that a place leaves around the robot
 class World:
     def __init__(self, path):
         self.walls, self.start, self.via = [], (0.0, 0.0, 0.0), []
-        for line in pathlib.Path(path).read_text().splitlines():
+        try:
+            lines = pathlib.Path(path).read_text(encoding="utf-8").splitlines()
+        except OSError as error:
+            raise SystemExit(f"relocalise.py: {path}: {error.strerror}") from error
+        for line in lines:
             words = line.split()
             if words[:2] == ["#", "start"]:
                 self.start = tuple(map(float, words[2:5]))
@@ -38,7 +42,7 @@ class World:
             elif words and words[0] != "#":
                 self.walls.append(tuple(map(float, words[:4])))
         if not self.via:
-            raise SystemExit(f"{path}: no way through it (\"# via x y\"), near which places are taken")
+            raise SystemExit(f"relocalise.py: {path}: no way through it (\"# via x y\"), near which places are taken")
 
     def room(self, x, y):
         """Distance to the nearest wall."""
@@ -170,6 +174,10 @@ def main():
     parser.add_argument("--seed", type=int, default=7)
     parser.add_argument("worlds", nargs="*", default=sorted(map(str, pathlib.Path("tools/worlds").glob("*.world"))))
     options = parser.parse_args()
+    if options.poses < 1 or options.seconds <= 0:
+        parser.error("--poses and --seconds want more than 0")
+    if not (options.build / "bin/ale-replay").exists():
+        sys.exit(f"relocalise.py: no programs in {options.build}/bin (make builds them)")
     fine = True
     for world_file in options.worlds:
         times, right, wrong, off_m = try_world(options.build, world_file, options.poses, options.seconds, options.seed)
