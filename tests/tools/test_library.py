@@ -127,10 +127,23 @@ def test_too_many_beams_are_refused(library):
         ale_lines.Extractor(library).extract([1.0] * 1082, 0, 0.001)
 
 
-def test_the_plot_script_writes_a_picture(library, tmp_path):
+@pytest.fixture(scope="module")
+def plot():
+    """The plot script, with the interpreter that has what it needs."""
     interpreter = "/usr/bin/python3"
     if subprocess.run([interpreter, "-c", "import matplotlib"], check=False, capture_output=True).returncode:
         pytest.skip("matplotlib is not installed")
+    return interpreter, ROOT / "tools/python/plot_lines.py"
+
+
+def test_the_plot_script_writes_a_picture(library, plot, tmp_path):
     picture = tmp_path / "room.png"
-    run(interpreter, ROOT / "tools/python/plot_lines.py", ROOM, "--out", picture, "--library", library)
+    run(*plot, ROOM, "--out", picture, "--library", library)
     assert picture.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+
+
+@pytest.mark.parametrize("scan, part", [("absent", "absent: No such file"), (__file__, "not numbers")])
+def test_the_plot_script_says_in_one_line_what_is_no_scan(plot, scan, part):
+    done = subprocess.run([*plot, scan], check=False, capture_output=True, text=True)
+    assert done.returncode == 1
+    assert part in done.stderr and done.stderr.count("\n") == 1

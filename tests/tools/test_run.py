@@ -115,6 +115,7 @@ def test_programs_that_are_not_built_are_named(tmp_path):
     running = start(tmp_path)
     _, err = running.communicate(timeout=180)
     assert running.returncode == 1 and "ale-sim is missing" in err
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.skipif(os.geteuid() != 0 or shutil.which("unshare") is None, reason="needs root and unshare to take the network away")

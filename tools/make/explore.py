@@ -84,8 +84,8 @@ def explore(chain, arguments):
 
 def run(arguments):
     folder = arguments.build / "explore"
-    folder.mkdir(parents=True, exist_ok=True)
     require_programs(arguments.build / "bin", PROGRAMS)
+    folder.mkdir(parents=True, exist_ok=True)
     for old in [folder / name for name in (*RESULTS, "urg")]:
         old.unlink(missing_ok=True)
     chain = Chain(folder, arguments.build / "bin")

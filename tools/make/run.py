@@ -73,8 +73,8 @@ def results(folder):
 def run(arguments):
     binaries = arguments.build / "bin"
     folder = arguments.build / "run"
-    folder.mkdir(parents=True, exist_ok=True)
     require_programs(binaries, PROGRAMS)
+    folder.mkdir(parents=True, exist_ok=True)
     for old in [*results(folder), folder / "urg"]:
         old.unlink(missing_ok=True)
     recording = arguments.log or recording_of(arguments.world, folder, binaries)

@@ -9,6 +9,7 @@ SCAN.txt holds numbers: bearing of the first beam and step in degrees, then the 
 import argparse
 import math
 import pathlib
+import sys
 
 import matplotlib
 
@@ -18,14 +19,24 @@ import matplotlib.pyplot as plt  # noqa: E402
 from ale_lines import Extractor  # noqa: E402
 
 
+def read_scan(path):
+    """Bearing of the first beam and step in radians, ranges in metres."""
+    try:
+        first, step, *ranges = map(float, path.read_text(encoding="ascii").split())
+    except OSError as error:
+        sys.exit(f"plot_lines.py: {path}: {error.strerror}")
+    except ValueError:
+        sys.exit(f"plot_lines.py: {path}: not numbers: first bearing, step, ranges")
+    return math.radians(first), math.radians(step), ranges
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scan", type=pathlib.Path)
     parser.add_argument("--out", default="lines.png")
     parser.add_argument("--library", help="libale.so (default: found)")
     options = parser.parse_args()
-    first, step, *ranges = (float(word) for word in options.scan.read_text(encoding="ascii").split())
-    first, step = math.radians(first), math.radians(step)
+    first, step, ranges = read_scan(options.scan)
     features = Extractor(options.library).extract(ranges, first, step)
 
     seen = [(r * math.cos(first + k * step), r * math.sin(first + k * step)) for k, r in enumerate(ranges) if r > 0]
