@@ -43,7 +43,7 @@ relocalise: programs ## lost at random places of every bundled world, with a sav
 	@$(PYTHON) tools/bench/relocalise.py --build $(BUILD) --poses $(POSES)
 
 # The costliest scan: the extractor compiled with a call at every basic block, which are counted. Its loops stay rolled:
-# blocks of unrolled ones stand for several turns, and the search then finds scans that cost 5 % less.
+# blocks of unrolled ones stand for several turns, and the search then finds scans that cost 4 % less.
 COUNTED_OBJECTS = $(patsubst %.c,$(OBJ)/counted/%.o,$(wildcard lib/base/*.c lib/extract/*.c))
 $(COUNTED_OBJECTS): $(OBJ)/counted/%.o: %.c $(FLAGS_STAMP)
 	@mkdir -p $(@D)
