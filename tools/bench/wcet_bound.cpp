@@ -1,11 +1,10 @@
 #include "bench/wcet_bound.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <memory>
 
 #include "bench/random.hpp"
+#include "bench/wcet_crowd.hpp"
 #include "bench/wcet_scans.hpp"
 
 extern "C" {
@@ -38,8 +37,6 @@ namespace
 constexpr int seeds = 8;
 constexpr int pool_scans = 60;
 constexpr int32_t centimetre_um = 10000;
-constexpr double um_per_m = 1e6;
-constexpr double full_turn_bam = 4294967296.0;
 
 /* Everything that is measured more than once counts as the most it took. */
 class Parts
@@ -70,16 +67,6 @@ class Parts
     InstructionCounter &counter_;
     std::vector<BoundPart> parts_;
 };
-
-int32_t micrometres(double metres)
-{
-    return static_cast<int32_t>(std::lround(metres * um_per_m));
-}
-
-uint32_t any_direction(Random &random)
-{
-    return static_cast<uint32_t>(random.uniform(0, full_turn_bam));
-}
 
 /* A scan of full size of anything between walls and noise. */
 ale_scan_t any_scan(Random &random)
@@ -168,139 +155,82 @@ void looking(Parts &parts)
     }
 }
 
-/* A surface around the robot; square: all face one of two ways. */
-ale_view_t any_view(Random &random, uint8_t kind, bool square)
-{
-    const uint32_t from_bam =
-        square ? (random.chance(0.5) ? 0 : ALE_BAM_QUARTER_TURN) : any_direction(random);
-    ale_view_t v{};
-    v.centre = ale_polar(micrometres(random.uniform(1, 5)), from_bam);
-    v.normal_bam = from_bam + ALE_BAM_HALF_TURN;
-    v.end_um = kind == ALE_VIEW_WALL ? micrometres(random.uniform(0.3, 2)) : 8 * centimetre_um;
-    v.start_um = -v.end_um;
-    v.var_offset_um2 = 9000000;
-    v.var_angle_urad2 = 9000000;
-    v.start_time_us = -10000;
-    v.end_time_us = 10000;
-    v.kind = kind;
-    return v;
-}
-
-/* All that a robot in the middle of a crowded map can see: a wall, or a mark, for every view, as many more
- * walls as there is room for, and marks wherever one is looked for. */
-struct Crowd {
-    std::unique_ptr<ale_local_map_t> map = std::make_unique<ale_local_map_t>();
-    std::vector<ale_view_t> views;
-
-    Crowd(Random &random, uint8_t kind, bool square, int walls)
-    {
-        ale_local_map_clear(map.get());
-        for (int k = 0; k < ALE_MAX_VIEWS; k++) {
-            views.push_back(any_view(random, kind, square));
-            add_wall(views.back(), kind == ALE_VIEW_WALL);
-            add_mark(views.back());
-        }
-        for (int k = ALE_MAX_VIEWS; k < walls; k++) {
-            add_wall(any_view(random, ALE_VIEW_WALL, square), true);
-        }
-        ale_local_map_approach(map.get(), {0, 0}, 30000000);
-    }
-
-  private:
-    void add_wall(const ale_view_t &view, bool wanted)
-    {
-        ale_wall_t wall;
-        ale_wall_from_view(&wall, &view);
-        wall.seen = ALE_MAP_CONFIRMED;
-        if (wanted) {
-            ale_local_map_add(map.get(), &wall);
-        }
-    }
-
-    void add_mark(const ale_view_t &view)
-    {
-        for (int k = 0; k < 9; k++) {
-            const ale_point_t place = {view.centre.x_um + (k % 3 - 1) * 10 * centimetre_um,
-                                       view.centre.y_um + (k / 3 - 1) * 10 * centimetre_um};
-            const ale_mark_t mark = {place, view.normal_bam, 0, 9000000, 1, view.kind == ALE_VIEW_SPOT, 0, 0};
-            for (int way = 0; way < ALE_MARK_WAYS; way++) {
-                ale_marks_add(&map->marks, &mark);
-            }
-        }
-    }
-};
-
-/* Some centimetres off, moving, and not well known: three steps are needed. */
-ale_motion_t any_motion(Random &random)
-{
-    ale_motion_t motion;
-    ale_motion_init(&motion, 0,
-                    {micrometres(random.uniform(-0.03, 0.03)), micrometres(random.uniform(-0.03, 0.03)),
-                     static_cast<uint32_t>(static_cast<int32_t>(random.uniform(-8e6, 8e6)))},
-                    300, 500);
-    for (int i = 0; i < 3; i++) {
-        motion.cov.m[i][i] = 900000000;
-        motion.velocity[i] = 5000;
-    }
-    return motion;
-}
-
 /* What the fits of a scan of full size may look at together. */
 constexpr int32_t most_looks = ALE_LOOKS_OF_A_SCAN - ALE_LOOKS_OF_A_BEAM * ALE_MAX_BEAMS;
 
-const std::map<std::string, ale_gate_t> gates = {{"first", {600000, 300000, 4, 100000}},
-                                                 {"second", {250000, 200000, 6, 100000}}};
+constexpr ale_gate_t first_gate = {600000, 300000, 4, 100000};
+constexpr ale_gate_t second_gate = {250000, 200000, 6, 100000};
 
-void matching(Parts &parts, Random &random, Crowd &crowd)
+ale_scene_t scene_of(const Crowd &crowd)
 {
-    const ale_motion_t predicted = any_motion(random);
-    const ale_scene_t scene = {crowd.map.get(), crowd.views.data(), static_cast<uint32_t>(crowd.views.size()),
-                               nullptr};
+    return {crowd.map.get(), crowd.views.data(), static_cast<uint32_t>(crowd.views.size()), nullptr};
+}
+
+/* The last of them, of all views, is what it gives. */
+std::unique_ptr<ale_fit_t> fits(Parts &parts, const ale_motion_t &predicted, Crowd &crowd)
+{
     auto fit = std::make_unique<ale_fit_t>();
     auto other = std::make_unique<ale_fit_t>();
     parts.measure("near walls listed", 2, [&] {
         crowd.map->near_radius_um = 0;
         ale_local_map_approach(crowd.map.get(), {0, 0}, 30000000);
     });
-    for (uint32_t views = 4; views <= scene.view_count; views += 4) { /* the fewer, the more steps */
+    for (uint32_t views = 4; views <= crowd.views.size(); views += 4) { /* the fewer, the more steps */
         const ale_scene_t some = {crowd.map.get(), crowd.views.data(), views, nullptr};
         parts.measure("two fits", 1, [&] {
-            ale_refine_pose(&predicted, &some, &gates.at("first"), fit.get());
+            ale_refine_pose(&predicted, &some, &first_gate, fit.get());
             ale_refine_look(&some, fit.get());
-            ale_refine_again(&predicted, true, predicted.pose, &some, &gates.at("second"), most_looks,
-                             other.get(), fit.get());
+            ale_refine_again(&predicted, true, predicted.pose, &some, &second_gate, most_looks, other.get(),
+                             fit.get());
             ale_refine_weigh(&some, fit.get());
         });
     }
+    return fit;
+}
+
+void vote(Parts &parts, const Crowd &crowd)
+{
     auto memory = std::make_unique<ale_registration_t>();
-    const ale_views_t all = {scene.view, scene.view_count};
+    const ale_views_t all = {crowd.views.data(), static_cast<uint32_t>(crowd.views.size())};
     ale_pose_t way = {0, 0, 0};
     parts.measure("vote of the last scan", 1,
                   [&] { ale_register(memory.get(), all, all, 1000000, 450000, &way); });
-    for (int k = 0; k < ALE_MAX_VIEWS; k++) {
-        fit->match[k] = {ALE_NO_WALL, ALE_NO_MARK, {}};
-    }
+}
+
+/* All views begin something new in the map, then all are found in it; then the map says how far it may be
+ * off.
+ */
+void taking_in(Parts &parts, const ale_motion_t &predicted, Crowd &crowd, ale_fit_t *fit)
+{
+    const ale_scene_t scene = scene_of(crowd);
     const ale_drift_t here = {int64_t{1} << 41, int64_t{1} << 40, int64_t{1} << 41,
                               int64_t{1} << 38, int64_t{1} << 38, int64_t{1} << 36};
     const ale_wheel_drift_t by_wheels = {100000, 100000};
     ale_taking_t taking = {1, &here, &by_wheels, 1, true};
-    const auto take_in = [&] {
-        ale_map_update(crowd.map.get(), scene.view, scene.view_count, fit.get(), &taking);
-    };
+    std::fill(std::begin(fit->match), std::end(fit->match), ale_match_t{ALE_NO_WALL, ALE_NO_MARK, {}});
+    const auto take_in = [&] { ale_map_update(crowd.map.get(), scene.view, scene.view_count, fit, &taking); };
     parts.measure("walls and marks of the map", 1, take_in);
-    ale_refine(&predicted, &scene, &gates.at("first"), fit.get());
+    ale_refine(&predicted, &scene, &first_gate, fit);
     taking.scan = 2;
     parts.measure("walls and marks of the map", 1, take_in);
     std::for_each(crowd.map->wall, crowd.map->wall + crowd.map->count,
                   [&](ale_wall_t &wall) { wall.drift = here; });
     parts.measure("drift, and what holds the robot", 1, [&] {
-        ale_drift_here(crowd.map.get(), scene.view, scene.view_count, fit.get(), &here);
-        const ale_hold_t hold = ale_hold_of(crowd.map.get(), scene.view, scene.view_count, fit.get());
+        ale_drift_here(crowd.map.get(), scene.view, scene.view_count, fit, &here);
+        const ale_hold_t hold = ale_hold_of(crowd.map.get(), scene.view, scene.view_count, fit);
         ale_wheel_drift_t drift = by_wheels;
         ale_wheel_drift_fit(&drift, &hold, &predicted);
         ale_motion_t found = predicted;
         ale_motion_keep_along(&found, &predicted, hold.along_bam);
     });
+}
+
+void matching(Parts &parts, Random &random, Crowd &crowd)
+{
+    const ale_motion_t predicted = any_motion(random);
+    const std::unique_ptr<ale_fit_t> fit = fits(parts, predicted, crowd);
+    vote(parts, crowd);
+    taking_in(parts, predicted, crowd, fit.get());
 }
 
 /* Scans with the ranges of a robot that sees through every wall. */

@@ -52,12 +52,12 @@ double step_rad(const Costly &costly)
     return (costly.beams > 682 ? 1.5 * M_PI : 682 * 2 * M_PI / 1024) / costly.beams;
 }
 
+} // namespace
+
 int32_t micrometres(double metres)
 {
     return static_cast<int32_t>(std::lround(metres * um_per_m));
 }
-
-} // namespace
 
 std::string Costly::words() const
 {

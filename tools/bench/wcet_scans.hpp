@@ -16,6 +16,8 @@ extern "C" {
 namespace bench
 {
 
+int32_t micrometres(double metres);
+
 struct Costly {
     int beams = ALE_MAX_BEAMS;
     double base_m = 3;       /* distance of the walls */
