@@ -101,28 +101,7 @@ bool LoopCloser::add(Node node, const Pose &motion)
     bool moved = false;
     iterations_left_ = iterations_a_keyframe;
     for (const int there : candidates()) {
-        statistics_.candidates++;
-        Loop loop;
-        switch (look_for_loop(there, &loop)) {
-        case Sight::unclear:
-            statistics_.unclear++;
-            continue;
-        case Sight::known:
-            statistics_.known++;
-            graph_.add_edge({loop.from, loop.to, loop.measured, loop.information, true, true});
-            continue;
-        case Sight::displaced:
-            break;
-        }
-        const std::vector<Loop> partners = partners_of(loop);
-        if (partners.size() >= partners_wanted(loop)) {
-            moved = close(loop, partners) || moved;
-        }
-        pending_.push_back(loop);
-        if (pending_.size() > pending_loops) {
-            pending_.pop_front();
-            statistics_.unconfirmed++;
-        }
+        moved = look_at(there) || moved;
     }
     moved = (known_ && lay_on_known()) || moved;
     return straighten() || moved;
@@ -242,17 +221,18 @@ void LoopCloser::make_room()
     const int k = static_cast<int>(*gone);
     nodes_.erase(nodes_.begin() + k);
     graph_.take_out(k, static_cast<int>(loop_candidates));
+    const auto move_up = [k](int *node) { *node -= *node > k ? 1 : 0; };
     for (Loop &loop : pending_) {
-        loop.from -= loop.from > k ? 1 : 0;
-        loop.to -= loop.to > k ? 1 : 0;
+        move_up(&loop.from);
+        move_up(&loop.to);
     }
     const auto ends_there = [k](const Neighbours &pair) {
         return pair.match.from == k || pair.match.to == k;
     };
     neighbours_.erase(std::remove_if(neighbours_.begin(), neighbours_.end(), ends_there), neighbours_.end());
     for (Neighbours &pair : neighbours_) {
-        pair.match.from -= pair.match.from > k ? 1 : 0;
-        pair.match.to -= pair.match.to > k ? 1 : 0;
+        move_up(&pair.match.from);
+        move_up(&pair.match.to);
     }
     statistics_.thinned++;
 }
@@ -331,6 +311,33 @@ std::vector<int> LoopCloser::candidates() const
         }
     }
     return nearest_of_each_visit(std::move(places), 2 * patch_nodes, loop_candidates);
+}
+
+// A place that is displaced is tied at once, or waits for others that say the same; one that the tracker has
+// recognised is noted. Whether the graph has moved.
+bool LoopCloser::look_at(int there)
+{
+    statistics_.candidates++;
+    Loop loop;
+    switch (look_for_loop(there, &loop)) {
+    case Sight::unclear:
+        statistics_.unclear++;
+        return false;
+    case Sight::known:
+        statistics_.known++;
+        graph_.add_edge({loop.from, loop.to, loop.measured, loop.information, true, true});
+        return false;
+    case Sight::displaced:
+        break;
+    }
+    const std::vector<Loop> partners = partners_of(loop);
+    const bool moved = partners.size() >= partners_wanted(loop) && close(loop, partners);
+    pending_.push_back(loop);
+    if (pending_.size() > pending_loops) {
+        pending_.pop_front();
+        statistics_.unconfirmed++;
+    }
+    return moved;
 }
 
 LoopCloser::Sight LoopCloser::look_for_loop(int there, Loop *loop) const

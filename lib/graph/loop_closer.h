@@ -97,6 +97,7 @@ class LoopCloser
     void match_neighbours();
     bool are_neighbours_torn() const;
     std::vector<int> candidates() const;
+    bool look_at(int there);
     Sight look_for_loop(int there, Loop *loop) const;
     std::vector<Loop> partners_of(const Loop &loop) const;
     size_t partners_wanted(const Loop &loop) const;
