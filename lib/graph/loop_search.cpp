@@ -114,8 +114,9 @@ std::vector<LoopSearch::Place> LoopSearch::places_near(int k) const
             near.push_back({there, distance + metres_a_radian * std::abs(off.theta)});
         }
     }
+    const std::vector<int> chosen = nearest_of_each_visit(std::move(near), same_visit_nodes, most_places);
     std::vector<Place> places;
-    for (const int there : nearest_of_each_visit(std::move(near), same_visit_nodes, most_places)) {
+    for (const int there : chosen) {
         places.push_back({there, window_of(spread[static_cast<size_t>(there)])});
     }
     return places;
