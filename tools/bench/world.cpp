@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "cli/wrong_use.h"
 
@@ -72,6 +73,22 @@ Room random_room(Random &random, double low, double high)
     return {random.uniform(low, high) / 2, random.uniform(low, high) / 2};
 }
 
+std::vector<Point> corners_of(const Room &room)
+{
+    return rectangle(Point::Zero(), 2 * room.hx, 2 * room.hy, 0);
+}
+
+// From corner to corner, in their order.
+std::vector<std::pair<Point, Point>> sides_of(const Room &room)
+{
+    const std::vector<Point> corners = corners_of(room);
+    std::vector<std::pair<Point, Point>> sides;
+    for (std::size_t k = 0; k < corners.size(); k++) {
+        sides.emplace_back(corners[k], corners[(k + 1) % corners.size()]);
+    }
+    return sides;
+}
+
 void put_sensor(World &world, Random &random, const Room &room)
 {
     world.sensor = free_place(world, random, room.hx - clearance, room.hy - clearance, clearance);
@@ -82,7 +99,7 @@ World plain_room(Random &random)
 {
     World world;
     const Room room = random_room(random, 2.2, 5.5);
-    add_polygon(world, rectangle(Point::Zero(), 2 * room.hx, 2 * room.hy, 0));
+    add_polygon(world, corners_of(room));
     put_sensor(world, random, room);
     return world;
 }
@@ -147,15 +164,12 @@ World stepped_room(Random &random)
     return with_stepped_sides(random, room, [&] { return random.sign() * random.uniform(0.02, 0.1); });
 }
 
-// Long walls bent by 5 to 30 degrees: each side of the room bulges at one or two places.
+// Long walls bent by 5 to 30 degrees: each side of the room bulges at one place.
 World bent_room(Random &random)
 {
     World world;
     const Room room = random_room(random, 2.5, 5);
-    const std::vector<Point> corners = rectangle(Point::Zero(), 2 * room.hx, 2 * room.hy, 0);
-    for (std::size_t k = 0; k < 4; k++) {
-        const Point &a = corners[k];
-        const Point &b = corners[(k + 1) % 4];
+    for (const auto &[a, b] : sides_of(room)) {
         const double along = random.uniform(0.35, 0.65);
         const double bend = radians(random.uniform(5, 30));
         // Deflection h at `along` of a length L turns the wall by h/(along L) + h/((1 - along) L).
@@ -190,7 +204,7 @@ World room_with_boxes(Random &random)
 {
     World world;
     const Room room = random_room(random, 3.5, 6);
-    add_polygon(world, rectangle(Point::Zero(), 2 * room.hx, 2 * room.hy, 0));
+    add_polygon(world, corners_of(room));
     put_sensor(world, random, room);
     for (int k = random.integer(2, 5); k > 0; k--) {
         const double width = random.uniform(0.25, 0.9);
@@ -236,10 +250,7 @@ World room_with_doors(Random &random)
 {
     World world;
     const Room room = random_room(random, 3, 4.5);
-    const std::vector<Point> corners = rectangle(Point::Zero(), 2 * room.hx, 2 * room.hy, 0);
-    for (std::size_t k = 0; k < 4; k++) {
-        const Point &a = corners[k];
-        const Point &b = corners[(k + 1) % 4];
+    for (const auto &[a, b] : sides_of(room)) {
         const double length = (b - a).norm();
         const double at = random.uniform(0.5, length - 1.5);
         const Point u = (b - a) / length;
