@@ -31,6 +31,8 @@ constexpr size_t run_nodes = 8;  // whose mean is looked at for drift
 // miss by so much anyway (a Mahalanobis square) before its word is worth less.
 constexpr double worst_excess = 0.08;
 constexpr double clear_misfit = 1.5;
+// Where nothing had drifted visibly little is to be won, and a bend of half a degree tears views by 6 %.
+constexpr double worst_excess_undrifted = 0.045;
 
 // An angle but for quarter turns, -pi/4 .. pi/4.
 double modulo_quarter(double angle)
@@ -256,8 +258,11 @@ bool have_drifted(const BuildingHeadings &headings, const std::vector<Pose> &pos
     return false;
 }
 
-bool are_torn(double misfit_turned, double misfit_free, size_t matches)
+bool are_torn(double misfit_turned, double misfit_free, size_t matches, bool drifted)
 {
+    if (!drifted) {
+        return misfit_turned - misfit_free > worst_excess_undrifted * misfit_free;
+    }
     const double doubt = std::max(1.0, misfit_free / (clear_misfit * static_cast<double>(matches)));
     return misfit_turned - misfit_free > worst_excess * doubt * misfit_free;
 }

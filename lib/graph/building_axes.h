@@ -1,9 +1,9 @@
 // The directions in which a building's walls run. Most buildings are right-angled, and then every keyframe
 // that sees walls tells its own heading, but for quarter turns: a compass against slow drift.
 //
-// Only for a building that is one (most of what was seen agrees), only where headings have drifted by
-// more than walls stray from the right angle, so that nothing moves where the tracker is right, and only
-// where what neighbouring views show of each other bears it: in a bent building they do not.
+// Only for a building that is one (most of what was seen agrees), while driving only where headings have
+// drifted by more than walls stray from the right angle, so that nothing moves where the tracker is right,
+// and only where what neighbouring views show of each other bears it: in a bent building they do not.
 #ifndef ALE_GRAPH_BUILDING_AXES_H
 #define ALE_GRAPH_BUILDING_AXES_H
 
@@ -28,8 +28,9 @@ BuildingHeadings headings_by_walls(const std::vector<Node> &nodes, const std::ve
 bool have_drifted(const BuildingHeadings &headings, const std::vector<Pose> &poses);
 
 // Whether it was no drift, but the building that bends: what matches of views miss the poses by, turned to
-// the walls' headings and not turned (PoseGraph::misfit, summed over so many matches).
-bool are_torn(double misfit_turned, double misfit_free, size_t matches);
+// the walls' headings and not turned (PoseGraph::misfit, summed over so many matches). Where nothing had
+// drifted farther than walls stray, matches decide sooner.
+bool are_torn(double misfit_turned, double misfit_free, size_t matches, bool drifted = true);
 
 } // namespace ale
 

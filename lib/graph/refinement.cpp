@@ -27,7 +27,8 @@ constexpr double metres_a_radian = 1.0; // how much less two views share when th
 } // namespace
 
 Refinement::Refinement(const std::vector<Node> *nodes, PoseGraph graph, const KnownMap *known)
-    : nodes_(nodes), known_(known), graph_(std::move(graph)), given_(graph_.edges())
+    : nodes_(nodes), known_(known), graph_(std::move(graph)), given_(graph_.edges()),
+      drifted_(!graph_.headings().priors.empty())
 {
 }
 
@@ -130,13 +131,12 @@ std::vector<GraphEdge> Refinement::still_needed() const
     return needed;
 }
 
-// Where the walls serve as a compass they still do.
+// Not only where headings have visibly drifted: in the end the matches judge what became of it.
 void Refinement::follow_walls()
 {
     const BuildingHeadings headings = headings_by_walls(*nodes_, graph_.poses(), Witnesses::all_scans);
-    if (!graph_.headings().priors.empty() || have_drifted(headings, graph_.poses())) {
-        graph_.set_headings(headings);
-    }
+    drifted_ = drifted_ || have_drifted(headings, graph_.poses());
+    graph_.set_headings(headings);
 }
 
 void Refinement::solve()
@@ -177,7 +177,7 @@ void Refinement::choose()
         }
         return sum;
     };
-    if (!are_torn(misfit(*turned_), misfit(graph_), matched_.size())) {
+    if (!are_torn(misfit(*turned_), misfit(graph_), matched_.size(), drifted_)) {
         graph_ = std::move(*turned_);
     }
     turned_.reset();

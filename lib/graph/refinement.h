@@ -57,6 +57,7 @@ class Refinement
     int round_ = 0;
     int next_ = 0; // node to match
     int solved_ = 0;
+    bool drifted_; // headings, while driving or since
 };
 
 } // namespace ale

@@ -119,6 +119,12 @@ TEST(Refinement, TheCompassTurnsWhatHasDrifted)
     EXPECT_LT(heading_error(0, 0.006), 0.02);
 }
 
+// No eight headings in a row stray by a degree there: while driving nobody would have asked the walls.
+TEST(Refinement, TheCompassServesWhereHeadingsHaveHardlyDrifted)
+{
+    EXPECT_LT(heading_error(0, 0.0015), 0.0058);
+}
+
 TEST(Refinement, TheCompassDoesNotStraightenACorridorThatBends)
 {
     EXPECT_LT(heading_error(0.05, 0), 0.01);
