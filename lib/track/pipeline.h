@@ -119,8 +119,8 @@ void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estima
 bool ale_pipeline_keyframe(ale_pipeline_t *pipeline, ale_keyframe_t *out);
 
 /* For those who draw the map anew: what the scan last handed over has shown (see sighting.h). Copies at most
- * sizeof(ale_sighting_t). False, and *out is untouched: there was no scan, the robot is lost, no keyframe was
- * taken since it was put elsewhere, or the map is frozen. */
+ * sizeof(ale_sighting_t). False, and *out is untouched: there was no scan, the robot is lost or may be, no
+ * keyframe was taken since it was put elsewhere, or the map is frozen. */
 bool ale_pipeline_sighting(const ale_pipeline_t *pipeline, ale_sighting_t *out);
 
 /* From the mapper, between two scans: map and map pose move as loops have shown; the smooth pose does not.
@@ -139,7 +139,8 @@ void ale_pipeline_freeze_map(ale_pipeline_t *pipeline, bool frozen);
 const ale_features_t *ale_pipeline_features(const ale_pipeline_t *pipeline);
 
 /* The scan last handed over as it was straightened and taken into account (see seen.h), at its map pose;
- * borrowed until the next one is handed over. False: the last answer had no scan, and *out is untouched. */
+ * borrowed until the next one is handed over. False, and *out untouched: the last answer had no scan, or
+ * nobody knows where it was taken (the robot is lost, or may soon be said to be). */
 bool ale_pipeline_seen(const ale_pipeline_t *pipeline, ale_seen_t *out);
 
 /* The map as it stands: walls and corners worth showing. Copies at most sizeof(ale_map_t). */

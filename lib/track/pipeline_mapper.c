@@ -71,7 +71,7 @@ bool ale_pipeline_sighting(const ale_pipeline_t *p, ale_sighting_t *out)
 {
     ale_seen_t seen;
     const bool tied = p->keyframes > 0 && !p->broken;
-    if (!tied || p->frozen || p->tracker.state == ALE_STATE_LOST || !ale_pipeline_seen(p, &seen)) {
+    if (!tied || p->frozen || !ale_pipeline_seen(p, &seen)) {
         return false;
     }
     out->epoch = p->epoch;

@@ -10,10 +10,12 @@ enum {
     STRANGE_PERCENT = 35,      /* less than this is found: has the scene changed? */
     DENIED_LEAST_UM = 1000000, /* surfaces that must be gone before a change is called one, */
     SHOWN_LEAST_UM = 2000000,  /* two scans that show less of each other than this cannot be compared */
-    DENIED_PERCENT = 20,       /* and the part of all that both scans looked at */
+    DENIED_PERCENT = 20,       /* and the part of all that both scans looked at, */
+    UNWATCHED_PERCENT = 10,    /* or this one where nothing was seen of the way between them */
     CONFIRM_PERCENT = 20,      /* two scans confirm this much of each other at the least, */
-    CLOSE_PERCENT = 45,        /* this much when taken side by side, */
-    MISFIT_PERCENT = 10,       /* and this much more if there was doubt before */
+    CLOSE_PERCENT = 45,  /* this much when taken side by side, or nothing was seen of the way between, */
+    UNSEEING_LEAST = 2,  /* as in so many scans that showed nothing, */
+    MISFIT_PERCENT = 10, /* and this much more if there was doubt before */
     BELIEVE_SHOWN_UM = 2500000,
     BELIEVE_WALLS = 4,
     BELIEVE_PERCENT = 70,
@@ -65,11 +67,18 @@ bool ale_tracker_is_strange(const ale_tracker_t *tracker, const ale_fit_t *fit)
     return fit->matched_um * 100 < fit->shown_um * percent;
 }
 
+/* What the robot did since the last scan that showed anything was not seen: the wheels alone tell it. */
+static bool is_unwatched(const ale_tracker_t *tracker)
+{
+    return tracker->unseeing >= UNSEEING_LEAST;
+}
+
 /* Once a scan did not fit, the next must be confirmed, not only not denied. */
 static bool is_confirmed(const ale_tracker_t *tracker, const ale_testimony_t *heard)
 {
+    const bool much = heard->close || is_unwatched(tracker);
     const int64_t percent =
-        (heard->close ? CLOSE_PERCENT : CONFIRM_PERCENT) + (tracker->misfits > 0 ? MISFIT_PERCENT : 0);
+        (much ? CLOSE_PERCENT : CONFIRM_PERCENT) + (tracker->misfits > 0 ? MISFIT_PERCENT : 0);
     return heard->confirmed_um * 100 >= heard->shown_um * percent;
 }
 
@@ -82,9 +91,11 @@ static bool is_adrift(const ale_tracker_t *tracker, bool counted)
 void ale_tracker_notice(ale_tracker_t *tracker, const ale_testimony_t *heard, bool counted, bool mapped)
 {
     const int64_t told_um = heard ? heard->denied_um + heard->confirmed_um : 0;
+    const int64_t percent = is_unwatched(tracker) ? UNWATCHED_PERCENT : DENIED_PERCENT;
     const bool denied =
-        heard && heard->denied_um > DENIED_LEAST_UM && heard->denied_um * 100 > told_um * DENIED_PERCENT;
+        heard && heard->denied_um > DENIED_LEAST_UM && heard->denied_um * 100 > told_um * percent;
     tracker->in_reach = counted || !mapped;
+    tracker->beside = tracker->misfits > 0 ? tracker->beside : heard && heard->close;
     tracker->jumped = heard && heard->shown_um > SHOWN_LEAST_UM &&
                       (denied || !is_confirmed(tracker, heard) || is_adrift(tracker, counted));
 }
@@ -107,9 +118,20 @@ static bool is_out_of_reach(const ale_tracker_t *tracker, const ale_fit_t *fit)
            fit->motion.cov.m[2][2] >= square(ANCHOR_SIGMA_URAD);
 }
 
+/* Scans that showed nothing count until one is believed to be where the pose says. */
+static void count_unseeing(ale_tracker_t *tracker, const ale_fit_t *fit)
+{
+    if (fit->shown_um == 0) {
+        tracker->unseeing = (uint16_t)ale_min64(tracker->unseeing + 1, UNSEEING_LEAST);
+    } else if (!tracker->jumped) {
+        tracker->unseeing = 0;
+    }
+}
+
 ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit, const ale_sights_t *sights)
 {
     const bool out_of_reach = is_out_of_reach(tracker, fit);
+    count_unseeing(tracker, fit);
     if (tracker->jumped || contradicts(fit, sights)) {
         tracker->misfits++;
     } else if (tracker->misfits > 0) {
@@ -142,6 +164,8 @@ void ale_tracker_found(ale_tracker_t *tracker)
 {
     tracker->state = ALE_STATE_WEAK;
     tracker->misfits = MISFITS_UNTIL_LOST / 2; /* on probation */
+    tracker->jumped = false;
+    tracker->unseeing = 0;
 }
 
 ale_state_t ale_tracker_skip(ale_tracker_t *tracker, const ale_motion_t *predicted)

@@ -19,9 +19,11 @@
 
 typedef struct {
     ale_state_t state;
-    uint16_t misfits; /* scans in a row that showed walls, but not those of the map */
-    bool jumped;      /* in this scan */
-    bool in_reach;    /* what is not found in the map is not there: wheels told the way, or it is empty */
+    uint16_t misfits;  /* scans in a row that showed walls, but not those of the map */
+    uint16_t unseeing; /* scans in a row that showed nothing, up to as many as matter */
+    bool jumped;       /* in this scan */
+    bool beside;       /* the first of those scans was denied by one that was taken beside it */
+    bool in_reach;     /* what is not found in the map is not there: wheels told the way, or it is empty */
 } ale_tracker_t;
 
 void ale_tracker_init(ale_tracker_t *tracker);

@@ -68,8 +68,7 @@ void Loops::after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate)
 {
     tracked_.push_back({estimate.smooth, estimate.map});
     ale_seen_t seen;
-    const bool sees =
-        !estimate.predicted && estimate.state != ALE_STATE_LOST && ale_pipeline_seen(pipeline, &seen);
+    const bool sees = ale_pipeline_seen(pipeline, &seen);
     const ale_features_t *features = ale_pipeline_features(pipeline);
     seen_.push_back(sees ? surface_of(seen, *features) : std::vector<SurfacePoint>());
     if (!ale_pipeline_keyframe(pipeline, keyframe_.get())) {

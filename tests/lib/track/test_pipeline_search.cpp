@@ -3,6 +3,11 @@
 
 #include "room.h"
 
+extern "C" {
+#include "track/keyframe.h"
+#include "track/sighting.h"
+}
+
 TEST(PipelineSearch, CarriedAwayItSaysLostAndFindsItselfInTheMap)
 {
     ale_pipeline_config_t config = ale_pipeline_default_config();
@@ -81,6 +86,50 @@ TEST(PipelineSearch, CarriedAnywhereItIsNeverWrongWhileItSaysGood)
     EXPECT_GE(found, 5);
 }
 
+/* Between two scans the robot is carried away. Until it is said where it is, neither its map nor whoever maps
+ * beside it may take what it sees. */
+TEST(PipelineSearch, CarriedAwayItShowsNothingToTheMapperBeforeItIsFound)
+{
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    std::mt19937 rng(5);
+    room::Sensor sensor;
+    sensor.noise = 0.003;
+    const auto keyframe = std::make_unique<ale_keyframe_t>();
+    const auto sighting = std::make_unique<ale_sighting_t>();
+    const auto map = std::make_unique<ale_map_t>();
+    ale_estimate_t e = {};
+    double t = 1;
+    for (int k = 0; k < 180; k++, t += 0.1) {
+        const ale_odometry_t wheels = {std::llround(t * 1e6), convert::pose(room::path(t))};
+        ale_pipeline_odometry(p.get(), &wheels);
+        const ale_scan_t scan = room::scan_at(room::l_shape(), sensor, room::path, t, rng);
+        ale_pipeline_scan(p.get(), &scan, &e);
+        ale_pipeline_keyframe(p.get(), keyframe.get());
+    }
+    const reference::Pose stopped = room::path(t - 0.1);
+    const reference::Pose there = reference::compose(stopped, {0.9, -0.7, 2.2});
+    int shown_wrong = 0;
+    bool broken = false;
+    for (int k = 0; k < 120; k++, t += 0.1) {
+        const ale_odometry_t wheels = {std::llround(t * 1e6), convert::pose(stopped)};
+        ale_pipeline_odometry(p.get(), &wheels);
+        const ale_scan_t scan = room::scan_at(
+            room::l_shape(), sensor, [&](double) { return there; }, t, rng);
+        ale_pipeline_scan(p.get(), &scan, &e);
+        const reference::Pose error =
+            room::since_start(convert::pose(e.map), room::since_start(room::path(1), there));
+        const bool wrong = error.head<2>().norm() > 0.1;
+        const bool taken = ale_pipeline_keyframe(p.get(), keyframe.get());
+        broken = broken || (taken && keyframe->broken);
+        ale_seen_t seen;
+        shown_wrong += wrong && (taken || ale_pipeline_sighting(p.get(), sighting.get()) ||
+                                 ale_pipeline_seen(p.get(), &seen));
+    }
+    EXPECT_EQ(e.state, ALE_STATE_GOOD);
+    EXPECT_TRUE(broken);
+    EXPECT_EQ(shown_wrong, 0);
+}
+
 TEST(PipelineSearch, StartsInALoadedMapWhereverItStands)
 {
     std::mt19937 rng(6);
@@ -135,5 +184,54 @@ TEST(PipelineSearch, CoveredOnItsWayItIsNeverWrongWhileItSaysGood)
             EXPECT_TRUE(!dark || e.state != ALE_STATE_GOOD) << covered << " dark, scan " << k;
         }
         EXPECT_TRUE(covered > 14 || e.state == ALE_STATE_GOOD);
+    }
+}
+
+/* Covered while a wheel spins in the air; how many scans were wrong and said to be good. */
+int wrong_while_good(double spin, int covered, unsigned seed)
+{
+    const double drives_s = 2.5;
+    const auto path = [&](double t) {
+        const double driven_s = std::min(t, drives_s);
+        return reference::Pose(0.4 * driven_s, 0, 0.8 * driven_s);
+    };
+    std::mt19937 rng(seed);
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    room::Sensor sensor;
+    sensor.noise = 0.004;
+    ale_estimate_t e = {};
+    int wrong = 0;
+    for (int k = 0; k < 90; k++) {
+        const double t = 0.1 * k;
+        const double since_s = t - drives_s;
+        const double covered_s = 0.1 * covered;
+        reference::Pose counted = path(t);
+        counted[2] += spin * std::clamp(since_s, 0.0, covered_s);
+        const ale_odometry_t wheels = {std::llround(t * 1e6), convert::pose(counted)};
+        ale_pipeline_odometry(p.get(), &wheels);
+        const bool dark = since_s > 0 && since_s < covered_s;
+        const ale_scan_t scan =
+            room::scan_at(dark ? std::vector<room::Wall>() : room::l_shape(), sensor, path, t, rng);
+        ale_pipeline_scan(p.get(), &scan, &e);
+        const reference::Pose error =
+            room::since_start(convert::pose(e.map), room::since_start(path(0), path(t)));
+        wrong += e.state == ALE_STATE_GOOD &&
+                 (error.head<2>().norm() > 0.3 || std::abs(reference::wrap(error[2])) > 0.1);
+    }
+    return wrong;
+}
+
+/* What it sees then is little of what the map holds there, and of what it saw before: no new place. */
+TEST(PipelineSearch, AfterAWheelSpanUnseenItIsNeverWrongWhileItSaysGood)
+{
+    const struct {
+        double spin;
+        int covered;
+    } drives[] = {{-6.5, 14}, {-5, 5}, {-3, 9}, {3, 3}, {3, 9}, {6.5, 5}, {6.5, 9}};
+    for (const auto &drive : drives) {
+        for (unsigned seed = 1; seed <= 3; seed++) {
+            EXPECT_EQ(wrong_while_good(drive.spin, drive.covered, seed), 0)
+                << drive.spin << " rad/s, " << drive.covered << " scans, seed " << seed;
+        }
     }
 }
