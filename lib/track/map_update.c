@@ -38,7 +38,13 @@ static void sharpen(ale_wall_t *wall, const ale_view_t *view, const ale_fit_t *f
     const int64_t var_angle = view->var_angle_urad2 + ale_view_angle_var(&fit->motion.cov);
     drift_along(wall, taking, match->error.t_um, diluted(var_offset, taking));
     ale_wall_observe(wall, &match->error, diluted(var_offset, taking), diluted(var_angle, taking));
-    ale_wall_extend(wall, match->error.t_um + view->start_um, match->error.t_um + view->end_um);
+    const int64_t from_um = match->error.t_um + view->start_um;
+    const int64_t to_um = match->error.t_um + view->end_um;
+    if (taking->dilution > 1) {
+        ale_wall_settle_ends(wall, from_um, to_um);
+    } else {
+        ale_wall_extend(wall, from_um, to_um);
+    }
     wall->seen++;
     wall->last_scan = taking->scan;
     wall->missed = 0;

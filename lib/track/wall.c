@@ -5,7 +5,13 @@
 #include "track/ratio.h"
 
 /* A wall is never known better than this: buildings are not straighter, and it stays open to change. */
-enum { OFFSET_FLOOR_UM2 = 10000, ANGLE_FLOOR_URAD2 = 2500 };
+enum {
+    OFFSET_FLOOR_UM2 = 10000,
+    ANGLE_FLOOR_URAD2 = 2500,
+    END_STRAYS_UM = 150000,
+    OUTWARDS = 4, /* parts of what an end strays that one look takes in */
+    INWARDS = 16
+};
 
 void ale_wall_set_normal(ale_wall_t *wall, uint32_t normal_bam)
 {
@@ -96,6 +102,22 @@ void ale_wall_extend(ale_wall_t *wall, int64_t from_um, int64_t to_um)
 {
     wall->start_um = (int32_t)ale_min64(wall->start_um, from_um);
     wall->end_um = (int32_t)ale_max64(wall->end_um, to_um);
+}
+
+static int32_t settled_end(int32_t end_um, int64_t seen_um, int64_t outwards)
+{
+    const int64_t beyond_um = (seen_um - end_um) * outwards;
+    if (beyond_um > END_STRAYS_UM) {
+        return (int32_t)seen_um;
+    }
+    const int64_t parts = beyond_um > 0 ? OUTWARDS : INWARDS;
+    return beyond_um < -END_STRAYS_UM ? end_um : (int32_t)(end_um + (seen_um - end_um) / parts);
+}
+
+void ale_wall_settle_ends(ale_wall_t *wall, int64_t from_um, int64_t to_um)
+{
+    wall->start_um = settled_end(wall->start_um, from_um, -1);
+    wall->end_um = settled_end(wall->end_um, to_um, 1);
 }
 
 ale_point_t ale_wall_point(const ale_wall_t *wall, int64_t t_um)

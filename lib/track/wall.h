@@ -101,6 +101,11 @@ void ale_wall_observe(ale_wall_t *wall, const ale_wall_error_t *error, int64_t v
 /* Lengthens the wall to hold from..to (along the tangent, from the anchor). */
 void ale_wall_extend(ale_wall_t *wall, int64_t from_um, int64_t to_um);
 
+/* The same for one of many looks from one place, the longest of which would make the wall too long: an end
+ * that is off by no more than looks stray goes outwards by a quarter and inwards by a sixteenth of that. One
+ * that is shorter by more may be hidden, and says nothing. */
+void ale_wall_settle_ends(ale_wall_t *wall, int64_t from_um, int64_t to_um);
+
 /* The point at t along the tangent. */
 ale_point_t ale_wall_point(const ale_wall_t *wall, int64_t t_um);
 
