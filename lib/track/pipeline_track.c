@@ -26,6 +26,7 @@ enum {
     SLACK_MOST_UM = 200000, /* a way that may be off by more says nothing of what was seen where */
     SLACK_MOST_URAD = 100000,
     EVEN_US = 250000, /* a scan that comes later says nothing of a speed */
+    PREFER_PARTS = 5, /* of what two scans show of each other, by which one pose is preferred */
     CHANCE_PARTS = 10 /* less than this part of what is shown, found in the map, may be found by chance */
 };
 
@@ -114,6 +115,16 @@ static ale_seen_t seen(const ale_pipeline_t *p, const ale_motion_t *before)
                         .sensor = ale_pose_compose(robot, p->config.sensor),
                         .view = p->view,
                         .view_count = p->view_count};
+}
+
+/* What the last scan says of the scan at hand if that was taken from a pose. */
+static ale_testimony_t hear_at(const ale_pipeline_t *p, const ale_motion_t *before, ale_pose_t pose,
+                               ale_slack_t slack)
+{
+    ale_seen_t now = seen(p, before);
+    now.robot = ale_pose_compose(p->smooth.pose, ale_pose_between(before->pose, pose));
+    now.sensor = ale_pose_compose(now.robot, p->config.sensor);
+    return ale_witness_hear(&p->witness, &now, slack);
 }
 
 /* What has come since the last scan, and was not there when it looked, is left out: it may go along with the
@@ -205,17 +216,28 @@ static void hold(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion
     keep_pace(p, &hold, before, predicted, counted);
 }
 
-/* Where the last scan, or a better one shortly before it, says that the robot is, to be fitted from there. */
-static bool register_scan(ale_pipeline_t *p, const ale_motion_t *before, ale_pose_t *from)
+/* Where the last scan says that this one was taken, and how exactly. */
+typedef struct {
+    bool found;
+    ale_pose_t pose;
+    int64_t sigma_um;
+    int64_t sigma_urad;
+} ale_registered_t;
+
+/* Where the last scan, or a better one shortly before it, says that the robot is, to be fitted from there;
+ * where it says nothing, the prediction. */
+static ale_registered_t register_scan(ale_pipeline_t *p, const ale_motion_t *before)
 {
     const ale_motion_t *predicted = &p->ways.believed;
     const ale_matrix_t *cov = &predicted->cov;
     const ale_apart_t beyond =
         p->ways.part ? ale_apart(predicted->pose, p->ways.rival.pose) : (ale_apart_t){0, 0};
+    const int64_t sigma_um = ale_max64(ale_matrix_sigma(cov, 0), ale_matrix_sigma(cov, 1));
+    const int64_t sigma_urad = ale_matrix_sigma(cov, 2);
     const int64_t reach_um =
-        REGISTER_UM +
-        ale_max64(5 * ale_max64(ale_matrix_sigma(cov, 0), ale_matrix_sigma(cov, 1)), beyond.way_um);
-    const int64_t reach_urad = REGISTER_URAD + ale_max64(5 * ale_matrix_sigma(cov, 2), beyond.turn_urad);
+        ale_min64(REGISTER_UM + ale_max64(5 * sigma_um, beyond.way_um), REGISTER_MOST_UM);
+    const int64_t reach_urad =
+        ale_min64(REGISTER_URAD + ale_max64(5 * sigma_urad, beyond.turn_urad), REGISTER_MOST_URAD);
     /* on the way that is smooth, as the witness is */
     const ale_pose_t guess =
         ale_pose_compose(p->smooth.pose, ale_pose_between(before->pose, predicted->pose));
@@ -226,14 +248,38 @@ static bool register_scan(ale_pipeline_t *p, const ale_motion_t *before, ale_pos
                                     : (ale_views_t){p->witness.view, p->witness.view_count};
     const ale_pose_t stood = richer ? overview->robot : p->witness.seen.robot;
     ale_pose_t way = ale_pose_between(stood, guess);
-    if (!ale_register(&p->registration, then, (ale_views_t){p->view, p->view_count},
-                      (int32_t)ale_min64(reach_um, REGISTER_MOST_UM),
-                      (int32_t)ale_min64(reach_urad, REGISTER_MOST_URAD), &way)) {
-        return false;
+    if (!ale_register(&p->registration, then, (ale_views_t){p->view, p->view_count}, (int32_t)reach_um,
+                      (int32_t)reach_urad, &way)) {
+        return (ale_registered_t){.pose = predicted->pose};
     }
     const ale_pose_t there = ale_pose_compose(stood, way);
-    *from = ale_pose_compose(before->pose, ale_pose_between(p->smooth.pose, there));
-    return true;
+    return (ale_registered_t){
+        .found = true,
+        .pose = ale_pose_compose(before->pose, ale_pose_between(p->smooth.pose, there)),
+        .sigma_um = ale_max64(sigma_um, ale_registration_cell_um(reach_um)),
+        .sigma_urad = ale_max64(sigma_urad, ale_registration_step_urad(reach_urad)),
+    };
+}
+
+/* Whether the last scan confirms so much more of this one at the registered pose than where the map puts it
+ * that what the map says was found by chance. */
+static bool is_preferred(const ale_pipeline_t *p, const ale_motion_t *before,
+                         const ale_registered_t *registered)
+{
+    const ale_slack_t slack = {SLACK_UM, 0, false};
+    const ale_testimony_t there = hear_at(p, before, registered->pose, slack);
+    const ale_testimony_t here = hear_at(p, before, p->fit.motion.pose, slack);
+    return PREFER_PARTS * (there.confirmed_um - there.denied_um - (here.confirmed_um - here.denied_um)) >
+           there.shown_um;
+}
+
+/* What the last scan says instead of the prediction. */
+static ale_motion_t registered_motion(const ale_motion_t *predicted, const ale_registered_t *registered)
+{
+    ale_motion_t motion = *predicted;
+    motion.pose = registered->pose;
+    ale_motion_widen(&motion, registered->sigma_um, registered->sigma_urad);
+    return motion;
 }
 
 /* The map explains too little of the scan: once more from where the last scan says that the robot is, or,
@@ -245,14 +291,19 @@ static void match_again(ale_pipeline_t *p, const ale_motion_t *before)
     const ale_scene_t scene = ale_pipeline_scene(p);
     const int64_t found_um = p->fit.matched_um;
     ale_ways_t *ways = &p->ways;
-    ale_pose_t from = ways->believed.pose;
-    const bool registered = register_scan(p, before, &from);
-    const bool turns = ways->part && (!registered || ale_ways_rival_is_nearer(ways, from));
+    const ale_registered_t registered = register_scan(p, before);
+    const bool turns = ways->part && (!registered.found || ale_ways_rival_is_nearer(ways, registered.pose));
+    const bool preferred = !turns && registered.found && ale_tracker_is_strange(&p->tracker, &p->fit) &&
+                           is_preferred(p, before, &registered);
+    if (preferred) {
+        ways->believed = registered_motion(&ways->believed, &registered);
+        p->fit.matched_um = 0;
+    }
     const ale_motion_t *prior = turns ? &ways->rival : &ways->believed;
     const ale_gate_t *unguided = turns ? &acquire_gate : &narrow_gate;
     const int32_t most_looks = ALE_LOOKS_OF_A_SCAN - ALE_LOOKS_OF_A_BEAM * p->scan.beams;
-    ale_refine_again(prior, turns, registered ? from : prior->pose, &scene,
-                     registered ? &register_gate : unguided, most_looks, &p->other, &p->fit);
+    ale_refine_again(prior, turns || preferred, registered.found ? registered.pose : prior->pose, &scene,
+                     registered.found ? &register_gate : unguided, most_looks, &p->other, &p->fit);
     if (turns && p->fit.matched_um > found_um) {
         ale_ways_swap(ways);
     }

@@ -254,6 +254,16 @@ static int64_t best_cell(const ale_registration_t *r, int64_t most, int32_t *col
     return most;
 }
 
+int32_t ale_registration_cell_um(int64_t reach_um)
+{
+    return (int32_t)(reach_um / MIDDLE + 1);
+}
+
+int32_t ale_registration_step_urad(int64_t reach_urad)
+{
+    return (int32_t)(reach_urad / MIDDLE_HEADING);
+}
+
 bool ale_register(ale_registration_t *memory, ale_views_t before, ale_views_t now, int32_t reach_um,
                   int32_t reach_urad, ale_pose_t *guess)
 {
@@ -263,7 +273,7 @@ bool ale_register(ale_registration_t *memory, ale_views_t before, ale_views_t no
     bool found = false;
     memory->before_count = longest(before, memory->before);
     memory->now_count = longest(now, memory->now);
-    memory->cell_um = reach_um / MIDDLE + 1;
+    memory->cell_um = ale_registration_cell_um(reach_um);
     memory->half_um = (int32_t)((int64_t)memory->cell_um * ALE_REGISTRATION_CELLS * 3 / 4);
     memset(memory->voter, 0xff, sizeof memory->voter);
     note_surfaces(memory, before);

@@ -70,4 +70,8 @@ typedef struct {
 bool ale_register(ale_registration_t *memory, ale_views_t before, ale_views_t now, int32_t reach_um,
                   int32_t reach_urad, ale_pose_t *guess);
 
+/* How far apart the places and the headings are that a vote with these reaches compares. */
+int32_t ale_registration_cell_um(int64_t reach_um);
+int32_t ale_registration_step_urad(int64_t reach_urad);
+
 #endif

@@ -281,6 +281,9 @@ void witnesses(Parts &parts, Random &random, Crowd &crowd)
     const ale_seen_t seen = {&scan,     bearing.data(),     {0, 0, 0},
                              {0, 0, 0}, crowd.views.data(), static_cast<uint32_t>(crowd.views.size())};
     parts.measure("last scan kept", 1, [&] { ale_witness_keep(&pipeline->witness, &seen); });
+    parts.measure("last scan heard of two poses", 2, [&] {
+        ale_witness_hear(&pipeline->witness, &seen, {200000, 100000, false});
+    });
     const std::string heard = "last scan heard, or what has come"; /* the one or the other */
     parts.measure(heard, 1, [&] { ale_witness_hear(&pipeline->witness, &seen, {200000, 100000, false}); });
     notice(parts, heard, scan, bearing.data(), crowd.views, false);

@@ -4,6 +4,10 @@
 
 #include "room.h"
 
+extern "C" {
+#include "track/pipeline_state.h"
+}
+
 namespace
 {
 
@@ -182,6 +186,42 @@ TEST(PipelineTrack, AWheelThatSpinsUnseenTurnsTheRobotInNoMap)
     for (unsigned seed = 1; seed <= 6; seed++) {
         EXPECT_LT(std::abs(turned_by_spinning_unseen(seed)), 0.02) << "seed " << seed;
     }
+}
+
+/* Scans three seconds apart, on a robot that turns and whose wheels err; in the end the map holds nothing of
+ * what is seen. */
+TEST(PipelineTrack, WhatTheMapDoesNotHoldTheLastScanTells)
+{
+    double sum_rad = 0;
+    for (unsigned seed = 1; seed <= 8; seed++) {
+        std::mt19937 rng(seed);
+        std::normal_distribution<double> normal(0, 0.06);
+        const room::Pipeline p = room::make(ale_pipeline_default_config());
+        double turned = 0;
+        const auto path = [&](double) { return reference::Pose(0, 0, turned); };
+        double counted = 0;
+        room::Sensor sensor;
+        sensor.noise = 0.004;
+        sensor.beam_time_ns = 0;
+        ale_estimate_t e = {};
+        for (int k = 0; k < 20; k++) {
+            const bool last = k == 19;
+            if (last) {
+                ale_local_map_clear(&p->map);
+            }
+            turned += 0.3;
+            counted += 0.3 + (last ? 0.12 : normal(rng));
+            const ale_odometry_t wheels = {k * 3000000, convert::pose(reference::Pose(0, 0, counted))};
+            ale_pipeline_odometry(p.get(), &wheels);
+            const ale_scan_t scan = room::scan_at(room::l_shape(), sensor, path, 3.0 * k, rng);
+            ale_pipeline_scan(p.get(), &scan, &e);
+        }
+        const double error = convert::pose(e.map)[2] - (turned - 0.3);
+        sum_rad += std::abs(std::remainder(error, 2 * reference::pi));
+        EXPECT_LT(convert::pose(e.map).head<2>().norm(), 0.05) << "seed " << seed;
+        EXPECT_NE(e.state, ALE_STATE_LOST);
+    }
+    EXPECT_LT(sum_rad / 8, 0.03);
 }
 
 // Two walls, 2 m apart and without an end as far as the scanner reaches.
