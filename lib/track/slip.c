@@ -7,7 +7,9 @@ enum {
     APART_SIGMAS = 3, /* of the wheels: nearer than that, least squares finds it from where they say */
     SLIP = 100000,    /* um and urad that wheels must be off, before they are said to slip */
     KNOWN_UM = 200000,
-    KNOWN_URAD = 100000
+    KNOWN_URAD = 100000,
+    WIDEN_MOST = 150000, /* um and urad together: gates that are wider still catch the wrong walls */
+    APART_PARTS = 4      /* the rival is two sigmas off */
 };
 
 static int64_t turn_urad(ale_pose_t way)
@@ -47,12 +49,29 @@ static bool is_known(const ale_motion_t *m)
            ale_matrix_sigma(&m->cov, 2) < KNOWN_URAD;
 }
 
+/* Least squares may find the robot at either tale, or on the line between them. */
+static void widen(ale_motion_t *believed, const ale_motion_t *rival)
+{
+    const ale_pose_t way = ale_pose_between(believed->pose, rival->pose);
+    int64_t apart[ALE_STATES] = {way.x_um, way.y_um, ale_bam_to_nrad((int32_t)way.theta_bam) / 1000};
+    for (int i = 0; i < ALE_AXES; i++) {
+        apart[i + ALE_AXES] = (int64_t)rival->velocity[i] - believed->velocity[i];
+    }
+    for (int i = 0; i < ALE_STATES; i++) {
+        for (int j = 0; j < ALE_STATES; j++) {
+            believed->cov.m[i][j] += apart[i] * apart[j] / APART_PARTS;
+        }
+    }
+}
+
 ale_ways_t ale_ways_of(const ale_motion_t *by_wheels, const ale_motion_t *as_before, bool slips)
 {
     ale_ways_t ways = {*by_wheels, *as_before, false, true};
     ways.part = is_known(as_before) && are_apart(by_wheels, as_before);
     if (ways.part && slips) {
         ale_ways_swap(&ways);
+    } else if (ways.part && distance(as_before->pose, by_wheels) <= WIDEN_MOST) {
+        widen(&ways.believed, &ways.rival);
     }
     return ways;
 }

@@ -3,7 +3,9 @@
  * A wheel that spins in the air, or under a robot that something holds up, counts what nobody drives, and
  * does so for a while. Where the tales part by more than wheels promise, the wheels are believed until they
  * were off by 0.1 m and rad together and twice as far as the other tale, which is believed then until they
- * were nearer again. Pure functions, constant time. */
+ * were nearer again. Wheels that part from the other tale are believed less along the line between the two:
+ * wheels that slip by little, but by many of their sigmas, would hold the scan off its walls and make new
+ * ones. Pure functions, constant time. */
 #ifndef ALE_TRACK_SLIP_H
 #define ALE_TRACK_SLIP_H
 
@@ -30,7 +32,8 @@ ale_apart_t ale_apart(ale_pose_t a, ale_pose_t b);
 bool ale_ways_rival_is_nearer(const ale_ways_t *ways, ale_pose_t pose);
 
 /* Of the motion by wheels and the one as before, which may be hardly known: then there is no rival. slips:
- * what ale_ways_slip said the last time. */
+ * what ale_ways_slip said the last time. Wheels that are believed where they part have their covariance
+ * widened towards the rival, which is two sigmas off then, unless it lies further than 0.15 m and rad. */
 ale_ways_t ale_ways_of(const ale_motion_t *by_wheels, const ale_motion_t *as_before, bool slips);
 
 /* The rival is right. */

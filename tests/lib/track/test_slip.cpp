@@ -54,6 +54,34 @@ TEST(Slip, WhereTheyPartTheOneIsBelievedThatWasRightTheLastTime)
     EXPECT_FALSE(ale_ways_slip(&then, found(50, -150), true)) << "no more";
 }
 
+TEST(Slip, WhereTheyPartWheelsAreBelievedLessAlongTheLineBetweenTheTales)
+{
+    const ale_motion_t by_wheels = motion(50, 0);
+    ale_motion_t as_before = motion(10, 30);
+    as_before.velocity[2] = 40000;
+    const ale_motion_t believed = ale_ways_of(&by_wheels, &as_before, false).believed;
+    const double apart[ALE_STATES] = {-40000, 0, 30000, 0, 0, 40000};
+    for (int i = 0; i < ALE_STATES; i++) {
+        for (int j = 0; j < ALE_STATES; j++) {
+            const double before = static_cast<double>(by_wheels.cov.m[i][j]);
+            const double more = static_cast<double>(believed.cov.m[i][j]) - before;
+            EXPECT_NEAR(more, apart[i] * apart[j] / 4, 4e4) << i << ' ' << j;
+        }
+    }
+    EXPECT_EQ(believed.pose.x_um, 50000);
+    const ale_motion_t near_by = motion(46, 4);
+    EXPECT_EQ(ale_ways_of(&by_wheels, &near_by, false).believed.cov.m[0][0], by_wheels.cov.m[0][0]);
+}
+
+TEST(Slip, WheelsThatAreFarFromTheOtherTaleKeepTheirCovariance)
+{
+    const ale_motion_t by_wheels = motion(50, -160);
+    const ale_motion_t as_before = motion(50, 5);
+    const ale_ways_t ways = ale_ways_of(&by_wheels, &as_before, false);
+    EXPECT_TRUE(ways.part);
+    EXPECT_EQ(ways.believed.cov.m[2][2], by_wheels.cov.m[2][2]);
+}
+
 TEST(Slip, WheelsThatAreOffByLittleOrByAsMuchAsTheOtherTaleDoNotSlip)
 {
     const ale_motion_t by_wheels = motion(50, 0);
