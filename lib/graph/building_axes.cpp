@@ -31,7 +31,7 @@ constexpr size_t run_nodes = 8;  // whose mean is looked at for drift
 // miss by so much anyway (a Mahalanobis square) before its word is worth less.
 constexpr double worst_excess = 0.08;
 constexpr double clear_misfit = 1.5;
-// Where nothing had drifted visibly little is to be won, and a bend of half a degree tears views by 6 %.
+// Where nothing had drifted visibly little is to be won, and a slight bend tears views by little more.
 constexpr double worst_excess_undrifted = 0.045;
 
 // An angle but for quarter turns, -pi/4 .. pi/4.

@@ -30,7 +30,7 @@ bool have_drifted(const BuildingHeadings &headings, const std::vector<Pose> &pos
 // Whether it was no drift, but the building that bends: what matches of views miss the poses by, turned to
 // the walls' headings and not turned (PoseGraph::misfit, summed over so many matches). Where nothing had
 // drifted farther than walls stray, matches decide sooner.
-bool are_torn(double misfit_turned, double misfit_free, size_t matches, bool drifted = true);
+bool are_torn(double misfit_turned, double misfit_free, size_t matches, bool drifted);
 
 } // namespace ale
 

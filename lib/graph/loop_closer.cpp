@@ -291,7 +291,8 @@ bool LoopCloser::are_neighbours_torn() const
         misfit += graph_.misfit(pair.match);
         tracked += pair.misfit;
     }
-    return are_torn(misfit, tracked, neighbours_.size());
+    const bool drifted = true; // or the walls would not have had their say
+    return are_torn(misfit, tracked, neighbours_.size(), drifted);
 }
 
 // Earlier nodes near the present pose, visited long ago: the nearest of each visit.

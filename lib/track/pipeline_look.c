@@ -22,14 +22,16 @@ const uint32_t *ale_pipeline_bearings(const ale_pipeline_t *p)
     return p->straightened ? p->bearing_bam : NULL;
 }
 
-bool ale_pipeline_is_placed(const ale_pipeline_t *p)
+/* Whether the scan at hand was taken where the pose says: not while lost, nor while scans are denied by one
+ * that was taken beside them, which is called weak until it is called lost. */
+static bool is_placed(const ale_pipeline_t *p)
 {
     return p->tracker.state != ALE_STATE_LOST && !(p->tracker.jumped && p->tracker.beside);
 }
 
 bool ale_pipeline_seen(const ale_pipeline_t *p, ale_seen_t *out)
 {
-    if (!p->looked || !ale_pipeline_is_placed(p)) {
+    if (!p->looked || !is_placed(p)) {
         return false;
     }
     *out = (ale_seen_t){.scan = &p->scan,

@@ -19,10 +19,6 @@ void ale_pipeline_look(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t v
 /* Bearings of the scan at hand, NULL when they are regular. */
 const uint32_t *ale_pipeline_bearings(const ale_pipeline_t *p);
 
-/* Whether the scan at hand was taken where the pose says: not while lost, nor while scans are denied by one
- * that was taken beside them, which is called weak until it is called lost. */
-bool ale_pipeline_is_placed(const ale_pipeline_t *p);
-
 /* What the scan at hand shows, to be held against the map. */
 ale_scene_t ale_pipeline_scene(ale_pipeline_t *p);
 

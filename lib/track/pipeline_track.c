@@ -104,27 +104,22 @@ static ale_sights_t look_around(ale_pipeline_t *p)
                     p->tracker.state == ALE_STATE_GOOD && !p->frozen);
 }
 
-/* The scan at hand as the witness hears of it: on the way that is smooth, which no correction of the map
- * bends. */
-static ale_seen_t seen(const ale_pipeline_t *p, const ale_motion_t *before)
+/* A pose of the map on the way that is smooth, which no correction of the map bends. */
+static ale_pose_t on_smooth_way(const ale_pipeline_t *p, const ale_motion_t *before, ale_pose_t pose)
 {
-    const ale_pose_t robot = ale_pose_compose(p->smooth.pose, ale_pose_between(before->pose, p->motion.pose));
+    return ale_pose_compose(p->smooth.pose, ale_pose_between(before->pose, pose));
+}
+
+/* The scan at hand as the witness hears of it, if it was taken from a pose of the map. */
+static ale_seen_t seen_from(const ale_pipeline_t *p, const ale_motion_t *before, ale_pose_t pose)
+{
+    const ale_pose_t robot = on_smooth_way(p, before, pose);
     return (ale_seen_t){.scan = &p->scan,
                         .bearing_bam = ale_pipeline_bearings(p),
                         .robot = robot,
                         .sensor = ale_pose_compose(robot, p->config.sensor),
                         .view = p->view,
                         .view_count = p->view_count};
-}
-
-/* What the last scan says of the scan at hand if that was taken from a pose. */
-static ale_testimony_t hear_at(const ale_pipeline_t *p, const ale_motion_t *before, ale_pose_t pose,
-                               ale_slack_t slack)
-{
-    ale_seen_t now = seen(p, before);
-    now.robot = ale_pose_compose(p->smooth.pose, ale_pose_between(before->pose, pose));
-    now.sensor = ale_pose_compose(now.robot, p->config.sensor);
-    return ale_witness_hear(&p->witness, &now, slack);
 }
 
 /* What has come since the last scan, and was not there when it looked, is left out: it may go along with the
@@ -146,7 +141,7 @@ static void leave_out_carried(ale_pipeline_t *p, ale_seen_t *now)
  * nothing of the next: the last that did is kept. */
 static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted, bool counted)
 {
-    ale_seen_t now = seen(p, before);
+    ale_seen_t now = seen_from(p, before, p->motion.pose);
     const ale_matrix_t *cov = &p->motion.cov;
     const int64_t offset_um = SLACK_UM + 2 * ale_max64(ale_matrix_sigma(cov, 0), ale_matrix_sigma(cov, 1));
     const ale_slack_t slack = {
@@ -239,8 +234,7 @@ static ale_registered_t register_scan(ale_pipeline_t *p, const ale_motion_t *bef
     const int64_t reach_urad =
         ale_min64(REGISTER_URAD + ale_max64(5 * sigma_urad, beyond.turn_urad), REGISTER_MOST_URAD);
     /* on the way that is smooth, as the witness is */
-    const ale_pose_t guess =
-        ale_pose_compose(p->smooth.pose, ale_pose_between(before->pose, predicted->pose));
+    const ale_pose_t guess = on_smooth_way(p, before, predicted->pose);
     const ale_overview_t *overview = &p->overview;
     const bool richer = beyond.turn_urad < STRAIGHT_URAD &&
                         ale_overview_is_richer(overview, p->witness.view, p->witness.view_count);
@@ -267,8 +261,10 @@ static bool is_preferred(const ale_pipeline_t *p, const ale_motion_t *before,
                          const ale_registered_t *registered)
 {
     const ale_slack_t slack = {SLACK_UM, 0, false};
-    const ale_testimony_t there = hear_at(p, before, registered->pose, slack);
-    const ale_testimony_t here = hear_at(p, before, p->fit.motion.pose, slack);
+    const ale_seen_t from_there = seen_from(p, before, registered->pose);
+    const ale_seen_t from_here = seen_from(p, before, p->fit.motion.pose);
+    const ale_testimony_t there = ale_witness_hear(&p->witness, &from_there, slack);
+    const ale_testimony_t here = ale_witness_hear(&p->witness, &from_here, slack);
     return PREFER_PARTS * (there.confirmed_um - there.denied_um - (here.confirmed_um - here.denied_um)) >
            there.shown_um;
 }
@@ -297,7 +293,7 @@ static void match_again(ale_pipeline_t *p, const ale_motion_t *before)
                            is_preferred(p, before, &registered);
     if (preferred) {
         ways->believed = registered_motion(&ways->believed, &registered);
-        p->fit.matched_um = 0;
+        p->fit.matched_um = 0; /* found by chance: the next fit takes its place, whatever it finds */
     }
     const ale_motion_t *prior = turns ? &ways->rival : &ways->believed;
     const ale_gate_t *unguided = turns ? &acquire_gate : &narrow_gate;
@@ -315,7 +311,7 @@ static void match_again(ale_pipeline_t *p, const ale_motion_t *before)
 /* What has come while the robot stood begins no wall. */
 static void leave_out_newcomers(ale_pipeline_t *p, const ale_motion_t *before)
 {
-    const ale_seen_t now = seen(p, before);
+    const ale_seen_t now = seen_from(p, before, p->motion.pose);
     ale_rest_look(&p->rest, now.robot);
     p->view_count = ale_elders_drop_newcomers(&p->elders, &p->map, &now, ale_rest_is_long(&p->rest), p->view,
                                               p->fit.match);

@@ -46,7 +46,7 @@ static void ask(const ale_seen_t *of, const ale_seen_t *asked, ale_slack_t slack
             continue;
         }
         const ale_view_t moved = ale_view_from(&of->view[i], &stand);
-        const int64_t length_um = (int64_t)moved.end_um - moved.start_um;
+        const int64_t length_um = ale_view_length_um(&moved);
         ale_wall_t surface;
         ale_wall_from_view(&surface, &moved);
         const ale_points_sight_t sight =

@@ -206,11 +206,11 @@ TEST(BuildingAxes, DriftThatTurnsTheWholeDriveAgainstItselfIsMendedToo)
 
 TEST(BuildingAxes, WhereNothingHasDriftedViewsAreTornSooner)
 {
-    EXPECT_FALSE(ale::are_torn(106, 100, 500));
-    EXPECT_TRUE(ale::are_torn(109, 100, 500));
+    EXPECT_FALSE(ale::are_torn(106, 100, 500, true));
+    EXPECT_TRUE(ale::are_torn(109, 100, 500, true));
     EXPECT_FALSE(ale::are_torn(104, 100, 500, false));
     EXPECT_TRUE(ale::are_torn(106, 100, 500, false));
-    EXPECT_FALSE(ale::are_torn(1060, 1000, 300)); // poor matches
+    EXPECT_FALSE(ale::are_torn(1060, 1000, 300, true)); // poor matches
     EXPECT_TRUE(ale::are_torn(1060, 1000, 300, false));
 }
 

@@ -96,6 +96,13 @@ struct FreePipeline {
 };
 using Pipeline = std::unique_ptr<ale_pipeline_t, FreePipeline>;
 
+// A bend that ends where the robot stops, after so many seconds.
+inline reference::Pose bend(double t, double drives_s)
+{
+    const double driven_s = std::min(t, drives_s);
+    return {0.4 * driven_s, 0, 0.8 * driven_s};
+}
+
 inline Pipeline make(const ale_pipeline_config_t &config)
 {
     Pipeline p(static_cast<ale_pipeline_t *>(::operator new(ale_pipeline_size())));

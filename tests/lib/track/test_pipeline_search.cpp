@@ -191,10 +191,7 @@ TEST(PipelineSearch, CoveredOnItsWayItIsNeverWrongWhileItSaysGood)
 int wrong_while_good(double spin, int covered, unsigned seed)
 {
     const double drives_s = 2.5;
-    const auto path = [&](double t) {
-        const double driven_s = std::min(t, drives_s);
-        return reference::Pose(0.4 * driven_s, 0, 0.8 * driven_s);
-    };
+    const auto path = [&](double t) { return room::bend(t, drives_s); };
     std::mt19937 rng(seed);
     const room::Pipeline p = room::make(ale_pipeline_default_config());
     room::Sensor sensor;

@@ -191,10 +191,7 @@ double turned_by_spinning_unseen(unsigned seed)
 {
     const double drives_s = 2.5;
     const double covered_s = 0.25;
-    const auto path = [&](double t) {
-        const double driven_s = std::min(t, drives_s);
-        return reference::Pose(0.4 * driven_s, 0, 0.8 * driven_s);
-    };
+    const auto path = [&](double t) { return room::bend(t, drives_s); };
     std::mt19937 rng(seed);
     const room::Pipeline p = room::make(ale_pipeline_default_config());
     room::Sensor sensor;
