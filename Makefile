@@ -17,7 +17,7 @@ include tools/make/rules.mk
 include tools/make/tests.mk
 include tools/make/cross.mk
 include tools/make/deploy.mk
--include $(filter-out tools/make/%,$(wildcard tools/*/*.mk))
+-include $(wildcard tools/*/*/*.mk)
 
 .PHONY: help deps deps-test all run explore clean
 help: ## list the targets

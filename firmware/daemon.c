@@ -2,20 +2,20 @@
 
 #include <stdlib.h>
 
-#include "acquire.h"
-#include "drive.h"
-#include "estimate.h"
-#include "exchange.h"
-#include "explore_thread.h"
-#include "last_place.h"
+#include "acquire/acquire.h"
+#include "estimate/estimate.h"
+#include "exchange/exchange.h"
 #include "lcm/bus.h"
-#include "map_drawer.h"
-#include "mapper_thread.h"
+#include "mapping/map_drawer.h"
+#include "mapping/mapper_thread.h"
+#include "mapping/start_map.h"
+#include "operator/drive.h"
+#include "operator/explore_thread.h"
 #include "realtime/rt.h"
-#include "recorder.h"
-#include "service.h"
-#include "start_map.h"
-#include "telemetry.h"
+#include "recorder/recorder.h"
+#include "system/persistence.h"
+#include "system/service.h"
+#include "telemetry/telemetry.h"
 
 struct ale_daemon {
     const ale_options_t *options;

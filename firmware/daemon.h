@@ -2,7 +2,7 @@
 #ifndef ALE_FIRMWARE_DAEMON_H
 #define ALE_FIRMWARE_DAEMON_H
 
-#include "options.h"
+#include "config/options.h"
 
 typedef struct ale_daemon ale_daemon_t;
 

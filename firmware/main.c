@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "config/options.h"
 #include "daemon.h"
-#include "options.h"
 
 /* Blocked everywhere, so that no thread is interrupted; main waits for the two that end the program, and for
  * the one that asks for a flight recording. */

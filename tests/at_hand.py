@@ -9,7 +9,7 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 BUILD = pathlib.Path(os.environ.get("ALE_BUILD", ROOT / "build")).resolve()
 BINARIES = BUILD / "bin"
-WORLDS = ROOT / "tools" / "worlds"
+WORLDS = ROOT / "tools/lab/worlds"
 
 
 def shared(name):

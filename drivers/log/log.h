@@ -21,7 +21,7 @@
 
 #include "base/pose.h"
 #include "base/scan.h"
-#include "track/odometry_sample.h"
+#include "motion/odometry_sample.h"
 
 typedef struct ale_log ale_log_t;
 

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "log/format.h"
+#include "scanner/urg/identity.h"
+#include "scanner/urg/urg_stream.h"
 #include "store/recording.h"
-#include "urg/identity.h"
-#include "urg/urg_stream.h"
 
 typedef struct {
     bool begun;

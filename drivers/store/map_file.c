@@ -7,9 +7,9 @@
 #include <string.h>
 #include <zlib.h>
 
+#include "file/whole_file.h"
 #include "log/bytes.h"
 #include "log/text.h"
-#include "store/whole_file.h"
 
 static const char HEAD[] = "ALE-SLAM map 1";
 static const char WALL_LEGEND[] =

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <zlib.h>
 
-#include "store/little_endian.h"
+#include "file/little_endian.h"
 
 static const char SIGNATURE[8] = {'A', 'L', 'E', 'S', 'C', 'I', 'P', '1'};
 static const uint8_t MAGIC[4] = {'C', 'H', 'N', 'K'};

@@ -5,7 +5,7 @@
  * The CRC (zlib's) covers kind to payload. A reader that meets a bad chunk looks for the next magic.
  * Payloads: RECEIVED, SENT raw serial bytes; ODOMETRY i32 x_um, i32 y_um, u32 theta_bam, i64 stamp_us;
  * COMMAND, CONFIG text; CORRECTION u32 scan, i32 x_um, i32 y_um, u32 theta_bam; DECISION, STAGES text, words
- * `name=value` (firmware/flight_words.h). */
+ * `name=value` (firmware/recorder/flight_words.h). */
 #ifndef ALE_STORE_RECORDING_H
 #define ALE_STORE_RECORDING_H
 
@@ -14,7 +14,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "track/odometry_sample.h"
+#include "motion/odometry_sample.h"
 
 typedef enum {
     ALE_CHUNK_RECEIVED = 1,

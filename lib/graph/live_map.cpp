@@ -6,9 +6,9 @@ extern "C" {
 #include <map>
 #include <new>
 
-#include "graph/line_ids.h"
-#include "graph/map_redraw.h"
-#include "graph/wall_groups.h"
+#include "graph/walls/line_ids.h"
+#include "graph/walls/map_redraw.h"
+#include "graph/walls/wall_groups.h"
 
 namespace
 {

@@ -15,7 +15,7 @@
 #include <stdint.h>
 
 #include "graph/mapper.h"
-#include "track/sighting.h"
+#include "track/scan_observation.h"
 
 /* What is recorded at most, with what a drawing makes of its lines. */
 enum { ALE_LIVE_MAP_BYTES = 32 * 1024 * 1024 };

@@ -7,8 +7,8 @@ extern "C" {
 #include <deque>
 #include <new>
 
-#include "graph/loop_closer.h"
-#include "graph/scan_node.h"
+#include "graph/loops/loop_closer.h"
+#include "graph/optimise/scan_node.h"
 
 namespace
 {

@@ -2,8 +2,8 @@
 
 #include "base/fixed.h"
 #include "base/trig.h"
+#include "motion/deskew.h"
 #include "plan/safe_speed.h"
-#include "track/deskew.h"
 
 /* Counted in scans, ten a second. */
 enum { PLAN_EVERY = 5, STALL_STEPS = 80, STUCK_STEPS = 10, BACKING_STEPS = 15 };

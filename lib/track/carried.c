@@ -4,7 +4,7 @@
 
 #include "base/fixed.h"
 #include "base/trig.h"
-#include "track/wall.h"
+#include "map/wall.h"
 
 enum {
     SAME_UM = 60000, /* how far it may move to and fro before the robot, and per mille of the range */

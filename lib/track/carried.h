@@ -13,9 +13,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "track/match.h"
-#include "track/seen.h"
-#include "track/visibility.h"
+#include "map/visibility.h"
+#include "match/association.h"
+#include "observe/seen.h"
 
 typedef struct {
     int32_t came_um[ALE_MAX_BEAMS]; /* the range of each beam that met it when it came; 0: none; negative:

@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 #include "base/pose.h"
-#include "track/local_map.h"
+#include "map/local_map.h"
 
 enum { ALE_CORRECTION_SHIFTS = 2048 };
 

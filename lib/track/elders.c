@@ -2,9 +2,9 @@
 
 #include "base/fixed.h"
 #include "base/trig.h"
-#include "track/rest.h"
-#include "track/visibility.h"
-#include "track/wall.h"
+#include "map/visibility.h"
+#include "map/wall.h"
+#include "track/zero_motion.h"
 
 enum {
     EVERY_US = 5000000,

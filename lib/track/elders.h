@@ -11,8 +11,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "track/match.h"
-#include "track/seen.h"
+#include "match/association.h"
+#include "observe/seen.h"
 
 enum { ALE_ELDERS = 8 };
 

@@ -4,7 +4,7 @@
 
 #include "base/fixed.h"
 #include "base/trig.h"
-#include "track/ratio.h"
+#include "motion/ratio.h"
 
 enum {
     CONFLICT_OFFSET_UM = 50000, /* a wall this near may be the same: better none than two of it */

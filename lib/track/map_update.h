@@ -9,18 +9,19 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "track/drift.h"
-#include "track/local_map.h"
-#include "track/refine.h"
-#include "track/wheel_drift.h"
+#include "map/local_map.h"
+#include "match/map_uncertainty.h"
+#include "match/odometry_scale_error.h"
+#include "match/scan_to_map.h"
 
 /* How a scan goes into the map. */
 typedef struct {
     uint32_t scan;                        /* its number */
     const ale_drift_t *here;              /* drift of the map at this place, */
     const ale_wheel_drift_t *wheel_drift; /* and what the wheels have made of the robot's */
-    uint32_t dilution; /* so many times the stated variance have its looks at what is known: see rest.h */
-    bool grow;         /* false: no new walls */
+    uint32_t
+        dilution; /* so many times the stated variance have its looks at what is known: see zero_motion.h */
+    bool grow;    /* false: no new walls */
 } ale_taking_t;
 
 /* Takes the views of a scan, matched at fit->motion, into the map. */

@@ -9,8 +9,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "track/seen.h"
-#include "track/view.h"
+#include "observe/observation.h"
+#include "observe/seen.h"
 
 typedef struct {
     ale_view_t view[ALE_MAX_VIEWS]; /* robot's frame */

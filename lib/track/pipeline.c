@@ -5,9 +5,9 @@
 
 #include "base/fixed.h"
 #include "base/trig.h"
-#include "track/map_exchange.h"
+#include "map/map_exchange.h"
+#include "match/uncertainty.h"
 #include "track/pipeline_steps.h"
-#include "track/uncertainty.h"
 
 enum {
     START_SPEED_MM_S = 300,

@@ -18,8 +18,8 @@
 #include "base/scan.h"
 #include "base/stage.h"
 #include "extract/extract.h"
-#include "track/odometry_sample.h"
-#include "track/seen.h"
+#include "motion/odometry_sample.h"
+#include "observe/seen.h"
 
 #define ALE_MAP_MAX_LINES 2048
 #define ALE_MAP_MAX_CORNERS 1024
@@ -118,9 +118,9 @@ void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estima
  * sizeof(ale_keyframe_t). False: it is not, and *out is untouched. */
 bool ale_pipeline_keyframe(ale_pipeline_t *pipeline, ale_keyframe_t *out);
 
-/* For those who draw the map anew: what the scan last handed over has shown (see sighting.h). Copies at most
- * sizeof(ale_sighting_t). False, and *out is untouched: there was no scan, the robot is lost or may be, no
- * keyframe was taken since it was put elsewhere, or the map is frozen. */
+/* For those who draw the map anew: what the scan last handed over has shown (see scan_observation.h). Copies
+ * at most sizeof(ale_sighting_t). False, and *out is untouched: there was no scan, the robot is lost or may
+ * be, no keyframe was taken since it was put elsewhere, or the map is frozen. */
 bool ale_pipeline_sighting(const ale_pipeline_t *pipeline, ale_sighting_t *out);
 
 /* From the mapper, between two scans: map and map pose move as loops have shown; the smooth pose does not.

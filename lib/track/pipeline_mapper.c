@@ -8,7 +8,7 @@
 #include "track/keyframe.h"
 #include "track/pipeline.h"
 #include "track/pipeline_state.h"
-#include "track/sighting.h"
+#include "track/scan_observation.h"
 
 enum {
     LOOP_SIGMA_UM = 30000, /* how well a corrected pose lies to the walls that it comes back to */

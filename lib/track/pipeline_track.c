@@ -3,7 +3,7 @@
 
 #include "base/fixed.h"
 #include "base/trig.h"
-#include "track/hold.h"
+#include "match/observability.h"
 #include "track/map_update.h"
 #include "track/pipeline_steps.h"
 

@@ -11,7 +11,7 @@
 
 #include <stdbool.h>
 
-#include "track/motion.h"
+#include "motion/motion.h"
 
 typedef struct {
     ale_motion_t believed;

@@ -4,7 +4,7 @@
 
 #include "base/fixed.h"
 #include "base/trig.h"
-#include "track/wall.h"
+#include "map/wall.h"
 
 enum {
     CLOSE_UM = 500000,

@@ -13,9 +13,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "track/refine.h"
-#include "track/seen.h"
-#include "track/visibility.h"
+#include "map/visibility.h"
+#include "match/scan_to_map.h"
+#include "observe/seen.h"
 
 typedef struct {
     ale_seen_copy_t seen;

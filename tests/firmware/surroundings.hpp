@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 extern "C" {
-#include "exchange.h"
+#include "exchange/exchange.h"
 }
 
 namespace surroundings

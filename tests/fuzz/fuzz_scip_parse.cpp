@@ -7,10 +7,10 @@
 #include <vector>
 
 extern "C" {
-#include "urg/identity.h"
-#include "urg/scip_code.h"
-#include "urg/scip_parse.h"
-#include "urg/urg_stream.h"
+#include "scanner/urg/identity.h"
+#include "scanner/urg/scip_code.h"
+#include "scanner/urg/scip_parse.h"
+#include "scanner/urg/urg_stream.h"
 }
 
 namespace

@@ -38,8 +38,8 @@ def compile_all(sources, folder, *flags, compiler="gcc"):
 
 
 def planted_estimate(fault, folder, *flags):
-    """firmware/estimate.c with a fault in it."""
+    """firmware/estimate/estimate.c with a fault in it."""
     target = folder / f"estimate_{fault}.o"
-    run("gcc", *C, *flags, *INCLUDES, "-include", PLANTED / f"{fault}.c", "-c", ROOT / "firmware" / "estimate.c",
+    run("gcc", *C, *flags, *INCLUDES, "-include", PLANTED / f"{fault}.c", "-c", ROOT / "firmware/estimate/estimate.c",
         "-o", target)
     return target

@@ -12,7 +12,7 @@
 #include "firmware/room.hpp"
 
 extern "C" {
-#include "estimate.h"
+#include "estimate/estimate.h"
 }
 
 namespace

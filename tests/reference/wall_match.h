@@ -1,5 +1,5 @@
-// Twin of lib/track/match.c and hypothesis.c: which wall of the map a line shows, and where the robot could
-// be.
+// Twin of lib/match/association.c and hypothesis.c: which wall of the map a line shows, and where the robot
+// could be.
 #ifndef ALE_TESTS_REFERENCE_WALL_MATCH_H
 #define ALE_TESTS_REFERENCE_WALL_MATCH_H
 

@@ -50,7 +50,7 @@ class Rover:
         self.keys = chain.folder / "robot.keys"
         for name in ("alice", "bob"):
             self.tool("ale-keys", name, "--secret", self.key(name), "--robot", self.keys)
-        chain.simulator("--world", "tools/worlds/home.world", "--drive")
+        chain.simulator("--world", "tools/lab/worlds/home.world", "--drive")
         self.firmware = self.start()
         self.motors = Motors(chain.url)
         wait_until(lambda: self.motors.set_points, 180, "set points")
@@ -126,7 +126,7 @@ def rover(one_for_all):
 
 
 def test_the_set_point_is_zero_300_ms_after_the_last_valid_command(rover):
-    """By the robot's own stamps; to the microsecond on a clock of its own: tests/firmware/test_drive.cpp."""
+    """By the robot's own stamps; to the microsecond on a clock of its own: tests/firmware/operator/test_drive.cpp."""
     sent = rover.drive_for_a_moment()
     points = list(rover.motors.set_points)
     moving = [p for p in points if p.v > 0]

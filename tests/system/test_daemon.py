@@ -31,7 +31,7 @@ def assert_ends_quickly(chain, has_begun, number=signal.SIGTERM):
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
 def test_a_signal_ends_it_cleanly_while_it_streams(chain, number):
-    chain.simulator("--world", "tools/worlds/home.world")
+    chain.simulator("--world", "tools/lab/worlds/home.world")
     assert_ends_quickly(chain, lambda firmware: len(chain.listener.poses) > 5 and "streaming" in firmware.err(), number)
 
 
@@ -43,7 +43,7 @@ def test_without_a_device_it_says_so_once_and_takes_it_when_it_comes(chain):
     assert str(chain.port)[:20] in firmware.err()
     assert chain.listener.statuses[-1].driver_state.startswith("no scanner: ")
     assert not chain.listener.poses
-    chain.simulator("--world", "tools/worlds/home.world")
+    chain.simulator("--world", "tools/lab/worlds/home.world")
     wait_until(lambda: len(chain.listener.poses) > 5, 180, "poses")
     wait_until(lambda: chain.listener.statuses[-1].driver_state == "streaming", 180, "the status")
     assert firmware.end() == 0
@@ -54,7 +54,7 @@ def test_a_signal_ends_it_quickly_without_a_device(chain):
 
 
 def test_it_starts_again_where_another_was_killed(chain):
-    chain.simulator("--world", "tools/worlds/home.world")
+    chain.simulator("--world", "tools/lab/worlds/home.world")
     first = chain.firmware()
     wait_until(lambda: len(chain.listener.poses) > 5, 180, "poses")
     first.kill()
@@ -67,7 +67,7 @@ def test_it_starts_again_where_another_was_killed(chain):
 
 
 def test_a_hub_of_hostile_messages_does_not_disturb_it(chain):
-    chain.simulator("--world", "tools/worlds/home.world", "--no-odometry")
+    chain.simulator("--world", "tools/lab/worlds/home.world", "--no-odometry")
     firmware = chain.firmware()
     wait_until(lambda: len(chain.listener.poses) > 5, 180, "poses")
     for length in (0, 1, 8, 20, 28, 60000):

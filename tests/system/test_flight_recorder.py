@@ -57,7 +57,7 @@ def folder(tmp_path):
 
 
 def fly(chain, folder, scans, words=(), **settings):
-    simulator = chain.simulator("--world", "tools/worlds/home.world", *words, speed=SPEED)
+    simulator = chain.simulator("--world", "tools/lab/worlds/home.world", *words, speed=SPEED)
     firmware = chain.firmware(config(folder, **settings), speed=SPEED)
     wait_until(lambda: len(chain.listener.poses) >= scans, 180, f"{scans} poses")
     return simulator, firmware

@@ -15,7 +15,7 @@ def test_the_median_is_under_five_milliseconds(chain):
 def median_s(chain):
     """The larger of what the firmware says and what its messages say; for ever when it missed deadlines."""
     chain.listener.forget()
-    simulator = chain.simulator("--world", "tools/worlds/home.world")
+    simulator = chain.simulator("--world", "tools/lab/worlds/home.world")
     firmware = chain.firmware()
     report = chain.start("ale-latency", "--lcm-url", chain.url, "--poses", SCANS)
     wait_until(lambda: len(chain.listener.poses) >= SCANS and not report.running(), 180, f"{SCANS} poses")
@@ -33,7 +33,7 @@ def median_s(chain):
 
 
 def test_every_scan_tells_its_way_from_the_first_beam_to_the_wire(chain):
-    chain.simulator("--world", "tools/worlds/home.world", speed=5)
+    chain.simulator("--world", "tools/lab/worlds/home.world", speed=5)
     firmware = chain.firmware(speed=5)
     wait_until(lambda: len(chain.listener.poses) >= SCANS, 180, f"{SCANS} poses")
     assert firmware.end() == 0

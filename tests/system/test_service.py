@@ -25,7 +25,7 @@ class Manager:
 def test_ready_fed_and_stopping_are_told(chain):
     manager = Manager()
     prefix = ["env", f"NOTIFY_SOCKET={manager.name}", "WATCHDOG_USEC=400000"]
-    chain.simulator("--world", "tools/worlds/home.world")
+    chain.simulator("--world", "tools/lab/worlds/home.world")
     firmware = chain.firmware(prefix=prefix)
     wait_until(lambda: manager.words().count("WATCHDOG=1") >= 5, 180, "the watchdog to be fed")
     wait_until(lambda: any(text.startswith("STATUS=") for text in manager.words()), 180, "words for the status")

@@ -73,8 +73,8 @@ def test_every_option_of_its_help_is_one_of_its_own(name):
 
 @pytest.mark.parametrize("words", ["ale-bridge --connect 127.0.0.1:7700", "ale-console --http 127.0.0.1:0", "ale-latency",
                                    "ale-record --port urg --out file", "ale-screen --once", "ale-send --keys KEY stop",
-                                   f"ale-sim --pty urg --world {ROOT}/tools/worlds/home.world",
-                                   f"ale-sim --pty urg --drive --world {ROOT}/tools/worlds/home.world", "ale-slamd", "ale-watch"])
+                                   f"ale-sim --pty urg --world {ROOT}/tools/lab/worlds/home.world",
+                                   f"ale-sim --pty urg --drive --world {ROOT}/tools/lab/worlds/home.world", "ale-slamd", "ale-watch"])
 def test_an_lcm_that_cannot_be_joined_is_told_in_one_line(words, tmp_path):
     name, *arguments = words.split()
     run("ale-keys", "alice", "--secret", "KEY", "--robot", "robot.keys", cwd=tmp_path)
@@ -107,7 +107,7 @@ def test_a_result_that_cannot_be_written_is_told_before_the_work(words, tmp_path
     before = sorted(tmp_path.iterdir())
     for there, why in [("absent/FILE", "No such file or directory"), ("some.log/FILE", "Not a directory"), ("folder", "Is a directory")]:
         name, *arguments = [word.replace("FILE", there.replace("FILE", "result")).replace("LOG", "some.log")
-                            .replace("WORLD", f"{ROOT}/tools/worlds/home.world") for word in words.split()]
+                            .replace("WORLD", f"{ROOT}/tools/lab/worlds/home.world") for word in words.split()]
         failed = run(name, *arguments, cwd=tmp_path)
         assert (failed.returncode, failed.stdout) == (1, "")
         assert failed.stderr.endswith(f": {why}\n") and failed.stderr.count("\n") == 1, failed.stderr

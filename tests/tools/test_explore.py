@@ -84,10 +84,10 @@ def test_the_configuration_is_the_robots(tmp_path, room):
 @pytest.mark.parametrize("words, message", [
     ((), "--world WORLD is missing"),
     (("--world", "nowhere.world"), "nowhere.world"),
-    (("--world", "tools/worlds/home.world", "--seeds", "many"), "--seeds many: expected a whole number from 1 to 10000"),
-    (("--world", "tools/worlds/home.world", "--map", "map.jpg"), "--map map.jpg: there are .png, .svg, .dxf, .pgm"),
-    (("--world", "tools/worlds/home.world", "--config", "nothing.ini"), "nothing.ini"),
-    (("--world", "tools/worlds/home.world", "extra"), 'what is "extra"?'),
+    (("--world", "tools/lab/worlds/home.world", "--seeds", "many"), "--seeds many: expected a whole number from 1 to 10000"),
+    (("--world", "tools/lab/worlds/home.world", "--map", "map.jpg"), "--map map.jpg: there are .png, .svg, .dxf, .pgm"),
+    (("--world", "tools/lab/worlds/home.world", "--config", "nothing.ini"), "nothing.ini"),
+    (("--world", "tools/lab/worlds/home.world", "extra"), 'what is "extra"?'),
 ])
 def test_wrong_use_is_one_line(words, message):
     done = ask(*words)

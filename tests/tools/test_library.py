@@ -10,7 +10,7 @@ import pytest
 import ale_lines
 from at_hand import BUILD, ROOT
 
-ROOM = ROOT / "tools/examples/room.txt"
+ROOM = ROOT / "tools/library/examples/room.txt"
 
 
 def run(*command, **options):
@@ -52,7 +52,7 @@ def compiled(source, target, prefix, *more):
 
 
 def test_the_example_builds_against_an_installed_tree_and_prints_lines(installed, room, library, tmp_path):
-    program = compiled(ROOT / "tools/examples/lines.c", tmp_path / "lines", installed)
+    program = compiled(ROOT / "tools/library/examples/lines.c", tmp_path / "lines", installed)
     with ROOM.open() as scan:
         printed = run(program, stdin=scan, env={"LD_LIBRARY_PATH": str(installed / "lib")}).stdout
     beams = [tuple(map(int, found)) for found in re.findall(r"line beams (\d+) to (\d+)", printed)]
@@ -63,7 +63,7 @@ def test_the_example_builds_against_an_installed_tree_and_prints_lines(installed
 
 
 def test_the_example_says_what_is_missing(installed, tmp_path):
-    program = compiled(ROOT / "tools/examples/lines.c", tmp_path / "lines", installed)
+    program = compiled(ROOT / "tools/library/examples/lines.c", tmp_path / "lines", installed)
     done = subprocess.run([program], input="", capture_output=True, text=True, check=False,
                           env={"LD_LIBRARY_PATH": str(installed / "lib")})
     assert done.returncode == 2
@@ -133,7 +133,7 @@ def plot():
     interpreter = "/usr/bin/python3"
     if subprocess.run([interpreter, "-c", "import matplotlib"], check=False, capture_output=True).returncode:
         pytest.skip("matplotlib is not installed")
-    return interpreter, ROOT / "tools/python/plot_lines.py"
+    return interpreter, ROOT / "tools/library/python/plot_lines.py"
 
 
 def test_the_plot_script_writes_a_picture(library, plot, tmp_path):

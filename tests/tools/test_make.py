@@ -45,7 +45,7 @@ def test_the_loops_of_the_extractor_are_unrolled_unless_other_flags_are_asked_fo
     for source in ("lib/extract/moments.c", "lib/base/fixed.c"):
         assert optimisation(tmp_path, source) == ["-O3", "-funroll-loops"]
         assert optimisation(tmp_path, source, "OPT=-O1") == ["-O1"]
-    assert optimisation(tmp_path, "lib/track/match.c") == ["-O2"]
+    assert optimisation(tmp_path, "lib/match/association.c") == ["-O2"]
 
 
 def test_objects_of_other_flags_are_compiled_again(tmp_path):

@@ -11,7 +11,7 @@ import pytest
 
 from at_hand import BINARIES, ROOT, shared
 
-MAP_SCORE = ROOT / "tools" / "bench" / "map_score.py"
+MAP_SCORE = ROOT / "tools/lab/bench/map_score.py"
 REPLAY = BINARIES / "ale-replay"
 STEP = 2 * math.pi / 1024
 BEAMS = 682

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Turn files into a C++ source that holds them: embed.py OUT.cpp FILE...
 
-The result defines `ale_page_files` and `ale_page_file_count` as declared in tools/console/page.h.
+The result defines `ale_page_files` and `ale_page_file_count` as declared in tools/operator/console/page.h.
 """
 import pathlib
 import sys
@@ -14,7 +14,7 @@ def literal(data):
 
 def main():
     out, *files = sys.argv[1:]
-    text = ['#include "console/page.h"', "", "namespace", "{"]
+    text = ['#include "operator/console/page.h"', "", "namespace", "{"]
     entries = []
     for k, name in enumerate(files):
         data = pathlib.Path(name).read_bytes()

@@ -17,7 +17,7 @@ import time
 from programs import (ANSWER_SECONDS, START_SECONDS, STALL_SECONDS, Chain, Failure, Tally, ask, common_options, conclude,
                       last_number, positive, private_lcm_url, require_programs, say)
 
-WORLD = pathlib.Path("tools/worlds/arena.world")
+WORLD = pathlib.Path("tools/lab/worlds/arena.world")
 FARTHEST_OFF_M = 0.10
 PROGRAMS = ("ale-sim", "ale-slamd", "ale-console", "ale-watch", "ale-keys", "ale-send")
 RESULTS = ("map.png", "map.svg", "trajectory.tum", "truth.tum")

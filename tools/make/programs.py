@@ -8,7 +8,7 @@ import sys
 import threading
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "python"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "library/python"))
 import lcm_url  # noqa: E402
 
 START_SECONDS = 60  # a busy machine may take its time

@@ -1,11 +1,11 @@
 # How sources become programs.
 #
 #   lib/*/*.c            -> libale.a            the real-time core, integers only
-#   lib/graph/*.cpp      -> libale_graph.a      the mapper
-#   drivers/*/*.c        -> libale_drivers.a    with the generated LCM types
+#   lib/graph/**/*.cpp   -> libale_graph.a      the mapper
+#   drivers/**/*.c       -> libale_drivers.a    with the generated LCM types
 #   firmware/**/*.c      -> libale_firmware.a   all but main.c; main.c -> ale-slamd; one realtime/rt_$(RT).c (rtai.mk)
-#   tools/cli, tools/export -> libale_tools.a       linked to every tool
-#   tools/NAME/*.c, .cpp -> ale-NAME            page/ beside them is embedded
+#   tools/common/*/*     -> libale_tools.a      linked to every tool
+#   tools/GROUP/NAME/*   -> ale-NAME            page/ beside them is embedded
 #
 # Dependencies point down only: the include paths of each floor name only what lies below it.
 
@@ -85,10 +85,10 @@ include tools/make/rtai.mk
 
 # Floors of the house: each sees itself and what lies below.
 LIB_SOURCES = $(wildcard lib/*/*.c)
-GRAPH_SOURCES = $(wildcard lib/graph/*.cpp)
-DRIVER_SOURCES = $(wildcard drivers/*/*.c)
+GRAPH_SOURCES = $(wildcard lib/graph/*.cpp lib/graph/*/*.cpp)
+DRIVER_SOURCES = $(wildcard drivers/*/*.c drivers/*/*/*.c)
 FIRMWARE_SOURCES = $(filter-out firmware/main.c firmware/realtime/rt_%.c,$(wildcard firmware/*.c firmware/*/*.c)) firmware/realtime/rt_$(RT).c
-TOOL_SHARED_SOURCES = $(wildcard tools/cli/*.cpp tools/export/*.c tools/export/*.cpp)
+TOOL_SHARED_SOURCES = $(wildcard tools/common/*/*.c tools/common/*/*.cpp)
 
 LIB_INCLUDES = -Ilib
 DRIVER_INCLUDES = -Ilib -Idrivers $(SYSTEM_INCLUDES)
@@ -165,9 +165,9 @@ define link
 	$(Q)$(CXX) $(LINK_FLAGS) $(filter %.o,$^) $(filter %.a,$^) $(LIBRARIES) $(1) -o $@
 endef
 
-# Programs: one folder each; bench, examples, figures and python have rules of their own (tools/NAME/NAME.mk).
-TOOL_FOLDERS = $(filter-out cli export make bench examples figures python worlds,$(notdir $(patsubst %/,%,$(sort $(dir $(wildcard tools/*/*.c tools/*/*.cpp))))))
-PROGRAMS = $(addprefix $(BUILD)/bin/ale-,$(if $(wildcard firmware/main.c),slamd) $(TOOL_FOLDERS))
+# Programs: one folder each, with a main; a folder with other rules has them in NAME.mk.
+TOOL_FOLDERS = $(patsubst %/,%,$(sort $(dir $(wildcard tools/*/*/main.c tools/*/*/main.cpp))))
+PROGRAMS = $(addprefix $(BUILD)/bin/ale-,$(if $(wildcard firmware/main.c),slamd) $(notdir $(TOOL_FOLDERS)))
 
 .PHONY: programs
 programs: $(PROGRAMS)
@@ -176,12 +176,12 @@ $(BUILD)/bin/ale-slamd: $(OBJ)/firmware/main.c.o $(FIRMWARE_ARCHIVES)
 	$(call link)
 
 define program
-$(BUILD)/bin/ale-$(1): $$(call objects,$$(wildcard tools/$(1)/*.c tools/$(1)/*.cpp)) $$(if $$(wildcard tools/$(1)/page/*),$$(OBJ)/tools/$(1)/page.o) $$(ARCHIVES)
+$(BUILD)/bin/ale-$(notdir $(1)): $$(call objects,$$(wildcard $(1)/*.c $(1)/*.cpp)) $$(if $$(wildcard $(1)/page/*),$$(OBJ)/$(1)/page.o) $$(ARCHIVES)
 	$$(call link)
-$$(OBJ)/tools/$(1)/page.cpp: $$(wildcard tools/$(1)/page/*) tools/make/embed.py
+$$(OBJ)/$(1)/page.cpp: $$(wildcard $(1)/page/*) tools/make/embed.py
 	@mkdir -p $$(@D)
-	$$(Q)$$(PYTHON) tools/make/embed.py $$@ $$(wildcard tools/$(1)/page/*)
-$$(OBJ)/tools/$(1)/page.o: $$(OBJ)/tools/$(1)/page.cpp $$(FLAGS_STAMP)
+	$$(Q)$$(PYTHON) tools/make/embed.py $$@ $$(wildcard $(1)/page/*)
+$$(OBJ)/$(1)/page.o: $$(OBJ)/$(1)/page.cpp $$(FLAGS_STAMP)
 	$$(Q)$$(CXX) $$(CXX_FLAGS) $$(TOOL_INCLUDES) -c $$< -o $$@
 endef
 $(foreach tool,$(TOOL_FOLDERS),$(eval $(call program,$(tool))))

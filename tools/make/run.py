@@ -15,7 +15,7 @@ from programs import (ANSWER_SECONDS, START_SECONDS, Chain, Failure, Tally, ask,
                       private_lcm_url, require_programs, say)
 
 PROGRAMS = ("ale-sim", "ale-slamd", "ale-console", "ale-watch")
-DEFAULT_WORLD = pathlib.Path("tools/worlds/home.world")
+DEFAULT_WORLD = pathlib.Path("tools/lab/worlds/home.world")
 
 
 def recording_of(world, folder, binaries):

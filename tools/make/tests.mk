@@ -14,7 +14,7 @@ export ALE_SHARED = $(if $(wildcard $(SHARED_DATA)/data),$(SHARED_DATA))
 export ALE_BUILD = $(abspath $(BUILD))
 
 # Tools whose parts are tested: everything of tools/NAME but its main.
-TOOL_PARTS = $(foreach t,$(TOOL_FOLDERS),$(filter-out %/main.c %/main.cpp,$(wildcard tools/$(t)/*.c tools/$(t)/*.cpp)))
+TOOL_PARTS = $(foreach t,$(TOOL_FOLDERS),$(filter-out %/main.c %/main.cpp,$(wildcard $(t)/*.c $(t)/*.cpp)))
 $(BUILD)/libale_tool_parts.a: $(call objects,$(TOOL_PARTS))
 	$(archive)
 
@@ -60,7 +60,7 @@ $(TEST_OBJ)/tools/%.cpp.o: tools/%.cpp $(addsuffix .gch,$(TWIN_PRELUDE)) | $(LCM
 -include $(shell find $(TEST_OBJ) -name '*.d' 2>/dev/null)
 
 # Tests of the core use the benchmark's worlds and its simulated scanner.
-TEST_WORLD_SOURCES = tools/bench/world.cpp tools/bench/simulate.cpp tools/bench/truth.cpp
+TEST_WORLD_SOURCES = tools/lab/bench/world.cpp tools/lab/bench/simulate.cpp tools/lab/bench/truth.cpp
 TEST_SHARED = $(TEST_BUILD)/libale_test_shared.a
 $(TEST_SHARED): $(call test_objects,$(TEST_SHARED_SOURCES) $(TEST_WORLD_SOURCES))
 	$(archive)
@@ -213,7 +213,7 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	@$(PHASE) "the robot explores at a click in the browser"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=console_explores
 	@$(PHASE) "explorations in a closed loop with the simulator, more of them"
-	@$(SUB) T=tools/explore/test_exploration unit-programs
-	-@ALE_LONG_TESTS=1 $(SUB) T=tools/explore/test_exploration unit
+	@$(SUB) T=tools/lab/explore/test_exploration unit-programs
+	-@ALE_LONG_TESTS=1 $(SUB) T=tools/lab/explore/test_exploration unit
 	@$(PHASE) "all of it"
 	@$(PYTHON) tools/make/run_tests.py sum

@@ -1,5 +1,5 @@
-/* LCM on a port of this process, so that tests run side by side, also with those of tools/python/lcm_url.py;
- * it stays on this machine. */
+/* LCM on a port of this process, so that tests run side by side, also with those of
+ * tools/library/python/lcm_url.py; it stays on this machine. */
 #ifndef TESTS_DRIVERS_LCM_OWN_PORT_HPP
 #define TESTS_DRIVERS_LCM_OWN_PORT_HPP
 

@@ -8,8 +8,8 @@
 #include "log_text.hpp"
 
 extern "C" {
+#include "scanner/urg/scip_encode.h"
 #include "store/recording.h"
-#include "urg/scip_encode.h"
 }
 
 using ale_test::read_bytes;

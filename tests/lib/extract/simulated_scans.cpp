@@ -1,6 +1,6 @@
 #include "lib/extract/simulated_scans.h"
 
-#include "bench/simulate.hpp"
+#include "lab/bench/simulate.hpp"
 
 namespace scene
 {

@@ -12,7 +12,7 @@
 
 #include <Eigen/Dense>
 
-#include "bench/truth.hpp"
+#include "lab/bench/truth.hpp"
 #include "lib/extract/scene.h"
 
 namespace

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "graph/node.h"
+#include "graph/optimise/node.h"
 #include "ring_corridor.hpp"
 
 namespace bent_corridor

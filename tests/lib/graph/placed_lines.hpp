@@ -2,7 +2,7 @@
 #ifndef TESTS_GRAPH_PLACED_LINES_HPP
 #define TESTS_GRAPH_PLACED_LINES_HPP
 
-#include "graph/wall_groups.h"
+#include "graph/walls/wall_groups.h"
 
 extern "C" {
 #include "base/trig.h"

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "graph/node.h"
+#include "graph/optimise/node.h"
 
 namespace ring_corridor
 {

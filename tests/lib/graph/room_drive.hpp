@@ -9,7 +9,7 @@
 
 extern "C" {
 #include "graph/mapper.h"
-#include "track/sighting.h"
+#include "track/scan_observation.h"
 }
 
 struct RoomDrive {

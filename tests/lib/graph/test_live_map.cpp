@@ -8,7 +8,7 @@
 
 extern "C" {
 #include "graph/live_map.h"
-#include "track/map_corner.h"
+#include "map/map_corner.h"
 }
 
 namespace

@@ -1,4 +1,5 @@
-// lib/plan/explorer.c: its states, in a room whose poses are known. Whole explorations: tests/tools/explore.
+// lib/plan/explorer.c: its states, in a room whose poses are known. Whole explorations:
+// tests/tools/lab/explore.
 #include <cmath>
 #include <memory>
 

@@ -6,11 +6,11 @@
 #include "room.h"
 
 extern "C" {
+#include "map/local_map.h"
 #include "track/correction.h"
 #include "track/keyframe.h"
-#include "track/local_map.h"
 #include "track/pipeline_state.h"
-#include "track/sighting.h"
+#include "track/scan_observation.h"
 }
 
 namespace

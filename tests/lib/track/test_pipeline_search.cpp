@@ -5,7 +5,7 @@
 
 extern "C" {
 #include "track/keyframe.h"
-#include "track/sighting.h"
+#include "track/scan_observation.h"
 }
 
 TEST(PipelineSearch, CarriedAwayItSaysLostAndFindsItselfInTheMap)

@@ -4,7 +4,7 @@
 #include "convert.h"
 
 extern "C" {
-#include "track/wall.h"
+#include "map/wall.h"
 }
 
 // About (x, y), its normal in a direction, to half a length on either side; seen so many times.

@@ -1,0 +1,122 @@
+#include "acquire/acquire.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "exchange/wake.h"
+#include "recorder/recorder.h"
+#include "scanner/urg/urg_device.h"
+
+struct ale_acquire {
+    ale_exchange_t *exchange;
+    ale_urg_t *urg;
+    ale_rt_task_t *task;
+    ale_scan_t scan;
+};
+
+static int64_t robot_clock(void *user)
+{
+    return ale_clock_now_us(user);
+}
+
+static void record_bytes(void *user, bool sent, const uint8_t *bytes, uint32_t count, int64_t now_us)
+{
+    ale_recorder_bytes(user, sent, bytes, count, now_us);
+}
+
+static ale_urg_config_t device_config(const ale_config_t *config, const ale_exchange_t *exchange)
+{
+    const ale_clock_t *clock = &exchange->clock;
+    return (ale_urg_config_t){
+        .path = config->port[0] ? config->port : NULL,
+        .serial = config->serial[0] ? config->serial : NULL,
+        .baud = config->baud,
+        .reversed = config->reversed,
+        .first_step = config->first_step,
+        .last_step = config->last_step,
+        .time_scale = (double)clock->scale_ppm / ALE_CLOCK_REAL,
+        .tap = record_bytes,
+        .tap_user = exchange->recorder,
+        .now_us = robot_clock,
+        .now_user = (void *)clock,
+    };
+}
+
+static void hand_over(ale_acquire_t *acquire, bool lost)
+{
+    ale_exchange_t *exchange = acquire->exchange;
+    ale_scan_record_t *record = ale_ring_reserve(exchange->scans);
+    if (!record) {
+        return;
+    }
+    record->lost = lost;
+    if (lost) {
+        record->arrival_us = ale_clock_now_us(&exchange->clock);
+        record->scan.stamp_us = acquire->scan.stamp_us;
+        record->scan.beams = 0;
+    } else {
+        record->arrival_us = ale_urg_health(acquire->urg)->arrival_us;
+        record->scan = acquire->scan;
+    }
+    ale_ring_commit(exchange->scans);
+    ale_recorder_scan(exchange->recorder, ale_ring_committed(exchange->scans) - 1);
+    ale_rt_release_post(exchange->arrived);
+}
+
+static void tell_health(ale_acquire_t *acquire)
+{
+    memcpy(ale_snapshot_back(acquire->exchange->health), ale_urg_health(acquire->urg),
+           sizeof(ale_urg_health_t));
+    ale_snapshot_publish(acquire->exchange->health);
+    ale_wake_post(acquire->exchange->under_way);
+}
+
+static void run(ale_rt_task_t *self, void *user)
+{
+    ale_acquire_t *acquire = user;
+    while (!ale_rt_task_stopping(self)) {
+        const ale_urg_event_t event = ale_urg_step(acquire->urg, &acquire->scan);
+        if (event == ALE_URG_IDLE) {
+            continue;
+        }
+        if (event != ALE_URG_CHANGED) {
+            hand_over(acquire, event == ALE_URG_SCAN_LOST);
+        }
+        tell_health(acquire);
+    }
+}
+
+ale_acquire_t *ale_acquire_start(const ale_config_t *config, ale_exchange_t *exchange)
+{
+    ale_acquire_t *acquire = calloc(1, sizeof *acquire);
+    if (!acquire) {
+        return NULL;
+    }
+    const ale_urg_config_t device = device_config(config, exchange);
+    acquire->exchange = exchange;
+    acquire->urg = ale_urg_create(&device);
+    if (acquire->urg) {
+        acquire->task = ale_rt_task_start(&(ale_rt_task_config_t){
+            .name = "ale-acquire", .kind = ALE_RT_SOFT, .body = run, .user = acquire});
+    }
+    if (!acquire->task) {
+        ale_acquire_stop(acquire);
+        return NULL;
+    }
+    return acquire;
+}
+
+void ale_acquire_stop(ale_acquire_t *acquire)
+{
+    if (!acquire) {
+        return;
+    }
+    if (acquire->task) {
+        ale_rt_task_stop(acquire->task);
+    }
+    ale_rt_task_join(acquire->task);
+    if (acquire->urg) {
+        ale_urg_destroy(acquire->urg);
+    }
+    free(acquire);
+}

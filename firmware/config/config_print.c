@@ -1,0 +1,114 @@
+#include <string.h>
+
+#include "base/fixed.h"
+#include "base/trig.h"
+#include "config/config.h"
+#include "config/config_keys.h"
+#include "config/decimal.h"
+
+static void print_comment(const char *comment, FILE *out)
+{
+    while (*comment) {
+        const size_t length = strcspn(comment, "\n");
+        fprintf(out, "# %.*s\n", (int)length, comment);
+        comment += length + (comment[length] == '\n');
+    }
+}
+
+static int64_t load_number(const void *field, size_t size)
+{
+    uint8_t byte = 0;
+    uint16_t half = 0;
+    int32_t word = 0;
+    if (size == sizeof byte) {
+        memcpy(&byte, field, size);
+        return byte;
+    }
+    if (size == sizeof half) {
+        memcpy(&half, field, size);
+        return half;
+    }
+    memcpy(&word, field, size);
+    return word;
+}
+
+/* The shortest decimal in radians that reads back to the same angle. */
+static void print_angle(const ale_config_key_t *key, int32_t angle_bam, char text[ALE_DECIMAL_TEXT])
+{
+    const int64_t nrad = ale_bam_to_nrad(angle_bam);
+    for (unsigned kept = 0; kept <= key->digits; kept++) {
+        const int64_t rounded = ale_clamp64(ale_decimal_round(nrad, key->digits, kept), key->min, key->max);
+        ale_decimal_print(rounded, key->digits, text);
+        if (ale_nrad_to_bam(rounded) == angle_bam) {
+            return;
+        }
+    }
+}
+
+/* The shortest decimal in degrees that reads back to the same angle. */
+static void print_degrees(uint32_t angle_bam, FILE *out)
+{
+    const int64_t ndeg = ale_mul_div((int32_t)angle_bam, 360000000000, (int64_t)1 << 32);
+    char text[ALE_DECIMAL_TEXT];
+    for (unsigned kept = 0; kept <= 9; kept++) {
+        uint32_t again = 0;
+        ale_decimal_print(ale_decimal_round(ndeg, 9, kept), 9, text);
+        if (ale_config_degrees_parse(text, &again) == 0 && again == angle_bam) {
+            break;
+        }
+    }
+    fputs(text, out);
+}
+
+static void print_sectors(const ale_pipeline_config_t *pipeline, FILE *out)
+{
+    for (uint32_t k = 0; k < pipeline->blind_count; k++) {
+        fputs(k ? ", " : "", out);
+        print_degrees(pipeline->blind[k].from_bam, out);
+        fputc(':', out);
+        print_degrees(pipeline->blind[k].to_bam, out);
+    }
+}
+
+static void print_value(const ale_config_t *config, const ale_config_key_t *key, FILE *out)
+{
+    const char *field = (const char *)config + key->offset;
+    char text[ALE_DECIMAL_TEXT];
+    switch (key->kind) {
+    case ALE_KEY_TEXT:
+        fputs(field, out);
+        break;
+    case ALE_KEY_BOOL:
+        fputs(*(const bool *)field ? "yes" : "no", out);
+        break;
+    case ALE_KEY_SECTORS:
+        print_sectors(&config->pipeline, out);
+        break;
+    case ALE_KEY_ANGLE:
+        print_angle(key, (int32_t)load_number(field, key->size), text);
+        fputs(text, out);
+        break;
+    case ALE_KEY_NUMBER:
+    case ALE_KEY_ODD:
+        ale_decimal_print(load_number(field, key->size), key->digits, text);
+        fputs(text, out);
+        break;
+    }
+}
+
+void ale_config_print(const ale_config_t *config, FILE *out)
+{
+    const char *section = "";
+    fputs("# ALE-SLAM configuration.  Lines that are left out mean the default.\n", out);
+    for (size_t k = 0; k < ale_config_key_count; k++) {
+        const ale_config_key_t *key = &ale_config_keys[k];
+        if (strcmp(section, key->section) != 0) {
+            section = key->section;
+            fprintf(out, "\n[%s]\n", section);
+        }
+        print_comment(key->comment, out);
+        fprintf(out, "%s = ", key->key);
+        print_value(config, key, out);
+        fputc('\n', out);
+    }
+}

@@ -1,0 +1,296 @@
+#include "estimate/estimate.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fixed.h"
+#include "base/trig.h"
+
+#define IDLE_NS 100000000
+
+/* What a scan has shown is worth telling when the robot has gone on so far, or turned. Where it stays: soon
+ * again, so that walls are seen often enough to count, and then now and then. */
+enum {
+    SIGHTING_STEP_UM = 100000,
+    SIGHTING_TURN_BAM = 100 * ALE_BAM_PER_MRAD,
+    SIGHTINGS_SOON = 3,
+    SIGHTING_SOON_US = 300000,
+    SIGHTING_WAIT_US = 5000000
+};
+
+/* The last sighting that was handed over. */
+typedef struct {
+    uint32_t epoch;
+    ale_pose_t from;
+    uint32_t count; /* from there */
+    int64_t stamp_us;
+} ale_told_t;
+
+struct ale_estimator {
+    ale_exchange_t *exchange;
+    ale_pipeline_t *pipeline;
+    bool keep_scans;
+    uint32_t overloaded;
+    uint32_t late;
+    uint32_t answered;
+    uint32_t odometry_taken;
+    bool corrected; /* since the last answer, by: */
+    ale_pose_t correction;
+    ale_told_t told;
+    bool map_waits;     /* changed since it was last handed over */
+    int64_t map_ns;     /* when it was handed over */
+    int64_t arrival_ns; /* of the scan at hand, by the clock of ale_rt_now_ns */
+    int64_t stage_start_ns;
+    ale_result_t *result; /* being made */
+    ale_result_t spare;   /* where a result goes that has no room */
+};
+
+static int32_t clamp_ns(int64_t span_ns)
+{
+    return (int32_t)ale_clamp64(span_ns, 0, INT32_MAX);
+}
+
+static void end_of_stage(void *user, ale_stage_t stage)
+{
+    ale_estimator_t *estimator = user;
+    ale_result_t *result = estimator->result;
+    const int64_t start_ns = estimator->stage_start_ns;
+    const int64_t now_ns = ale_rt_now_ns();
+    if (result->stage_end_ns[stage] == 0) {
+        result->stage_start_ns[stage] = clamp_ns(start_ns - estimator->arrival_ns);
+    }
+    result->stage_end_ns[stage] = clamp_ns(now_ns - estimator->arrival_ns);
+    result->stage_ns[stage] = clamp_ns(result->stage_ns[stage] + now_ns - start_ns);
+    estimator->stage_start_ns = now_ns;
+}
+
+static void begin_stages(ale_estimator_t *estimator, ale_result_t *result, int64_t start_ns)
+{
+    const ale_clock_t *clock = &estimator->exchange->clock;
+    const int64_t waited_us = ale_clock_now_us(clock) - result->arrival_us;
+    estimator->arrival_ns = start_ns - ale_clock_real_ns(clock, waited_us);
+    estimator->stage_start_ns = start_ns;
+    estimator->result = result;
+    memset(result->stage_ns, 0, sizeof result->stage_ns);
+    memset(result->stage_start_ns, 0, sizeof result->stage_start_ns);
+    memset(result->stage_end_ns, 0, sizeof result->stage_end_ns);
+}
+
+ale_estimator_t *ale_estimator_create(const ale_config_t *config, ale_exchange_t *exchange)
+{
+    ale_estimator_t *estimator = calloc(1, sizeof *estimator);
+    ale_pipeline_t *pipeline = calloc(1, ale_pipeline_size());
+    if (!estimator || !pipeline || ale_pipeline_init(pipeline, &config->pipeline) < 0) {
+        free(estimator);
+        free(pipeline);
+        return NULL;
+    }
+    estimator->exchange = exchange;
+    estimator->map_ns = -ALE_MAP_PERIOD_NS;
+    estimator->pipeline = pipeline;
+    estimator->keep_scans = config->publish_scan || config->publish_bot_core || config->keys[0] != '\0';
+    estimator->result = &estimator->spare;
+    const ale_stage_hook_t hook = {.end_of = end_of_stage, .user = estimator};
+    ale_pipeline_set_hook(pipeline, &hook);
+    return estimator;
+}
+
+void ale_estimator_destroy(ale_estimator_t *estimator)
+{
+    if (estimator) {
+        free(estimator->pipeline);
+        free(estimator);
+    }
+}
+
+void ale_estimator_load_map(ale_estimator_t *estimator, const ale_map_t *map, const ale_pose_t *pose)
+{
+    const ale_pose_t unknown = {0};
+    ale_pipeline_load_map(estimator->pipeline, map, ale_exchange_know(estimator->exchange, map),
+                          pose ? *pose : unknown, pose != NULL);
+    estimator->map_waits = true;
+}
+
+static void take_odometry(ale_estimator_t *estimator)
+{
+    ale_ring_t *odometry = estimator->exchange->odometry;
+    for (uint32_t ready = ale_ring_ready(odometry); ready > 0; ready--) {
+        ale_pipeline_odometry(estimator->pipeline, ale_ring_at(odometry, 0));
+        ale_ring_release(odometry);
+        estimator->odometry_taken++;
+    }
+}
+
+/* Corrections take effect at the scan they are due at, so that a recording replays to the same poses. */
+static void take_corrections(ale_estimator_t *estimator)
+{
+    ale_ring_t *corrections = estimator->exchange->corrections;
+    for (uint32_t ready = ale_ring_ready(corrections); ready > 0; ready--) {
+        const ale_correction_t *correction = ale_ring_at(corrections, 0);
+        if (!ale_pipeline_correct(estimator->pipeline, correction)) {
+            return;
+        }
+        estimator->correction = correction->shift[correction->count - 1].shift;
+        estimator->corrected = true;
+        ale_ring_release(corrections);
+    }
+}
+
+static void offer_keyframe(ale_estimator_t *estimator)
+{
+    ale_keyframe_t *slot = ale_ring_reserve(estimator->exchange->keyframes);
+    if (slot && ale_pipeline_keyframe(estimator->pipeline, slot)) {
+        ale_ring_commit(estimator->exchange->keyframes);
+    }
+}
+
+static bool is_still_there(const ale_told_t *told, const ale_estimate_t *estimate)
+{
+    return told->epoch == estimate->epoch &&
+           ale_are_near(told->from, estimate->smooth, SIGHTING_STEP_UM, SIGHTING_TURN_BAM);
+}
+
+static void offer_sighting(ale_estimator_t *estimator, const ale_estimate_t *estimate)
+{
+    ale_told_t *told = &estimator->told;
+    const bool there = is_still_there(told, estimate);
+    const int64_t wait_us = told->count < SIGHTINGS_SOON ? SIGHTING_SOON_US : SIGHTING_WAIT_US;
+    if (there && ale_abs64(estimate->stamp_us - told->stamp_us) < wait_us) {
+        return;
+    }
+    ale_sighting_t *slot = ale_ring_reserve(estimator->exchange->sightings);
+    if (slot && ale_pipeline_sighting(estimator->pipeline, slot)) {
+        ale_ring_commit(estimator->exchange->sightings);
+        *told = (ale_told_t){.epoch = estimate->epoch,
+                             .from = there ? told->from : estimate->smooth,
+                             .count = there ? told->count + 1 : 1,
+                             .stamp_us = estimate->stamp_us};
+    }
+}
+
+static void use_scan(ale_estimator_t *estimator, const ale_scan_record_t *record, ale_result_t *result)
+{
+    const ale_scan_t *scan = &record->scan;
+    ale_pipeline_scan(estimator->pipeline, scan, &result->estimate);
+    result->features = *ale_pipeline_features(estimator->pipeline);
+    result->has_scan = true;
+    result->first_beam_us = scan->stamp_us + ale_scan_beam_offset_us(scan, 0);
+    if (estimator->keep_scans) {
+        result->scan = *scan;
+    }
+}
+
+static void answer(ale_estimator_t *estimator, const ale_scan_record_t *record, bool use,
+                   ale_result_t *result)
+{
+    ale_exchange_t *exchange = estimator->exchange;
+    const int64_t start_ns = ale_rt_now_ns();
+    result->arrival_us = record->arrival_us;
+    begin_stages(estimator, result, start_ns);
+    if (use) {
+        use_scan(estimator, record, result);
+    } else {
+        ale_pipeline_dropped(estimator->pipeline, record->scan.stamp_us, &result->estimate);
+        result->has_scan = false;
+        result->first_beam_us = record->scan.stamp_us;
+    }
+    result->total_ns = clamp_ns(ale_rt_now_ns() - start_ns);
+    estimator->late += ale_clock_now_us(&exchange->clock) - record->arrival_us > ALE_DEADLINE_US;
+    estimator->map_waits = estimator->map_waits || result->estimate.map_changed;
+    result->overloaded = estimator->overloaded;
+    result->late = estimator->late;
+    result->odometry_taken = estimator->odometry_taken;
+    result->answered = estimator->answered++;
+    result->corrected = estimator->corrected;
+    result->correction = estimator->correction;
+    estimator->corrected = false;
+}
+
+static void answer_oldest(ale_estimator_t *estimator, uint32_t waiting)
+{
+    ale_exchange_t *exchange = estimator->exchange;
+    const ale_scan_record_t *record = ale_ring_at(exchange->scans, 0);
+    const bool overload = !record->lost && waiting > ALE_MAX_BACKLOG;
+    estimator->overloaded += overload;
+    ale_result_t *result = ale_ring_reserve(exchange->results);
+    answer(estimator, record, !record->lost && !overload, result ? result : &estimator->spare);
+    const ale_estimate_t estimate = (result ? result : &estimator->spare)->estimate;
+    if (result) {
+        ale_ring_commit(exchange->results);
+    }
+    ale_ring_release(exchange->scans);
+    offer_keyframe(estimator);
+    offer_sighting(estimator, &estimate);
+    take_corrections(estimator);
+}
+
+/* Hands the map over when it has changed, once a second at most: it is large. */
+static void show_map(ale_estimator_t *estimator)
+{
+    const int64_t now_ns = ale_rt_now_ns();
+    if (!estimator->map_waits || now_ns < estimator->map_ns + ALE_MAP_PERIOD_NS) {
+        return;
+    }
+    ale_pipeline_copy_map(estimator->pipeline, ale_snapshot_back(estimator->exchange->map));
+    ale_snapshot_publish(estimator->exchange->map);
+    estimator->map_waits = false;
+    estimator->map_ns = now_ns;
+}
+
+static void load_map(ale_estimator_t *estimator, const ale_request_t *request)
+{
+    bool fresh = false;
+    const ale_loaded_map_t *loaded = ale_snapshot_newest(estimator->exchange->loaded_map, &fresh);
+    ale_pipeline_load_map(estimator->pipeline, &loaded->map, loaded->number, request->pose,
+                          request->pose_known);
+}
+
+static void fulfil(ale_estimator_t *estimator, const ale_request_t *request)
+{
+    switch (request->kind) {
+    case ALE_REQUEST_RESET:
+        ale_pipeline_reset(estimator->pipeline);
+        break;
+    case ALE_REQUEST_RELOCATE:
+        ale_pipeline_relocate(estimator->pipeline, request->pose);
+        break;
+    case ALE_REQUEST_FREEZE:
+        ale_pipeline_freeze_map(estimator->pipeline, request->on);
+        break;
+    case ALE_REQUEST_LOAD_MAP:
+        load_map(estimator, request);
+        break;
+    }
+    estimator->map_waits = true;
+}
+
+static void take_requests(ale_estimator_t *estimator)
+{
+    ale_ring_t *requests = estimator->exchange->requests;
+    for (uint32_t ready = ale_ring_ready(requests); ready > 0; ready--) {
+        fulfil(estimator, ale_ring_at(requests, 0));
+        ale_ring_release(requests);
+    }
+}
+
+void ale_estimator_step(ale_estimator_t *estimator)
+{
+    take_requests(estimator);
+    take_odometry(estimator);
+    take_corrections(estimator);
+    for (uint32_t waiting = ale_ring_ready(estimator->exchange->scans); waiting > 0; waiting--) {
+        answer_oldest(estimator, waiting - 1);
+    }
+    show_map(estimator);
+}
+
+void ale_estimator_run(ale_rt_task_t *self, void *user)
+{
+    ale_estimator_t *estimator = user;
+    while (!ale_rt_task_stopping(self)) {
+        ale_rt_release_wait(estimator->exchange->arrived, ale_rt_now_ns() + IDLE_NS);
+        ale_estimator_step(estimator);
+        ale_pulse_beat(estimator->exchange->pulse);
+    }
+    ale_estimator_step(estimator);
+}

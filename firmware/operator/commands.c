@@ -1,0 +1,142 @@
+#include "operator/commands.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "operator/command_handlers.h"
+#include "operator/explore_thread.h"
+#include "recorder/recorder.h"
+
+ale_commands_t *ale_commands_create(const ale_config_t *config, const ale_keys_t *keys, int64_t boot,
+                                    ale_exchange_t *exchange, ale_map_keeper_t *keeper)
+{
+    ale_commands_t *commands = calloc(1, sizeof *commands);
+    if (!commands) {
+        return NULL;
+    }
+    commands->config = config;
+    commands->exchange = exchange;
+    commands->keeper = keeper;
+    commands->publish_scan = config->publish_scan;
+    commands->drive_um_s = config->drive_um_s;
+    commands->drive_urad_s = config->drive_urad_s;
+    ale_verifier_init(&commands->verifier, keys, config->name, boot);
+    return commands;
+}
+
+void ale_commands_destroy(ale_commands_t *commands)
+{
+    free(commands);
+}
+
+static void answer(ale_commands_t *commands, const char *name, int64_t counter, bool obeyed)
+{
+    memcpy(commands->operator_name, name, sizeof commands->operator_name);
+    commands->counter = counter;
+    commands->obeyed = obeyed;
+    commands->refused += !obeyed;
+}
+
+/* For the flight recorder: what somebody wanted, and what came of it. */
+static void record(const ale_commands_t *commands, const ale_command_t *command)
+{
+    char text[ALE_NAME_BYTES * 2 + ALE_COMMAND_ARGS * ALE_COMMAND_ARG_BYTES + ALE_ANSWER_BYTES];
+    int length = snprintf(text, sizeof text, "%s %s", command->operator_name, command->verb);
+    for (uint32_t k = 0; k < command->args; k++) {
+        length += snprintf(text + length, sizeof text - (size_t)length, " %s", command->arg[k]);
+    }
+    snprintf(text + length, sizeof text - (size_t)length, ": %s",
+             commands->job_waits ? "begun" : commands->result);
+    ale_recorder_command(commands->exchange->recorder, commands->now_us, text);
+}
+
+bool ale_commands_take(ale_commands_t *commands, const uint8_t *bytes, size_t count,
+                       const ale_map_t *newest_map)
+{
+    const ale_clock_t *clock = &commands->exchange->clock;
+    ale_command_t command;
+    commands->now_us = ale_clock_now_us(clock);
+    if (ale_verify(&commands->verifier, bytes, count, ale_clock_to_utime(clock, commands->now_us),
+                   &command) != ALE_GENUINE) {
+        return false;
+    }
+    const bool driving = strcmp(command.verb, "drive") == 0;
+    const bool job_before = commands->job_waits;
+    commands->newest_map = newest_map;
+    const bool obeyed = ale_verbs_obey(commands, &command);
+    if (commands->job_waits == job_before) {
+        answer(commands, command.operator_name, command.counter, obeyed);
+        commands->news = commands->news || !driving || !obeyed;
+    }
+    record(commands, &command);
+    return true;
+}
+
+/* That an exploration has begun or ended is news. */
+static void watch_exploration(ale_commands_t *commands)
+{
+    ale_explore_t *explore = commands->exchange->explore;
+    const bool on = explore && ale_explore_is_on(explore);
+    commands->news = commands->news || on != commands->explored;
+    commands->explored = on;
+}
+
+void ale_commands_work(ale_commands_t *commands)
+{
+    ale_map_outcome_t outcome;
+    watch_exploration(commands);
+    if (!commands->job_waits || !ale_map_keeper_done(commands->keeper, &outcome)) {
+        return;
+    }
+    commands->job_waits = false;
+    commands->news = true;
+    memcpy(commands->result, outcome.text, sizeof commands->result);
+    const bool obeyed =
+        outcome.fine && (!outcome.loaded || ale_verbs_request(commands, &commands->job_request));
+    answer(commands, commands->job_operator, commands->job_counter, obeyed);
+}
+
+bool ale_commands_news(ale_commands_t *commands)
+{
+    const bool news = commands->news;
+    commands->news = false;
+    return news;
+}
+
+void ale_commands_report(const ale_commands_t *commands, ale_operation_report_t *report)
+{
+    const int64_t now_us = ale_clock_now_us(&commands->exchange->clock);
+    *report = (ale_operation_report_t){
+        .takes_commands = commands->verifier.keys.count > 0,
+        .map_frozen = commands->map_frozen,
+        .command_counter = commands->counter,
+        .command_obeyed = commands->obeyed,
+    };
+    snprintf(report->robot, sizeof report->robot, "%s", commands->config->name);
+    snprintf(report->who_drives, sizeof report->who_drives, "%s",
+             ale_drive_desk_holder(&commands->desk, now_us));
+    if (commands->exchange->explore) {
+        ale_explore_words(commands->exchange->explore, report->exploration);
+        if (report->who_drives[0] == '\0' && ale_explore_is_on(commands->exchange->explore)) {
+            snprintf(report->who_drives, sizeof report->who_drives, "exploration");
+        }
+    }
+    memcpy(report->command_operator, commands->operator_name, sizeof report->command_operator);
+    memcpy(report->command_result, commands->result, sizeof report->command_result);
+}
+
+void ale_commands_counters(const ale_commands_t *commands, ale_status_report_t *report)
+{
+    for (int verdict = 0; verdict < ALE_VERDICTS; verdict++) {
+        report->counter[report->counters++] = (ale_counter_t){
+            .name = ale_verdict_name((ale_verdict_t)verdict), .value = commands->verifier.count[verdict]};
+    }
+    report->counter[report->counters++] =
+        (ale_counter_t){.name = "command_refused", .value = commands->refused};
+}
+
+bool ale_commands_publish_scan(const ale_commands_t *commands)
+{
+    return commands->publish_scan;
+}

@@ -1,0 +1,46 @@
+/* The exploration thread: scans with their poses come in, what it wants to drive goes out, and what it is
+ * doing.
+ *
+ *   telemetry ── scans, on or off ──► exploration ── wish (newest) ──► drive
+ *        ▲                                │   ▲
+ *        └──────── in words (newest) ─────┘   └── corrections ── mapper
+ *
+ * Ordinary, and never in the estimate task's way: it hears of scans from the telemetry thread. Its wishes
+ * last for three scans; the drive thread decides whether they are fulfilled. */
+#ifndef ALE_FIRMWARE_OPERATOR_EXPLORE_THREAD_H
+#define ALE_FIRMWARE_OPERATOR_EXPLORE_THREAD_H
+
+#include <stdbool.h>
+
+#include "base/scan.h"
+#include "config/config.h"
+#include "exchange/exchange.h"
+#include "lcm/report.h"
+#include "track/pipeline.h"
+
+enum { ALE_EXPLORE_WISH_LIFE_US = 300000 };
+
+typedef struct ale_explore ale_explore_t;
+
+/* Starts the thread, doing nothing yet. NULL: no memory or no thread. exchange must outlive it. */
+ale_explore_t *ale_explore_start(const ale_config_t *config, ale_exchange_t *exchange);
+
+/* Wishes to stand still, then stops. NULL: nothing. */
+void ale_explore_stop(ale_explore_t *explore);
+
+/* The rest is for one thread, telemetry. */
+
+/* A scan, blind sectors masked, with its estimate: copied when it is wanted. Times of the clock inside. Never
+ * waits. */
+void ale_explore_take(ale_explore_t *explore, const ale_scan_t *scan, const ale_estimate_t *estimate);
+
+/* On: explores from here, anew unless it is at it. Off: lets go of the robot. */
+void ale_explore_request(ale_explore_t *explore, bool on);
+
+/* True from "on" until it is over or "off". */
+bool ale_explore_is_on(ale_explore_t *explore);
+
+/* What it does, in words; empty: it is off. */
+void ale_explore_words(ale_explore_t *explore, char text[ALE_ANSWER_BYTES]);
+
+#endif

@@ -1,0 +1,222 @@
+#include "recorder/recorder.h"
+
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "file/little_endian.h"
+#include "recorder/flight_file.h"
+#include "recorder/flight_order.h"
+#include "recorder/flight_ring.h"
+#include "recorder/flight_words.h"
+#include "system/background.h"
+
+#define NS_PER_MS 1000000LL
+#define LOOK_NS 50000000
+#define AFTERMATH_NS (3000 * NS_PER_MS) /* recorded on after a fault */
+#define QUIET_NS (60000 * NS_PER_MS)    /* between recordings that nobody asked for */
+
+enum { MEGABYTE = 1 << 20 };
+
+struct ale_recorder {
+    const ale_config_t *config;
+    char *config_text;
+    ale_flight_ring_t *flight;
+    ale_flight_order_t *order; /* of what comes to the flight ring */
+    ale_background_t thread;
+    atomic_uint wanted; /* a bit a reason */
+    atomic_uint written;
+    int64_t write_ns; /* when the recording that is due is to be written; 0: none is */
+    int64_t quiet_until_ns;
+    ale_record_reason_t reason; /* of the one that is due */
+};
+
+static const char *const reason_words[] = {"command", "fault", "deadline"};
+
+/* ---- what the writers call ---- */
+
+static void tell(ale_recorder_t *recorder, ale_chunk_kind_t kind, int64_t stamp_us, const void *bytes,
+                 size_t length)
+{
+    const ale_flight_head_t head = {
+        .type = ALE_FLIGHT_CHUNK, .kind = kind, .stamp_us = stamp_us, .length = (uint32_t)length};
+    ale_flight_order_told(recorder->order, &head, bytes);
+}
+
+void ale_recorder_bytes(ale_recorder_t *recorder, bool sent, const uint8_t *bytes, uint32_t count,
+                        int64_t now_us)
+{
+    while (recorder && count > 0) {
+        const uint32_t part = count < ALE_FLIGHT_ITEM_BYTES ? count : ALE_FLIGHT_ITEM_BYTES;
+        const ale_flight_head_t head = {.type = ALE_FLIGHT_CHUNK,
+                                        .kind = sent ? ALE_CHUNK_SENT : ALE_CHUNK_RECEIVED,
+                                        .stamp_us = now_us,
+                                        .length = part};
+        ale_flight_order_acquired(recorder->order, &head, bytes);
+        bytes += part;
+        count -= part;
+    }
+}
+
+void ale_recorder_scan(ale_recorder_t *recorder, uint32_t number)
+{
+    if (recorder) {
+        const ale_flight_head_t head = {.type = ALE_FLIGHT_SCAN, .number = number};
+        ale_flight_order_acquired(recorder->order, &head, "");
+    }
+}
+
+void ale_recorder_odometry(ale_recorder_t *recorder, uint32_t number, const ale_odometry_t *sample)
+{
+    if (recorder) {
+        uint8_t payload[ALE_CHUNK_ODOMETRY_BYTES];
+        ale_chunk_put_odometry(payload, sample);
+        const ale_flight_head_t head = {.type = ALE_FLIGHT_CHUNK,
+                                        .kind = ALE_CHUNK_ODOMETRY,
+                                        .number = number,
+                                        .stamp_us = sample->stamp_us,
+                                        .length = sizeof payload};
+        ale_flight_order_told(recorder->order, &head, payload);
+    }
+}
+
+void ale_recorder_command(ale_recorder_t *recorder, int64_t now_us, const char *text)
+{
+    if (recorder) {
+        tell(recorder, ALE_CHUNK_COMMAND, now_us, text, strnlen(text, ALE_FLIGHT_ITEM_BYTES));
+    }
+}
+
+void ale_recorder_correction(ale_recorder_t *recorder, int64_t now_us, uint32_t scan, ale_pose_t pose)
+{
+    if (recorder) {
+        uint8_t payload[16];
+        ale_put_u32(payload, scan);
+        ale_put_u32(payload + 4, (uint32_t)pose.x_um);
+        ale_put_u32(payload + 8, (uint32_t)pose.y_um);
+        ale_put_u32(payload + 12, pose.theta_bam);
+        tell(recorder, ALE_CHUNK_CORRECTION, now_us, payload, sizeof payload);
+    }
+}
+
+void ale_recorder_result(ale_recorder_t *recorder, const ale_result_t *result)
+{
+    if (recorder) {
+        const ale_flight_result_t kept = ale_flight_result(result);
+        const ale_flight_head_t head = {
+            .type = ALE_FLIGHT_RESULT, .number = result->answered, .length = sizeof kept};
+        ale_flight_order_told(recorder->order, &head, &kept);
+    }
+}
+
+void ale_recorder_trigger(ale_recorder_t *recorder, ale_record_reason_t reason)
+{
+    if (recorder) {
+        atomic_fetch_or(&recorder->wanted, 1U << reason);
+        ale_background_wake(&recorder->thread);
+    }
+}
+
+uint32_t ale_recorder_written(const ale_recorder_t *recorder)
+{
+    return recorder ? atomic_load(&recorder->written) : 0;
+}
+
+uint32_t ale_recorder_refused(const ale_recorder_t *recorder)
+{
+    return recorder ? ale_flight_order_refused(recorder->order) : 0;
+}
+
+/* ---- the recorder's thread ---- */
+
+/* A command does not wait, and does not take the place of a fault that is being recorded. */
+static void plan(ale_recorder_t *recorder, int64_t now_ns)
+{
+    const unsigned wanted = atomic_exchange(&recorder->wanted, 0);
+    const unsigned by_itself = wanted & ~(1U << ALE_RECORD_COMMAND);
+    if (recorder->write_ns == 0 && by_itself != 0 && now_ns >= recorder->quiet_until_ns) {
+        recorder->reason = by_itself & (1U << ALE_RECORD_FAULT) ? ALE_RECORD_FAULT : ALE_RECORD_DEADLINE;
+        recorder->write_ns = now_ns + AFTERMATH_NS;
+        recorder->quiet_until_ns = now_ns + QUIET_NS;
+    }
+    if (wanted & (1U << ALE_RECORD_COMMAND)) {
+        recorder->reason = recorder->write_ns == 0 ? ALE_RECORD_COMMAND : recorder->reason;
+        recorder->write_ns = now_ns;
+    }
+}
+
+static void write_if_due(ale_recorder_t *recorder, int64_t now_ns)
+{
+    if (recorder->write_ns == 0 || now_ns < recorder->write_ns) {
+        return;
+    }
+    char message[ALE_FLIGHT_MESSAGE];
+    recorder->write_ns = 0;
+    if (ale_flight_file_write(recorder->config->recorder_folder, reason_words[recorder->reason],
+                              recorder->config_text, recorder->flight, message) == 0) {
+        atomic_fetch_add(&recorder->written, 1);
+    }
+    fprintf(stderr, "ale-slamd: %s\n", message);
+}
+
+static void run(ale_rt_task_t *self, void *user)
+{
+    ale_recorder_t *recorder = user;
+    while (!ale_rt_task_stopping(self)) {
+        ale_background_wait(&recorder->thread, LOOK_NS);
+        const int64_t now_ns = ale_rt_now_ns();
+        ale_flight_order_move(recorder->order, now_ns);
+        plan(recorder, now_ns);
+        write_if_due(recorder, now_ns);
+    }
+    ale_flight_order_move(recorder->order, ale_rt_now_ns());
+    ale_flight_order_flush(recorder->order);
+    plan(recorder, ale_rt_now_ns());
+    write_if_due(recorder, INT64_MAX);
+}
+
+static char *print_config(const ale_config_t *config)
+{
+    char *text = NULL;
+    size_t count = 0;
+    FILE *out = open_memstream(&text, &count);
+    if (!out) {
+        return NULL;
+    }
+    ale_config_print(config, out);
+    if (fclose(out) != 0) {
+        free(text);
+        return NULL;
+    }
+    return text;
+}
+
+ale_recorder_t *ale_recorder_start(const ale_config_t *config)
+{
+    ale_recorder_t *recorder = calloc(1, sizeof *recorder);
+    if (!recorder) {
+        return NULL;
+    }
+    recorder->config = config;
+    recorder->config_text = print_config(config);
+    recorder->flight = ale_flight_ring_create((uint32_t)config->recorder_megabytes * MEGABYTE);
+    recorder->order = ale_flight_order_create(recorder->flight);
+    if (!recorder->config_text || !recorder->flight || !recorder->order ||
+        ale_background_start(&recorder->thread, "ale-recorder", run, recorder, 0) < 0) {
+        ale_recorder_stop(recorder);
+        return NULL;
+    }
+    return recorder;
+}
+
+void ale_recorder_stop(ale_recorder_t *recorder)
+{
+    if (recorder) {
+        ale_background_stop(&recorder->thread);
+        ale_flight_order_destroy(recorder->order);
+        ale_flight_ring_destroy(recorder->flight);
+        free(recorder->config_text);
+        free(recorder);
+    }
+}

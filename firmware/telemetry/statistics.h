@@ -1,0 +1,31 @@
+/* Times and counts over the run, for ALE_STATUS. Telemetry thread only. */
+#ifndef ALE_FIRMWARE_TELEMETRY_STATISTICS_H
+#define ALE_FIRMWARE_TELEMETRY_STATISTICS_H
+
+#include "exchange/exchange.h"
+#include "lcm/report.h"
+#include "scanner/urg/urg_device.h"
+#include "telemetry/durations.h"
+
+typedef struct {
+    ale_durations_t stage[ALE_STATUS_STAGES]; /* the last: all stages together */
+    ale_durations_t latency;                  /* last byte of a scan to its pose on the wire */
+    uint32_t poses;
+    uint32_t overloaded;
+    uint32_t late;
+    uint8_t state;
+} ale_statistics_t; /* all zero: nothing yet */
+
+/* A result whose pose has just been sent, latency_ns after the scan's last byte. */
+void ale_statistics_add(ale_statistics_t *statistics, const ale_result_t *result, int64_t latency_ns);
+
+/* Fills times, counts and state of the report. */
+void ale_statistics_report(const ale_statistics_t *statistics, ale_status_report_t *report);
+
+/* Fills the report's counters: what the line, the driver, the rings and the bus lost, and why.
+ * bus_refused: messages that came in and were not what they should be; bus_unsent: that could not go out. */
+void ale_statistics_counters(const ale_statistics_t *statistics, const ale_urg_health_t *health,
+                             const ale_exchange_t *exchange, uint64_t bus_refused, uint64_t bus_unsent,
+                             ale_status_report_t *report);
+
+#endif

@@ -1,0 +1,31 @@
+/* Watches the scanner's health and puts it into words: for ALE_STATUS always, for people only when it
+ * changes. Pure: health and time come in, texts go out. */
+#ifndef ALE_FIRMWARE_TELEMETRY_SUPERVISOR_H
+#define ALE_FIRMWARE_TELEMETRY_SUPERVISOR_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "lcm/report.h"
+#include "scanner/urg/urg_device.h"
+
+typedef enum {
+    ALE_LINK_UNKNOWN, /* just started */
+    ALE_LINK_ABSENT,  /* no scanner, or none that answers */
+    ALE_LINK_STREAMING
+} ale_link_t;
+
+typedef struct {
+    ale_link_t link;
+} ale_supervisor_t; /* all zero: just started */
+
+enum { ALE_SUPERVISOR_LINE = 320 };
+
+/* True when there is something to say: `line` then is one line for people. Said once per change. */
+bool ale_supervisor_watch(ale_supervisor_t *supervisor, const ale_urg_health_t *health,
+                          char line[ALE_SUPERVISOR_LINE]);
+
+/* Fills driver_state, device, scans and scan_period_us of the report. now_us: clock of the health. */
+void ale_supervisor_report(const ale_urg_health_t *health, int64_t now_us, ale_status_report_t *report);
+
+#endif

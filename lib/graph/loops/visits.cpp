@@ -1,0 +1,24 @@
+#include "graph/loops/visits.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace ale
+{
+
+std::vector<int> nearest_of_each_visit(std::vector<NearPlace> places, int same_visit_nodes, size_t most)
+{
+    std::stable_sort(places.begin(), places.end(),
+                     [](const NearPlace &a, const NearPlace &b) { return a.distance < b.distance; });
+    std::vector<int> chosen;
+    for (const NearPlace &place : places) {
+        const bool same_visit = std::any_of(chosen.begin(), chosen.end(),
+                                            [&](int k) { return std::abs(k - place.k) <= same_visit_nodes; });
+        if (!same_visit && chosen.size() < most) {
+            chosen.push_back(place.k);
+        }
+    }
+    return chosen;
+}
+
+} // namespace ale

@@ -1,0 +1,239 @@
+#include "graph/walls/wall_spans.h"
+
+#include <algorithm>
+#include <cstddef>
+
+extern "C" {
+#include "base/fixed.h"
+#include "base/trig.h"
+#include "map/local_map.h"
+#include "map/visibility.h"
+}
+
+namespace ale
+{
+
+namespace
+{
+
+constexpr int64_t cell_um = 50000;
+constexpr size_t gap_cells = 3; // closed, where nothing is seen through
+
+// Walls so near to each other, and turned, cannot both be seen.
+constexpr int64_t beside_um = 120000;
+constexpr int64_t beside_bam = int64_t{45} * ALE_BAM_PER_DEGREE;
+constexpr int64_t parallel_um = 300000;
+constexpr int64_t parallel_bam = int64_t{9} * ALE_BAM_PER_DEGREE;
+
+struct Cell {
+    uint32_t shown = 0; // by lines of so many scans of the drive
+    uint32_t known = 0; // by so many more, of a map that the drive began in
+    uint32_t there = 0; // looks whose beams end there
+    uint32_t through = 0;
+    bool yields = false; // to a wall beside it
+};
+
+struct Range {
+    int64_t from_um;
+    int64_t to_um;
+};
+
+Range along(const ale_wall_t &wall, const ale_view_t &view)
+{
+    const ale_wall_error_t e = ale_wall_error(&wall, &view);
+    return {e.t_um + view.start_um, e.t_um + view.end_um};
+}
+
+class Cells
+{
+  public:
+    explicit Cells(const ale_wall_t &wall)
+        : wall_(wall), cells_(static_cast<size_t>((int64_t{wall.end_um} - wall.start_um) / cell_um + 1))
+    {
+    }
+
+    // Cells whose middle the line covers.
+    void show(const PlacedLine &line)
+    {
+        const Range r = along(wall_, line.view);
+        for (size_t k = 0; k < cells_.size(); k++) {
+            if (middle_um(k) >= r.from_um && middle_um(k) <= r.to_um) {
+                (line.scans > 1 ? cells_[k].known : cells_[k].shown) += line.scans;
+            }
+        }
+    }
+
+    void look(const PlacedLook &from)
+    {
+        const uint32_t *bearing_bam = ale_seen_bearings(from.seen);
+        for (size_t k = 0; k < cells_.size(); k++) {
+            const ale_sight_t sight =
+                ale_wall_point_sight(&wall_, middle_um(k), &from.seen->scan, bearing_bam, from.sensor);
+            cells_[k].there += sight == ALE_SIGHT_SUPPORTED;
+            cells_[k].through += sight == ALE_SIGHT_THROUGH;
+        }
+    }
+
+    bool is_shown(size_t k) const
+    {
+        const Cell &cell = cells_[k];
+        const uint32_t shown = cell.shown + cell.known;
+        return shown > 0 && shown + cell.there >= ALE_MAP_CONFIRMED && cell.through <= cell.there;
+    }
+    bool stands(size_t k) const
+    {
+        return is_shown(k) && !cells_[k].yields;
+    }
+
+    // Gives way to a wall beside it, cell by cell, where more scans show that one; `first` of equals stays.
+    // What the drive shows counts before what was known: it may stand before that, and hide it.
+    void yield_to(const Cells &other, bool first)
+    {
+        const int64_t turned = ale_abs64(ale_bam_diff(wall_.normal_bam, other.wall_.normal_bam));
+        if (turned > beside_bam) {
+            return;
+        }
+        const int64_t near_um = turned > parallel_bam ? beside_um : parallel_um;
+        for (size_t k = 0; k < cells_.size(); k++) {
+            const ale_point_t p = ale_wall_point(&wall_, middle_um(k));
+            const int64_t there = other.cell_beside(p);
+            if (there < 0 || ale_abs64(ale_wall_offset(&other.wall_, p)) > near_um) {
+                continue;
+            }
+            const auto other_k = static_cast<size_t>(there);
+            const Cell nothing;
+            const Cell &own = cells_[k];
+            const Cell &its = other.is_shown(other_k) ? other.cells_[other_k] : nothing;
+            const bool driven = std::max(own.shown, its.shown) >= ALE_MAP_CONFIRMED;
+            const uint32_t own_scans = own.shown + (driven ? 0 : own.known);
+            const uint32_t its_scans = its.shown + (driven ? 0 : its.known);
+            cells_[k].yields |= its_scans > own_scans || (its_scans == own_scans && !first);
+        }
+    }
+
+    // A gap may be closed where nothing speaks against it.
+    bool is_open(size_t k) const
+    {
+        return cells_[k].through > cells_[k].there;
+    }
+
+    size_t size() const
+    {
+        return cells_.size();
+    }
+    int64_t middle_um(size_t k) const
+    {
+        return wall_.start_um + static_cast<int64_t>(k) * cell_um + cell_um / 2;
+    }
+
+  private:
+    // Index of the cell at the foot of a point, or -1: beyond the ends.
+    int64_t cell_beside(ale_point_t p) const
+    {
+        const int64_t t_um = ale_wall_along(&wall_, p);
+        const int64_t k = t_um < wall_.start_um ? -1 : (t_um - wall_.start_um) / cell_um;
+        return k < static_cast<int64_t>(cells_.size()) ? k : -1;
+    }
+
+    ale_wall_t wall_;
+    std::vector<Cell> cells_;
+};
+
+// Neither out of reach nor behind the wall: only such looks can see it.
+bool may_see(const PlacedLook &from, const ale_wall_t &wall)
+{
+    const ale_point_t at = {from.sensor.x_um, from.sensor.y_um};
+    const int64_t height_um = ale_wall_offset(&wall, at);
+    const int64_t reach_um = from.seen->scan.range_max_um;
+    const int64_t t_um = ale_wall_along(&wall, at);
+    return height_um > 0 && height_um < reach_um && t_um > wall.start_um - reach_um &&
+           t_um < wall.end_um + reach_um;
+}
+
+// The next run of cells from k on that stand, gaps closed: first and one past the last.
+bool next_run(const Cells &cells, size_t k, size_t *first, size_t *last)
+{
+    while (k < cells.size() && !cells.stands(k)) {
+        k++;
+    }
+    *first = k;
+    *last = k;
+    size_t gap = 0;
+    for (; k < cells.size() && gap <= gap_cells && !(gap > 0 && cells.is_open(k)); k++) {
+        gap = cells.stands(k) ? 0 : gap + 1;
+        *last = gap == 0 ? k + 1 : *last;
+    }
+    return *first < *last;
+}
+
+uint32_t scans_in(const WallGroup &group, const std::vector<PlacedLine> &lines, int64_t from_um,
+                  int64_t to_um)
+{
+    uint32_t seen = 0;
+    uint32_t last = UINT32_MAX;
+    for (const uint32_t k : group.lines) {
+        const Range r = along(group.wall, lines[k].view);
+        if (r.from_um < to_um && r.to_um > from_um && (lines[k].scan != last || lines[k].scans > 1)) {
+            seen += lines[k].scans;
+            last = lines[k].scan;
+        }
+    }
+    return seen;
+}
+
+Cells cells_of(const WallGroup &group, const std::vector<PlacedLine> &lines,
+               const std::vector<PlacedLook> &looks)
+{
+    Cells cells(group.wall);
+    for (const uint32_t k : group.lines) {
+        cells.show(lines[k]);
+    }
+    for (const PlacedLook &look : looks) {
+        if (may_see(look, group.wall)) {
+            cells.look(look);
+        }
+    }
+    return cells;
+}
+
+void add_spans(const Cells &cells, const WallGroup &group, const std::vector<PlacedLine> &lines,
+               std::vector<WallSpan> *spans)
+{
+    size_t first = 0;
+    size_t last = 0;
+    for (size_t k = 0; next_run(cells, k, &first, &last); k = last) {
+        ale_wall_t wall = group.wall;
+        wall.start_um = static_cast<int32_t>(cells.middle_um(first) - cell_um / 2);
+        wall.end_um = static_cast<int32_t>(cells.middle_um(last - 1) + cell_um / 2);
+        const uint32_t seen = scans_in(group, lines, wall.start_um, wall.end_um);
+        if (wall.end_um - wall.start_um >= ALE_WALL_LENGTH_UM && seen >= ALE_MAP_CONFIRMED) {
+            spans->push_back({wall, seen});
+        }
+    }
+}
+
+} // namespace
+
+std::vector<WallSpan> spans_of(const std::vector<WallGroup> &groups, const std::vector<PlacedLine> &lines,
+                               const std::vector<PlacedLook> &looks)
+{
+    std::vector<Cells> cells;
+    cells.reserve(groups.size());
+    for (const WallGroup &group : groups) {
+        cells.push_back(cells_of(group, lines, looks));
+    }
+    for (size_t a = 0; a < groups.size(); a++) {
+        for (size_t b = 0; b < groups.size(); b++) {
+            if (a != b) {
+                cells[a].yield_to(cells[b], a < b);
+            }
+        }
+    }
+    std::vector<WallSpan> spans;
+    for (size_t k = 0; k < groups.size(); k++) {
+        add_spans(cells[k], groups[k], lines, &spans);
+    }
+    return spans;
+}
+
+} // namespace ale

@@ -1,0 +1,65 @@
+#include "map/map_decay.h"
+
+#include "base/fixed.h"
+#include "map/visibility.h"
+
+enum {
+    MISSES = 4,        /* scans that must look through a wall that was hardly ever seen */
+    SEEN_PER_MISS = 4, /* and one more for so many scans that saw it */
+    MISSES_MOST = 60,
+    TRIM_UM = 10000,
+    TRIM_INSIDE_UM = 30000,
+    TRIM_LENGTH_UM = 300000 /* shorter walls fade as a whole */
+};
+
+static bool has_faded(const ale_wall_t *wall)
+{
+    return wall->missed > ale_min64(MISSES + wall->seen / SEEN_PER_MISS, MISSES_MOST);
+}
+
+/* An end that is seen through was never there: noise and things beside a wall lengthen it, this shortens it.
+ */
+static void trim(ale_wall_t *wall, const ale_scan_t *taken, const uint32_t *bearing_bam, ale_pose_t sensor)
+{
+    if (wall->end_um - wall->start_um < TRIM_LENGTH_UM) {
+        return;
+    }
+    const int64_t start_um = wall->start_um + TRIM_INSIDE_UM;
+    const int64_t end_um = wall->end_um - TRIM_INSIDE_UM;
+    if (ale_wall_point_sight(wall, start_um, taken, bearing_bam, sensor) == ALE_SIGHT_THROUGH) {
+        wall->start_um += TRIM_UM;
+    }
+    if (ale_wall_point_sight(wall, end_um, taken, bearing_bam, sensor) == ALE_SIGHT_THROUGH) {
+        wall->end_um -= TRIM_UM;
+    }
+}
+
+ale_sights_t ale_fade(ale_fade_t *fade, ale_local_map_t *map, const ale_scan_t *taken,
+                      const uint32_t *bearing_bam, ale_pose_t sensor, uint32_t scan, bool forget)
+{
+    ale_sights_t sights = {0, 0};
+    const uint32_t count = map->near_first[ALE_MAP_DIRECTIONS];
+    uint16_t gone = ALE_NO_WALL;
+    for (uint32_t n = 0; n < ALE_FADE_WALLS && n < count; n++) {
+        fade->next = fade->next + 1 < count ? fade->next + 1 : 0;
+        const uint16_t index = map->near[fade->next];
+        ale_wall_t *wall = &map->wall[index];
+        if (forget) {
+            trim(wall, taken, bearing_bam, sensor);
+        }
+        if (wall->last_scan == scan) {
+            continue;
+        }
+        const ale_sight_t sight = ale_wall_sight(wall, taken, bearing_bam, sensor);
+        sights.supported = (uint16_t)(sights.supported + (sight == ALE_SIGHT_SUPPORTED));
+        sights.through = (uint16_t)(sights.through + (sight == ALE_SIGHT_THROUGH));
+        if (forget && sight != ALE_SIGHT_NONE) {
+            wall->missed = sight == ALE_SIGHT_SUPPORTED ? 0 : (uint16_t)(wall->missed + 1);
+            gone = has_faded(wall) ? index : gone;
+        }
+    }
+    if (gone != ALE_NO_WALL) {
+        ale_local_map_remove(map, gone);
+    }
+    return sights;
+}

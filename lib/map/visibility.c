@@ -1,0 +1,126 @@
+#include "map/visibility.h"
+
+#include "base/fixed.h"
+#include "base/trig.h"
+
+enum {
+    TOLERANCE_UM = 120000, /* how far a point may lie before or behind its wall, and per mille of the range */
+    TOLERANCE_PER_MILLE = 30,
+    SAME_PLACE_UM = 60000, /* the same where noise and slanting beams alone differ */
+    SAME_PLACE_PER_MILLE = 10,
+    GRAZING_Q30 = 278000000, /* cosine of 75 degrees */
+    BEAMS_ASIDE_MOST = 16,
+    BAM_PER_RAD = 683565276,
+    NOT_IN_VIEW = -1
+};
+
+/* The beam that points in a direction of the sensor's frame. Straightening moves beams by a few steps:
+ * the regular place is corrected twice. */
+static int32_t beam_towards(const ale_scan_t *scan, const uint32_t *bearing_bam, uint32_t direction_bam)
+{
+    const bool reversed = scan->step_bam < 0;
+    const uint32_t step = reversed ? 0u - (uint32_t)scan->step_bam : (uint32_t)scan->step_bam;
+    const uint32_t from_first =
+        reversed ? scan->first_bearing_bam - direction_bam : direction_bam - scan->first_bearing_bam;
+    if (step == 0 || from_first / step >= scan->beams) {
+        return NOT_IN_VIEW;
+    }
+    int32_t beam = (int32_t)(from_first / step);
+    for (int i = 0; bearing_bam && i < 2; i++) {
+        const int32_t error = ale_bam_diff(direction_bam, bearing_bam[beam]);
+        const int64_t next = beam + ale_round_div(reversed ? -(int64_t)error : error, step);
+        if (next < 0 || next >= scan->beams) {
+            return NOT_IN_VIEW;
+        }
+        beam = (int32_t)next;
+    }
+    return beam;
+}
+
+static ale_sight_t beam_sight(const ale_scan_t *scan, int32_t beam, int64_t range_um, int64_t tolerance_um,
+                              bool same_place)
+{
+    if (beam < 0 || beam >= scan->beams) {
+        return ALE_SIGHT_NONE;
+    }
+    if (scan->flag[beam] != ALE_BEAM_VALID) {
+        return same_place && scan->flag[beam] == ALE_BEAM_NO_RETURN ? ALE_SIGHT_THROUGH : ALE_SIGHT_NONE;
+    }
+    const int64_t beyond_um = scan->range_um[beam] - range_um;
+    if (beyond_um > tolerance_um) {
+        return ALE_SIGHT_THROUGH;
+    }
+    return beyond_um < -tolerance_um ? ALE_SIGHT_NONE : ALE_SIGHT_SUPPORTED;
+}
+
+/* Beams to either side of the middle one that may be meant, with the pose as uncertain as it is. */
+static int32_t beams_aside(const ale_scan_t *scan, int64_t range_um, int64_t slack_um)
+{
+    const int64_t spacing_um = ale_mul_div(range_um, ale_abs64(scan->step_bam), BAM_PER_RAD);
+    return (int32_t)ale_min64(slack_um / ale_max64(spacing_um, 1), BEAMS_ASIDE_MOST);
+}
+
+/* Supported by any beam that may be meant, seen through by all of them. */
+static ale_sight_t point_sight(const ale_wall_t *wall, ale_point_t p, const ale_scan_t *scan,
+                               const uint32_t *bearing_bam, ale_pose_t sensor, ale_slack_t slack)
+{
+    const int64_t x = (int64_t)sensor.x_um - p.x_um;
+    const int64_t y = (int64_t)sensor.y_um - p.y_um;
+    const int64_t range_um = ale_isqrt((uint64_t)(x * x + y * y));
+    const int64_t height_um = ale_round_shift(x * wall->normal_x_q30 + y * wall->normal_y_q30, 30);
+    if (height_um < ale_mul_shift(range_um, GRAZING_Q30, 30) || range_um <= scan->range_min_um ||
+        range_um > scan->range_max_um) {
+        return ALE_SIGHT_NONE;
+    }
+    const int32_t middle = beam_towards(scan, bearing_bam, ale_atan2_bam(-y, -x) - sensor.theta_bam);
+    if (middle == NOT_IN_VIEW) {
+        return ALE_SIGHT_NONE;
+    }
+    const int64_t slack_um = slack.offset_um + ale_mul_div(range_um, slack.angle_urad, 1000000);
+    const int64_t tolerance_um =
+        slack_um + (slack.same_place ? SAME_PLACE_UM + range_um * SAME_PLACE_PER_MILLE / 1000
+                                     : TOLERANCE_UM + range_um * TOLERANCE_PER_MILLE / 1000);
+    const int32_t aside = beams_aside(scan, range_um, slack_um);
+    ale_sight_t sum = ALE_SIGHT_THROUGH;
+    for (int32_t beam = middle - aside; beam <= middle + aside; beam++) {
+        const ale_sight_t sight = beam_sight(scan, beam, range_um, tolerance_um, slack.same_place);
+        if (sight == ALE_SIGHT_SUPPORTED) {
+            return sight;
+        }
+        sum = sight == ALE_SIGHT_NONE ? sight : sum;
+    }
+    return sum;
+}
+
+ale_points_sight_t ale_wall_points_sight(const ale_wall_t *wall, const ale_scan_t *scan,
+                                         const uint32_t *bearing_bam, ale_pose_t sensor, ale_slack_t slack)
+{
+    ale_points_sight_t sum = {0, 0};
+    for (int32_t k = 1; k < 2 * ALE_SIGHT_POINTS; k += 2) {
+        const int64_t length_um = (int64_t)wall->end_um - wall->start_um;
+        const int64_t t_um = wall->start_um + length_um * k / ((int64_t)2 * ALE_SIGHT_POINTS);
+        const ale_sight_t sight =
+            point_sight(wall, ale_wall_point(wall, t_um), scan, bearing_bam, sensor, slack);
+        sum.supported = (uint8_t)(sum.supported + (sight == ALE_SIGHT_SUPPORTED));
+        sum.through = (uint8_t)(sum.through + (sight == ALE_SIGHT_THROUGH));
+    }
+    return sum;
+}
+
+ale_sight_t ale_wall_sight(const ale_wall_t *wall, const ale_scan_t *scan, const uint32_t *bearing_bam,
+                           ale_pose_t sensor)
+{
+    const ale_points_sight_t sum =
+        ale_wall_points_sight(wall, scan, bearing_bam, sensor, (ale_slack_t){0, 0, false});
+    if (sum.supported > 0) {
+        return ALE_SIGHT_SUPPORTED;
+    }
+    return sum.through >= 2 ? ALE_SIGHT_THROUGH : ALE_SIGHT_NONE;
+}
+
+ale_sight_t ale_wall_point_sight(const ale_wall_t *wall, int64_t t_um, const ale_scan_t *scan,
+                                 const uint32_t *bearing_bam, ale_pose_t sensor)
+{
+    return point_sight(wall, ale_wall_point(wall, t_um), scan, bearing_bam, sensor,
+                       (ale_slack_t){0, 0, false});
+}

@@ -1,0 +1,112 @@
+/* One wall of the map: a segment with an error model, sharpened by every view of it.
+ *
+ * A wall has an anchor on it, a normal towards the side it was seen from, and extends along its tangent
+ * from start to end, counted from the anchor. Its error is an offset along the normal at the anchor and
+ * an angle (counter-clockwise); a point t metres along the tangent then errs by offset + t * angle.
+ * Both sides of a thin panel are two walls. Pure functions, constant time. */
+#ifndef ALE_MAP_WALL_H
+#define ALE_MAP_WALL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/fixed.h"
+#include "base/pose.h"
+#include "observe/observation.h"
+
+/* Number of the scan that saw first what was in the map before the drive began. */
+#define ALE_BORN_BEFORE UINT32_MAX
+
+/* How far the map around a place lies off where it should lie to the map's origin, see map_uncertainty.h:
+ * covariance of the motion that has moved it, a shift x, y and a turn t about the origin. A point p was moved
+ * by (x - t p.y, y + t p.x). */
+typedef struct {
+    int64_t xx_um2;
+    int64_t xy_um2;
+    int64_t yy_um2;
+    int64_t xt_um_urad;
+    int64_t yt_um_urad;
+    int64_t tt_urad2;
+} ale_drift_t;
+
+typedef struct {
+    ale_point_t anchor; /* map frame */
+    uint32_t normal_bam;
+    int32_t normal_x_q30; /* its cosine and sine, kept because every match asks for them */
+    int32_t normal_y_q30;
+    int32_t start_um;
+    int32_t end_um;
+    int64_t var_offset_um2;
+    int64_t cov_um_urad;
+    int64_t var_angle_urad2;
+    ale_drift_t drift;
+    int32_t wheel_drift_um; /* along the normal: see odometry_scale_error.h */
+    uint32_t id;
+    uint32_t born;      /* number of the scan that saw it first, or ALE_BORN_BEFORE */
+    uint32_t seen;      /* scans that supported it */
+    uint32_t last_scan; /* of the last one that did */
+    uint16_t missed;    /* scans that looked through it since */
+} ale_wall_t;
+
+/* How a view lies to a wall: errors view minus wall at t along the wall. */
+typedef struct {
+    int64_t offset_um;
+    int64_t angle_urad;
+    int64_t t_um;       /* the view's centre along the tangent, from the anchor */
+    int64_t overlap_um; /* common length; negative: gap between them */
+} ale_wall_error_t;
+
+/* A new wall where a view lies. The view is in the map's frame here and below (see ale_view_from). */
+void ale_wall_from_view(ale_wall_t *wall, const ale_view_t *view);
+
+/* Gives the wall a normal and what goes with it. */
+void ale_wall_set_normal(ale_wall_t *wall, uint32_t normal_bam);
+
+ale_wall_error_t ale_wall_error(const ale_wall_t *wall, const ale_view_t *view);
+
+/* The offset alone, of a point: how far it lies off the wall's line, on the side that the wall faces. */
+static inline int64_t ale_wall_offset(const ale_wall_t *wall, ale_point_t p)
+{
+    return ale_round_shift(((int64_t)p.x_um - wall->anchor.x_um) * wall->normal_x_q30 +
+                               ((int64_t)p.y_um - wall->anchor.y_um) * wall->normal_y_q30,
+                           30);
+}
+
+/* And how far along it from the anchor. */
+static inline int64_t ale_wall_along(const ale_wall_t *wall, ale_point_t p)
+{
+    return ale_round_shift(((int64_t)p.x_um - wall->anchor.x_um) * wall->normal_y_q30 -
+                               ((int64_t)p.y_um - wall->anchor.y_um) * wall->normal_x_q30,
+                           30);
+}
+
+/* How far a normal is turned against the wall's, and how much a view at t has in common with it. */
+static inline int64_t ale_wall_angle(const ale_wall_t *wall, uint32_t normal_bam)
+{
+    return ale_bam_to_nrad(ale_bam_diff(normal_bam, wall->normal_bam)) / 1000;
+}
+static inline int64_t ale_wall_overlap(const ale_wall_t *wall, const ale_view_t *view, int64_t t_um)
+{
+    return ale_min64(wall->end_um, t_um + view->end_um) - ale_max64(wall->start_um, t_um + view->start_um);
+}
+
+/* Variance of the wall's offset at t along it, and its covariance with the angle there. */
+int64_t ale_wall_offset_var(const ale_wall_t *wall, int64_t t_um);
+int64_t ale_wall_offset_angle_cov(const ale_wall_t *wall, int64_t t_um);
+
+/* Takes in an independent view (Kalman filter): offset error at t and angle error, with variances. */
+void ale_wall_observe(ale_wall_t *wall, const ale_wall_error_t *error, int64_t var_offset_um2,
+                      int64_t var_angle_urad2);
+
+/* Lengthens the wall to hold from..to (along the tangent, from the anchor). */
+void ale_wall_extend(ale_wall_t *wall, int64_t from_um, int64_t to_um);
+
+/* The same for one of many looks from one place, the longest of which would make the wall too long: an end
+ * that is off by no more than looks stray goes outwards by a quarter and inwards by a sixteenth of that. One
+ * that is shorter by more may be hidden, and says nothing. */
+void ale_wall_settle_ends(ale_wall_t *wall, int64_t from_um, int64_t to_um);
+
+/* The point at t along the tangent. */
+ale_point_t ale_wall_point(const ale_wall_t *wall, int64_t t_um);
+
+#endif

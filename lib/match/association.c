@@ -1,0 +1,220 @@
+#include "match/association.h"
+
+#include "base/fixed.h"
+#include "base/trig.h"
+
+enum { OVERLAP_PERCENT = 40, OVERLAP_LEAST_UM = 60000, NEVER_TOO_FAR_UM = 30000, NEVER_TOO_FAR_URAD = 50000 };
+
+/* Whether the lever is below 8 m, and the pose known to some 90 mm and 16 mrad: the products of its variance
+ * fit int64 then, and none need be asked for its width. */
+static inline bool is_plain(const ale_matrix_t *cov, int64_t lever_q14)
+{
+    return (ale_beyond(lever_q14, 17) | ale_beyond(cov->m[0][0], 33) | ale_beyond(cov->m[1][0], 33) |
+            ale_beyond(cov->m[1][1], 33) | ale_beyond(cov->m[2][0], 31) | ale_beyond(cov->m[2][1], 31) |
+            ale_beyond(cov->m[2][2], 28)) == 0;
+}
+
+int64_t ale_view_offset_var(const ale_view_t *view, const ale_matrix_t *cov)
+{
+    const ale_direction_t normal = ale_direction(view->normal_bam);
+    const int64_t lever_um = ale_round_shift(
+        (int64_t)view->centre.x_um * normal.sin_q30 - (int64_t)view->centre.y_um * normal.cos_q30, 30);
+    const int64_t x = ale_round_shift(normal.cos_q30, 16);
+    const int64_t y = ale_round_shift(normal.sin_q30, 16);
+    const int64_t lever = ale_round_div(lever_um * (1 << 14), 1000000);
+    if (is_plain(cov, lever)) {
+        const int64_t plain =
+            ale_round_shift(x * x * cov->m[0][0], 28) + ale_round_shift(y * y * cov->m[1][1], 28) +
+            ale_round_shift(lever * lever * cov->m[2][2], 28) +
+            2 * (ale_round_shift(y * x * cov->m[1][0], 28) + ale_round_shift(lever * x * cov->m[2][0], 28) +
+                 ale_round_shift(lever * y * cov->m[2][1], 28));
+        return ale_max64(plain, 0);
+    }
+    const int64_t var =
+        ale_mul_shift(x * x, cov->m[0][0], 28) + ale_mul_shift(y * y, cov->m[1][1], 28) +
+        ale_mul_shift(lever * lever, cov->m[2][2], 28) +
+        2 * (ale_mul_shift(y * x, cov->m[1][0], 28) + ale_mul_shift(lever * x, cov->m[2][0], 28) +
+             ale_mul_shift(lever * y, cov->m[2][1], 28));
+    return ale_max64(var, 0);
+}
+
+int64_t ale_view_angle_var(const ale_matrix_t *cov)
+{
+    return cov->m[2][2];
+}
+
+/* A view as it is held against walls, placed in their frame, and the variance that the pose's covariance
+ * gives its offset, found out when it is asked for. */
+typedef struct {
+    const ale_view_t *view;
+    ale_point_t centre;
+    uint32_t normal_bam;
+    const ale_matrix_t *cov; /* NULL: the pose is known exactly */
+    int64_t pose_var_um2;    /* negative: not found out */
+} candidate_t;
+
+static int64_t pose_var_um2(candidate_t *c)
+{
+    if (c->pose_var_um2 < 0) {
+        c->pose_var_um2 = c->cov ? ale_view_offset_var(c->view, c->cov) : 0;
+    }
+    return c->pose_var_um2;
+}
+
+/* Of wall and view, without the pose. */
+static int64_t known_var(const ale_wall_t *wall, const candidate_t *c, const ale_wall_error_t *e)
+{
+    return ale_wall_offset_var(wall, e->t_um) + c->view->var_offset_um2;
+}
+
+static int64_t angle_var(const ale_wall_t *wall, const candidate_t *c)
+{
+    return wall->var_angle_urad2 + c->view->var_angle_urad2 + (c->cov ? ale_view_angle_var(c->cov) : 0);
+}
+
+/* Common length of view and wall, enough to believe that one shows the other. */
+static inline bool overlaps(const ale_wall_t *wall, const ale_view_t *view, int64_t overlap_um)
+{
+    if (overlap_um <= 0) {
+        return false;
+    }
+    const int64_t shorter_um = ale_min64(wall->end_um - wall->start_um, ale_view_length_um(view));
+    return overlap_um * 10 > shorter_um * 8 ||
+           (overlap_um > OVERLAP_LEAST_UM && overlap_um * 100 > shorter_um * OVERLAP_PERCENT);
+}
+
+/* The view's errors against a wall, where it lies beside it and within the gate. Most walls are dismissed by
+ * what is found out first. */
+static inline bool is_beside(const ale_wall_t *wall, const candidate_t *c, const ale_gate_t *gate,
+                             ale_wall_error_t *e)
+{
+    e->t_um = ale_wall_along(wall, c->centre);
+    e->overlap_um = ale_wall_overlap(wall, c->view, e->t_um);
+    if (!overlaps(wall, c->view, e->overlap_um)) {
+        return false;
+    }
+    e->angle_urad = ale_wall_angle(wall, c->normal_bam);
+    if (ale_abs64(e->angle_urad) > gate->angle_urad) {
+        return false;
+    }
+    e->offset_um = ale_wall_offset(wall, c->centre);
+    return ale_abs64(e->offset_um) <= gate->offset_um;
+}
+
+/* Whether the errors are within the gate in sigmas. The variance of the offset costs most, that of the pose
+ * first of all, and few ask for it. */
+static inline bool is_within(const ale_wall_t *wall, candidate_t *c, const ale_wall_error_t *e,
+                             int32_t sigmas)
+{
+    const int64_t limit = (int64_t)sigmas * sigmas;
+    if (ale_abs64(e->angle_urad) > NEVER_TOO_FAR_URAD &&
+        e->angle_urad * e->angle_urad > limit * angle_var(wall, c)) {
+        return false;
+    }
+    if (ale_abs64(e->offset_um) <= NEVER_TOO_FAR_UM) {
+        return true;
+    }
+    const int64_t known_um2 = known_var(wall, c, e);
+    const int64_t offset_um2 = e->offset_um * e->offset_um;
+    return offset_um2 <= limit * known_um2 || offset_um2 <= limit * (known_um2 + pose_var_um2(c));
+}
+
+/* Squared distance in sigmas. */
+static int64_t distance_q8(const ale_wall_t *wall, candidate_t *c, const ale_wall_error_t *e)
+{
+    return (e->offset_um * e->offset_um << 8) / (known_var(wall, c, e) + pose_var_um2(c)) +
+           (e->angle_urad * e->angle_urad << 8) / angle_var(wall, c);
+}
+
+/* Whether a place lies off the wall's line by `limit_q30` or more, um. */
+static inline bool is_off(const ale_glance_t *wall, ale_point_t p, int64_t limit_q30)
+{
+    const int64_t off_q30 =
+        (int64_t)p.x_um * wall->normal_x_q30 + (int64_t)p.y_um * wall->normal_y_q30 - wall->offset_q30;
+    return (uint64_t)(off_q30 + limit_q30 - 1) >= (uint64_t)(2 * limit_q30 - 1);
+}
+
+/* The first wall of a range that a place does not lie off; most are passed over here. */
+static inline const ale_glance_t *skip_off(const ale_glance_t *wall, const ale_glance_t *last, ale_point_t p,
+                                           int64_t limit_q30)
+{
+    while (wall < last && is_off(wall, p, limit_q30)) {
+        wall++;
+    }
+    return wall;
+}
+
+ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
+                           const ale_matrix_t *cov, const ale_gate_t *gate, int32_t *looks)
+{
+    ale_match_t best = {.wall = ALE_NO_WALL, .mark = ALE_NO_MARK};
+    int64_t least_q8 = -1; /* of the best, found out when another wall may be it */
+    candidate_t shown = {view, ale_point_from(view->centre, stand), view->normal_bam + stand->pose.theta_bam,
+                         cov, -1};
+    const int64_t limit_q30 =
+        ((int64_t)gate->offset_um << 30) + (1 << 29); /* what rounds to more than the gate */
+    ale_range_t facing[2];
+    ale_local_map_facing(map->glance_first, shown.normal_bam, ale_local_map_buckets(gate->angle_urad),
+                         facing);
+    for (int r = 0; r < 2; r++) {
+        ale_take_looks(&facing[r], looks);
+        const ale_glance_t *const last = &map->glance[facing[r].last];
+        const ale_glance_t *const first = &map->glance[facing[r].first];
+        for (const ale_glance_t *glance = skip_off(first, last, shown.centre, limit_q30); glance < last;
+             glance = skip_off(glance + 1, last, shown.centre, limit_q30)) {
+            *looks -= ALE_LOOKS_OF_A_WALL;
+            if (*looks < 0) {
+                return best;
+            }
+            const ale_wall_t *wall = &map->wall[glance->wall];
+            ale_wall_error_t e;
+            if (!is_beside(wall, &shown, gate, &e) || !is_within(wall, &shown, &e, gate->sigmas)) {
+                continue;
+            }
+            if (best.wall != ALE_NO_WALL) {
+                least_q8 = least_q8 < 0 ? distance_q8(&map->wall[best.wall], &shown, &best.error) : least_q8;
+                const int64_t own_q8 = distance_q8(wall, &shown, &e);
+                if (own_q8 >= least_q8) {
+                    continue;
+                }
+                least_q8 = own_q8;
+            }
+            best.wall = glance->wall;
+            best.error = e;
+        }
+    }
+    return best;
+}
+
+static ale_wall_error_t mark_error(const ale_mark_t *mark, ale_point_t p)
+{
+    const ale_point_t d = ale_minus(p, mark->p);
+    const ale_direction_t n = ale_direction(mark->normal_bam);
+    return (ale_wall_error_t){
+        .offset_um = ale_round_shift((int64_t)d.x_um * n.cos_q30 + (int64_t)d.y_um * n.sin_q30, 30),
+        .t_um = ale_round_shift((int64_t)d.x_um * n.sin_q30 - (int64_t)d.y_um * n.cos_q30, 30)};
+}
+
+ale_match_t ale_match_mark(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
+                           int32_t reach_um)
+{
+    ale_match_t found = {.wall = ALE_NO_WALL};
+    const ale_point_t p = ale_point_from(view->centre, stand);
+    found.mark = ale_marks_find(&map->marks, p, view->normal_bam + stand->pose.theta_bam,
+                                view->kind == ALE_VIEW_SPOT, reach_um);
+    if (found.mark != ALE_NO_MARK) {
+        found.error = mark_error(&map->marks.mark[found.mark], p);
+    }
+    return found;
+}
+
+void ale_match_renew(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
+                     ale_match_t *match)
+{
+    if (match->wall != ALE_NO_WALL) {
+        const ale_view_t moved = ale_view_from(view, stand);
+        match->error = ale_wall_error(&map->wall[match->wall], &moved);
+    } else if (match->mark != ALE_NO_MARK) {
+        match->error = mark_error(&map->marks.mark[match->mark], ale_point_from(view->centre, stand));
+    }
+}

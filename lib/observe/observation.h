@@ -1,0 +1,104 @@
+/* A wall as one scan shows it, in the robot's frame: what the matcher works with.
+ *
+ *            start ------- centre ------------- end      tangent: start to end, counter-clockwise
+ *                            | normal                     as seen from the sensor
+ *                            v
+ *                          sensor
+ *
+ * The line's covariance (alpha, rho) of the extractor is turned into two independent errors: of the
+ * offset along the normal at the line's centre (its points' centre of weight), and of its angle. */
+#ifndef ALE_OBSERVE_OBSERVATION_H
+#define ALE_OBSERVE_OBSERVATION_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "extract/extract.h"
+
+/* Views of one scan. Recorded scans of 682 beams show 29 as a rule and 44 or less nine times in ten; of more
+ * an even choice is matched, since the time of a fit goes with their number. */
+enum { ALE_MAX_VIEWS = 44 };
+
+/* Whether the i-th of n things is one of the even choice of at most `most` of them. */
+static inline bool ale_is_chosen(uint32_t i, uint32_t n, uint32_t most)
+{
+    return n <= most || (i + 1) * most / n != i * most / n;
+}
+
+/* Shorter lines begin no wall in the map: they leave marks, as pieces do. */
+enum { ALE_WALL_LENGTH_UM = 250000 };
+
+typedef enum {
+    ALE_VIEW_WALL = 0,  /* an extracted line */
+    ALE_VIEW_PIECE = 1, /* a few beams of a surface that made no line */
+    ALE_VIEW_SPOT = 2   /* a small thing that stands alone, such as the leg of a table */
+} ale_view_kind_t;
+
+typedef struct {
+    ale_point_t centre;
+    uint32_t normal_bam; /* towards the sensor */
+    int32_t start_um;    /* along the tangent, from the centre: start < 0 < end, as a rule */
+    int32_t end_um;
+    int64_t var_offset_um2;
+    int64_t var_angle_urad2;
+    int32_t start_time_us; /* when its ends were measured, relative to the scan's stamp */
+    int32_t end_time_us;
+    uint16_t first_beam; /* of those that show it */
+    uint16_t last_beam;
+    uint8_t start_end; /* ale_end_kind_t of either end */
+    uint8_t end_end;
+    uint8_t kind; /* ale_view_kind_t */
+} ale_view_t;
+
+static inline int64_t ale_view_length_um(const ale_view_t *view)
+{
+    return (int64_t)view->end_um - view->start_um;
+}
+
+/* Length of all of them together. */
+int64_t ale_views_length_um(const ale_view_t view[], uint32_t count);
+
+/* Views of the lines of a scan. systematic_um: one sigma of what bends and shifts a line the same way in
+ * scan after scan (the surface, the range), which no number of beams or scans averages away. Returns their
+ * number, ALE_MAX_VIEWS at most. O(lines). */
+uint32_t ale_views_of(const ale_features_t *features, const ale_scan_t *scan, ale_pose_t sensor,
+                      int32_t systematic_um, ale_view_t out[ALE_MAX_VIEWS]);
+
+/* Where views are seen from: a pose, with the direction that turns them, for many of them. */
+typedef struct {
+    ale_pose_t pose;
+    ale_direction_t turn;
+} ale_stand_t;
+
+static inline ale_stand_t ale_stand(ale_pose_t pose)
+{
+    return (ale_stand_t){pose, ale_direction(pose.theta_bam)};
+}
+
+/* A point of the view's frame, and the view, as they lie in the frame that the pose is given in. */
+ale_point_t ale_point_from(ale_point_t p, const ale_stand_t *stand);
+ale_view_t ale_view_from(const ale_view_t *view, const ale_stand_t *stand);
+
+/* The tangent that belongs to a normal (a quarter turn clockwise), as a direction. */
+static inline uint32_t ale_tangent_bam(uint32_t normal_bam)
+{
+    return normal_bam - 0x40000000u;
+}
+
+/* A vector of a length (um) in a direction. */
+ale_point_t ale_polar(int64_t length_um, uint32_t direction_bam);
+
+/* Component of a vector along a direction, um. */
+int64_t ale_along(ale_point_t v, uint32_t direction_bam);
+
+static inline ale_point_t ale_minus(ale_point_t a, ale_point_t b)
+{
+    return (ale_point_t){a.x_um - b.x_um, a.y_um - b.y_um};
+}
+
+static inline ale_point_t ale_plus(ale_point_t a, ale_point_t b)
+{
+    return (ale_point_t){a.x_um + b.x_um, a.y_um + b.y_um};
+}
+
+#endif

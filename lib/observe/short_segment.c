@@ -1,0 +1,226 @@
+#include "observe/short_segment.h"
+
+#include <stddef.h>
+
+#include "base/fixed.h"
+#include "base/trig.h"
+
+enum {
+    PIECE_BEAMS = 6,
+    GAP_FLOOR_UM = 60000, /* neighbours farther apart than this, and than 4 beam spacings, part a run */
+    GAP_SPACINGS = 4,
+    SPOT_UM = 150000,        /* largest thing that counts as a spot */
+    SPOT_CLEAR_UM = 100000,  /* what is beside it must be farther by this */
+    STRAIGHT_UM = 25000,     /* shortest piece that has a direction of its own */
+    ROUNDNESS_UM = 10000,    /* a thing looks different from every side */
+    ANGLE_OWN_URAD = 150000, /* one sigma of the direction of a piece */
+    ANGLE_FACING_URAD = 600000,
+    BAM_PER_RAD = 683565276,
+    ROUNDING_UM = 10 /* more than two rounded points may be farther apart */
+};
+
+typedef struct {
+    const ale_scan_t *scan;
+    const uint32_t *bearing_bam;
+    ale_pose_t sensor;
+    const ale_noise_t *noise;
+    ale_pieces_t *memory;
+    ale_view_t *out;
+    uint32_t loose; /* runs found */
+    uint32_t parts; /* pieces that they make */
+    uint32_t count; /* pieces written */
+} pieces_t;
+
+static int64_t spacing_um(const ale_scan_t *scan, int32_t beam)
+{
+    return ale_abs64((int64_t)scan->step_bam * scan->range_um[beam]) / BAM_PER_RAD;
+}
+
+static uint32_t bearing_of(const pieces_t *p, int32_t beam)
+{
+    return p->bearing_bam ? p->bearing_bam[beam] : ale_scan_bearing(p->scan, beam);
+}
+
+/* Most beams of a scan with many are in no piece: few need their point. */
+static ale_point_t point_of(const pieces_t *p, int32_t beam)
+{
+    ale_pieces_t *memory = p->memory;
+    if (!memory->known[beam]) {
+        memory->point[beam] = ale_polar(p->scan->range_um[beam], bearing_of(p, beam));
+        memory->known[beam] = true;
+    }
+    return memory->point[beam];
+}
+
+static int64_t distance2(ale_point_t a, ale_point_t b)
+{
+    const int64_t x = (int64_t)a.x_um - b.x_um;
+    const int64_t y = (int64_t)a.y_um - b.y_um;
+    return x * x + y * y;
+}
+
+/* Second moments of a few beams about their mean, in units of 2^-10 m squared: small enough for any. */
+typedef struct {
+    ale_point_t mean;
+    int64_t xx;
+    int64_t yy;
+    int64_t xy;
+} cloud_t;
+
+static cloud_t cloud_of(const pieces_t *p, int32_t first, int32_t last)
+{
+    cloud_t c = {{0, 0}, 0, 0, 0};
+    int64_t x = 0;
+    int64_t y = 0;
+    const int32_t n = last - first + 1;
+    for (int32_t k = first; k <= last; k++) {
+        const ale_point_t q = point_of(p, k);
+        x += q.x_um;
+        y += q.y_um;
+    }
+    c.mean = (ale_point_t){(int32_t)ale_round_div(x, n), (int32_t)ale_round_div(y, n)};
+    for (int32_t k = first; k <= last; k++) {
+        const ale_point_t q = ale_minus(p->memory->point[k], c.mean);
+        c.xx += ale_round_shift((int64_t)q.x_um * q.x_um, 10);
+        c.yy += ale_round_shift((int64_t)q.y_um * q.y_um, 10);
+        c.xy += ale_round_shift((int64_t)q.x_um * q.y_um, 10);
+    }
+    return c;
+}
+
+/* Direction of the cloud's longer axis, or false when it is about as wide as long: (l1 - l2) / (l1 + l2)
+ * below 0.8. */
+static bool direction_of(const cloud_t *c, uint32_t *direction_bam)
+{
+    const int64_t sum = c->xx + c->yy;
+    const int64_t difference = c->xx - c->yy;
+    const int64_t spread =
+        (int64_t)ale_isqrt((uint64_t)(ale_round_shift(difference, 8) * ale_round_shift(difference, 8) +
+                                      4 * ale_round_shift(c->xy, 8) * ale_round_shift(c->xy, 8)))
+        << 8;
+    *direction_bam = ale_atan2_bam(2 * c->xy, difference) / 2;
+    return spread * 5 > sum * 4;
+}
+
+static void add(pieces_t *p, int32_t first, int32_t last, bool spot)
+{
+    const cloud_t c = cloud_of(p, first, last);
+    const int32_t n = last - first + 1;
+    const int32_t middle = (first + last) / 2;
+    const uint32_t facing_bam = ale_atan2_bam(-c.mean.y_um, -c.mean.x_um);
+    const int64_t length_um = ale_isqrt((uint64_t)distance2(point_of(p, first), point_of(p, last)));
+    const int64_t half_um = length_um / 2 + spacing_um(p->scan, middle) / 2;
+    uint32_t direction_bam;
+    const bool straight = !spot && n >= 3 && length_um > STRAIGHT_UM && direction_of(&c, &direction_bam);
+    uint32_t normal_bam = straight ? direction_bam + ALE_BAM_QUARTER_TURN : facing_bam;
+    if (ale_abs64(ale_bam_diff(normal_bam, facing_bam)) > ALE_BAM_QUARTER_TURN) {
+        normal_bam += ALE_BAM_HALF_TURN;
+    }
+    const int64_t angle_urad = straight ? ANGLE_OWN_URAD : ANGLE_FACING_URAD;
+    const int64_t systematic_um = p->noise->surface_um / 2;
+    const int64_t round_um = straight ? 0 : ROUNDNESS_UM;
+    const int32_t time_us = ale_scan_beam_offset_us(p->scan, middle);
+    p->out[p->count++] = (ale_view_t){
+        .centre = ale_pose_apply(p->sensor, c.mean),
+        .normal_bam = normal_bam + p->sensor.theta_bam,
+        .start_um = (int32_t)-half_um,
+        .end_um = (int32_t)half_um,
+        .var_offset_um2 = ale_noise_own_var_um2(p->noise, p->scan->range_um[middle]) / n +
+                          ale_noise_shared_var_um2(p->noise, p->scan->range_um[middle]) +
+                          systematic_um * systematic_um + round_um * round_um,
+        .var_angle_urad2 = angle_urad * angle_urad,
+        .start_time_us = time_us,
+        .end_time_us = time_us,
+        .first_beam = (uint16_t)first,
+        .last_beam = (uint16_t)last,
+        .kind = spot ? ALE_VIEW_SPOT : ALE_VIEW_PIECE,
+    };
+}
+
+/* Whether the beam beside a run is out of the way: no value, or clearly farther. */
+static bool is_clear(const pieces_t *p, int32_t beam, int32_t range_um)
+{
+    if (beam < 0 || beam >= p->scan->beams) {
+        return false;
+    }
+    const uint8_t flag = p->scan->flag[beam];
+    return flag == ALE_BEAM_NO_RETURN ||
+           (flag == ALE_BEAM_VALID && p->scan->range_um[beam] > range_um + SPOT_CLEAR_UM);
+}
+
+/* Notes a run and how many pieces it makes. */
+static void note(pieces_t *p, int32_t first, int32_t last)
+{
+    const int32_t n = last - first + 1;
+    if (n < 2) {
+        return;
+    }
+    const bool small = distance2(point_of(p, first), point_of(p, last)) < (int64_t)SPOT_UM * SPOT_UM;
+    const bool spot = small && is_clear(p, first - 1, p->scan->range_um[first]) &&
+                      is_clear(p, last + 1, p->scan->range_um[last]);
+    const int32_t parts = spot ? 0 : (n + PIECE_BEAMS - 1) / PIECE_BEAMS;
+    p->memory->loose[p->loose++] = (ale_loose_t){(uint16_t)first, (uint16_t)last, (uint16_t)parts};
+    p->parts += spot ? 1 : (uint32_t)parts;
+}
+
+/* Cuts the runs into pieces, an even choice of them where there is no room for all. */
+static void cut(pieces_t *p, uint32_t room)
+{
+    uint32_t number = 0;
+    for (uint32_t i = 0; i < p->loose; i++) {
+        const ale_loose_t *run = &p->memory->loose[i];
+        const int32_t n = run->last - run->first + 1;
+        const int32_t parts = run->parts > 0 ? run->parts : 1;
+        for (int32_t k = 0; k < parts; k++) {
+            if (ale_is_chosen(number++, p->parts, room)) {
+                add(p, run->first + n * k / parts, run->first + n * (k + 1) / parts - 1, run->parts == 0);
+            }
+        }
+    }
+}
+
+/* Whether beam k goes on where k - 1 was. The way along the one beam and across to the other is longer. */
+static bool continues(const pieces_t *p, int32_t k)
+{
+    const int64_t range_um = p->scan->range_um[k];
+    const int64_t along_um = ale_abs64(range_um - p->scan->range_um[k - 1]);
+    const int64_t turn_bam = ale_abs64(ale_bam_diff(bearing_of(p, k), bearing_of(p, k - 1)));
+    const int64_t way_um = along_um + turn_bam * range_um / BAM_PER_RAD + ROUNDING_UM;
+    if (way_um < GAP_FLOOR_UM) {
+        return true;
+    }
+    const int64_t gap_um = ale_max64(GAP_FLOOR_UM, GAP_SPACINGS * spacing_um(p->scan, k));
+    return way_um < gap_um || distance2(point_of(p, k - 1), point_of(p, k)) < gap_um * gap_um;
+}
+
+uint32_t ale_pieces_of(const ale_features_t *features, const ale_scan_t *scan, const uint32_t *bearing_bam,
+                       ale_pose_t sensor, const ale_noise_t *noise, ale_pieces_t *memory, uint32_t room,
+                       ale_view_t out[])
+{
+    pieces_t p = {.scan = scan,
+                  .bearing_bam = bearing_bam,
+                  .sensor = sensor,
+                  .noise = noise,
+                  .memory = memory,
+                  .out = out};
+    int32_t begun = -1;
+    uint32_t line = 0;
+    for (int32_t k = 0; k < scan->beams; k++) {
+        while (line < features->line_count && features->line[line].last < k) {
+            line++;
+        }
+        const bool in_line = line < features->line_count && features->line[line].first <= k;
+        const bool loose = scan->flag[k] == ALE_BEAM_VALID && !in_line;
+        memory->known[k] = false;
+        if (begun >= 0 && (!loose || !continues(&p, k))) {
+            note(&p, begun, k - 1);
+            begun = -1;
+        }
+        begun = loose && begun < 0 ? k : begun;
+    }
+    if (begun >= 0) {
+        note(&p, begun, scan->beams - 1);
+    }
+    cut(&p, room);
+    return p.count;
+}

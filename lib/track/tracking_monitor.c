@@ -1,0 +1,188 @@
+#include "track/tracking_monitor.h"
+
+#include "base/fixed.h"
+
+enum {
+    MISFITS_UNTIL_LOST = 8,
+    THROUGH_LEAST = 3,         /* walls seen through that make a contradiction, if they also are */
+    THROUGH_TO_FOUND = 2,      /* so many times those that are where they should be */
+    DOUBT_PERCENT = 60,        /* of what is shown is found in the map: no question; */
+    STRANGE_PERCENT = 35,      /* less than this is found: has the scene changed? */
+    DENIED_LEAST_UM = 1000000, /* surfaces that must be gone before a change is called one, */
+    SHOWN_LEAST_UM = 2000000,  /* two scans that show less of each other than this cannot be compared */
+    DENIED_PERCENT = 20,       /* and the part of all that both scans looked at, */
+    UNWATCHED_PERCENT = 10,    /* or this one where nothing was seen of the way between them */
+    CONFIRM_PERCENT = 20,      /* two scans confirm this much of each other at the least, */
+    CLOSE_PERCENT = 45,  /* this much when taken side by side, or nothing was seen of the way between, */
+    UNSEEING_LEAST = 2,  /* as in so many scans that showed nothing, */
+    MISFIT_PERCENT = 10, /* and this much more if there was doubt before */
+    BELIEVE_SHOWN_UM = 2500000,
+    BELIEVE_WALLS = 4,
+    BELIEVE_PERCENT = 70,
+    EXPECT_PERCENT = 80,   /* where the robot is said to be, whatever the number of walls */
+    DETERMINED_UM = 30000, /* the scan alone knows each direction better than this */
+    WEAK_SIGMA_UM = 60000, /* pose sigma above which it is weak whatever the scan shows */
+    LOST_SIGMA_UM = 1000000,
+    MAP_SIGMA_UM = 40000, /* pose sigmas up to which walls may be added */
+    MAP_SIGMA_URAD = 25000,
+    ANCHOR_SIGMA_URAD = 150000, /* and that of the heading up to which walls not found were not there: */
+                                /* of two sigmas off they would still be matched */
+    ANCHOR_SHOWN_UM = 1500000   /* surfaces that the next scan will find again */
+};
+
+static int64_t square(int64_t v)
+{
+    return v * v;
+}
+
+static int64_t position_var(const ale_motion_t *m)
+{
+    return ale_max64(m->cov.m[0][0], m->cov.m[1][1]);
+}
+
+void ale_tracker_init(ale_tracker_t *tracker)
+{
+    *tracker = (ale_tracker_t){.state = ALE_STATE_GOOD};
+}
+
+static ale_state_t by_variance(const ale_motion_t *m)
+{
+    return position_var(m) > square(LOST_SIGMA_UM) ? ALE_STATE_LOST : ALE_STATE_WEAK;
+}
+
+static bool contradicts(const ale_fit_t *fit, const ale_sights_t *sights)
+{
+    const uint32_t found = (uint32_t)fit->matched + sights->supported;
+    return sights->through >= THROUGH_LEAST && sights->through > THROUGH_TO_FOUND * found;
+}
+
+bool ale_tracker_doubts(const ale_fit_t *fit)
+{
+    return fit->matched_um * 100 < fit->shown_um * DOUBT_PERCENT;
+}
+
+bool ale_tracker_is_strange(const ale_tracker_t *tracker, const ale_fit_t *fit)
+{
+    const int64_t percent = tracker->misfits > 0 ? BELIEVE_PERCENT : STRANGE_PERCENT;
+    return fit->matched_um * 100 < fit->shown_um * percent;
+}
+
+/* What the robot did since the last scan that showed anything was not seen: the wheels alone tell it. */
+static bool is_unwatched(const ale_tracker_t *tracker)
+{
+    return tracker->unseeing >= UNSEEING_LEAST;
+}
+
+/* Once a scan did not fit, the next must be confirmed, not only not denied. */
+static bool is_confirmed(const ale_tracker_t *tracker, const ale_testimony_t *heard)
+{
+    const bool much = heard->close || is_unwatched(tracker);
+    const int64_t percent =
+        (much ? CLOSE_PERCENT : CONFIRM_PERCENT) + (tracker->misfits > 0 ? MISFIT_PERCENT : 0);
+    return heard->confirmed_um * 100 >= heard->shown_um * percent;
+}
+
+/* Without wheels nobody knows where the robot went while a scan did not fit: only the map can tell. */
+static bool is_adrift(const ale_tracker_t *tracker, bool counted)
+{
+    return tracker->misfits > 0 && !counted;
+}
+
+void ale_tracker_notice(ale_tracker_t *tracker, const ale_testimony_t *heard, bool counted, bool mapped)
+{
+    const int64_t told_um = heard ? heard->denied_um + heard->confirmed_um : 0;
+    const int64_t percent = is_unwatched(tracker) ? UNWATCHED_PERCENT : DENIED_PERCENT;
+    const bool denied =
+        heard && heard->denied_um > DENIED_LEAST_UM && heard->denied_um * 100 > told_um * percent;
+    tracker->in_reach = counted || !mapped;
+    tracker->beside = tracker->misfits > 0 ? tracker->beside : heard && heard->close;
+    tracker->jumped = heard && heard->shown_um > SHOWN_LEAST_UM &&
+                      (denied || !is_confirmed(tracker, heard) || is_adrift(tracker, counted));
+}
+
+static bool is_undisturbed(const ale_tracker_t *tracker)
+{
+    return tracker->state != ALE_STATE_LOST && tracker->misfits == 0 && !tracker->jumped;
+}
+
+static bool is_well_known(const ale_motion_t *m)
+{
+    return position_var(m) < square(MAP_SIGMA_UM) && m->cov.m[2][2] < square(MAP_SIGMA_URAD);
+}
+
+/* A scan shows enough, but without wheels the heading is so uncertain that not finding it in the map says
+ * nothing: the robot may be in the midst of what the map holds. */
+static bool is_out_of_reach(const ale_tracker_t *tracker, const ale_fit_t *fit)
+{
+    return is_undisturbed(tracker) && !tracker->in_reach && fit->shown_um > ANCHOR_SHOWN_UM &&
+           fit->motion.cov.m[2][2] >= square(ANCHOR_SIGMA_URAD);
+}
+
+/* Scans that showed nothing count until one is believed to be where the pose says. */
+static void count_unseeing(ale_tracker_t *tracker, const ale_fit_t *fit)
+{
+    if (fit->shown_um == 0) {
+        tracker->unseeing = (uint16_t)ale_min64(tracker->unseeing + 1, UNSEEING_LEAST);
+    } else if (!tracker->jumped) {
+        tracker->unseeing = 0;
+    }
+}
+
+ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit, const ale_sights_t *sights)
+{
+    const bool out_of_reach = is_out_of_reach(tracker, fit);
+    count_unseeing(tracker, fit);
+    if (tracker->jumped || contradicts(fit, sights)) {
+        tracker->misfits++;
+    } else if (tracker->misfits > 0) {
+        tracker->misfits--;
+    }
+    if (out_of_reach || tracker->misfits >= MISFITS_UNTIL_LOST) {
+        tracker->state = ALE_STATE_LOST;
+    } else if (position_var(&fit->motion) < square(WEAK_SIGMA_UM) &&
+               ale_information_determines(&fit->information, DETERMINED_UM)) {
+        tracker->state = ALE_STATE_GOOD;
+    } else {
+        tracker->state = by_variance(&fit->motion);
+    }
+    return tracker->state;
+}
+
+bool ale_tracker_believes(const ale_fit_t *fit)
+{
+    return fit->matched >= BELIEVE_WALLS && fit->shown_um >= BELIEVE_SHOWN_UM &&
+           fit->matched_um * 100 >= fit->shown_um * BELIEVE_PERCENT;
+}
+
+bool ale_tracker_expected(const ale_fit_t *fit)
+{
+    return fit->shown_um >= BELIEVE_SHOWN_UM && fit->matched_um * 100 >= fit->shown_um * EXPECT_PERCENT &&
+           ale_information_determines(&fit->information, DETERMINED_UM);
+}
+
+void ale_tracker_found(ale_tracker_t *tracker)
+{
+    tracker->state = ALE_STATE_WEAK;
+    tracker->misfits = MISFITS_UNTIL_LOST / 2; /* on probation */
+    tracker->jumped = false;
+    tracker->unseeing = 0;
+}
+
+ale_state_t ale_tracker_skip(ale_tracker_t *tracker, const ale_motion_t *predicted)
+{
+    if (tracker->state != ALE_STATE_LOST) {
+        tracker->state = by_variance(predicted);
+    }
+    return tracker->state;
+}
+
+bool ale_tracker_may_map(const ale_tracker_t *tracker, const ale_fit_t *fit)
+{
+    return is_undisturbed(tracker) && is_well_known(&fit->motion);
+}
+
+bool ale_tracker_may_anchor(const ale_tracker_t *tracker, const ale_fit_t *fit)
+{
+    return is_undisturbed(tracker) && !is_well_known(&fit->motion) && !is_out_of_reach(tracker, fit) &&
+           fit->shown_um > ANCHOR_SHOWN_UM;
+}

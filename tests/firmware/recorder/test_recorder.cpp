@@ -1,0 +1,177 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "comes_true.hpp"
+#include "drivers/store/chunks.hpp"
+#include "files.hpp"
+#include "firmware/surroundings.hpp"
+
+extern "C" {
+#include "recorder/recorder.h"
+}
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+/* Chunks of a recording as letters: b bytes, o odometry, d decision, s stages, c command, k correction. */
+std::string letters(const fs::path &path)
+{
+    std::string text;
+    uint64_t bad = 0;
+    for (const Chunk &chunk : chunks_of(files::content(path), &bad)) {
+        text += "?bbockCds"[chunk.kind];
+    }
+    EXPECT_EQ(bad, 0u);
+    return text;
+}
+
+class Recorder : public surroundings::WithPort
+{
+  protected:
+    void SetUp() override
+    {
+        config = ale_config_default();
+        std::strncpy(config.recorder_folder, folder.path().c_str(), sizeof config.recorder_folder - 1);
+        config.recorder_megabytes = 1;
+        recorder = ale_recorder_start(&config);
+        ASSERT_NE(recorder, nullptr);
+    }
+    void TearDown() override
+    {
+        ale_recorder_stop(recorder);
+    }
+
+    void bytes(const std::string &text)
+    {
+        ale_recorder_bytes(recorder, false, reinterpret_cast<const uint8_t *>(text.data()),
+                           static_cast<uint32_t>(text.size()), 1);
+    }
+    void odometry(uint32_t number)
+    {
+        const ale_odometry_t sample{};
+        ale_recorder_odometry(recorder, number, &sample);
+    }
+    void result(uint32_t number, uint32_t odometry_taken)
+    {
+        auto made = std::make_unique<ale_result_t>();
+        made->answered = number;
+        made->odometry_taken = odometry_taken;
+        ale_recorder_result(recorder, made.get());
+    }
+    std::vector<fs::path> written() const
+    {
+        std::vector<fs::path> found;
+        for (const auto &entry : fs::directory_iterator(folder.path())) {
+            if (entry.path().extension() == ".scip") {
+                found.push_back(entry.path());
+            }
+        }
+        return found;
+    }
+    /* Asks for a recording and waits for it. */
+    std::string recorded()
+    {
+        const uint32_t before = ale_recorder_written(recorder);
+        ale_recorder_trigger(recorder, ALE_RECORD_COMMAND);
+        EXPECT_TRUE(comes_true([&] { return ale_recorder_written(recorder) != before; }));
+        EXPECT_EQ(written().size(), 1u);
+        return letters(written().at(0));
+    }
+
+    const files::TemporaryFolder folder;
+    ale_config_t config{};
+    ale_recorder_t *recorder = nullptr;
+};
+
+TEST_F(Recorder, OdometryLiesBeforeTheScanThatKnewItWhenItWasUsed)
+{
+    odometry(0);
+    odometry(1);
+    bytes("scan 0");
+    ale_recorder_scan(recorder, 0);
+    odometry(2);
+    result(0, 1); /* sample 1 came too late for scan 0, sample 2 later still */
+    bytes("scan 1");
+    ale_recorder_scan(recorder, 1);
+    result(1, 3);
+    EXPECT_EQ(recorded(), "Cobdsoobds");
+}
+
+TEST_F(Recorder, OdometryThatCameWhileTwoScansWereAnsweredInOneGoLiesBehindBoth)
+{
+    for (uint32_t scan = 0; scan < 3; scan++) {
+        bytes("scan");
+        ale_recorder_scan(recorder, scan);
+    }
+    odometry(0);
+    result(0, 0);
+    result(1, 0);
+    result(2, 1);
+    EXPECT_EQ(recorded(), "Cbdsbdsobds");
+}
+
+TEST_F(Recorder, AScanWithoutRoomForItsResultKeepsItsPlace)
+{
+    bytes("scan 0");
+    ale_recorder_scan(recorder, 0);
+    bytes("scan 1");
+    ale_recorder_scan(recorder, 1);
+    result(1, 0);
+    EXPECT_EQ(recorded(), "Cbbds");
+}
+
+TEST_F(Recorder, CommandsAndCorrectionsLieBeforeTheScanThatFollowsThem)
+{
+    bytes("scan 0");
+    ale_recorder_scan(recorder, 0);
+    odometry(0);
+    ale_recorder_command(recorder, 1, "reset");
+    ale_recorder_correction(recorder, 1, 0, ale_pose_t{});
+    result(0, 0);
+    EXPECT_EQ(recorded(), "Cckbds"); /* no scan has known the sample so far */
+}
+
+TEST_F(Recorder, BytesThatMakeNoScanAreKeptAfterAWhile)
+{
+    bytes(std::string(1500, '?'));
+    odometry(0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+    EXPECT_EQ(recorded(), "Cobbb");
+}
+
+TEST_F(Recorder, WritersNeverWaitAndWhatIsRefusedIsCounted)
+{
+    std::thread acquire([this] {
+        for (uint32_t k = 0; k < 20000; k++) {
+            bytes(std::string(400, 'x'));
+            ale_recorder_scan(recorder, k);
+        }
+    });
+    for (uint32_t k = 0; k < 20000; k++) {
+        odometry(k);
+        result(k, k);
+    }
+    acquire.join();
+    EXPECT_GT(ale_recorder_refused(recorder), 0u);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+    EXPECT_GT(recorded().size(), 1000u) << "a ring full of intact chunks";
+}
+
+TEST_F(Recorder, WithoutARecorderNothingHappens)
+{
+    ale_recorder_scan(nullptr, 0);
+    ale_recorder_trigger(nullptr, ALE_RECORD_FAULT);
+    ale_recorder_stop(nullptr);
+    EXPECT_EQ(ale_recorder_written(nullptr), 0u);
+}
+
+} // namespace

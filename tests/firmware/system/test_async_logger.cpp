@@ -1,0 +1,120 @@
+// firmware/speaker: words for people, whatever they are written on.
+#include <gtest/gtest.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <string>
+
+#include "firmware/surroundings.hpp"
+
+extern "C" {
+#include "system/async_logger.h"
+}
+
+namespace
+{
+
+class Speaker : public surroundings::WithPort
+{
+  protected:
+    void SetUp() override
+    {
+        int ends[2];
+        ASSERT_EQ(pipe(ends), 0);
+        reading = ends[0];
+        out = fdopen(ends[1], "w");
+        ASSERT_NE(out, nullptr);
+        speaker = ale_speaker_start(out);
+        ASSERT_NE(speaker, nullptr);
+    }
+    void TearDown() override
+    {
+        close(reading);
+    }
+
+    // Until a write to the pipe would have to wait for its reader. How many bytes that are.
+    size_t fill_the_pipe() const
+    {
+        const int writing = fileno(out);
+        EXPECT_GT(fcntl(writing, F_SETPIPE_SZ, 4096), 0);
+        const int flags = fcntl(writing, F_GETFL);
+        EXPECT_EQ(fcntl(writing, F_SETFL, flags | O_NONBLOCK), 0);
+        size_t count = 0;
+        while (write(writing, "x", 1) == 1) {
+            count++;
+        }
+        EXPECT_EQ(fcntl(writing, F_SETFL, flags), 0);
+        return count;
+    }
+    std::string read_line() const
+    {
+        std::string line;
+        for (char c = 0; read(reading, &c, 1) == 1 && c != '\n';) {
+            line += c;
+        }
+        return line;
+    }
+
+    int reading = -1;
+    FILE *out = nullptr;
+    ale_speaker_t *speaker = nullptr;
+};
+
+TEST_F(Speaker, WhatIsSaidComesOutLineByLineAfterTheProgramsName)
+{
+    ale_speaker_say(speaker, "one");
+    ale_speaker_say(speaker, "two");
+    EXPECT_EQ(read_line(), "ale-slamd: one");
+    EXPECT_EQ(read_line(), "ale-slamd: two");
+    ale_speaker_stop(speaker);
+    fclose(out);
+}
+
+TEST_F(Speaker, AReaderThatHoldsUpTheWriterDoesNotHoldUpWhoSpeaks)
+{
+    const size_t before = fill_the_pipe();
+    for (int k = 0; k < 100; k++) {
+        ale_speaker_say(speaker, "said while nobody reads"); // returns, or this test never ends
+    }
+    for (size_t k = 0; k < before; k++) {
+        char c = 0;
+        ASSERT_EQ(read(reading, &c, 1), 1);
+    }
+    EXPECT_EQ(read_line(), "ale-slamd: said while nobody reads");
+    ale_speaker_stop(speaker);
+    fclose(out);
+}
+
+TEST_F(Speaker, WhatWasLeftOutIsCountedAndToldOnceThereIsRoomAgain)
+{
+    const size_t before = fill_the_pipe();
+    EXPECT_EQ(ale_speaker_left_out(speaker), 0U);
+    for (int k = 0; k < 100; k++) {
+        ale_speaker_say(speaker, "held up");
+    }
+    const uint32_t left_out = ale_speaker_left_out(speaker);
+    EXPECT_EQ(left_out, 100U - 16U); /* the one that is being written waits, too */
+    for (size_t k = 0; k < before; k++) {
+        char c = 0;
+        ASSERT_EQ(read(reading, &c, 1), 1);
+    }
+    for (uint32_t k = left_out; k < 100; k++) {
+        EXPECT_EQ(read_line(), "ale-slamd: held up");
+    }
+    EXPECT_EQ(read_line(), "ale-slamd: 84 lines left out here: nobody took them in time");
+    ale_speaker_say(speaker, "free again");
+    EXPECT_EQ(read_line(), "ale-slamd: free again");
+    ale_speaker_stop(speaker);
+    fclose(out);
+}
+
+TEST_F(Speaker, AStopWritesWhatWasSaid)
+{
+    ale_speaker_say(speaker, std::string(1000, 'a').c_str());
+    ale_speaker_stop(speaker);
+    EXPECT_EQ(read_line(), "ale-slamd: " + std::string(ALE_SPEAKER_LINE - 1, 'a'));
+    fclose(out);
+}
+
+} // namespace

@@ -1,0 +1,96 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <memory>
+#include <string>
+
+extern "C" {
+#include "telemetry/supervisor.h"
+}
+
+namespace
+{
+
+ale_urg_health_t health_in(ale_urg_state_t state, const char *status = "", uint64_t scans = 0)
+{
+    ale_urg_health_t health{};
+    health.state = state;
+    health.scans = scans;
+    std::strcpy(health.status, status);
+    std::strcpy(health.port, "/dev/ttyACM0");
+    std::strcpy(health.model, "URG-04LX");
+    std::strcpy(health.serial, "H0508486");
+    return health;
+}
+
+/* What is said when the scanner's health is this; empty: nothing. */
+std::string said(ale_supervisor_t &supervisor, const ale_urg_health_t &health)
+{
+    char line[ALE_SUPERVISOR_LINE] = "";
+    return ale_supervisor_watch(&supervisor, &health, line) ? line : "";
+}
+
+TEST(Supervisor, AMissingScannerIsSaidOnceInPlainWords)
+{
+    ale_supervisor_t supervisor{};
+    const ale_urg_health_t absent = health_in(ALE_URG_CLOSED, "/dev/ttyACM0: no such device");
+    EXPECT_EQ(said(supervisor, absent),
+              "no scanner: /dev/ttyACM0: no such device; trying again until it is there");
+    EXPECT_EQ(said(supervisor, absent), "");
+    EXPECT_EQ(said(supervisor, health_in(ALE_URG_DETECTING)), "");
+    EXPECT_EQ(said(supervisor, absent), "");
+}
+
+TEST(Supervisor, ComingAndGoingAreSaid)
+{
+    ale_supervisor_t supervisor{};
+    EXPECT_EQ(said(supervisor, health_in(ALE_URG_STARTING)), "");
+    EXPECT_EQ(said(supervisor, health_in(ALE_URG_STREAMING)), "")
+        << "streaming is believed with the first scan";
+    EXPECT_EQ(said(supervisor, health_in(ALE_URG_STREAMING, "", 1)),
+              "scanner URG-04LX, serial number H0508486, at /dev/ttyACM0: streaming");
+    EXPECT_EQ(said(supervisor, health_in(ALE_URG_STREAMING, "", 2)), "");
+    EXPECT_EQ(said(supervisor, health_in(ALE_URG_STARTING, "restart", 2)), "")
+        << "a short fault is only counted";
+    EXPECT_EQ(said(supervisor, health_in(ALE_URG_CLOSED, "unplugged", 2)),
+              "scanner lost: unplugged; trying again until it is there");
+    EXPECT_EQ(said(supervisor, health_in(ALE_URG_STREAMING, "", 3)),
+              "scanner URG-04LX, serial number H0508486, at /dev/ttyACM0: streaming");
+}
+
+TEST(Supervisor, TheStatusSaysWhatTheDriverDoes)
+{
+    auto report = std::make_unique<ale_status_report_t>();
+    ale_urg_health_t health = health_in(ALE_URG_STREAMING, "", 100);
+    health.scans_lost = 3;
+    health.scan_period_us = 100000;
+    health.last_scan_us = 5000000;
+    ale_supervisor_report(&health, 5100000, report.get());
+    EXPECT_STREQ(report->driver_state, "streaming");
+    EXPECT_STREQ(report->device, "URG-04LX H0508486");
+    EXPECT_EQ(report->scans, 103u);
+    EXPECT_EQ(report->scan_period_us, 100000);
+    ale_supervisor_report(&health, 6500000, report.get());
+    EXPECT_EQ(std::string(report->driver_state).rfind("silent", 0), 0u)
+        << "streaming, but no scan for over a second";
+    EXPECT_EQ(report->scan_period_us, 0);
+    const ale_urg_health_t absent = health_in(ALE_URG_CLOSED, "/dev/ttyACM0: permission denied");
+    ale_supervisor_report(&absent, 0, report.get());
+    EXPECT_STREQ(report->driver_state, "no scanner: /dev/ttyACM0: permission denied");
+}
+
+TEST(Supervisor, OverlongTextsAreCutNotOverrun)
+{
+    auto report = std::make_unique<ale_status_report_t>();
+    ale_supervisor_t supervisor{};
+    ale_urg_health_t health{};
+    std::memset(health.status, 's', sizeof health.status - 1);
+    std::memset(health.model, 'm', sizeof health.model - 1);
+    std::memset(health.serial, 'n', sizeof health.serial - 1);
+    std::memset(health.port, 'p', sizeof health.port - 1);
+    ale_supervisor_report(&health, 0, report.get());
+    EXPECT_LT(std::strlen(report->driver_state), sizeof report->driver_state);
+    EXPECT_FALSE(said(supervisor, health).empty());
+}
+
+} // namespace

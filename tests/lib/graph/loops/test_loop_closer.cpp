@@ -1,0 +1,178 @@
+// lib/graph/loops/loop_closer: a walk around a block, with drift, against the truth.
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "graph/loops/loop_closer.h"
+#include "lib/graph/bent_corridor.hpp"
+#include "lib/graph/ring_corridor.hpp"
+
+namespace
+{
+
+// With the motion that was tracked; the test's tracker never takes a correction in.
+void add(ale::LoopCloser *closer, const ale::Node &node)
+{
+    closer->add(node, closer->nodes().empty() ? node.smooth
+                                              : ale::between(closer->nodes().back().smooth, node.smooth));
+}
+
+constexpr size_t plenty = 1000;
+
+struct Walk {
+    double tracked;
+    double corrected;
+    ale::LoopStatistics statistics;
+};
+
+Walk walk(double laps, double bend_rad_m, unsigned seed)
+{
+    const std::vector<ale::Pose> truth = ring_corridor::truth(laps);
+    ale::LoopCloser closer(plenty);
+    std::vector<ale::Pose> tracked;
+    for (const ale::Node &node : ring_corridor::drifting(truth, bend_rad_m, seed)) {
+        tracked.push_back(node.smooth);
+        add(&closer, node);
+    }
+    return {ring_corridor::largest_error_m(truth, tracked),
+            ring_corridor::largest_error_m(truth, closer.poses()), closer.statistics()};
+}
+
+TEST(LoopCloser, ADriftingWalkAroundABlockCloses)
+{
+    for (unsigned seed = 1; seed <= 2; seed++) {
+        const Walk w = walk(1.3, 0.0008, seed);
+        EXPECT_GT(w.tracked, 0.5);
+        EXPECT_LT(w.corrected, 0.25) << "seed " << seed;
+        EXPECT_GT(w.statistics.loops, 0U);
+    }
+}
+
+TEST(LoopCloser, WithoutAPlaceSeenAgainNothingMoves)
+{
+    const Walk w = walk(0.9, 0.0008, 1);
+    EXPECT_EQ(w.statistics.loops, 0U);
+    EXPECT_NEAR(w.tracked, w.corrected, 1e-6);
+}
+
+TEST(LoopCloser, WhereTheTrackerIsRightNothingMoves)
+{
+    const Walk w = walk(1.3, 0, 2);
+    EXPECT_LT(w.tracked, 0.3);
+    EXPECT_LE(w.corrected, w.tracked + 0.02);
+}
+
+// The largest error of a heading, along the corridor that bends or in which headings drift.
+struct Compass {
+    double tracked_rad = 0;
+    double turned_rad = 0;
+    uint32_t straightened = 0;
+
+    Compass(double bend_rad, double drift_rad_m)
+    {
+        ale::LoopCloser closer(plenty);
+        for (const ale::Node &node : bent_corridor::nodes(bend_rad, drift_rad_m, 4)) {
+            add(&closer, node);
+        }
+        const std::vector<ale::Pose> truth = bent_corridor::truth(bend_rad);
+        for (size_t k = 0; k < truth.size(); k++) {
+            const double tracked = closer.nodes()[k].smooth.theta;
+            tracked_rad = std::max(tracked_rad, std::abs(ale::wrapped(tracked - truth[k].theta)));
+            turned_rad =
+                std::max(turned_rad, std::abs(ale::wrapped(closer.poses()[k].theta - truth[k].theta)));
+        }
+        straightened = closer.statistics().straightened;
+    }
+};
+
+TEST(LoopCloser, HeadingsThatDriftAreTurnedToTheWalls)
+{
+    const Compass compass(0, 0.006);
+    EXPECT_GT(compass.straightened, 0U);
+    EXPECT_GT(compass.tracked_rad, 0.1);
+    EXPECT_LT(compass.turned_rad, 0.5 * compass.tracked_rad);
+}
+
+TEST(LoopCloser, ACorridorThatBendsIsNotStraightened)
+{
+    for (const double bend_rad : {0.05, -0.14}) {
+        const Compass compass(bend_rad, 0);
+        EXPECT_EQ(compass.straightened, 0U) << bend_rad;
+        EXPECT_EQ(compass.turned_rad, compass.tracked_rad) << bend_rad;
+    }
+}
+
+// Twice around the block with room for less than half of one round.
+TEST(LoopCloser, AFullGraphThinsOutAndStaysRight)
+{
+    const std::vector<ale::Pose> truth = ring_corridor::truth(2);
+    ale::LoopCloser closer(ale::LoopCloser::least_capacity);
+    double tracked_m = 0;
+    for (const ale::Node &node : ring_corridor::drifting(truth, 0.0008, 1)) {
+        add(&closer, node);
+        ASSERT_LE(closer.nodes().size(), ale::LoopCloser::least_capacity);
+        ASSERT_EQ(closer.nodes().size(), closer.poses().size());
+        tracked_m = std::max(
+            tracked_m, std::hypot(node.smooth.x - truth[node.scan].x, node.smooth.y - truth[node.scan].y));
+    }
+    std::vector<ale::Pose> true_of_held;
+    std::set<int> sides;
+    uint32_t before = 0;
+    for (const ale::Node &node : closer.nodes()) {
+        EXPECT_TRUE(node.scan > before || true_of_held.empty()) << "in the order of the way";
+        before = node.scan;
+        true_of_held.push_back(truth[node.scan]);
+        sides.insert(static_cast<int>(node.scan / 36 % 4));
+    }
+    EXPECT_EQ(closer.nodes().front().scan, 0U);
+    EXPECT_EQ(closer.nodes().back().scan, truth.size() - 1);
+    EXPECT_EQ(sides.size(), 4U) << "all of the way is held";
+    EXPECT_EQ(closer.statistics().thinned, truth.size() - ale::LoopCloser::least_capacity);
+    EXPECT_GT(closer.statistics().loops, 0U);
+    EXPECT_GT(tracked_m, 1.0);
+    EXPECT_LT(ring_corridor::largest_error_m(true_of_held, closer.poses()), 0.35);
+}
+
+// Four sides of a square hall that look alike: the place that was left is not the place that is reached.
+TEST(LoopCloser, WallsOfTheNextScansAreKeptAsSeenFromTheNodeBeforeThem)
+{
+    ale::LoopCloser closer(plenty);
+    closer.see_walls({0, 0, 0}, {{0.5, 1}}); // nobody to keep it
+    ale::Node node{};
+    node.smooth = {1, 2, 0.4};
+    add(&closer, node);
+    for (int scan = 0; scan < ale::LoopCloser::most_scans_after + 3; scan++) {
+        closer.see_walls({1, 2, 0.7}, {{1.0, 2.5}});
+    }
+    const ale::Node &kept = closer.nodes().back();
+    EXPECT_EQ(kept.scans_after, ale::LoopCloser::most_scans_after);
+    ASSERT_EQ(kept.walls_after.size(), static_cast<size_t>(ale::LoopCloser::most_scans_after));
+    EXPECT_NEAR(kept.walls_after[0].direction, 1.3, 1e-12);
+    EXPECT_EQ(kept.walls_after[0].length_m, 2.5);
+    node.broken = true;
+    add(&closer, node);
+    EXPECT_EQ(closer.nodes()[0].scans_after, 0) << "nobody knows since when the way was broken";
+    EXPECT_TRUE(closer.nodes()[0].walls_after.empty());
+}
+
+TEST(LoopCloser, APlaceThatOnlyLooksLikeAnotherIsNotALoop)
+{
+    std::vector<ale::Node> nodes = ring_corridor::drifting(ring_corridor::truth(0.5), 0, 5);
+    ale::LoopCloser closer(plenty);
+    for (const ale::Node &node : nodes) {
+        add(&closer, node);
+    }
+    // the same corridor over again, two metres beside the first and never on the way there
+    const double path_m = nodes.back().path_m + 10;
+    for (size_t k = 0; k < 6; k++) {
+        ale::Node twin = nodes[k];
+        twin.scan = nodes.back().scan + 1 + static_cast<uint32_t>(k);
+        twin.smooth = {nodes[k].smooth.x, nodes[k].smooth.y + 4.9, nodes[k].smooth.theta};
+        twin.path_m = path_m + 0.5 * static_cast<double>(k);
+        twin.broken = k == 0;
+        add(&closer, twin);
+    }
+    EXPECT_EQ(closer.statistics().loops, 0U);
+}
+
+} // namespace

@@ -1,0 +1,88 @@
+// lib/graph/walls/wall_spans: where walls stand, by the lines that cover them.
+#include <gtest/gtest.h>
+
+#include "graph/walls/wall_spans.h"
+#include "lib/graph/placed_lines.hpp"
+
+using placed_lines::line;
+
+namespace
+{
+
+std::vector<ale::WallSpan> spans(const std::vector<ale::PlacedLine> &lines)
+{
+    return ale::spans_of(ale::group_lines(lines), lines, {});
+}
+
+double length_m(const ale::WallSpan &span)
+{
+    return static_cast<double>(int64_t{span.wall.end_um} - span.wall.start_um) * 1e-6;
+}
+
+void show(std::vector<ale::PlacedLine> *lines, uint32_t scans, double from_m, double to_m)
+{
+    for (uint32_t k = 0; k < scans; k++) {
+        const auto scan = static_cast<uint32_t>(lines->size());
+        lines->push_back(line(scan, 70, from_m, to_m, 0));
+    }
+}
+
+TEST(WallSpans, WhatFewerThanThreeScansShowIsNoWall)
+{
+    std::vector<ale::PlacedLine> lines;
+    show(&lines, 2, 0, 2);
+    EXPECT_TRUE(spans(lines).empty());
+    show(&lines, 1, 0, 2);
+    const std::vector<ale::WallSpan> whole = spans(lines);
+    ASSERT_EQ(whole.size(), 1U);
+    EXPECT_EQ(whole[0].seen, 3U);
+    EXPECT_NEAR(length_m(whole[0]), 2, 0.06);
+}
+
+TEST(WallSpans, AnEndThatOneScanHasLengthenedIsCut)
+{
+    std::vector<ale::PlacedLine> lines;
+    show(&lines, 10, 0, 2);
+    show(&lines, 1, 0, 3);
+    const std::vector<ale::WallSpan> cut = spans(lines);
+    ASSERT_EQ(cut.size(), 1U);
+    EXPECT_NEAR(length_m(cut[0]), 2, 0.06);
+}
+
+TEST(WallSpans, SmallGapsAreClosedAndDoorsAreNot)
+{
+    for (const double gap_m : {0.1, 0.9}) {
+        std::vector<ale::PlacedLine> lines;
+        show(&lines, 10, 0, 1);
+        show(&lines, 10, 1 + gap_m, 2 + gap_m);
+        show(&lines, 1, 0, 2 + gap_m); // one scan has mistaken both for one
+        EXPECT_EQ(spans(lines).size(), gap_m < 0.5 ? 1U : 2U) << gap_m;
+    }
+}
+
+TEST(WallSpans, OfTwoThatCrossAtAFlatAngleTheOneThatMoreScansShowStays)
+{
+    std::vector<ale::PlacedLine> lines;
+    for (uint32_t k = 0; k < 20; k++) {
+        lines.push_back(line(k, 70, 0, 3, 0));
+    }
+    for (uint32_t k = 20; k < 26; k++) {
+        lines.push_back(line(k, 70, 1.3, 1.7, 20, 400));
+    }
+    ASSERT_EQ(ale::group_lines(lines).size(), 2U);
+    const std::vector<ale::WallSpan> left = spans(lines);
+    ASSERT_EQ(left.size(), 1U);
+    EXPECT_NEAR(length_m(left[0]), 3, 0.06);
+}
+
+TEST(WallSpans, ACornerKeepsBothItsWalls)
+{
+    std::vector<ale::PlacedLine> lines;
+    for (uint32_t k = 0; k < 20; k++) {
+        lines.push_back(line(k, 90, 0, 2, 0));
+        lines.push_back(line(k, 180, 0, 2, 0));
+    }
+    EXPECT_EQ(spans(lines).size(), 2U);
+}
+
+} // namespace

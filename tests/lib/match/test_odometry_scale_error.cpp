@@ -1,0 +1,144 @@
+// lib/match/odometry_scale_error.c against Eigen in double, and against what a filter that takes the wheels'
+// scale for noise really does in a corridor.
+#include <deque>
+#include <random>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "lib/track/convert.h"
+
+extern "C" {
+#include "match/odometry_scale_error.h"
+#include "motion/wheels.h"
+}
+
+namespace
+{
+constexpr double per_mm2_q20 = 1048576;
+
+/* What walls with such information (1/m^2) and such pulls tell. */
+ale_hold_t hold_of(const Eigen::Matrix2d &information, const Eigen::Vector2d &pull)
+{
+    const Eigen::Matrix2d told = information * 1e-6 * per_mm2_q20;
+    const Eigen::Vector2d pulled = pull * 1e-6 * per_mm2_q20 * 1e6;
+    const double along = std::atan2(2 * told(0, 1), told(0, 0) - told(1, 1)) / 2 + reference::pi / 2;
+    return {true,
+            false,
+            convert::bam(along),
+            std::llround(told(0, 0)),
+            std::llround(told(0, 1)),
+            std::llround(told(1, 1)),
+            std::llround(pulled[0]),
+            std::llround(pulled[1])};
+}
+
+ale_motion_t predicted(double sigma_m)
+{
+    ale_motion_t motion;
+    ale_motion_init(&motion, 0, {0, 0, convert::bam(0.6)}, 1, 1);
+    ale_motion_widen(&motion, convert::um(sigma_m), 1000);
+    return motion;
+}
+} // namespace
+
+TEST(WheelDrift, AScanTakesFromItWhatItsWallsWeighBesideThePrediction)
+{
+    std::mt19937 rng(8);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (int n = 0; n < 200; n++) {
+        const double sigma = 0.001 + 0.01 * unit(rng);
+        Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+        Eigen::Vector2d pull(0, 0);
+        for (int k = 0; k < 4; k++) {
+            const double a = 2 * reference::pi * unit(rng);
+            const Eigen::Vector2d across(std::cos(a), std::sin(a));
+            const double weight = 1 / std::pow(0.002 + 0.02 * unit(rng), 2);
+            information += weight * across * across.transpose();
+            pull += weight * (0.1 * unit(rng) - 0.05) * across;
+        }
+        const Eigen::Vector2d before(0.1 * unit(rng), 0.1 * unit(rng));
+        const Eigen::Matrix2d prior = Eigen::Matrix2d::Identity() / (sigma * sigma);
+        const Eigen::Vector2d expected = (prior + information).inverse() * (prior * before + pull);
+        ale_hold_t hold = hold_of(information, pull);
+        hold.along_bam =
+            convert::bam(6 * unit(rng)); // marks may turn it: what walls tell is not asked along it
+        const ale_motion_t motion = predicted(sigma);
+        ale_wheel_drift_t drift = {convert::um(before[0]), convert::um(before[1])};
+        ale_wheel_drift_fit(&drift, &hold, &motion);
+        EXPECT_NEAR(static_cast<double>(drift.x_um) * 1e-6, expected[0], 2e-5) << n;
+        EXPECT_NEAR(static_cast<double>(drift.y_um) * 1e-6, expected[1], 2e-5) << n;
+    }
+}
+
+TEST(WheelDrift, StaysAlongBareWallsAndIsGoneWhereOldWallsHold)
+{
+    const ale_motion_t motion = predicted(0.003);
+    ale_wheel_drift_t drift = {0, 0};
+    for (int k = 0; k < 100; k++) {
+        ale_wheel_drift_go(&drift, {50000 * k, 0, 0}, {50000 * (k + 1), 0, 0}, 20000);
+        const ale_hold_t across = hold_of(Eigen::Vector2d(0, 1e7).asDiagonal(), {0, 0});
+        ale_wheel_drift_fit(&drift, &across, &motion);
+    }
+    EXPECT_NEAR(static_cast<double>(drift.x_um), 100000, 200);
+    EXPECT_EQ(ale_wheel_drift_along(&drift, -(1 << 30), 0), -drift.x_um);
+    for (int k = 0; k < 20; k++) {
+        const ale_hold_t held = hold_of(Eigen::Vector2d(1e6, 1e7).asDiagonal(), {0, 0});
+        ale_wheel_drift_fit(&drift, &held, &motion);
+    }
+    EXPECT_NEAR(static_cast<double>(drift.x_um), 0, 10);
+}
+
+/* Along a corridor with a door frame every two metres, each seen from three metres on: where the robot gets
+ * to when one sigma is wrong with the wheels' scale, which it learns from the ways that it found. */
+TEST(WheelDrift, IsWhatAWrongScaleDoesToAFilterThatTakesItForNoise)
+{
+    struct Frame {
+        double at, off;
+        int32_t drift_um;
+    };
+    const double prior_weight = 1 / (0.0025 * 0.0025);
+    const double frame_weight = 1 / (0.015 * 0.015);
+    const double counted = 0.05 * 1.05;
+    const ale_wheel_noise_t noise = {50000, 35000, 20000};
+    ale_wheel_scale_t scale;
+    ale_wheel_scale_init(&scale, &noise);
+    ale_wheel_drift_t drift = {0, 0};
+    const ale_motion_t motion = predicted(0.0025);
+    std::deque<Frame> frames = {{2, 0, 0}};
+    double error = 0;
+    double found_sum = 0.08; /* as the scale begins */
+    double counted_sum = 0.08;
+    for (int k = 1; k <= 160; k++) {
+        const double at = 0.05 * k;
+        const double before = error;
+        const int64_t drift_before = drift.x_um;
+        error += counted * found_sum / counted_sum - 0.05;
+        ale_wheel_drift_go(&drift, {convert::um(at - 0.05), 0, 0}, {convert::um(at), 0, 0},
+                           ale_wheel_scale_error_ppm(&scale));
+        double told = prior_weight * error;
+        double weight = prior_weight;
+        Eigen::Vector2d pull(0, 0);
+        while (frames.front().at < at) {
+            frames.pop_front();
+        }
+        for (const Frame &frame : frames) {
+            told += frame_weight * frame.off;
+            weight += frame_weight;
+            pull[0] += frame_weight * frame.drift_um * 1e-6;
+        }
+        error = told / weight;
+        const ale_hold_t hold = hold_of(Eigen::Vector2d(weight - prior_weight, 1e7).asDiagonal(), pull);
+        ale_wheel_drift_fit(&drift, &hold, &motion);
+        const double next = frames.back().at + 2;
+        if (next - at < 3) {
+            frames.push_back({next, error, static_cast<int32_t>(drift.x_um)});
+        }
+        found_sum += 0.05 + error - before;
+        counted_sum += counted;
+        ale_wheel_scale_learn(&scale, convert::um(0.05 + error - before), convert::um(counted),
+                              drift.x_um - drift_before);
+        ASSERT_NEAR(static_cast<double>(drift.x_um) * 1e-6, error, 0.0005 + 0.1 * error) << at;
+    }
+    EXPECT_GT(error, 0.01) << "which is far from noise";
+}

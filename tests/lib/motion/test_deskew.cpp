@@ -1,0 +1,74 @@
+// lib/motion/deskew.c against the exact motion in double.
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "lib/track/room.h"
+
+extern "C" {
+#include "motion/deskew.h"
+}
+
+namespace
+{
+const double tick_s = 0.131072;
+}
+
+TEST(Deskew, MovesEveryBeamToWhereItWouldHaveBeenSeenFromTheStamp)
+{
+    std::mt19937 rng(1);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    for (int n = 0; n < 50; n++) {
+        const Eigen::Vector3d v(1.2 * unit(rng), 0.2 * unit(rng), 2.5 * unit(rng));
+        ale_scan_t scan = {};
+        scan.stamp_beam = 340;
+        scan.beam_time_ns = 97656;
+        scan.step_bam = n % 2 ? 4194304 : -4194304;
+        scan.first_bearing_bam = static_cast<uint32_t>(-340 * int64_t{scan.step_bam});
+        scan.beams = 682;
+        std::vector<double> range(682);
+        for (int k = 0; k < 682; k++) {
+            range[static_cast<size_t>(k)] = 0.4 + 2.5 * (1 + unit(rng));
+            scan.range_um[k] = convert::um(range[static_cast<size_t>(k)]);
+        }
+        const int32_t velocity[3] = {convert::um(v[0] * tick_s), convert::um(v[1] * tick_s),
+                                     convert::um(v[2] * tick_s)};
+        std::vector<uint32_t> bearing(682);
+        ASSERT_TRUE(ale_deskew(&scan, velocity, bearing.data()));
+        for (int k = 0; k < 682; k++) {
+            const double a = convert::radians(ale_scan_bearing(&scan, k));
+            const reference::Pose moved = reference::sweep(v, (k - 340) * 97.656e-6);
+            const Eigen::Vector2d p = moved.head<2>() + reference::rotation(moved[2]) *
+                                                            Eigen::Vector2d(std::cos(a), std::sin(a)) *
+                                                            range[static_cast<size_t>(k)];
+            const double b = convert::radians(bearing[static_cast<size_t>(k)]);
+            EXPECT_NEAR(scan.range_um[k] * 1e-6 * std::cos(b), p[0], 20e-6);
+            EXPECT_NEAR(scan.range_um[k] * 1e-6 * std::sin(b), p[1], 20e-6);
+        }
+    }
+}
+
+TEST(Deskew, LeavesWholeScansAndRestingSensorsAlone)
+{
+    ale_scan_t scan = {};
+    scan.beams = 100;
+    scan.step_bam = 4194304;
+    uint32_t bearing[100];
+    const int32_t fast[3] = {100000, 0, 200000};
+    const int32_t still[3] = {0, 0, 0};
+    EXPECT_FALSE(ale_deskew(&scan, fast, bearing));
+    scan.beam_time_ns = 97656;
+    EXPECT_FALSE(ale_deskew(&scan, still, bearing));
+    EXPECT_TRUE(ale_deskew(&scan, fast, bearing));
+}
+
+TEST(Deskew, TheSensorsOwnVelocityHoldsTheTurnOfItsLever)
+{
+    const int32_t robot[3] = {convert::um(0.5 * tick_s), 0, convert::um(2 * tick_s)};
+    int32_t own[3];
+    ale_sensor_velocity(robot, convert::pose(reference::Pose(0.145, -0.1, reference::pi / 2)), own);
+    // at the sensor: (0.5 + 2 * 0.1, 2 * 0.145), seen a quarter turn round
+    EXPECT_NEAR(own[0], 2 * 0.145 * tick_s * 1e6, 2);
+    EXPECT_NEAR(own[1], -0.7 * tick_s * 1e6, 2);
+    EXPECT_EQ(own[2], robot[2]);
+}

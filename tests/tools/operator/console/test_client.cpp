@@ -1,0 +1,240 @@
+// What one browser is sent: everything once, the newest when it is slow, never more than it can draw.
+#include "operator/console/client.h"
+
+#include <map>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+using console::Board;
+using console::Client;
+using console::Topic;
+using nlohmann::json;
+
+namespace
+{
+
+/* A page that may not command. */
+Client watcher(const Board &board)
+{
+    return {board, "", [](const auto &) { return console::Sent{0, "no key"}; }};
+}
+
+std::optional<json> next(Client &client)
+{
+    const auto text = client.next(Board::Clock::now());
+    return text ? std::optional(json::parse(*text)) : std::nullopt;
+}
+
+/* All that is sent until nothing more is, counted by type. */
+std::map<std::string, int> drain(Client &client)
+{
+    std::map<std::string, int> counts;
+    while (const auto message = next(client)) {
+        counts[message->value("type", "?")]++;
+    }
+    return counts;
+}
+
+std::string message_of(const char *type, int k)
+{
+    return json{{"type", type}, {"k", k}}.dump();
+}
+
+bool got(Client &client, uint64_t count)
+{
+    return client.heard(json{{"type", "got"}, {"count", count}}.dump());
+}
+
+} // namespace
+
+TEST(Client, GreetingAndLinkComeFirst)
+{
+    Board board;
+    board.pin(Topic::pose, message_of("pose", 1));
+    Client client = watcher(board);
+    EXPECT_EQ(next(client)->value("type", ""), "hello");
+    EXPECT_EQ(next(client)->value("type", ""), "link");
+    EXPECT_EQ(next(client)->value("type", ""), "trail");
+    EXPECT_EQ(next(client)->value("type", ""), "pose");
+    EXPECT_FALSE(next(client));
+}
+
+TEST(Client, NothingIsSentTwice)
+{
+    Board board;
+    board.pin(Topic::pose, message_of("pose", 1));
+    Client client = watcher(board);
+    EXPECT_EQ(drain(client)["pose"], 1);
+    EXPECT_TRUE(drain(client).empty());
+    board.pin(Topic::pose, message_of("pose", 2));
+    EXPECT_EQ(drain(client)["pose"], 1);
+    EXPECT_EQ(client.skipped(), 0U);
+}
+
+TEST(Client, ASlowClientGetsTheNewestAndWhatItMissedIsCounted)
+{
+    Board board;
+    Client client = watcher(board);
+    board.pin(Topic::pose, message_of("pose", 1));
+    drain(client);
+    for (int k = 2; k <= 11; k++) {
+        board.pin(Topic::pose, message_of("pose", k));
+    }
+    const auto message = next(client);
+    EXPECT_EQ(message->value("k", 0), 11);
+    EXPECT_EQ(client.skipped(), 9U);
+}
+
+TEST(Client, WhatWasThereBeforeItCameIsNotMissed)
+{
+    Board board;
+    for (int k = 0; k < 100; k++) {
+        board.pin(Topic::pose, message_of("pose", k));
+    }
+    Client client = watcher(board);
+    drain(client);
+    EXPECT_EQ(client.skipped(), 0U);
+}
+
+TEST(Client, NoTopicStarvesAnother)
+{
+    Board board;
+    Client client = watcher(board);
+    drain(client);
+    std::map<std::string, int> counts;
+    for (int k = 0; k < 30; k++) { // each time all are new, and one message gets through
+        board.pin(Topic::pose, message_of("pose", k));
+        board.pin(Topic::map, message_of("map", k));
+        board.pin(Topic::status, message_of("status", k));
+        counts[next(client)->value("type", "?")]++;
+        EXPECT_TRUE(got(client, static_cast<uint64_t>(k) + 3));
+    }
+    EXPECT_EQ(counts["pose"], 10);
+    EXPECT_EQ(counts["map"], 10);
+    EXPECT_EQ(counts["status"], 10);
+}
+
+TEST(Client, NeverMoreThanTheWindowIsOnTheWay)
+{
+    Board board;
+    Client client = watcher(board);
+    uint64_t sent = 0;
+    for (int k = 0; k < 1000; k++) {
+        board.pin(Topic::pose, message_of("pose", k));
+        sent += next(client) ? 1U : 0U;
+    }
+    EXPECT_EQ(sent, Client::window);
+    EXPECT_TRUE(got(client, 5));
+    for (int k = 0; k < 1000; k++) {
+        board.pin(Topic::pose, message_of("pose", k));
+        sent += next(client) ? 1U : 0U;
+    }
+    EXPECT_EQ(sent, Client::window + 5);
+}
+
+TEST(Client, APageThatSpeaksNonsenseIsNotBelieved)
+{
+    Board board;
+    Client client = watcher(board);
+    drain(client); // three messages
+    EXPECT_TRUE(got(client, 2));
+    EXPECT_FALSE(got(client, 1)) << "fewer than before";
+    EXPECT_FALSE(got(client, 4)) << "more than were sent";
+    for (const char *text : {"", "{", "null", "[]", "{\"type\":\"got\"}", "{\"type\":\"got\",\"count\":2.5}",
+                             "{\"type\":\"got\",\"count\":\"3\"}", "{\"type\":5,\"count\":3}", "\xff\xfe"}) {
+        EXPECT_FALSE(client.heard(text)) << text;
+    }
+    EXPECT_TRUE(got(client, 3));
+}
+
+TEST(Client, ARestartedRobotIsAnnouncedBeforeItsFirstNews)
+{
+    Board board;
+    board.extend_trail({1, 1, true});
+    Client client = watcher(board);
+    drain(client);
+    board.clear();
+    board.pin(Topic::pose, message_of("pose", 0));
+    EXPECT_EQ(next(client)->value("type", ""), "hello");
+    const auto trail = next(client);
+    EXPECT_EQ(trail->value("type", ""), "trail");
+    EXPECT_TRUE(trail->value("anew", false));
+    EXPECT_TRUE(trail->at("points").empty());
+}
+
+TEST(Client, ALongTrailComesInPieces)
+{
+    Board board;
+    for (int k = 0; k < 5000; k++) {
+        board.extend_trail({static_cast<float>(k), 0, k == 0});
+    }
+    Client client = watcher(board);
+    size_t values = 0;
+    int pieces = 0;
+    while (const auto message = next(client)) {
+        if (message->value("type", "") == "trail") {
+            EXPECT_EQ(message->value("anew", false), pieces == 0);
+            values += message->at("points").size();
+            pieces++;
+        }
+    }
+    EXPECT_EQ(pieces, 3);
+    EXPECT_EQ(values, 2U * (5000 + 1)); // the jump at the start is a pair of nulls
+}
+
+TEST(Client, GreetingNamesTheOperatorOfTheConsole)
+{
+    Board board;
+    Client nobody = watcher(board);
+    EXPECT_TRUE(next(nobody)->at("operator").is_null());
+    Client alice(board, "alice", nullptr);
+    EXPECT_EQ(next(alice)->at("operator"), "alice");
+}
+
+TEST(Client, CommandIsHandedOnWordByWordAndAnsweredOnce)
+{
+    Board board;
+    std::vector<std::string> heard;
+    Client client(board, "alice", [&](const auto &words) {
+        heard = words;
+        return console::Sent{42, ""};
+    });
+    drain(client);
+    ASSERT_TRUE(client.heard(R"({"type":"command","words":["drive","0.2","0"]})"));
+    EXPECT_EQ(heard, (std::vector<std::string>{"drive", "0.2", "0"}));
+    const auto answer = next(client);
+    EXPECT_EQ(answer->value("type", ""), "sent");
+    EXPECT_EQ(answer->at("verb"), "drive");
+    EXPECT_EQ(answer->at("number"), 42);
+    EXPECT_TRUE(answer->at("refusal").is_null());
+    EXPECT_FALSE(next(client));
+}
+
+TEST(Client, RefusedCommandIsAnsweredWithTheReason)
+{
+    Board board;
+    Client client = watcher(board);
+    drain(client);
+    ASSERT_TRUE(client.heard(R"({"type":"command","words":["stop"]})"));
+    const auto answer = next(client);
+    EXPECT_EQ(answer->at("refusal"), "no key");
+    EXPECT_TRUE(answer->at("number").is_null());
+}
+
+TEST(Client, CommandThatIsNoneAndAFloodOfCommandsEndTheConnection)
+{
+    Board board;
+    Client client = watcher(board);
+    for (const char *text :
+         {R"({"type":"command"})", R"({"type":"command","words":[]})",
+          R"({"type":"command","words":["drive",1]})", R"({"type":"command","words":"stop"})",
+          R"({"type":["command"],"words":["stop"]})"}) {
+        EXPECT_FALSE(client.heard(text)) << text;
+    }
+    bool taken = true;
+    for (int k = 0; k < 1000 && taken; k++) {
+        taken = client.heard(R"({"type":"command","words":["stop"]})");
+    }
+    EXPECT_FALSE(taken);
+}

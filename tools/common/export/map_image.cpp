@@ -1,0 +1,157 @@
+#include "common/export/map_image.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+
+#include "common/export/map_tidy.h"
+
+extern "C" {
+#include "config/decimal.h"
+}
+
+namespace ale
+{
+
+namespace
+{
+
+struct Kind {
+    const char *extension;
+    void (*write)(const std::string &, const MapScene &);
+};
+constexpr std::array<Kind, 4> kinds = {
+    {{".png", write_png}, {".svg", write_svg}, {".dxf", write_dxf}, {".pgm", write_pgm}}};
+
+const Kind *kind_of(const std::string &path)
+{
+    for (const Kind &kind : kinds) {
+        const std::string extension = kind.extension;
+        if (path.size() > extension.size() &&
+            path.compare(path.size() - extension.size(), std::string::npos, extension) == 0) {
+            return &kind;
+        }
+    }
+    return nullptr;
+}
+
+void include(Extent &extent, const ale_point_t &p)
+{
+    extent.left_um = std::min(extent.left_um, p.x_um);
+    extent.bottom_um = std::min(extent.bottom_um, p.y_um);
+    extent.right_um = std::max(extent.right_um, p.x_um);
+    extent.top_um = std::max(extent.top_um, p.y_um);
+}
+
+Extent extent_without_points(const MapScene &scene)
+{
+    Extent extent = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
+    for (int i = 0; i < scene.map->line_count; i++) {
+        include(extent, scene.map->line[i].start);
+        include(extent, scene.map->line[i].end);
+    }
+    for (const StampedPose &stamped : scene.trajectory) {
+        include(extent, {stamped.pose.x_um, stamped.pose.y_um});
+    }
+    return extent;
+}
+
+Extent or_a_metre(const Extent &extent)
+{
+    return extent.left_um > extent.right_um ? Extent{-500000, -500000, 500000, 500000} : extent;
+}
+
+/* All points but the outermost of each side; left and right, bottom and top by themselves. */
+void include_most(Extent &extent, const std::vector<ale_point_t> &points)
+{
+    const size_t left_out = points.size() / 200;
+    std::vector<int32_t> x;
+    std::vector<int32_t> y;
+    for (const ale_point_t &p : points) {
+        x.push_back(p.x_um);
+        y.push_back(p.y_um);
+    }
+    std::sort(x.begin(), x.end());
+    std::sort(y.begin(), y.end());
+    include(extent, {x[left_out], y[left_out]});
+    include(extent, {x[x.size() - 1 - left_out], y[y.size() - 1 - left_out]});
+}
+
+} // namespace
+
+bool is_map_image_name(const std::string &path)
+{
+    return kind_of(path) != nullptr;
+}
+
+void write_map_image(const std::string &path, const MapScene &scene)
+{
+    const Kind *kind = kind_of(path);
+    if (!kind) {
+        throw std::runtime_error(path + ": the name must end in .svg, .png, .pgm or .dxf");
+    }
+    const auto tidy = std::make_unique<ale_map_t>(*scene.map);
+    ale_map_tidy(tidy.get());
+    MapScene shown = scene;
+    shown.map = tidy.get();
+    kind->write(path, shown);
+}
+
+Extent extent_of(const MapScene &scene)
+{
+    Extent extent = extent_without_points(scene);
+    if (scene.draw_points && scene.cloud) {
+        for (const ale_point_t &p : scene.cloud->points()) {
+            include(extent, p);
+        }
+    }
+    return or_a_metre(extent);
+}
+
+Extent picture_of(const MapScene &scene)
+{
+    Extent extent = extent_without_points(scene);
+    if (scene.draw_points && scene.cloud && !scene.cloud->points().empty()) {
+        include_most(extent, scene.cloud->points());
+    }
+    return or_a_metre(extent);
+}
+
+std::vector<ale_point_t> points_in(const Extent &extent, const ScanCloud &cloud)
+{
+    std::vector<ale_point_t> inside;
+    std::copy_if(cloud.points().begin(), cloud.points().end(), std::back_inserter(inside),
+                 [&](const ale_point_t &p) {
+                     return p.x_um >= extent.left_um && p.x_um <= extent.right_um &&
+                            p.y_um >= extent.bottom_um && p.y_um <= extent.top_um;
+                 });
+    return inside;
+}
+
+Scale scale_of(const Extent &extent)
+{
+    const int64_t width_um = int64_t{extent.right_um} - extent.left_um;
+    const int64_t height_um = int64_t{extent.top_um} - extent.bottom_um;
+    const int64_t size_um = std::max(width_um, height_um);
+    Scale scale = {500000, 500000};
+    for (const int32_t step_um : {1000000, 2000000, 5000000, 10000000, 20000000, 50000000, 100000000}) {
+        if (int64_t{step_um} * 5 <= size_um) {
+            scale.bar_um = step_um;
+        }
+        if (int64_t{step_um} * 10 <= size_um) {
+            scale.mesh_um = step_um;
+        }
+    }
+    return scale;
+}
+
+std::string length_label(int32_t length_um)
+{
+    char text[ALE_DECIMAL_TEXT];
+    ale_decimal_print(length_um, 6, text);
+    return std::string(text) + " m";
+}
+
+} // namespace ale

@@ -1,0 +1,70 @@
+/* What the scans of a run saw, laid out in the map: points to draw, and what is free and occupied.
+ *
+ *   ScanCloud cloud;
+ *   cloud.add(scan, pose, sensor);       every scan, with its pose in the map
+ *
+ * Points are kept one a cell of 20 mm; free and occupied are counted in cells of 50 mm: a cell is free when
+ * beams passed it, occupied when they ended in it. Memory grows with the area seen, not with the time. */
+#ifndef ALE_COMMON_EXPORT_SCAN_CLOUD_H
+#define ALE_COMMON_EXPORT_SCAN_CLOUD_H
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+extern "C" {
+#include "base/pose.h"
+#include "base/scan.h"
+}
+
+namespace ale
+{
+
+/* Where the robot was when a scan was taken, and how it moved then (its own frame): beams are laid out at
+ * the pose of their own time. */
+struct ScanPose {
+    int64_t stamp_us;
+    ale_pose_t robot;
+    int32_t velocity_x_um_s;
+    int32_t velocity_y_um_s;
+    int32_t velocity_theta_urad_s;
+    bool measured; /* false: predicted; what the scan saw is then left out */
+};
+
+class ScanCloud
+{
+  public:
+    static constexpr int32_t cell_um = 50000;
+    enum class Cell { unknown, free, occupied };
+
+    void add(const ale_scan_t &scan, const ScanPose &pose, const ale_pose_t &sensor);
+    const std::vector<ale_point_t> &points() const
+    {
+        return points_;
+    }
+    /* Cell (column, row) covers x from column * cell_um on, y from row * cell_um on. */
+    Cell cell(int32_t column, int32_t row) const;
+
+  private:
+    static constexpr int32_t tile_side = 64;
+    struct Count {
+        uint16_t passed = 0;
+        uint16_t ended = 0;
+    };
+    using Tile = std::array<Count, static_cast<size_t>(tile_side) * tile_side>;
+
+    void add_point(const ale_point_t &p);
+    void add_ray(const ale_point_t &from, const ale_point_t &to);
+    Count &count(int32_t column, int32_t row);
+
+    std::vector<ale_point_t> points_;
+    std::unordered_set<uint64_t> point_cells_;
+    std::unordered_map<uint64_t, std::unique_ptr<Tile>> tiles_;
+};
+
+} // namespace ale
+
+#endif

@@ -1,0 +1,257 @@
+// bench-lines: the extractors over simulated suites and recordings of a resting scanner; JSON on stdout.
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "common/command_line/command_line.h"
+#include "lab/bench/repeatability.hpp"
+#include "lab/bench/score.hpp"
+#include "lab/bench/suite.hpp"
+#include "lab/replay/log_reader.h"
+
+namespace
+{
+
+using nlohmann::json;
+using namespace bench;
+
+constexpr char usage[] =
+    "usage: lines accuracy [--scans N] [--seed S] [--threshold MM,PERCENT] [--noise NAME] [--extractor "
+    "NAME]\n"
+    "       lines run --extractor NAME [--scans N]     only extracts, over the urg suite: for profilers\n"
+    "       lines rest LOG                             repeatability on a recording\n"
+    "       lines write DIR [--scans N] [--noise NAME] scans.log and truth.jsonl\n"
+    "The extractors over simulated suites and recordings of a resting scanner; JSON on stdout.\n"
+    "  --help, --version\n";
+
+struct Options {
+    std::string path;
+    std::string noise;     // empty: all
+    std::string extractor; // empty: all
+    int scans = 20;        // of each kind of world
+    std::uint64_t seed = 1;
+    std::optional<Threshold> threshold;
+};
+
+std::vector<Extractor> chosen_extractors(const Options &options)
+{
+    std::vector<Extractor> chosen;
+    for (const Extractor &e : extractors(options.threshold)) {
+        if (options.extractor.empty() || options.extractor == e.name) {
+            chosen.push_back(e);
+        }
+    }
+    if (chosen.empty()) {
+        throw cli::WrongUse("no extractor is called " + options.extractor);
+    }
+    return chosen;
+}
+
+std::vector<Noise> chosen_noises(const Options &options)
+{
+    return options.noise.empty() ? noise_kinds() : std::vector<Noise>{noise_kind(options.noise)};
+}
+
+json figures(const Tally &all, const Tally &straight)
+{
+    return {{"true_lines", all.true_lines},
+            {"tp", all.true_positive()},
+            {"fp", all.false_positive()},
+            {"fp_straight", straight.false_positive()},
+            {"error_rms", all.error_rms()},
+            {"error_median", all.error_median()},
+            {"end_mm", 1e3 * all.end_median()},
+            {"end_90_mm", 1e3 * all.end_90()},
+            {"corner_precision", all.corner_precision()},
+            {"corner_recall", all.corner_recall()},
+            {"corner_mm", 1e3 * all.corner_rms()}};
+}
+
+json rows_of(const Noise &noise, const Options &options, const Extractor &extractor)
+{
+    Tally all;
+    Tally straight;
+    std::map<std::string, Tally> by_kind;
+    double seconds = 0;
+    int scans = 0;
+    for_each_case(noise, options.scans, options.seed, [&](const Case &c) {
+        const std::clock_t begun = std::clock();
+        const Extraction extraction = extractor.extract(*c.simulated.scan);
+        seconds += static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
+        scans++;
+        const Tally tally = score(c.truth, extraction);
+        all.add(tally);
+        by_kind[c.truth.kind].add(tally);
+        if (!is_curved(c.truth.kind)) {
+            straight.add(tally);
+        }
+    });
+    json row = figures(all, straight);
+    row["noise"] = noise.name;
+    row["extractor"] = extractor.name;
+    row["title"] = extractor.title;
+    row["function"] = extractor.function;
+    row["scans"] = scans;
+    row["us_a_scan"] = 1e6 * seconds / scans;
+    for (const auto &[kind, tally] : by_kind) {
+        row["kinds"][kind] = {{"tp", tally.true_positive()}, {"fp", tally.false_positive()}};
+    }
+    return row;
+}
+
+void accuracy(const Options &options)
+{
+    for (const Noise &noise : chosen_noises(options)) {
+        for (const Extractor &extractor : chosen_extractors(options)) {
+            std::cout << rows_of(noise, options, extractor).dump() << std::endl;
+        }
+    }
+}
+
+void run(const Options &options)
+{
+    const Extractor extractor = chosen_extractors(options).front();
+    std::size_t lines = 0;
+    int scans = 0;
+    for_each_case(noise_kind("urg"), options.scans, options.seed, [&](const Case &c) {
+        lines += extractor.extract(*c.simulated.scan).lines.size();
+        scans++;
+    });
+    std::cout << json{{"extractor", extractor.name}, {"scans", scans}, {"lines", lines}}.dump() << std::endl;
+}
+
+// Every scan of a log, one after the other.
+void for_each_scan(const std::string &path, const std::function<void(const ale_scan_t &)> &visit)
+{
+    ale::LogReader log(path);
+    const auto event = std::make_unique<ale_log_event_t>();
+    while (log.next(*event)) {
+        if (event->kind == ALE_LOG_SCAN) {
+            visit(event->scan);
+        }
+    }
+}
+
+void rest(const Options &options)
+{
+    for (const Extractor &extractor : chosen_extractors(options)) {
+        std::vector<std::vector<Line>> scans;
+        for_each_scan(options.path,
+                      [&](const ale_scan_t &scan) { scans.push_back(extractor.extract(scan).lines); });
+        if (scans.empty()) {
+            throw std::runtime_error(options.path + ": no scan");
+        }
+        const Repeatability r = repeatability(scans);
+        std::cout << json{{"extractor", extractor.name},
+                          {"title", extractor.title},
+                          {"scans", scans.size()},
+                          {"walls", r.walls},
+                          {"seen", r.seen},
+                          {"pieces", r.pieces},
+                          {"stray", r.stray},
+                          {"end_beams", r.end_rms}}
+                         .dump()
+                  << std::endl;
+    }
+}
+
+json as_json(const TrueLine &line)
+{
+    return {{"wall", line.wall},
+            {"first", line.first},
+            {"last", line.last},
+            {"n", line.points},
+            {"x1", line.start.x()},
+            {"y1", line.start.y()},
+            {"x2", line.end.x()},
+            {"y2", line.end.y()},
+            {"t1", line.start_between},
+            {"t2", line.end_between},
+            {"alpha", line.form.alpha},
+            {"rho", line.form.rho},
+            {"len", (line.end - line.start).norm()},
+            {"info", line.information},
+            {"count", line.counts}};
+}
+
+json as_json(const Case &c)
+{
+    json lines = json::array();
+    for (const TrueLine &line : c.truth.lines) {
+        lines.push_back(as_json(line));
+    }
+    json corners = json::array();
+    for (const TrueCorner &corner : c.truth.corners) {
+        corners.push_back({{"x", corner.p.x()}, {"y", corner.p.y()}, {"count", corner.counts}});
+    }
+    return {{"scan", c.number}, {"kind", c.truth.kind}, {"lines", lines}, {"corners", corners}};
+}
+
+// A CARMEN line as the suites of others have it.
+void write_scan(std::ostream &log, const ale_scan_t &scan, int number)
+{
+    char word[64];
+    log << "ROBOTLASER1 2 -2.086213872 4.178563666 0.006135923 4.094 0.010 0 " << scan.beams;
+    for (int k = 0; k < scan.beams; k++) {
+        std::snprintf(word, sizeof word, " %.3f", scan.range_um[k] * 1e-6);
+        log << word;
+    }
+    std::snprintf(word, sizeof word, "%.1f", number * 0.1);
+    log << " 0 0 0 0 0 0 0 0 0 0 0 0 " << word << " bench " << word << "\n";
+}
+
+void write(const Options &options)
+{
+    std::ofstream log(options.path + "/scans.log");
+    std::ofstream truth(options.path + "/truth.jsonl");
+    for_each_case(noise_kind(options.noise.empty() ? "urg" : options.noise), options.scans, options.seed,
+                  [&](const Case &c) {
+                      write_scan(log, *c.simulated.scan, c.number);
+                      truth << as_json(c).dump() << "\n";
+                  });
+    if (!log.flush() || !truth.flush()) {
+        throw std::runtime_error(options.path + ": cannot write scans.log and truth.jsonl");
+    }
+}
+
+Threshold threshold_of(const std::string &word)
+{
+    const std::size_t comma = word.find(',');
+    if (comma == std::string::npos) {
+        throw cli::WrongUse("--threshold " + word + ": expected MM,PERCENT");
+    }
+    const std::string where = "--threshold " + word + ":";
+    return {cli::number_of(where, word.substr(0, comma), 0.0, 1000.0) * 1e-3,
+            cli::number_of(where, word.substr(comma + 1), 0.0, 100.0) * 1e-2};
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+    using Command = void (*)(const Options &);
+    const cli::Choices<Command> commands = {
+        {"accuracy", accuracy}, {"run", run}, {"rest", rest}, {"write", write}};
+    Options options;
+    Command command = nullptr;
+    cli::CommandLine line("lines", usage);
+    line.argument("COMMAND",
+                  [&](const std::string &word) { command = cli::choice_of("COMMAND", word, commands); });
+    line.possible_argument("PATH", options.path);
+    line.text("noise", options.noise);
+    line.text("extractor", options.extractor);
+    line.number("scans", options.scans, 1, 1000000);
+    line.number("seed", options.seed, std::uint64_t{0}, UINT64_MAX);
+    line.option("threshold", [&](const std::string &word) { options.threshold = threshold_of(word); });
+    return line.run(argc, argv, [&] {
+        if (options.path.empty() == (command == rest || command == write)) {
+            throw cli::WrongUse("rest wants a LOG, write a folder, the others neither");
+        }
+        command(options);
+    });
+}

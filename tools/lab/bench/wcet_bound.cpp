@@ -1,0 +1,446 @@
+#include "lab/bench/wcet_bound.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "lab/bench/random.hpp"
+#include "lab/bench/wcet_crowd.hpp"
+#include "lab/bench/wcet_scans.hpp"
+
+extern "C" {
+#include "base/trig.h"
+#include "extract/breakpoint.h"
+#include "extract/corner.h"
+#include "extract/curve.h"
+#include "extract/line_fit.h"
+#include "extract/merge.h"
+#include "extract/moments.h"
+#include "extract/outlier.h"
+#include "extract/points.h"
+#include "extract/runs.h"
+#include "extract/scan_noise.h"
+#include "extract/segment.h"
+#include "match/observability.h"
+#include "motion/deskew.h"
+#include "observe/short_segment.h"
+#include "track/map_update.h"
+#include "track/pipeline_state.h"
+#include "track/pipeline_steps.h"
+}
+
+namespace bench
+{
+
+namespace
+{
+
+constexpr int seeds = 8;
+constexpr int pool_scans = 60;
+constexpr int32_t centimetre_um = 10000;
+
+/* Everything that is measured more than once counts as the most it took. */
+class Parts
+{
+  public:
+    explicit Parts(InstructionCounter &counter) : counter_(counter)
+    {
+    }
+
+    template <typename Call> void measure(const std::string &name, int times, Call call)
+    {
+        const uint64_t each = counter_.of(call);
+        for (BoundPart &part : parts_) {
+            if (part.name == name) {
+                part.each = std::max(part.each, each);
+                return;
+            }
+        }
+        parts_.push_back({name, times, each});
+    }
+
+    std::vector<BoundPart> take()
+    {
+        return std::move(parts_);
+    }
+
+  private:
+    InstructionCounter &counter_;
+    std::vector<BoundPart> parts_;
+};
+
+/* A scan of full size of anything between walls and noise. */
+ale_scan_t any_scan(Random &random)
+{
+    Costly costly;
+    for (int k = 0; k < 12; k++) {
+        costly = changed(costly, random);
+    }
+    return scan_of(costly, 0, random);
+}
+
+/* The extractor's steps, in the order of ale_extract_scan, each as often as it is taken at most: a scan that
+ * is costly to search is searched once; one with more than ALE_MANY_RUNS runs is spared breaks and curves,
+ * which cost more than the fits of the runs beyond. */
+void extraction(Parts &parts, ale_extractor_t *e, const ale_scan_t &scan, const uint32_t *bearing_bam,
+                ale_features_t *out)
+{
+    parts.measure("points", 1, [&] { ale_points_list(e, &scan); });
+    parts.measure("noise of the beams", 1, [&] { ale_scan_noise_measure(e, &scan); });
+    parts.measure("suspects", 1, [&] { ale_segment_suspect(e); });
+    parts.measure("spikes", 1, [&] { ale_outlier_remove_spikes(e); });
+    parts.measure("segments", 1, [&] { ale_segment(e, &scan); });
+    parts.measure("stray points", 1, [&] { ale_outlier_remove_strays(e); });
+    parts.measure("segments again", 1, [&] { ale_segment(e, &scan); });
+    parts.measure("places of the points", 1, [&] { ale_points_place(e, &scan, bearing_bam); });
+    parts.measure("moments", 1, [&] { ale_moments_build(e); });
+    parts.measure("search of the runs", 1, [&] { ale_runs_search(e); });
+    parts.measure("shared noise", 1, [&] { ale_scan_noise_measure_shared(e, &scan); });
+    ale_runs_forget_fits(e);
+    parts.measure("own noise again", 1, [&] { ale_scan_noise_refine_own(e); });
+    if (e->run_count > (ale_costly(e) ? ALE_MANY_RUNS / 3 : ALE_MANY_RUNS)) {
+        ale_runs_drop_short(e, ALE_COSTLY_RUN, ALE_MANY_RUNS);
+        parts.measure("runs joined", 1, [&] { ale_merge_runs(e); });
+    } else {
+        parts.measure("runs joined", 1, [&] { ale_merge_runs(e); });
+        parts.measure("breaks placed", 1, [&] { ale_runs_place(e, ALE_BREAK_WIDE_STEP); });
+        parts.measure("curves", 1, [&] { ale_curve_find(e, false); });
+        parts.measure("runs split", 1, [&] { ale_runs_split(e); });
+        parts.measure("runs joined again", 1, [&] { ale_merge_runs(e); });
+        parts.measure("breaks placed again", 1, [&] { ale_runs_place(e, ALE_BREAK_FINE_STEP); });
+        parts.measure("own noise, third time", 1, [&] { ale_scan_noise_refine_own(e); });
+        parts.measure("runs split again", 1, [&] { ale_runs_split(e); });
+        parts.measure("runs joined, third time", 1, [&] { ale_merge_runs(e); });
+        parts.measure("breaks placed, third time", 1, [&] { ale_runs_place(e, ALE_BREAK_WIDE_STEP); });
+        parts.measure("curves again", 1, [&] { ale_curve_find(e, true); });
+    }
+    for (int32_t k = 0; k < e->run_count; k++) {
+        ale_line_t line;
+        parts.measure("a line's fit", ALE_MANY_RUNS, [&] {
+            ale_line_fit(e, {e->run[k].first, e->run[k].last}, &line);
+        });
+    }
+    ale_extract_scan(e, &scan, nullptr, out);
+    parts.measure("corners", 1, [&] { ale_corner_find(e->step_nrad, out); });
+}
+
+void looking(Parts &parts)
+{
+    Random random(3);
+    const ale_pipeline_config_t config = ale_pipeline_default_config();
+    const ale_noise_t &noise = config.extract.noise;
+    auto extractor = std::make_unique<ale_extractor_t>();
+    auto features = std::make_unique<ale_features_t>();
+    auto pieces = std::make_unique<ale_pieces_t>();
+    std::vector<ale_view_t> views(ALE_MAX_VIEWS);
+    ale_extractor_init(extractor.get(), &config.extract);
+    const ale_scan_t first =
+        any_scan(random); /* with it the beams' directions are listed; it meets an empty map */
+    ale_extract_scan(extractor.get(), &first, nullptr, features.get());
+    for (int k = 0; k < pool_scans; k++) {
+        std::vector<uint32_t> bearing(ALE_MAX_BEAMS);
+        ale_scan_t moved = any_scan(random);
+        const int32_t velocity[ALE_AXES] = {40000, 20000, 60000};
+        parts.measure("straightening", 1, [&] { ale_deskew(&moved, velocity, bearing.data()); });
+        extraction(parts, extractor.get(), any_scan(random), bearing.data(), features.get());
+        const ale_scan_t scan = any_scan(random);
+        ale_extract_scan(extractor.get(), &scan, bearing.data(), features.get());
+        parts.measure("views of lines", 1, [&] {
+            ale_views_of(features.get(), &scan, {0, 0, 0}, 3000, views.data());
+        });
+        features->line_count = 0;
+        parts.measure("views of pieces", 1, [&] {
+            ale_pieces_of(features.get(), &scan, bearing.data(), {0, 0, 0}, &noise, pieces.get(),
+                          ALE_MAX_VIEWS, views.data());
+        });
+    }
+}
+
+/* What the fits of a scan of full size may look at together. */
+constexpr int32_t most_looks = ALE_LOOKS_OF_A_SCAN - ALE_LOOKS_OF_A_BEAM * ALE_MAX_BEAMS;
+
+constexpr ale_gate_t first_gate = {600000, 300000, 4, 100000};
+constexpr ale_gate_t second_gate = {250000, 200000, 6, 100000};
+
+ale_scene_t scene_of(const Crowd &crowd)
+{
+    return {crowd.map.get(), crowd.views.data(), static_cast<uint32_t>(crowd.views.size()), nullptr};
+}
+
+/* The last of them, of all views, is what it gives. */
+std::unique_ptr<ale_fit_t> fits(Parts &parts, const ale_motion_t &predicted, Crowd &crowd)
+{
+    auto fit = std::make_unique<ale_fit_t>();
+    auto other = std::make_unique<ale_fit_t>();
+    parts.measure("near walls listed", 2, [&] {
+        crowd.map->near_radius_um = 0;
+        ale_local_map_approach(crowd.map.get(), {0, 0}, 30000000);
+    });
+    for (uint32_t views = 4; views <= crowd.views.size(); views += 4) { /* the fewer, the more steps */
+        const ale_scene_t some = {crowd.map.get(), crowd.views.data(), views, nullptr};
+        parts.measure("two fits", 1, [&] {
+            ale_refine_pose(&predicted, &some, &first_gate, fit.get());
+            ale_refine_look(&some, fit.get());
+            ale_refine_again(&predicted, true, predicted.pose, &some, &second_gate, most_looks, other.get(),
+                             fit.get());
+            ale_refine_weigh(&some, fit.get());
+        });
+    }
+    return fit;
+}
+
+void vote(Parts &parts, const Crowd &crowd)
+{
+    auto memory = std::make_unique<ale_registration_t>();
+    const ale_views_t all = {crowd.views.data(), static_cast<uint32_t>(crowd.views.size())};
+    ale_pose_t way = {0, 0, 0};
+    parts.measure("vote of the last scan", 1,
+                  [&] { ale_register(memory.get(), all, all, 1000000, 450000, &way); });
+}
+
+/* All views begin something new in the map, then all are found in it; then the map says how far it may be
+ * off.
+ */
+void taking_in(Parts &parts, const ale_motion_t &predicted, Crowd &crowd, ale_fit_t *fit)
+{
+    const ale_scene_t scene = scene_of(crowd);
+    const ale_drift_t here = {int64_t{1} << 41, int64_t{1} << 40, int64_t{1} << 41,
+                              int64_t{1} << 38, int64_t{1} << 38, int64_t{1} << 36};
+    const ale_wheel_drift_t by_wheels = {100000, 100000};
+    ale_taking_t taking = {1, &here, &by_wheels, 1, true};
+    std::fill(std::begin(fit->match), std::end(fit->match), ale_match_t{ALE_NO_WALL, ALE_NO_MARK, {}});
+    const auto take_in = [&] { ale_map_update(crowd.map.get(), scene.view, scene.view_count, fit, &taking); };
+    parts.measure("walls and marks of the map", 1, take_in);
+    ale_refine(&predicted, &scene, &first_gate, fit);
+    taking.scan = 2;
+    parts.measure("walls and marks of the map", 1, take_in);
+    std::for_each(crowd.map->wall, crowd.map->wall + crowd.map->count,
+                  [&](ale_wall_t &wall) { wall.drift = here; });
+    parts.measure("drift, and what holds the robot", 1, [&] {
+        ale_drift_here(crowd.map.get(), scene.view, scene.view_count, fit, &here);
+        const ale_hold_t hold = ale_hold_of(crowd.map.get(), scene.view, scene.view_count, fit);
+        ale_wheel_drift_t drift = by_wheels;
+        ale_wheel_drift_fit(&drift, &hold, &predicted);
+        ale_motion_t found = predicted;
+        ale_motion_keep_along(&found, &predicted, hold.along_bam);
+    });
+}
+
+void matching(Parts &parts, Random &random, Crowd &crowd)
+{
+    const ale_motion_t predicted = any_motion(random);
+    const std::unique_ptr<ale_fit_t> fit = fits(parts, predicted, crowd);
+    vote(parts, crowd);
+    taking_in(parts, predicted, crowd, fit.get());
+}
+
+/* Scans with the ranges of a robot that sees through every wall. */
+ale_scan_t far_scan(Random &random)
+{
+    ale_scan_t scan = any_scan(random);
+    for (uint16_t k = 0; k < scan.beams; k++) {
+        ale_scan_set_range(&scan, k, 25000000);
+    }
+    return scan;
+}
+
+/* The last scan is looked through for what has come: all views but one, which is in the map. late: something
+ * came before. */
+void notice(Parts &parts, const std::string &name, const ale_scan_t &before, const uint32_t *bearing_bam,
+            std::vector<ale_view_t> views, bool late)
+{
+    std::vector<ale_match_t> match(views.size(), {ALE_NO_WALL, ALE_NO_MARK, {}});
+    match.back().wall = 0;
+    ale_scan_t scan = before;
+    const int beams = scan.beams / static_cast<int>(views.size());
+    for (size_t k = 0; k < views.size(); k++) {
+        views[k].first_beam = static_cast<uint16_t>(static_cast<int>(k) * beams);
+        views[k].last_beam = static_cast<uint16_t>(views[k].first_beam + beams - 1);
+        for (uint16_t beam = views[k].first_beam; beam <= views[k].last_beam; beam++) {
+            ale_scan_set_range(&scan, beam, k % 2 == 0 ? 1000000 : 2000000);
+        }
+    }
+    scan.stamp_us = before.stamp_us + 100000;
+    auto carried = std::make_unique<ale_carried_t>();
+    carried->any = late;
+    carried->beams = scan.beams;
+    carried->came_us = before.stamp_us;
+    const auto count = static_cast<uint32_t>(views.size());
+    const ale_seen_t then = {&before, bearing_bam, {0, 0, 0}, {0, 0, 0}, views.data(), count};
+    const ale_seen_t now = {&scan, bearing_bam, {0, 0, 0}, {0, 0, 0}, views.data(), count};
+    parts.measure(name, 1,
+                  [&] { ale_carried_notice(carried.get(), &then, &now, &scan, views.data(), match.data()); });
+}
+
+void witnesses(Parts &parts, Random &random, Crowd &crowd)
+{
+    auto pipeline = std::make_unique<ale_pipeline>();
+    std::vector<uint32_t> bearing(ALE_MAX_BEAMS);
+    ale_scan_t scan = far_scan(random); /* nothing to confirm, every beam is asked */
+    const int32_t velocity[ALE_AXES] = {40000, 20000, 60000};
+    ale_deskew(&scan, velocity, bearing.data());
+    const ale_seen_t seen = {&scan,     bearing.data(),     {0, 0, 0},
+                             {0, 0, 0}, crowd.views.data(), static_cast<uint32_t>(crowd.views.size())};
+    parts.measure("last scan kept", 1, [&] { ale_witness_keep(&pipeline->witness, &seen); });
+    parts.measure("last scan heard of two poses", 2, [&] {
+        ale_witness_hear(&pipeline->witness, &seen, {200000, 100000, false});
+    });
+    const std::string heard = "last scan heard, or what has come"; /* the one or the other */
+    parts.measure(heard, 1, [&] { ale_witness_hear(&pipeline->witness, &seen, {200000, 100000, false}); });
+    notice(parts, heard, scan, bearing.data(), crowd.views, false);
+    notice(parts, heard, scan, bearing.data(), crowd.views, true);
+    ale_carried_t &carried = pipeline->carried;
+    carried.any = true;
+    carried.beams = scan.beams;
+    std::copy(std::begin(scan.range_um), std::end(scan.range_um), std::begin(carried.came_um));
+    ale_scan_t covered = scan;
+    parts.measure("beams that go along", 1, [&] {
+        ale_carried_mask(&carried, &covered);
+        ale_carried_show(&carried, &covered);
+    });
+    for (int k = 0; k < 2 * ALE_ELDERS; k++) {
+        scan.stamp_us += 10000000;
+        ale_elders_keep(&pipeline->elders, &seen);
+    }
+    for (ale_elder_t &elder : pipeline->elders.elder) {
+        elder = pipeline->elders.elder[0];
+        std::fill(std::begin(elder.seen.scan.flag), std::end(elder.seen.scan.flag),
+                  ALE_BEAM_NO_RETURN); /* none denies */
+    }
+    scan.stamp_us += 10000000;
+    parts.measure("an elder kept", 1, [&] { ale_elders_keep(&pipeline->elders, &seen); });
+    std::vector<ale_match_t> match(ALE_MAX_VIEWS, {ALE_NO_WALL, ALE_NO_MARK, {}});
+    parts.measure("elders asked", 1, [&] {
+        ale_elders_drop_newcomers(&pipeline->elders, &pipeline->map, &seen, false, crowd.views.data(),
+                                  match.data());
+    });
+    ale_fade_t fade = {0};
+    ale_local_map_approach(crowd.map.get(), {0, 0}, 30000000);
+    parts.measure("fading", 1, [&] {
+        ale_fade(&fade, crowd.map.get(), &scan, bearing.data(), {0, 0, 0}, 1000000, true);
+    });
+}
+
+/* Lost, with as many places as are kept, all near enough to be fitted to what is there, and with scans of the
+ * way that what is proposed is held against. The poorer a scan, the more places are fitted to it. */
+void relocation(Parts &parts, Random &random, Crowd &crowd)
+{
+    const ale_scan_t scan = far_scan(random);
+    const ale_eye_t eye = {&scan, nullptr, {0, 0, 0}};
+    auto memory = std::make_unique<ale_relocation_t>();
+    auto fit = std::make_unique<ale_fit_t>();
+    ale_relocation_clear(memory.get());
+    for (uint32_t views = 4; views <= ALE_MAX_VIEWS; views += 2) {
+        const ale_scene_t scene = {crowd.map.get(), crowd.views.data(), views, nullptr};
+        ale_relocation_follow(memory.get(), {60 * centimetre_um, 0, 0}, true);
+        memory->count = ALE_PLACES;
+        for (ale_place_t &place : memory->place) {
+            place = {any_motion(random).pose, 200, 0, 4};
+        }
+        const ale_motion_t predicted = any_motion(random);
+        crowd.map->near_radius_um = 0;
+        parts.measure("lost: places sought and fitted", 1, [&] {
+            ale_local_map_approach(crowd.map.get(), {0, 0}, 2000000000);
+            ale_relocate(memory.get(), &scene, &eye, &predicted, fit.get());
+        });
+    }
+}
+
+void corners(Parts &parts, Random &random)
+{
+    auto map = std::make_unique<ale_map_corners_t>();
+    auto features = std::make_unique<ale_features_t>();
+    ale_map_corners_clear(map.get());
+    for (uint32_t scan = 0; scan < 2000; scan++) {
+        features->corner_count = ALE_CORNERS_PER_SCAN;
+        for (uint32_t k = 0; k < ALE_CORNERS_PER_SCAN; k++) {
+            features->corner[k] = {};
+            features->corner[k].p = {micrometres(random.uniform(-4, 4)), micrometres(random.uniform(-4, 4))};
+            features->corner[k].bisector_bam = any_direction(random);
+        }
+        if (scan % 100 == 99) {
+            parts.measure("corners of the map", 1, [&] {
+                ale_map_corners_update(map.get(), features.get(), {0, 0, 12345}, scan, true);
+            });
+        } else {
+            ale_map_corners_update(map.get(), features.get(), {0, 0, 12345}, scan, true);
+        }
+    }
+}
+
+/* Wheels at a thousand samples a second, on a way that turns; the lag's row has waited for all it may take.
+ */
+void wheels(Parts &parts)
+{
+    auto wheels = std::make_unique<ale_wheels_t>();
+    ale_wheels_init(wheels.get(), 3000, 6000);
+    ale_lag_t lag;
+    ale_lag_init(&lag, 0);
+    const ale_wheel_noise_t noise = {50000, 35000, 20000};
+    ale_wheel_scale_t scale;
+    ale_wheel_scale_init(&scale, &noise);
+    const auto turned = [](int64_t t_us) { return static_cast<uint32_t>(t_us * 700); };
+    for (int64_t t_us = 0; t_us <= 1500000; t_us += 10000) {
+        const ale_odometry_t sample = {t_us, {static_cast<int32_t>(t_us / 4), 0, turned(t_us)}};
+        ale_wheels_add(wheels.get(), &sample);
+    }
+    for (int64_t t_us = 0; t_us <= 1500000; t_us += 100000) {
+        const ale_heading_t heading = {t_us, turned(t_us), 65536};
+        ale_lag_add_heading(&lag, &heading);
+    }
+    lag.done_us = 500000;
+    ale_wheel_motion_t motion;
+    parts.measure("way of the wheels", 1,
+                  [&] { ale_wheel_motion(wheels.get(), &lag, &scale, 300000, 400000, &motion); });
+    parts.measure("lag of the wheels", 1, [&] { ale_lag_update(&lag, wheels.get()); });
+}
+
+/* Prediction, answer and what else a scan of any size asks for: a dropped one needs it too. */
+void always(Parts &parts)
+{
+    const ale_pipeline_config_t config = ale_pipeline_default_config();
+    auto pipeline = std::make_unique<ale_pipeline>();
+    ale_pipeline_init(pipeline.get(), &config);
+    Random random(4);
+    const ale_scan_t scan = any_scan(random);
+    ale_estimate_t estimate;
+    ale_pipeline_scan(pipeline.get(), &scan, &estimate);
+    parts.measure("prediction and answer", 1,
+                  [&] { ale_pipeline_dropped(pipeline.get(), scan.stamp_us + 100000, &estimate); });
+    const ale_motion_t by_wheels = pipeline->motion;
+    ale_ways_t ways;
+    parts.measure("going on as before", 1, [&] {
+        ale_motion_t as_before = by_wheels;
+        ale_pipeline_go_on(pipeline.get(), &as_before, by_wheels.stamp_us + 100000, nullptr);
+        ways = ale_ways_of(&by_wheels, &as_before, true);
+    });
+}
+
+} // namespace
+
+Bound bound_of_a_scan(InstructionCounter &counter)
+{
+    Parts any_scan(counter);
+    Parts tracked(counter);
+    Parts lost(counter);
+    looking(any_scan);
+    wheels(any_scan);
+    always(any_scan);
+    for (unsigned seed = 0; seed < seeds; seed++) {
+        Random random(seed);
+        for (const uint8_t kind : {ALE_VIEW_WALL, ALE_VIEW_PIECE, ALE_VIEW_SPOT}) {
+            Crowd crowd(random, kind, seed % 2 == 1, seed % 4 < 2 ? ALE_MAP_MAX_LINES : ALE_MAX_VIEWS);
+            matching(tracked, random, crowd);
+            witnesses(tracked, random, crowd);
+        }
+    }
+    for (unsigned seed = 0; seed < seeds; seed++) {
+        Random random(seed);
+        Crowd crowd(random, ALE_VIEW_WALL, seed % 2 == 1, seed % 4 < 2 ? ALE_MAP_MAX_LINES : ALE_MAX_VIEWS);
+        relocation(lost, random, crowd);
+    }
+    Random random(5);
+    corners(tracked, random);
+    return {any_scan.take(), tracked.take(), lost.take()};
+}
+
+} // namespace bench

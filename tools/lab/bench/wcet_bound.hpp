@@ -1,0 +1,33 @@
+/* What a scan can cost the estimate task at most, argued from the capacities: every part of its way with
+ * inputs that fill them, one after the other, though no scan asks for all of it at once. */
+#ifndef BENCH_WCET_BOUND_HPP
+#define BENCH_WCET_BOUND_HPP
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lab/bench/instruction_counter.hpp"
+
+namespace bench
+{
+
+struct BoundPart {
+    std::string name;
+    int times;     /* at most, in one scan */
+    uint64_t each; /* instructions */
+};
+
+/* A scan is either tracked or looked at while lost. */
+struct Bound {
+    std::vector<BoundPart> any_scan;
+    std::vector<BoundPart> tracked;
+    std::vector<BoundPart> lost;
+};
+
+/* The same parts and counts in every run. */
+Bound bound_of_a_scan(InstructionCounter &counter);
+
+} // namespace bench
+
+#endif

@@ -1,0 +1,7 @@
+# ale-explore drives the simulator's robot, and closes loops as ale-replay does: their parts are linked in.
+$(BUILD)/bin/ale-explore: $(call objects,$(filter-out %/main.cpp,$(wildcard tools/lab/sim/*.cpp)) tools/lab/replay/loops.cpp)
+
+.PHONY: explorations
+explorations: programs ## ten explorations of each bundled world, in lock step
+	@for world in home apartment office arena; do echo "$$world"; \
+	    $(BUILD)/bin/ale-explore --world tools/lab/worlds/$$world.world --seeds 10; done

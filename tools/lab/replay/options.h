@@ -1,0 +1,41 @@
+/* Command line of ale-replay. */
+#ifndef ALE_LAB_REPLAY_OPTIONS_H
+#define ALE_LAB_REPLAY_OPTIONS_H
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+extern "C" {
+#include "base/pose.h"
+}
+
+namespace ale
+{
+
+struct ReplayOptions {
+    std::string log;
+    std::string config;
+    std::string features;
+    std::string poses;
+    std::string trajectory;
+    std::string trajectory_live;
+    std::vector<std::string> maps;
+    std::string timing;
+    std::string load_map;
+    std::string save_map;
+    std::optional<ale_pose_t> sensor;
+    bool laser_frame = false;
+    bool close_loops = true;
+    bool use_odometry = true;
+    bool lines_only = false;
+    bool points = false;
+};
+
+/* Lets the program do its work with what the command line says; the exit code. */
+int with_options(int argc, char **argv, const std::function<int(const ReplayOptions &)> &work);
+
+} // namespace ale
+
+#endif

@@ -1,0 +1,187 @@
+#include "lab/sim/simulator.h"
+
+#include <algorithm>
+
+#include "lab/sim/progress.h"
+#include "lab/sim/tum.h"
+
+namespace sim
+{
+
+namespace
+{
+
+/* From the request that begins the play to the first turn. */
+constexpr int64_t run_up_us = 10000;
+constexpr int64_t longest_wait_us = 100000;
+/* After the last frame the line stays open so long, and longer where the client is still to read: closing it
+ * takes away what is not read yet. */
+constexpr int64_t farewell_host_us = 500000;
+constexpr int64_t longest_farewell_host_us = 10000000;
+constexpr int64_t farewell_look_host_us = 50000;
+
+ScipDevice::Options device_options(const SimulatorOptions &options, const Faults &faults)
+{
+    return {options.protocol, options.command_interval_us, faults.wrap_us()};
+}
+
+} // namespace
+
+Simulator::Simulator(Source &source, const SimulatorOptions &options, OdometryOut *odometry, DriveIn *drive,
+                     std::FILE *truth)
+    : source_(source), odometry_(odometry), drive_(drive), truth_(truth), clock_(options.speed),
+      faults_(options.faults, options.seed), device_(source.scanner(), device_options(options, faults_)),
+      pty_(options.link), line_(options.baud_limit)
+{
+}
+
+void Simulator::run(bool (*stop)())
+{
+    Progress progress;
+    while (!stop() && !over_) {
+        const int64_t now_us = clock_.now_us();
+        end_outage(now_us);
+        listen(now_us);
+        if (play_start_us_) {
+            play(now_us);
+            progress.show(now_us - *play_start_us_, tally_.sent);
+        }
+        line_.pump(pty_, clock_.now_us(), clock_.host_us());
+        const int64_t wait_us = std::min(longest_wait_us, next_us(now_us) - clock_.now_us());
+        pty_.wait(clock_.host_duration_us(wait_us), drive_ ? drive_->descriptor() : -1);
+    }
+    if (over_) {
+        let_client_finish();
+    }
+}
+
+void Simulator::listen(int64_t now_us)
+{
+    if (drive_) {
+        drive_->receive(play_start_us_ ? now_us - *play_start_us_ : DriveIn::too_early_us);
+    }
+    const std::string heard = pty_.read();
+    if (now_us >= outage_until_us_) {
+        device_.receive(heard, now_us);
+        send(device_.answer(now_us), now_us);
+    }
+    if (device_.wanted() && !play_start_us_) {
+        play_start_us_ = now_us + run_up_us;
+    }
+}
+
+void Simulator::play(int64_t now_us)
+{
+    const int64_t play_us = now_us - *play_start_us_;
+    for (const Fault &fault : faults_.due(play_us, static_cast<int64_t>(tally_.scans))) {
+        strike(fault, now_us);
+    }
+    std::optional<int64_t> due_us = source_.due_us();
+    while (due_us && *due_us <= play_us) {
+        const Event event = source_.next();
+        if (const auto *turn = std::get_if<Turn>(&event)) {
+            play_turn(*turn, now_us);
+        } else if (odometry_) {
+            const auto &report = std::get<OdometryReport>(event);
+            odometry_->publish(clock_.utime(*play_start_us_ + report.stamp_us), report.pose);
+        }
+        due_us = source_.due_us();
+    }
+    over_ = !due_us && !line_.busy();
+}
+
+void Simulator::play_turn(const Turn &turn, int64_t now_us)
+{
+    tally_.scans++;
+    line_.pump(pty_, clock_.now_us(), clock_.host_us()); /* several turns may be due at once */
+    if (now_us < outage_until_us_ || line_.full()) {
+        tally_.swallowed += device_.streaming() ? 1 : 0;
+        return;
+    }
+    send(device_.turn(turn, *play_start_us_ + turn.start_us), now_us);
+}
+
+void Simulator::send(const std::vector<Reply> &replies, int64_t now_us)
+{
+    for (const Reply &reply : replies) {
+        if (!reply.turn_start_us) {
+            line_.send(reply.bytes);
+            continue;
+        }
+        const auto number = static_cast<int64_t>(tally_.scans) - 1;
+        const std::string damaged = faults_.damage(reply.bytes, now_us - *play_start_us_, number);
+        tally_.sent++;
+        tally_.damaged += damaged == reply.bytes ? 0 : 1;
+        line_.send(damaged);
+        write_truth(*reply.turn_start_us);
+    }
+}
+
+void Simulator::write_truth(int64_t play_us)
+{
+    const std::optional<Pose> pose = source_.truth(play_us);
+    if (truth_ && pose) {
+        write_tum(truth_, clock_.utime(*play_start_us_ + play_us), *pose);
+    }
+}
+
+void Simulator::strike(const Fault &fault, int64_t now_us)
+{
+    const auto length_us = static_cast<int64_t>(fault.argument * 1e6);
+    switch (fault.kind) {
+    case FaultKind::silence:
+        outage_until_us_ = now_us + length_us;
+        line_.drop();
+        break;
+    case FaultKind::unplug:
+        outage_until_us_ = now_us + length_us;
+        line_.drop();
+        pty_.unplug();
+        break;
+    case FaultKind::reset11:
+        line_.drop();
+        device_.power_up_in_scip1(now_us);
+        break;
+    case FaultKind::hardware: {
+        const std::string digits = std::to_string(static_cast<int>(fault.argument));
+        device_.break_stream(digits.size() < 2 ? "0" + digits : digits);
+        break;
+    }
+    default:
+        break;
+    }
+}
+
+void Simulator::end_outage(int64_t now_us)
+{
+    if (!pty_.plugged() && now_us >= outage_until_us_) {
+        pty_.plug();
+        device_.power_up(now_us);
+    }
+}
+
+int64_t Simulator::next_us(int64_t now_us)
+{
+    int64_t next = line_.next_us(now_us);
+    next = std::min(next, device_.answer_due_us().value_or(INT64_MAX));
+    next = outage_until_us_ > now_us ? std::min(next, outage_until_us_) : next;
+    if (play_start_us_) {
+        const int64_t fault_us = faults_.next_due_us();
+        next = std::min(next, *play_start_us_ + source_.due_us().value_or(0));
+        next = fault_us == INT64_MAX ? next : std::min(next, *play_start_us_ + fault_us);
+    }
+    return std::max(next, now_us);
+}
+
+void Simulator::let_client_finish()
+{
+    const int64_t begin_us = clock_.host_us();
+    int64_t longest_us = farewell_host_us;
+    while (pty_.connected() && clock_.host_us() - begin_us < longest_us) {
+        pty_.read();
+        pty_.wait(farewell_look_host_us, -1);
+        longest_us = pty_.client_has_to_read() ? longest_farewell_host_us : farewell_host_us;
+    }
+}
+
+} // namespace sim

@@ -1,0 +1,69 @@
+/* A URG-04LX on a robot that drives through a world. Each beam is cast from where the sensor is at that
+ * beam's own time, so the scans are bent by the motion as real ones are. */
+#ifndef ALE_LAB_SIM_WORLD_SOURCE_H
+#define ALE_LAB_SIM_WORLD_SOURCE_H
+
+#include "lab/sim/journey.h"
+#include "lab/sim/sensor_noise.h"
+#include "lab/sim/source.h"
+
+namespace sim
+{
+
+class WorldSource : public Source
+{
+  public:
+    struct Options {
+        Journey::Options journey;
+        std::string noise = "real";
+        bool once = false;           /* ends a second after the way is over */
+        int64_t odometry_lag_us = 0; /* odometry tells where the wheels will be so much later */
+    };
+
+    WorldSource(const World &world, const Options &options);
+    WorldSource(World world, const Options &options, Pilot pilot);
+    WorldSource(const WorldSource &) = delete;
+    WorldSource &operator=(const WorldSource &) = delete;
+
+    const Scanner &scanner() const override
+    {
+        return scanner_;
+    }
+    std::optional<int64_t> due_us() override;
+    Event next() override;
+    std::optional<Pose> truth(int64_t play_us) override
+    {
+        return journey_.truth(play_us);
+    }
+
+    /* What the odometry stamped so says: where the wheels are a lag later. */
+    Pose odometry(int64_t stamp_us)
+    {
+        return journey_.wheels(stamp_us + options_.odometry_lag_us);
+    }
+    const World &world() const
+    {
+        return world_;
+    }
+    uint32_t collisions() const
+    {
+        return journey_.collisions();
+    }
+
+  private:
+    Turn measure(uint32_t number);
+    Hit before_walkers(Hit hit, const Pose &beam, int64_t play_us) const;
+    int64_t turn_due_us() const;
+
+    World world_;
+    Options options_;
+    Scanner scanner_;
+    Journey journey_;
+    SensorNoise noise_;
+    uint32_t next_turn_ = 0;
+    int64_t next_odometry_us_ = 0;
+};
+
+} // namespace sim
+
+#endif

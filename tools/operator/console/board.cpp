@@ -1,0 +1,146 @@
+#include "operator/console/board.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace console
+{
+
+void Board::on_change(std::function<void()> wake)
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    wake_ = std::move(wake);
+}
+
+void Board::wake() const
+{
+    std::function<void()> wake;
+    {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        wake = wake_;
+    }
+    if (wake) {
+        wake();
+    }
+}
+
+void Board::pin(Topic topic, std::string text)
+{
+    auto shared = std::make_shared<const std::string>(std::move(text));
+    {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        Pinned &pinned = pinned_[static_cast<size_t>(topic)];
+        pinned.text = std::move(shared);
+        pinned.number++;
+    }
+    wake();
+}
+
+Pinned Board::newest(Topic topic) const
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return pinned_[static_cast<size_t>(topic)];
+}
+
+void Board::extend_trail(TrailPoint point)
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!trail_.empty() && !point.first) {
+        const TrailPoint &last = trail_.back();
+        if (std::hypot(point.x - last.x, point.y - last.y) < trail_spacing_m_) {
+            return;
+        }
+    }
+    trail_.push_back(point);
+    if (trail_.size() >= trail_capacity) {
+        halve_trail();
+    }
+}
+
+/* A robot that drives all day keeps its whole trail, at a coarser spacing. */
+void Board::halve_trail()
+{
+    std::vector<TrailPoint> kept;
+    bool jumped = false;
+    for (size_t k = 0; k < trail_.size(); k++) {
+        jumped = jumped || trail_[k].first;
+        if (k % 2 == 0) {
+            kept.push_back({trail_[k].x, trail_[k].y, jumped});
+            jumped = false;
+        }
+    }
+    trail_ = std::move(kept);
+    trail_spacing_m_ *= 2;
+    trail_epoch_++;
+}
+
+void Board::clear()
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (Pinned &pinned : pinned_) {
+        pinned.text.reset();
+    }
+    life_++;
+    trail_.clear();
+    trail_epoch_++;
+    trail_spacing_m_ = finest_spacing_m;
+    arrivals_.clear();
+    poses_ = 0;
+    lost_poses_ = 0;
+}
+
+uint64_t Board::life() const
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return life_;
+}
+
+TrailPiece Board::trail(uint64_t epoch, size_t first, size_t limit) const
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const size_t from = epoch == trail_epoch_ ? std::min(first, trail_.size()) : 0;
+    const size_t count = std::min(limit, trail_.size() - from);
+    const auto begin = trail_.begin() + static_cast<std::ptrdiff_t>(from);
+    return {trail_epoch_, from, {begin, begin + static_cast<std::ptrdiff_t>(count)}};
+}
+
+void Board::note_pose(Clock::time_point arrival, uint64_t lost_before)
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    poses_++;
+    lost_poses_ += lost_before;
+    if (arrivals_.size() == rate_window) {
+        arrivals_.erase(arrivals_.begin());
+    }
+    arrivals_.push_back(arrival);
+}
+
+void Board::note_malformed(uint64_t total)
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    malformed_ = total;
+}
+
+LinkHealth Board::link(Clock::time_point now) const
+{
+    using std::chrono::duration;
+    using std::chrono::duration_cast;
+    using std::chrono::milliseconds;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    LinkHealth health;
+    health.poses = poses_;
+    health.lost_poses = lost_poses_;
+    health.malformed = malformed_;
+    if (arrivals_.empty()) {
+        return health;
+    }
+    health.pose_age_ms = duration_cast<milliseconds>(now - arrivals_.back()).count();
+    const double span_s = duration<double>(arrivals_.back() - arrivals_.front()).count();
+    if (span_s > 0) {
+        health.pose_rate_hz = static_cast<double>(arrivals_.size() - 1) / span_s;
+    }
+    return health;
+}
+
+} // namespace console

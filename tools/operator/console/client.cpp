@@ -1,0 +1,97 @@
+#include "operator/console/client.h"
+
+#include "operator/console/messages.h"
+
+namespace console
+{
+
+std::optional<std::string> Client::next(Board::Clock::time_point now)
+{
+    if (sent_ - drawn_ >= window) {
+        return std::nullopt;
+    }
+    auto message = choose(now);
+    if (message) {
+        sent_++;
+    }
+    return message;
+}
+
+std::optional<std::string> Client::choose(Board::Clock::time_point now)
+{
+    if (life_ != board_.life()) {
+        life_ = board_.life();
+        return hello_message(operator_name_);
+    }
+    if (!answers_.empty()) {
+        std::string answer = std::move(answers_.front());
+        answers_.pop_front();
+        return answer;
+    }
+    if (link_due_) {
+        link_due_ = false;
+        return link_message(board_.link(now), skipped_);
+    }
+    auto trail = next_trail();
+    return trail ? trail : next_topic();
+}
+
+std::optional<std::string> Client::next_topic()
+{
+    for (size_t k = 0; k < topic_count; k++) {
+        const size_t topic = (turn_ + k) % topic_count;
+        const Pinned pinned = board_.newest(static_cast<Topic>(topic));
+        if (pinned.text && pinned.number != seen_[topic]) {
+            if (seen_[topic] != 0) {
+                skipped_ += pinned.number - seen_[topic] - 1;
+            }
+            seen_[topic] = pinned.number;
+            turn_ = topic + 1;
+            return *pinned.text;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> Client::next_trail()
+{
+    const TrailPiece piece = board_.trail(trail_epoch_, trail_next_, trail_points_a_message);
+    const bool anew = piece.epoch != trail_epoch_;
+    if (piece.points.empty() && !anew) {
+        return std::nullopt;
+    }
+    trail_epoch_ = piece.epoch;
+    trail_next_ = piece.first + piece.points.size();
+    return trail_message(piece);
+}
+
+void Client::link_due()
+{
+    link_due_ = true;
+}
+
+bool Client::heard(const std::string &text)
+{
+    const std::optional<PageMessage> message = page_message(text);
+    return message && (message->words.empty() ? got(message->drawn) : command(message->words));
+}
+
+bool Client::got(uint64_t count)
+{
+    if (count < drawn_ || count > sent_) {
+        return false;
+    }
+    drawn_ = count;
+    return true;
+}
+
+bool Client::command(const std::vector<std::string> &words)
+{
+    if (answers_.size() >= most_answers) {
+        return false;
+    }
+    answers_.push_back(sent_message(words[0], command_(words)));
+    return true;
+}
+
+} // namespace console

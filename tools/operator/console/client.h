@@ -1,0 +1,80 @@
+/* One browser at the web socket: what he gets next, and when he has enough for now.
+ *
+ * A page says how many messages it has drawn (got). More than `window` messages are
+ * never on the way to it: a slow page, or one in a hidden tab, skips to the newest state instead of
+ * falling behind, and what it skipped is counted. Web thread only. */
+#ifndef CONSOLE_CLIENT_H
+#define CONSOLE_CLIENT_H
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "operator/console/board.h"
+#include "operator/console/commander.h"
+
+namespace console
+{
+
+class Client
+{
+  public:
+    static constexpr uint64_t window = 32;
+
+    using Command = std::function<Sent(const std::vector<std::string> &words)>;
+
+    /* operator_name: in whose name it commands; empty: it cannot. */
+    Client(const Board &board, std::string operator_name, Command command)
+        : board_(board), operator_name_(std::move(operator_name)), command_(std::move(command))
+    {
+    }
+
+    /* The next message to send, if there is one and the page keeps up. */
+    std::optional<std::string> next(Board::Clock::time_point now);
+
+    /* A link report is due (sent four times a second, also when nothing else is). */
+    void link_due();
+
+    /* A message from the page. False: not one that a page sends. */
+    bool heard(const std::string &text);
+
+    uint64_t skipped() const
+    {
+        return skipped_;
+    }
+
+  private:
+    static constexpr size_t trail_points_a_message = 2000;
+
+    std::optional<std::string> choose(Board::Clock::time_point now);
+    std::optional<std::string> next_topic();
+    std::optional<std::string> next_trail();
+
+    /* Answers that a page has not fetched yet; more, and it is no page that waits for them. */
+    static constexpr size_t most_answers = 64;
+
+    bool got(uint64_t count);
+    bool command(const std::vector<std::string> &words);
+
+    const Board &board_;
+    std::string operator_name_;
+    Command command_;
+    std::deque<std::string> answers_;
+    uint64_t life_ = 0; /* the robot's life that the page was told of */
+    bool link_due_ = true;
+    uint64_t sent_ = 0;
+    uint64_t drawn_ = 0;
+    uint64_t skipped_ = 0;
+    size_t turn_ = 0; /* topic to look at first: each has its turn */
+    std::array<uint64_t, topic_count> seen_{};
+    uint64_t trail_epoch_ = 0;
+    size_t trail_next_ = 0;
+};
+
+} // namespace console
+
+#endif

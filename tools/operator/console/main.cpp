@@ -1,0 +1,159 @@
+/* ale-console: the operator's page. LCM in on one thread, the web on another, the board between them. */
+#include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include <sodium.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "common/command_line/command_line.h"
+#include "operator/console/board.h"
+#include "operator/console/commander.h"
+#include "operator/console/http_address.h"
+#include "operator/console/lcm_feed.h"
+#include "operator/console/robot_watch.h"
+#include "operator/console/web_server.h"
+
+namespace
+{
+
+constexpr char usage[] =
+    "usage: ale-console [--lcm-url URL] [--http ADDR:PORT] [--token TEXT] [--keys FILE]\n"
+    "The operator's console: serves a web page that shows what the robot publishes over LCM and commands "
+    "it.\n"
+    "  --lcm-url URL     where the robot publishes (default: LCM_DEFAULT_URL, else LCM's own default)\n"
+    "  --http ADDR:PORT  where the page is served (default 127.0.0.1:8080; port 0: any free one)\n"
+    "  --token TEXT      only those who have it in the address may open the page; without one given, a page\n"
+    "                    that can be reached from elsewhere gets one of its own\n"
+    "  --keys FILE       the operator's key (ale-keys makes it); without it the page only watches\n"
+    "  --help, --version\n"
+    "Prints the page's address on stdout. Ends with Ctrl-C or SIGTERM. Exit: 0 fine, 1 failed, 2 wrong "
+    "use.\n";
+
+constexpr size_t least_token = 12;
+constexpr size_t longest_token = 128;
+
+struct Options {
+    std::string lcm_url;
+    std::string http = "127.0.0.1:8080";
+    std::string keys;
+    std::string token;
+};
+
+/* A forged message may claim more elements than memory holds: it fails at this limit and is counted. The
+ * sanitizers map far more than they use and must do without. */
+void limit_memory()
+{
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    const rlimit limit = {512U << 20U, 512U << 20U};
+    setrlimit(RLIMIT_DATA, &limit);
+#endif
+}
+
+/* The token that is asked for; none on the loopback unless one was given. */
+std::string token_for(const Options &options, const console::HttpAddress &address)
+{
+    if (!options.token.empty() || console::is_loopback(address)) {
+        return options.token;
+    }
+    unsigned char random[16];
+    char hex[2 * sizeof random + 1];
+    randombytes_buf(random, sizeof random);
+    return sodium_bin2hex(hex, sizeof hex, random, sizeof random);
+}
+
+bool is_token(const std::string &text)
+{
+    return text.size() >= least_token && text.size() <= longest_token &&
+           std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) != 0; });
+}
+
+void follow_robot(console::LcmFeed &feed, console::Board &board, const std::atomic<bool> &stopping)
+{
+    while (!stopping) {
+        feed.wait(100);
+        board.note_malformed(feed.malformed());
+    }
+}
+
+/* Blocked before any thread exists, so that all inherit it and only sigwait sees them. */
+sigset_t block_endings()
+{
+    sigset_t endings;
+    sigemptyset(&endings);
+    sigaddset(&endings, SIGINT);
+    sigaddset(&endings, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &endings, nullptr);
+    return endings;
+}
+
+void check(const Options &options)
+{
+    if (!options.token.empty() && !is_token(options.token)) {
+        throw cli::WrongUse("--token wants 12 to 128 letters and digits");
+    }
+    if (sodium_init() < 0) {
+        throw std::runtime_error("no random numbers on this machine");
+    }
+}
+
+void run(const Options &options, const sigset_t &endings)
+{
+    const console::HttpAddress address = console::parse_http_address(options.http);
+    console::Board board;
+    console::LcmFeed feed(options.lcm_url);
+    console::Commander commander(options.lcm_url, options.keys);
+    console::RobotWatch watch(board, commander);
+    watch.subscribe(feed);
+    console::WebServer server(board, commander, address, token_for(options, address));
+    std::printf("%s\n", server.url().c_str());
+    std::fflush(stdout);
+
+    std::atomic<bool> stopping{false};
+    std::atomic<bool> failed{false};
+    std::thread web([&] { server.run(); });
+    std::thread lcm([&] {
+        try {
+            follow_robot(feed, board, stopping);
+        } catch (const std::exception &error) {
+            std::fprintf(stderr, "ale-console: %s\n", error.what());
+            failed = true;
+            kill(getpid(), SIGTERM);
+        }
+    });
+    int signal = 0;
+    sigwait(&endings, &signal);
+    stopping = true;
+    server.stop();
+    lcm.join();
+    web.join();
+    if (failed) {
+        throw std::runtime_error("ended because the robot's messages can no longer be received");
+    }
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+    Options options;
+    cli::CommandLine line("ale-console", usage);
+    line.text("lcm-url", options.lcm_url);
+    line.text("http", options.http);
+    line.text("token", options.token);
+    line.text("keys", options.keys);
+    return line.run(argc, argv, [&] {
+        check(options);
+        const sigset_t endings = block_endings();
+        std::signal(SIGPIPE, SIG_IGN);
+        limit_memory();
+        run(options, endings);
+    });
+}

@@ -1,0 +1,46 @@
+/* The messages between ale-console and its page: JSON, one object each; README.md lists the fields.
+ * Metres, radians and microseconds, rounded to what an eye or a map can use (0.1 mm, 0.1 mrad). */
+#ifndef CONSOLE_MESSAGES_H
+#define CONSOLE_MESSAGES_H
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ale/features_t.hpp"
+#include "ale/map_t.hpp"
+#include "ale/pose_t.hpp"
+#include "ale/scan_t.hpp"
+#include "ale/status_t.hpp"
+#include "operator/console/board.h"
+#include "operator/console/commander.h"
+#include "operator/console/window_watch.h"
+
+namespace console
+{
+
+/* operator_name empty: no command can be given here. */
+std::string hello_message(const std::string &operator_name);
+std::string pose_message(const ale::pose_t &pose);
+std::string features_message(const ale::features_t &features);
+std::string scan_message(const ale::scan_t &scan, const std::optional<Stain> &stain = {});
+std::string map_message(const ale::map_t &map);
+std::string status_message(const ale::status_t &status);
+std::string trail_message(const TrailPiece &piece);
+std::string link_message(const LinkHealth &link, uint64_t skipped);
+
+/* What became of a page's command: on its way to the robot under that number, or not and why. */
+std::string sent_message(const std::string &verb, const Sent &sent);
+
+/* What a page says: {"type":"got","count":n}, or {"type":"command","words":["drive","0.2","0"]} (then words
+ * is not empty). Nothing when the text is anything else. */
+struct PageMessage {
+    uint64_t drawn = 0;
+    std::vector<std::string> words;
+};
+std::optional<PageMessage> page_message(const std::string &text);
+
+} // namespace console
+
+#endif

@@ -1,0 +1,101 @@
+#include "operator/console/robot_watch.h"
+
+#include <cmath>
+
+#include "operator/console/checks.h"
+#include "operator/console/messages.h"
+
+namespace console
+{
+
+namespace
+{
+
+/* A pose that moves farther between two scans was relocated, not driven. */
+constexpr float jump_m = 0.5F;
+
+/* A scan number this far back is a new start; one less far was overtaken on its way. */
+constexpr int32_t overtaken_scans = 10;
+
+/* Scan numbers run on over a gap of this size at most; beyond, somebody else is talking. */
+constexpr int32_t largest_gap = 100000;
+
+} // namespace
+
+void RobotWatch::subscribe(LcmFeed &feed)
+{
+    feed.on<ale::pose_t>("ALE_POSE", [this](const ale::pose_t &message) { pose(message); });
+    feed.on<ale::features_t>("ALE_FEATURES", [this](const ale::features_t &message) { features(message); });
+    feed.on<ale::scan_t>("ALE_SCAN", [this](const ale::scan_t &message) { scan(message); });
+    feed.on<ale::map_t>("ALE_MAP", [this](const ale::map_t &message) { map(message); });
+    feed.on<ale::status_t>("ALE_STATUS", [this](const ale::status_t &message) { status(message); });
+}
+
+void RobotWatch::restarted()
+{
+    board_.clear();
+    map_parts_ = MapParts();
+    window_ = WindowWatch();
+    last_pose_.reset();
+    restart_known_ = true;
+}
+
+void RobotWatch::pose(const ale::pose_t &pose)
+{
+    check(pose);
+    if (last_pose_ && pose.scan <= last_pose_->scan) {
+        if (pose.scan > last_pose_->scan - overtaken_scans) {
+            return;
+        }
+        restarted();
+    }
+    const int64_t gap = last_pose_ ? static_cast<int64_t>(pose.scan) - last_pose_->scan - 1 : 0;
+    require(gap <= largest_gap, "scan number out of all proportion");
+    extend_trail(pose);
+    board_.note_pose(Board::Clock::now(), static_cast<uint64_t>(gap));
+    board_.pin(Topic::pose, pose_message(pose));
+    last_pose_ = pose;
+}
+
+void RobotWatch::extend_trail(const ale::pose_t &pose)
+{
+    const bool jumped =
+        last_pose_ && std::hypot(pose.map_x - last_pose_->map_x, pose.map_y - last_pose_->map_y) > jump_m;
+    board_.extend_trail({pose.map_x, pose.map_y, jumped || !last_pose_});
+}
+
+void RobotWatch::features(const ale::features_t &features)
+{
+    check(features);
+    board_.pin(Topic::features, features_message(features));
+}
+
+void RobotWatch::scan(const ale::scan_t &scan)
+{
+    check(scan);
+    if (last_pose_) {
+        window_.scan(scan, static_cast<double>(last_pose_->theta));
+    }
+    board_.pin(Topic::scan, scan_message(scan, window_.stain()));
+}
+
+void RobotWatch::map(const ale::map_t &part)
+{
+    check(part);
+    if (map_parts_.add(part)) {
+        board_.pin(Topic::map, map_message(map_parts_.whole()));
+    }
+}
+
+void RobotWatch::status(const ale::status_t &status)
+{
+    if (boot_ && *boot_ != status.boot && !restart_known_) {
+        restarted();
+    }
+    boot_ = status.boot;
+    restart_known_ = false;
+    commander_.saw(status);
+    board_.pin(Topic::status, status_message(status));
+}
+
+} // namespace console

@@ -1,0 +1,53 @@
+/* What comes from the robot, checked, and pinned to the board. LCM thread only. */
+#ifndef CONSOLE_ROBOT_WATCH_H
+#define CONSOLE_ROBOT_WATCH_H
+
+#include <cstdint>
+#include <optional>
+
+#include "ale/features_t.hpp"
+#include "ale/map_t.hpp"
+#include "ale/pose_t.hpp"
+#include "ale/scan_t.hpp"
+#include "ale/status_t.hpp"
+#include "operator/console/board.h"
+#include "operator/console/commander.h"
+#include "operator/console/lcm_feed.h"
+#include "operator/console/map_parts.h"
+#include "operator/console/window_watch.h"
+
+namespace console
+{
+
+class RobotWatch
+{
+  public:
+    RobotWatch(Board &board, Commander &commander) : board_(board), commander_(commander)
+    {
+    }
+
+    void subscribe(LcmFeed &feed);
+
+    /* Each throws std::runtime_error for a message that makes no sense; it is counted as malformed. */
+    void pose(const ale::pose_t &pose);
+    void features(const ale::features_t &features);
+    void scan(const ale::scan_t &scan);
+    void map(const ale::map_t &part);
+    void status(const ale::status_t &status);
+
+  private:
+    void restarted();
+    void extend_trail(const ale::pose_t &pose);
+
+    Board &board_;
+    Commander &commander_;
+    MapParts map_parts_;
+    WindowWatch window_;
+    std::optional<ale::pose_t> last_pose_;
+    std::optional<int64_t> boot_;
+    bool restart_known_ = false; /* the scan numbers told before the next status does */
+};
+
+} // namespace console
+
+#endif

@@ -1,0 +1,308 @@
+#include "operator/console/web_server.h"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include <libwebsockets.h>
+#include <sodium.h>
+#include <unistd.h>
+
+#include "operator/console/page.h"
+
+namespace console
+{
+
+namespace
+{
+
+constexpr lws_usec_t link_period_us = 250000;
+constexpr size_t longest_page_message = 1024;
+
+/* The page needs nothing from elsewhere, and nobody may frame it. */
+constexpr std::string_view security_policy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' data:; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+const char *content_type(std::string_view name)
+{
+    const std::string_view ending = name.substr(std::min(name.rfind('.'), name.size()));
+    return ending == ".html"  ? "text/html; charset=utf-8"
+           : ending == ".css" ? "text/css; charset=utf-8"
+           : ending == ".js"  ? "text/javascript; charset=utf-8"
+           : ending == ".svg" ? "image/svg+xml"
+                              : "application/octet-stream";
+}
+
+const ale_page_file_t *find_page_file(std::string_view path)
+{
+    const std::string_view name = path == "/" ? "index.html" : path.substr(std::min<size_t>(1, path.size()));
+    const ale_page_file_t *end = ale_page_files + ale_page_file_count;
+    const auto *found =
+        std::find_if(ale_page_files, end, [&](const auto &file) { return name == file.name; });
+    return found == end ? nullptr : found;
+}
+
+std::string header(lws *connection, lws_token_indexes token)
+{
+    std::vector<char> text(static_cast<size_t>(lws_hdr_total_length(connection, token)) + 1);
+    const int length = lws_hdr_copy(connection, text.data(), static_cast<int>(text.size()), token);
+    return length > 0 ? std::string(text.data(), static_cast<size_t>(length)) : std::string();
+}
+
+bool add_header(lws *connection, const char *name, std::string_view value, unsigned char **at,
+                unsigned char *end)
+{
+    return lws_add_http_header_by_name(connection, reinterpret_cast<const unsigned char *>(name),
+                                       reinterpret_cast<const unsigned char *>(value.data()),
+                                       static_cast<int>(value.size()), at, end) == 0;
+}
+
+/* Sends one file whole; what the socket does not take at once is buffered by the library. */
+int serve_file(lws *connection, const ale_page_file_t &file)
+{
+    std::vector<unsigned char> buffer(LWS_PRE + 1024);
+    unsigned char *start = buffer.data() + LWS_PRE;
+    unsigned char *at = start;
+    unsigned char *end = buffer.data() + buffer.size();
+    if (lws_add_http_common_headers(connection, HTTP_STATUS_OK, content_type(file.name), file.size, &at,
+                                    end) != 0 ||
+        !add_header(connection, "content-security-policy:", security_policy, &at, end) ||
+        !add_header(connection, "x-content-type-options:", "nosniff", &at, end) ||
+        !add_header(connection, "referrer-policy:", "no-referrer", &at, end) ||
+        !add_header(connection, "cache-control:", "no-cache", &at, end) ||
+        lws_finalize_write_http_header(connection, start, &at, end) != 0) {
+        return -1;
+    }
+    std::vector<unsigned char> body(LWS_PRE + file.size);
+    std::memcpy(body.data() + LWS_PRE, file.bytes, file.size);
+    if (lws_write(connection, body.data() + LWS_PRE, file.size, LWS_WRITE_HTTP_FINAL) < 0) {
+        return -1;
+    }
+    return lws_http_transaction_completed(connection) != 0 ? -1 : 0;
+}
+
+constexpr char token_wanted[] =
+    "<p>This console wants its token: open the address that ale-console printed when it started.";
+
+int serve(lws *connection, std::string_view path, bool has_token)
+{
+    if (lws_hdr_total_length(connection, WSI_TOKEN_GET_URI) <= 0) {
+        return lws_return_http_status(connection, HTTP_STATUS_METHOD_NOT_ALLOWED, nullptr);
+    }
+    const ale_page_file_t *file = find_page_file(path);
+    if (file == nullptr) {
+        return lws_return_http_status(connection, HTTP_STATUS_NOT_FOUND, nullptr);
+    }
+    if (std::string_view(file->name) == "index.html" && !has_token) {
+        return lws_return_http_status(connection, HTTP_STATUS_FORBIDDEN, token_wanted);
+    }
+    return serve_file(connection, *file);
+}
+
+} // namespace
+
+/* What the library calls, given names. */
+struct WebCallbacks {
+    /* The timer must be the first member: the library hands back its address. */
+    struct LinkTimer {
+        lws_sorted_usec_list_t list{};
+        WebServer *server = nullptr;
+    };
+
+    static int on_event(lws *connection, lws_callback_reasons reason, void *, void *data, size_t length)
+    {
+        auto *server = static_cast<WebServer *>(lws_context_user(lws_get_context(connection)));
+        const std::string_view text(static_cast<const char *>(data), data == nullptr ? 0 : length);
+        switch (reason) {
+        case LWS_CALLBACK_HTTP:
+            return serve(connection, text, server->has_token(connection));
+        case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION:
+            return server->accepts(connection) ? 0 : refuse(connection);
+        case LWS_CALLBACK_ESTABLISHED:
+            server->connections_.emplace(connection, WebServer::Connection{server->new_client(), {}});
+            lws_callback_on_writable(connection);
+            return 0;
+        case LWS_CALLBACK_SERVER_WRITEABLE:
+            server->send_next(connection);
+            return 0;
+        case LWS_CALLBACK_RECEIVE:
+            return received(*server, connection, text);
+        case LWS_CALLBACK_CLOSED:
+            server->connections_.erase(connection);
+            return 0;
+        case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
+            server->offer_all();
+            return 0;
+        default:
+            return lws_callback_http_dummy(connection, reason, nullptr, data, length);
+        }
+    }
+
+    static int refuse(lws *connection)
+    {
+        lws_return_http_status(connection, HTTP_STATUS_FORBIDDEN, nullptr);
+        return -1;
+    }
+
+    static int received(WebServer &server, lws *connection, std::string_view part)
+    {
+        const auto found = server.connections_.find(connection);
+        if (found == server.connections_.end()) {
+            return -1;
+        }
+        std::string &heard = found->second.heard;
+        heard += part;
+        if (heard.size() > longest_page_message) {
+            return -1;
+        }
+        if (lws_is_final_fragment(connection) == 0 || lws_remaining_packet_payload(connection) > 0) {
+            return 0;
+        }
+        const bool understood = found->second.client.heard(heard);
+        heard.clear();
+        lws_callback_on_writable(connection);
+        return understood ? 0 : -1;
+    }
+
+    static void on_link_timer(lws_sorted_usec_list_t *list)
+    {
+        auto *timer = reinterpret_cast<LinkTimer *>(list);
+        timer->server->links_due();
+        schedule(*timer);
+    }
+
+    static void schedule(LinkTimer &timer)
+    {
+        lws_sul_schedule(timer.server->context_, 0, &timer.list, on_link_timer, link_period_us);
+    }
+};
+
+namespace
+{
+
+const lws_protocols protocols[] = {{"ale-console", WebCallbacks::on_event, 0, 1024, 0, nullptr, 0},
+                                   {nullptr, nullptr, 0, 0, 0, nullptr, 0}};
+
+/* A browser that is gone without a word (a tablet carried out of the room) is let go after half a minute. */
+const lws_retry_bo_t keep_alive = {nullptr, 0, 0, 15, 30, 0};
+
+} // namespace
+
+WebServer::WebServer(Board &board, Commander &commander, const HttpAddress &address, std::string token)
+    : board_(board), commander_(commander), address_(address), token_(std::move(token))
+{
+    require_free(address_);
+    char name[256] = "";
+    gethostname(name, sizeof name - 1);
+    machine_name_ = name;
+
+    lws_set_log_level(0, nullptr);
+    lws_context_creation_info info{};
+    info.iface = address_.host.c_str();
+    info.port = address_.port;
+    info.protocols = protocols;
+    info.user = this;
+    info.options = LWS_SERVER_OPTION_EXPLICIT_VHOSTS | (address_.ipv6 ? 0 : LWS_SERVER_OPTION_DISABLE_IPV6);
+    info.fd_limit_per_thread = most_connections;
+    info.retry_and_idle_policy = &keep_alive;
+    context_ = lws_create_context(&info);
+    lws_vhost *host = context_ != nullptr ? lws_create_vhost(context_, &info) : nullptr;
+    if (host == nullptr) {
+        lws_context_destroy(context_);
+        throw std::runtime_error("cannot serve at " + address_.url());
+    }
+    address_.port = static_cast<uint16_t>(lws_get_vhost_listen_port(host));
+    board_.on_change([this] { wake(); });
+}
+
+WebServer::~WebServer()
+{
+    board_.on_change(nullptr);
+    lws_context_destroy(context_);
+}
+
+void WebServer::run()
+{
+    WebCallbacks::LinkTimer timer;
+    timer.server = this;
+    WebCallbacks::schedule(timer);
+    while (!stopping_ && lws_service(context_, 0) >= 0) {
+    }
+    lws_sul_schedule(context_, 0, &timer.list, nullptr, LWS_SET_TIMER_USEC_CANCEL);
+}
+
+void WebServer::stop()
+{
+    stopping_ = true;
+    wake();
+}
+
+void WebServer::wake()
+{
+    lws_cancel_service(context_);
+}
+
+std::string WebServer::url() const
+{
+    return reachable(address_).url() + (token_.empty() ? "" : "?token=" + token_);
+}
+
+bool WebServer::has_token(lws *connection) const
+{
+    constexpr size_t longest = 256;
+    char argument[longest];
+    const char *given =
+        lws_get_urlarg_by_name(connection, "token=", argument, static_cast<int>(sizeof argument));
+    const std::string_view text(given == nullptr ? "" : given);
+    return token_.empty() ||
+           (text.size() == token_.size() && sodium_memcmp(text.data(), token_.data(), token_.size()) == 0);
+}
+
+Client WebServer::new_client()
+{
+    const uint64_t page = ++pages_;
+    return {board_, commander_.operator_name(),
+            [this, page](const std::vector<std::string> &words) { return commander_.send(page, words); }};
+}
+
+bool WebServer::accepts(lws *connection) const
+{
+    return has_token(connection) && origin_is_ours(header(connection, WSI_TOKEN_ORIGIN),
+                                                   header(connection, WSI_TOKEN_HOST), machine_name_);
+}
+
+void WebServer::send_next(lws *connection)
+{
+    const auto found = connections_.find(connection);
+    if (found == connections_.end()) {
+        return;
+    }
+    const auto message = found->second.client.next(Board::Clock::now());
+    if (!message) {
+        return;
+    }
+    std::vector<unsigned char> buffer(LWS_PRE + message->size());
+    std::memcpy(buffer.data() + LWS_PRE, message->data(), message->size());
+    lws_write(connection, buffer.data() + LWS_PRE, message->size(), LWS_WRITE_TEXT);
+    lws_callback_on_writable(connection);
+}
+
+void WebServer::offer_all()
+{
+    for (const auto &entry : connections_) {
+        lws_callback_on_writable(entry.first);
+    }
+}
+
+void WebServer::links_due()
+{
+    for (auto &entry : connections_) {
+        entry.second.client.link_due();
+    }
+    offer_all();
+}
+
+} // namespace console
