@@ -158,8 +158,8 @@ static void offer_sighting(ale_estimator_t *estimator, const ale_estimate_t *est
     if (there && ale_abs64(estimate->stamp_us - told->stamp_us) < wait_us) {
         return;
     }
-    ale_sighting_t *slot = ale_ring_reserve(estimator->exchange->sightings);
-    if (slot && ale_pipeline_sighting(estimator->pipeline, slot)) {
+    ale_scan_observation_t *slot = ale_ring_reserve(estimator->exchange->sightings);
+    if (slot && ale_pipeline_scan_observation(estimator->pipeline, slot)) {
         ale_ring_commit(estimator->exchange->sightings);
         *told = (ale_told_t){.epoch = estimate->epoch,
                              .from = there ? told->from : estimate->smooth,

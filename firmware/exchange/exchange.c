@@ -20,7 +20,7 @@ int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock)
         .keyframes = ale_ring_create(sizeof(ale_keyframe_t), ALE_KEYFRAME_SLOTS),
         .corrections = ale_ring_create(sizeof(ale_correction_t), ALE_CORRECTION_SLOTS),
         .grid_corrections = ale_ring_create(sizeof(ale_correction_t), ALE_CORRECTION_SLOTS),
-        .sightings = ale_ring_create(sizeof(ale_sighting_t), ALE_SIGHTING_SLOTS),
+        .sightings = ale_ring_create(sizeof(ale_scan_observation_t), ALE_SIGHTING_SLOTS),
         .keyframe_poses = ale_snapshot_create(sizeof(ale_mapper_poses_t)),
         .drawn_map = ale_snapshot_create(sizeof(ale_drawn_map_t)),
         .map = ale_snapshot_create(sizeof(ale_map_t)),

@@ -104,7 +104,7 @@ typedef struct {
     ale_ring_t *keyframes;             /* ale_keyframe_t: estimate to mapper */
     ale_ring_t *corrections;           /* ale_correction_t: mapper to estimate */
     ale_ring_t *grid_corrections;      /* the same: mapper to exploration, when there is one */
-    ale_ring_t *sightings;             /* ale_sighting_t: estimate to drawer */
+    ale_ring_t *sightings;             /* ale_scan_observation_t: estimate to drawer */
     ale_snapshot_t *keyframe_poses;    /* ale_mapper_poses_t: mapper to drawer */
     ale_snapshot_t *drawn_map;         /* ale_drawn_map_t: drawer to telemetry */
     ale_snapshot_t *map;               /* ale_map_t, the tracker's: estimate to telemetry */

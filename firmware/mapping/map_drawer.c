@@ -21,7 +21,7 @@ struct ale_map_drawer {
 };
 
 /* Whether the map that the sighting was taken in, if it was loaded, is known. */
-static bool knows_map_of(ale_map_drawer_t *drawer, const ale_sighting_t *sighting)
+static bool knows_map_of(ale_map_drawer_t *drawer, const ale_scan_observation_t *sighting)
 {
     if (sighting->loaded == 0 || sighting->epoch == drawer->known_epoch) {
         return true;
@@ -38,7 +38,7 @@ static bool knows_map_of(ale_map_drawer_t *drawer, const ale_sighting_t *sightin
 
 /* A drawing without the walls that the drive began with would be published, and saved, as the whole: where
  * they are not known nothing is drawn, and the tracker's map is shown. */
-static void add(ale_map_drawer_t *drawer, const ale_sighting_t *sighting)
+static void add(ale_map_drawer_t *drawer, const ale_scan_observation_t *sighting)
 {
     if (knows_map_of(drawer, sighting)) {
         ale_live_map_take(drawer->live, sighting);

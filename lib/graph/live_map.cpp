@@ -19,7 +19,7 @@ constexpr size_t scans_of_a_keyframe = 16;
 // With the place that its lines take in a drawing.
 size_t bytes_of(const ale::Sight &sight)
 {
-    return sizeof sight + sight.lines.size() * (sizeof(ale_view_t) + sizeof(ale::PlacedLine)) +
+    return sizeof sight + sight.lines.size() * (sizeof(ale_observation_t) + sizeof(ale::PlacedLine)) +
            sight.corners.size() * sizeof(ale_corner_t) + (sight.look ? sizeof(ale_seen_copy_t) : 0);
 }
 
@@ -142,7 +142,7 @@ int ale_live_map_know(ale_live_map_t *live, uint32_t epoch, const ale_map_t *map
     }
 }
 
-int ale_live_map_take(ale_live_map_t *live, const ale_sighting_t *sighting)
+int ale_live_map_take(ale_live_map_t *live, const ale_scan_observation_t *sighting)
 {
     try {
         live->record.take(*sighting);

@@ -35,7 +35,7 @@ int ale_live_map_know(ale_live_map_t *live, uint32_t epoch, const ale_map_t *map
 
 /* Of a later scan than the last one; one of a map begun anew forgets what was there. 0, or -1: out of memory,
  * and it is left out. */
-int ale_live_map_take(ale_live_map_t *live, const ale_sighting_t *sighting);
+int ale_live_map_take(ale_live_map_t *live, const ale_scan_observation_t *sighting);
 
 /* Draws the map as the mapper now places the keyframes, and fills *out; a line that was in the last drawing
  * keeps its id. False: there is nothing to draw, or memory ran out; *out may hold anything. */

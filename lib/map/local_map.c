@@ -21,7 +21,7 @@ void ale_local_map_clear(ale_local_map_t *map)
     map->version = 0;
     map->refused = 0;
     map->near_radius_um = 0;
-    ale_marks_clear(&map->marks);
+    ale_landmarks_clear(&map->landmarks);
     ale_map_corners_clear(&map->corners);
 }
 
@@ -97,20 +97,20 @@ void ale_local_map_focus(ale_local_map_t *map, ale_point_t centre, int32_t reach
 {
     uint16_t count = 0;
     for (int b = 0; b < ALE_MAP_DIRECTIONS; b++) {
-        map->glance_first[b] = count;
+        map->candidate_first[b] = count;
         for (uint16_t k = map->near_first[b]; k < map->near_first[b + 1]; k++) {
             const ale_wall_t *wall = &map->wall[map->near[k]];
             if (is_near(wall, centre, reach_um)) {
-                map->glance[count++] =
-                    (ale_glance_t){.offset_q30 = (int64_t)wall->anchor.x_um * wall->normal_x_q30 +
-                                                 (int64_t)wall->anchor.y_um * wall->normal_y_q30,
-                                   .normal_x_q30 = wall->normal_x_q30,
-                                   .normal_y_q30 = wall->normal_y_q30,
-                                   .wall = map->near[k]};
+                map->candidate[count++] =
+                    (ale_candidate_t){.offset_q30 = (int64_t)wall->anchor.x_um * wall->normal_x_q30 +
+                                                    (int64_t)wall->anchor.y_um * wall->normal_y_q30,
+                                      .normal_x_q30 = wall->normal_x_q30,
+                                      .normal_y_q30 = wall->normal_y_q30,
+                                      .wall = map->near[k]};
             }
         }
     }
-    map->glance_first[ALE_MAP_DIRECTIONS] = count;
+    map->candidate_first[ALE_MAP_DIRECTIONS] = count;
 }
 
 void ale_local_map_facing(const uint16_t first[ALE_MAP_DIRECTIONS + 1], uint32_t normal_bam, int32_t reach,
@@ -161,13 +161,13 @@ void ale_local_map_remove(ale_local_map_t *map, uint16_t index)
     map->version++;
 }
 
-/* How the wall `other` lies to `wall`: as if it were a view from the origin of the map. */
+/* How the wall `other` lies to `wall`: as if it were an observation from the origin of the map. */
 static ale_wall_error_t between_walls(const ale_wall_t *wall, const ale_wall_t *other)
 {
-    const ale_view_t as_view = {.centre = other->anchor,
-                                .normal_bam = other->normal_bam,
-                                .start_um = other->start_um,
-                                .end_um = other->end_um};
+    const ale_observation_t as_view = {.centre = other->anchor,
+                                       .normal_bam = other->normal_bam,
+                                       .start_um = other->start_um,
+                                       .end_um = other->end_um};
     return ale_wall_error(wall, &as_view);
 }
 
@@ -207,12 +207,12 @@ static void join(ale_wall_t *keep, const ale_wall_t *other, const ale_wall_error
     keep->missed = (uint16_t)ale_min64(keep->missed, other->missed);
 }
 
-bool ale_local_map_merge_at(ale_local_map_t *map, uint16_t index, int32_t *looks)
+bool ale_local_map_merge_at(ale_local_map_t *map, uint16_t index, int32_t *work)
 {
     ale_range_t facing[2];
     ale_local_map_facing(map->near_first, map->wall[index].normal_bam, 1, facing);
     for (int r = 0; r < 2; r++) {
-        ale_take_looks(&facing[r], looks);
+        ale_spend_work(&facing[r], work);
         for (uint16_t k = facing[r].first; k < facing[r].last; k++) {
             const uint16_t other = map->near[k];
             if (other == index || are_apart(&map->wall[index], &map->wall[other])) {

@@ -18,7 +18,7 @@ void ale_map_corners_clear(ale_map_corners_t *corners)
 }
 
 /* The corner in the map's frame; the covariance turned from the sensor's frame: R C R^T. */
-static ale_map_corner_t in_map(const ale_corner_t *c, const ale_stand_t *sensor)
+static ale_map_corner_t in_map(const ale_corner_t *c, const ale_viewpoint_t *sensor)
 {
     const int64_t cos_q15 = ale_round_shift(sensor->turn.cos_q30, 15);
     const int64_t sin_q15 = ale_round_shift(sensor->turn.sin_q30, 15);
@@ -131,9 +131,9 @@ uint16_t ale_map_corners_update(ale_map_corners_t *corners, const ale_features_t
     if (count == 0) {
         return 0;
     }
-    const ale_stand_t stand = ale_stand(sensor);
+    const ale_viewpoint_t viewpoint = ale_viewpoint(sensor);
     for (uint32_t i = 0; i < count; i++) {
-        seen[i] = in_map(&features->corner[i], &stand);
+        seen[i] = in_map(&features->corner[i], &viewpoint);
     }
     list_around(corners, seen, count);
     corners->once = 0;

@@ -26,23 +26,24 @@ static void trim(ale_wall_t *wall, const ale_scan_t *taken, const uint32_t *bear
     }
     const int64_t start_um = wall->start_um + TRIM_INSIDE_UM;
     const int64_t end_um = wall->end_um - TRIM_INSIDE_UM;
-    if (ale_wall_point_sight(wall, start_um, taken, bearing_bam, sensor) == ALE_SIGHT_THROUGH) {
+    if (ale_wall_point_visibility(wall, start_um, taken, bearing_bam, sensor) == ALE_VISIBILITY_VIOLATED) {
         wall->start_um += TRIM_UM;
     }
-    if (ale_wall_point_sight(wall, end_um, taken, bearing_bam, sensor) == ALE_SIGHT_THROUGH) {
+    if (ale_wall_point_visibility(wall, end_um, taken, bearing_bam, sensor) == ALE_VISIBILITY_VIOLATED) {
         wall->end_um -= TRIM_UM;
     }
 }
 
-ale_sights_t ale_fade(ale_fade_t *fade, ale_local_map_t *map, const ale_scan_t *taken,
-                      const uint32_t *bearing_bam, ale_pose_t sensor, uint32_t scan, bool forget)
+ale_visibility_counts_t ale_map_decay(ale_map_decay_t *decay, ale_local_map_t *map, const ale_scan_t *taken,
+                                      const uint32_t *bearing_bam, ale_pose_t sensor, uint32_t scan,
+                                      bool forget)
 {
-    ale_sights_t sights = {0, 0};
+    ale_visibility_counts_t counts = {0, 0};
     const uint32_t count = map->near_first[ALE_MAP_DIRECTIONS];
     uint16_t gone = ALE_NO_WALL;
-    for (uint32_t n = 0; n < ALE_FADE_WALLS && n < count; n++) {
-        fade->next = fade->next + 1 < count ? fade->next + 1 : 0;
-        const uint16_t index = map->near[fade->next];
+    for (uint32_t n = 0; n < ALE_DECAY_WALLS && n < count; n++) {
+        decay->next = decay->next + 1 < count ? decay->next + 1 : 0;
+        const uint16_t index = map->near[decay->next];
         ale_wall_t *wall = &map->wall[index];
         if (forget) {
             trim(wall, taken, bearing_bam, sensor);
@@ -50,16 +51,16 @@ ale_sights_t ale_fade(ale_fade_t *fade, ale_local_map_t *map, const ale_scan_t *
         if (wall->last_scan == scan) {
             continue;
         }
-        const ale_sight_t sight = ale_wall_sight(wall, taken, bearing_bam, sensor);
-        sights.supported = (uint16_t)(sights.supported + (sight == ALE_SIGHT_SUPPORTED));
-        sights.through = (uint16_t)(sights.through + (sight == ALE_SIGHT_THROUGH));
-        if (forget && sight != ALE_SIGHT_NONE) {
-            wall->missed = sight == ALE_SIGHT_SUPPORTED ? 0 : (uint16_t)(wall->missed + 1);
+        const ale_visibility_t visibility = ale_wall_visibility(wall, taken, bearing_bam, sensor);
+        counts.supported = (uint16_t)(counts.supported + (visibility == ALE_VISIBILITY_SUPPORTED));
+        counts.violated = (uint16_t)(counts.violated + (visibility == ALE_VISIBILITY_VIOLATED));
+        if (forget && visibility != ALE_VISIBILITY_NONE) {
+            wall->missed = visibility == ALE_VISIBILITY_SUPPORTED ? 0 : (uint16_t)(wall->missed + 1);
             gone = has_faded(wall) ? index : gone;
         }
     }
     if (gone != ALE_NO_WALL) {
         ale_local_map_remove(map, gone);
     }
-    return sights;
+    return counts;
 }

@@ -9,21 +9,22 @@
 #include "base/scan.h"
 #include "map/local_map.h"
 
-enum { ALE_FADE_WALLS = 24 };
+enum { ALE_DECAY_WALLS = 24 };
 
 typedef struct {
     uint32_t next; /* place in the near list to go on at */
-} ale_fade_t;
+} ale_map_decay_t;
 
 /* How many of the walls asked that were not matched in this scan are there, and are seen through. */
 typedef struct {
     uint16_t supported;
-    uint16_t through;
-} ale_sights_t;
+    uint16_t violated;
+} ale_visibility_counts_t;
 
 /* Asks the next near walls whose last_scan is not `scan`. forget: count misses, remove what has faded, and
  * shorten walls whose ends are seen through. */
-ale_sights_t ale_fade(ale_fade_t *fade, ale_local_map_t *map, const ale_scan_t *taken,
-                      const uint32_t *bearing_bam, ale_pose_t sensor, uint32_t scan, bool forget);
+ale_visibility_counts_t ale_map_decay(ale_map_decay_t *decay, ale_local_map_t *map, const ale_scan_t *taken,
+                                      const uint32_t *bearing_bam, ale_pose_t sensor, uint32_t scan,
+                                      bool forget);
 
 #endif

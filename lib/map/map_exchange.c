@@ -18,7 +18,7 @@ static ale_map_line_t line_of(const ale_wall_t *w)
                             .seen = w->seen};
 }
 
-void ale_map_hand_out(const ale_local_map_t *map, ale_map_t *out)
+void ale_map_export(const ale_local_map_t *map, ale_map_t *out)
 {
     memset(out, 0, sizeof *out);
     out->version = map->version;
@@ -54,7 +54,7 @@ bool ale_map_line_wall(const ale_map_line_t *line, ale_wall_t *out)
     return half_um * 2 >= SHORTEST_UM;
 }
 
-void ale_map_take_in(ale_local_map_t *map, const ale_map_t *from)
+void ale_map_import(ale_local_map_t *map, const ale_map_t *from)
 {
     ale_local_map_clear(map);
     for (uint16_t i = 0; i < from->line_count && i < ALE_MAP_MAX_LINES; i++) {

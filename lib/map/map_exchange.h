@@ -6,12 +6,12 @@
 #include "track/pipeline.h"
 
 /* Confirmed walls and corners, in the order they lie in the map. O(map). */
-void ale_map_hand_out(const ale_local_map_t *map, ale_map_t *out);
+void ale_map_export(const ale_local_map_t *map, ale_map_t *out);
 
 /* The wall that a line of a map is. False: it is shorter than 1 mm. */
 bool ale_map_line_wall(const ale_map_line_t *line, ale_wall_t *out);
 
 /* Replaces the map. Walls shorter than 1 mm are left out. O(map). */
-void ale_map_take_in(ale_local_map_t *map, const ale_map_t *from);
+void ale_map_import(ale_local_map_t *map, const ale_map_t *from);
 
 #endif

@@ -37,20 +37,21 @@ static int32_t beam_towards(const ale_scan_t *scan, const uint32_t *bearing_bam,
     return beam;
 }
 
-static ale_sight_t beam_sight(const ale_scan_t *scan, int32_t beam, int64_t range_um, int64_t tolerance_um,
-                              bool same_place)
+static ale_visibility_t beam_sight(const ale_scan_t *scan, int32_t beam, int64_t range_um,
+                                   int64_t tolerance_um, bool same_place)
 {
     if (beam < 0 || beam >= scan->beams) {
-        return ALE_SIGHT_NONE;
+        return ALE_VISIBILITY_NONE;
     }
     if (scan->flag[beam] != ALE_BEAM_VALID) {
-        return same_place && scan->flag[beam] == ALE_BEAM_NO_RETURN ? ALE_SIGHT_THROUGH : ALE_SIGHT_NONE;
+        return same_place && scan->flag[beam] == ALE_BEAM_NO_RETURN ? ALE_VISIBILITY_VIOLATED
+                                                                    : ALE_VISIBILITY_NONE;
     }
     const int64_t beyond_um = scan->range_um[beam] - range_um;
     if (beyond_um > tolerance_um) {
-        return ALE_SIGHT_THROUGH;
+        return ALE_VISIBILITY_VIOLATED;
     }
-    return beyond_um < -tolerance_um ? ALE_SIGHT_NONE : ALE_SIGHT_SUPPORTED;
+    return beyond_um < -tolerance_um ? ALE_VISIBILITY_NONE : ALE_VISIBILITY_SUPPORTED;
 }
 
 /* Beams to either side of the middle one that may be meant, with the pose as uncertain as it is. */
@@ -61,8 +62,8 @@ static int32_t beams_aside(const ale_scan_t *scan, int64_t range_um, int64_t sla
 }
 
 /* Supported by any beam that may be meant, seen through by all of them. */
-static ale_sight_t point_sight(const ale_wall_t *wall, ale_point_t p, const ale_scan_t *scan,
-                               const uint32_t *bearing_bam, ale_pose_t sensor, ale_slack_t slack)
+static ale_visibility_t point_sight(const ale_wall_t *wall, ale_point_t p, const ale_scan_t *scan,
+                                    const uint32_t *bearing_bam, ale_pose_t sensor, ale_slack_t slack)
 {
     const int64_t x = (int64_t)sensor.x_um - p.x_um;
     const int64_t y = (int64_t)sensor.y_um - p.y_um;
@@ -70,56 +71,57 @@ static ale_sight_t point_sight(const ale_wall_t *wall, ale_point_t p, const ale_
     const int64_t height_um = ale_round_shift(x * wall->normal_x_q30 + y * wall->normal_y_q30, 30);
     if (height_um < ale_mul_shift(range_um, GRAZING_Q30, 30) || range_um <= scan->range_min_um ||
         range_um > scan->range_max_um) {
-        return ALE_SIGHT_NONE;
+        return ALE_VISIBILITY_NONE;
     }
     const int32_t middle = beam_towards(scan, bearing_bam, ale_atan2_bam(-y, -x) - sensor.theta_bam);
     if (middle == NOT_IN_VIEW) {
-        return ALE_SIGHT_NONE;
+        return ALE_VISIBILITY_NONE;
     }
     const int64_t slack_um = slack.offset_um + ale_mul_div(range_um, slack.angle_urad, 1000000);
     const int64_t tolerance_um =
         slack_um + (slack.same_place ? SAME_PLACE_UM + range_um * SAME_PLACE_PER_MILLE / 1000
                                      : TOLERANCE_UM + range_um * TOLERANCE_PER_MILLE / 1000);
     const int32_t aside = beams_aside(scan, range_um, slack_um);
-    ale_sight_t sum = ALE_SIGHT_THROUGH;
+    ale_visibility_t sum = ALE_VISIBILITY_VIOLATED;
     for (int32_t beam = middle - aside; beam <= middle + aside; beam++) {
-        const ale_sight_t sight = beam_sight(scan, beam, range_um, tolerance_um, slack.same_place);
-        if (sight == ALE_SIGHT_SUPPORTED) {
-            return sight;
+        const ale_visibility_t visibility = beam_sight(scan, beam, range_um, tolerance_um, slack.same_place);
+        if (visibility == ALE_VISIBILITY_SUPPORTED) {
+            return visibility;
         }
-        sum = sight == ALE_SIGHT_NONE ? sight : sum;
+        sum = visibility == ALE_VISIBILITY_NONE ? visibility : sum;
     }
     return sum;
 }
 
-ale_points_sight_t ale_wall_points_sight(const ale_wall_t *wall, const ale_scan_t *scan,
-                                         const uint32_t *bearing_bam, ale_pose_t sensor, ale_slack_t slack)
+ale_points_visibility_t ale_wall_points_visibility(const ale_wall_t *wall, const ale_scan_t *scan,
+                                                   const uint32_t *bearing_bam, ale_pose_t sensor,
+                                                   ale_slack_t slack)
 {
-    ale_points_sight_t sum = {0, 0};
-    for (int32_t k = 1; k < 2 * ALE_SIGHT_POINTS; k += 2) {
+    ale_points_visibility_t sum = {0, 0};
+    for (int32_t k = 1; k < 2 * ALE_VISIBILITY_POINTS; k += 2) {
         const int64_t length_um = (int64_t)wall->end_um - wall->start_um;
-        const int64_t t_um = wall->start_um + length_um * k / ((int64_t)2 * ALE_SIGHT_POINTS);
-        const ale_sight_t sight =
+        const int64_t t_um = wall->start_um + length_um * k / ((int64_t)2 * ALE_VISIBILITY_POINTS);
+        const ale_visibility_t visibility =
             point_sight(wall, ale_wall_point(wall, t_um), scan, bearing_bam, sensor, slack);
-        sum.supported = (uint8_t)(sum.supported + (sight == ALE_SIGHT_SUPPORTED));
-        sum.through = (uint8_t)(sum.through + (sight == ALE_SIGHT_THROUGH));
+        sum.supported = (uint8_t)(sum.supported + (visibility == ALE_VISIBILITY_SUPPORTED));
+        sum.violated = (uint8_t)(sum.violated + (visibility == ALE_VISIBILITY_VIOLATED));
     }
     return sum;
 }
 
-ale_sight_t ale_wall_sight(const ale_wall_t *wall, const ale_scan_t *scan, const uint32_t *bearing_bam,
-                           ale_pose_t sensor)
+ale_visibility_t ale_wall_visibility(const ale_wall_t *wall, const ale_scan_t *scan,
+                                     const uint32_t *bearing_bam, ale_pose_t sensor)
 {
-    const ale_points_sight_t sum =
-        ale_wall_points_sight(wall, scan, bearing_bam, sensor, (ale_slack_t){0, 0, false});
+    const ale_points_visibility_t sum =
+        ale_wall_points_visibility(wall, scan, bearing_bam, sensor, (ale_slack_t){0, 0, false});
     if (sum.supported > 0) {
-        return ALE_SIGHT_SUPPORTED;
+        return ALE_VISIBILITY_SUPPORTED;
     }
-    return sum.through >= 2 ? ALE_SIGHT_THROUGH : ALE_SIGHT_NONE;
+    return sum.violated >= 2 ? ALE_VISIBILITY_VIOLATED : ALE_VISIBILITY_NONE;
 }
 
-ale_sight_t ale_wall_point_sight(const ale_wall_t *wall, int64_t t_um, const ale_scan_t *scan,
-                                 const uint32_t *bearing_bam, ale_pose_t sensor)
+ale_visibility_t ale_wall_point_visibility(const ale_wall_t *wall, int64_t t_um, const ale_scan_t *scan,
+                                           const uint32_t *bearing_bam, ale_pose_t sensor)
 {
     return point_sight(wall, ale_wall_point(wall, t_um), scan, bearing_bam, sensor,
                        (ale_slack_t){0, 0, false});

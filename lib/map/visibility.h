@@ -12,17 +12,17 @@
 #include "map/wall.h"
 
 typedef enum {
-    ALE_SIGHT_NONE,      /* out of view, too grazing, hidden, or no value in the beams */
-    ALE_SIGHT_SUPPORTED, /* something stands where the wall is */
-    ALE_SIGHT_THROUGH    /* the beams go on beyond it */
-} ale_sight_t;
+    ALE_VISIBILITY_NONE,      /* out of view, too grazing, hidden, or no value in the beams */
+    ALE_VISIBILITY_SUPPORTED, /* something stands where the wall is */
+    ALE_VISIBILITY_VIOLATED   /* the beams go on beyond it */
+} ale_visibility_t;
 
-/* How many points of a wall, of ALE_SIGHT_POINTS that are asked, are there and are seen through. */
-enum { ALE_SIGHT_POINTS = 3 };
+/* How many points of a wall, of ALE_VISIBILITY_POINTS that are asked, are there and are seen through. */
+enum { ALE_VISIBILITY_POINTS = 3 };
 typedef struct {
     uint8_t supported;
-    uint8_t through;
-} ale_points_sight_t;
+    uint8_t violated;
+} ale_points_visibility_t;
 
 /* How far the sensor's pose may be off, beyond what is always allowed for. same_place: the surface was seen
  * from where the scan was taken; what a map errs need not be allowed for, and where it gave an answer then,
@@ -33,16 +33,17 @@ typedef struct {
     bool same_place;
 } ale_slack_t;
 
-ale_points_sight_t ale_wall_points_sight(const ale_wall_t *wall, const ale_scan_t *scan,
-                                         const uint32_t *bearing_bam, ale_pose_t sensor, ale_slack_t slack);
+ale_points_visibility_t ale_wall_points_visibility(const ale_wall_t *wall, const ale_scan_t *scan,
+                                                   const uint32_t *bearing_bam, ale_pose_t sensor,
+                                                   ale_slack_t slack);
 
 /* What a straightened scan, taken by a sensor at a pose of the map, says of a wall. bearing_bam as for
  * ale_extract_scan. Three points of the wall are asked; two must be seen through. */
-ale_sight_t ale_wall_sight(const ale_wall_t *wall, const ale_scan_t *scan, const uint32_t *bearing_bam,
-                           ale_pose_t sensor);
+ale_visibility_t ale_wall_visibility(const ale_wall_t *wall, const ale_scan_t *scan,
+                                     const uint32_t *bearing_bam, ale_pose_t sensor);
 
 /* The same of the point t_um along the wall's tangent alone. */
-ale_sight_t ale_wall_point_sight(const ale_wall_t *wall, int64_t t_um, const ale_scan_t *scan,
-                                 const uint32_t *bearing_bam, ale_pose_t sensor);
+ale_visibility_t ale_wall_point_visibility(const ale_wall_t *wall, int64_t t_um, const ale_scan_t *scan,
+                                           const uint32_t *bearing_bam, ale_pose_t sensor);
 
 #endif

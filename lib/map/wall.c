@@ -21,23 +21,23 @@ void ale_wall_set_normal(ale_wall_t *wall, uint32_t normal_bam)
     wall->normal_y_q30 = normal.sin_q30;
 }
 
-void ale_wall_from_view(ale_wall_t *wall, const ale_view_t *view)
+void ale_wall_from_observation(ale_wall_t *wall, const ale_observation_t *observation)
 {
-    *wall = (ale_wall_t){.anchor = view->centre,
-                         .start_um = view->start_um,
-                         .end_um = view->end_um,
-                         .var_offset_um2 = view->var_offset_um2,
-                         .var_angle_urad2 = view->var_angle_urad2};
-    ale_wall_set_normal(wall, view->normal_bam);
+    *wall = (ale_wall_t){.anchor = observation->centre,
+                         .start_um = observation->start_um,
+                         .end_um = observation->end_um,
+                         .var_offset_um2 = observation->var_offset_um2,
+                         .var_angle_urad2 = observation->var_angle_urad2};
+    ale_wall_set_normal(wall, observation->normal_bam);
 }
 
-ale_wall_error_t ale_wall_error(const ale_wall_t *wall, const ale_view_t *view)
+ale_wall_error_t ale_wall_error(const ale_wall_t *wall, const ale_observation_t *observation)
 {
     ale_wall_error_t e;
-    e.offset_um = ale_wall_offset(wall, view->centre);
-    e.t_um = ale_wall_along(wall, view->centre);
-    e.angle_urad = ale_wall_angle(wall, view->normal_bam);
-    e.overlap_um = ale_wall_overlap(wall, view, e.t_um);
+    e.offset_um = ale_wall_offset(wall, observation->centre);
+    e.t_um = ale_wall_along(wall, observation->centre);
+    e.angle_urad = ale_wall_angle(wall, observation->normal_bam);
+    e.overlap_um = ale_wall_overlap(wall, observation, e.t_um);
     return e;
 }
 

@@ -27,7 +27,7 @@ typedef struct {
     int64_t xt_um_urad;
     int64_t yt_um_urad;
     int64_t tt_urad2;
-} ale_drift_t;
+} ale_map_uncertainty_t;
 
 typedef struct {
     ale_point_t anchor; /* map frame */
@@ -39,8 +39,8 @@ typedef struct {
     int64_t var_offset_um2;
     int64_t cov_um_urad;
     int64_t var_angle_urad2;
-    ale_drift_t drift;
-    int32_t wheel_drift_um; /* along the normal: see odometry_scale_error.h */
+    ale_map_uncertainty_t map_uncertainty;
+    int32_t scale_error_um; /* along the normal: see odometry_scale_error.h */
     uint32_t id;
     uint32_t born;      /* number of the scan that saw it first, or ALE_BORN_BEFORE */
     uint32_t seen;      /* scans that supported it */
@@ -48,21 +48,22 @@ typedef struct {
     uint16_t missed;    /* scans that looked through it since */
 } ale_wall_t;
 
-/* How a view lies to a wall: errors view minus wall at t along the wall. */
+/* How an observation lies to a wall: errors view minus wall at t along the wall. */
 typedef struct {
     int64_t offset_um;
     int64_t angle_urad;
-    int64_t t_um;       /* the view's centre along the tangent, from the anchor */
+    int64_t t_um;       /* the observation's centre along the tangent, from the anchor */
     int64_t overlap_um; /* common length; negative: gap between them */
 } ale_wall_error_t;
 
-/* A new wall where a view lies. The view is in the map's frame here and below (see ale_view_from). */
-void ale_wall_from_view(ale_wall_t *wall, const ale_view_t *view);
+/* A new wall where an observation lies. The view is in the map's frame here and below (see
+ * ale_observation_from). */
+void ale_wall_from_observation(ale_wall_t *wall, const ale_observation_t *observation);
 
 /* Gives the wall a normal and what goes with it. */
 void ale_wall_set_normal(ale_wall_t *wall, uint32_t normal_bam);
 
-ale_wall_error_t ale_wall_error(const ale_wall_t *wall, const ale_view_t *view);
+ale_wall_error_t ale_wall_error(const ale_wall_t *wall, const ale_observation_t *observation);
 
 /* The offset alone, of a point: how far it lies off the wall's line, on the side that the wall faces. */
 static inline int64_t ale_wall_offset(const ale_wall_t *wall, ale_point_t p)
@@ -80,14 +81,16 @@ static inline int64_t ale_wall_along(const ale_wall_t *wall, ale_point_t p)
                            30);
 }
 
-/* How far a normal is turned against the wall's, and how much a view at t has in common with it. */
+/* How far a normal is turned against the wall's, and how much an observation at t has in common with it. */
 static inline int64_t ale_wall_angle(const ale_wall_t *wall, uint32_t normal_bam)
 {
     return ale_bam_to_nrad(ale_bam_diff(normal_bam, wall->normal_bam)) / 1000;
 }
-static inline int64_t ale_wall_overlap(const ale_wall_t *wall, const ale_view_t *view, int64_t t_um)
+static inline int64_t ale_wall_overlap(const ale_wall_t *wall, const ale_observation_t *observation,
+                                       int64_t t_um)
 {
-    return ale_min64(wall->end_um, t_um + view->end_um) - ale_max64(wall->start_um, t_um + view->start_um);
+    return ale_min64(wall->end_um, t_um + observation->end_um) -
+           ale_max64(wall->start_um, t_um + observation->start_um);
 }
 
 /* Variance of the wall's offset at t along it, and its covariance with the angle there. */

@@ -14,11 +14,12 @@ static inline bool is_plain(const ale_matrix_t *cov, int64_t lever_q14)
             ale_beyond(cov->m[2][2], 28)) == 0;
 }
 
-int64_t ale_view_offset_var(const ale_view_t *view, const ale_matrix_t *cov)
+int64_t ale_observation_offset_var(const ale_observation_t *observation, const ale_matrix_t *cov)
 {
-    const ale_direction_t normal = ale_direction(view->normal_bam);
-    const int64_t lever_um = ale_round_shift(
-        (int64_t)view->centre.x_um * normal.sin_q30 - (int64_t)view->centre.y_um * normal.cos_q30, 30);
+    const ale_direction_t normal = ale_direction(observation->normal_bam);
+    const int64_t lever_um = ale_round_shift((int64_t)observation->centre.x_um * normal.sin_q30 -
+                                                 (int64_t)observation->centre.y_um * normal.cos_q30,
+                                             30);
     const int64_t x = ale_round_shift(normal.cos_q30, 16);
     const int64_t y = ale_round_shift(normal.sin_q30, 16);
     const int64_t lever = ale_round_div(lever_um * (1 << 14), 1000000);
@@ -38,15 +39,15 @@ int64_t ale_view_offset_var(const ale_view_t *view, const ale_matrix_t *cov)
     return ale_max64(var, 0);
 }
 
-int64_t ale_view_angle_var(const ale_matrix_t *cov)
+int64_t ale_observation_angle_var(const ale_matrix_t *cov)
 {
     return cov->m[2][2];
 }
 
-/* A view as it is held against walls, placed in their frame, and the variance that the pose's covariance
- * gives its offset, found out when it is asked for. */
+/* An observation as it is held against walls, placed in their frame, and the variance that the pose's
+ * covariance gives its offset, found out when it is asked for. */
 typedef struct {
-    const ale_view_t *view;
+    const ale_observation_t *observation;
     ale_point_t centre;
     uint32_t normal_bam;
     const ale_matrix_t *cov; /* NULL: the pose is known exactly */
@@ -56,7 +57,7 @@ typedef struct {
 static int64_t pose_var_um2(candidate_t *c)
 {
     if (c->pose_var_um2 < 0) {
-        c->pose_var_um2 = c->cov ? ale_view_offset_var(c->view, c->cov) : 0;
+        c->pose_var_um2 = c->cov ? ale_observation_offset_var(c->observation, c->cov) : 0;
     }
     return c->pose_var_um2;
 }
@@ -64,21 +65,23 @@ static int64_t pose_var_um2(candidate_t *c)
 /* Of wall and view, without the pose. */
 static int64_t known_var(const ale_wall_t *wall, const candidate_t *c, const ale_wall_error_t *e)
 {
-    return ale_wall_offset_var(wall, e->t_um) + c->view->var_offset_um2;
+    return ale_wall_offset_var(wall, e->t_um) + c->observation->var_offset_um2;
 }
 
 static int64_t angle_var(const ale_wall_t *wall, const candidate_t *c)
 {
-    return wall->var_angle_urad2 + c->view->var_angle_urad2 + (c->cov ? ale_view_angle_var(c->cov) : 0);
+    return wall->var_angle_urad2 + c->observation->var_angle_urad2 +
+           (c->cov ? ale_observation_angle_var(c->cov) : 0);
 }
 
 /* Common length of view and wall, enough to believe that one shows the other. */
-static inline bool overlaps(const ale_wall_t *wall, const ale_view_t *view, int64_t overlap_um)
+static inline bool overlaps(const ale_wall_t *wall, const ale_observation_t *observation, int64_t overlap_um)
 {
     if (overlap_um <= 0) {
         return false;
     }
-    const int64_t shorter_um = ale_min64(wall->end_um - wall->start_um, ale_view_length_um(view));
+    const int64_t shorter_um =
+        ale_min64(wall->end_um - wall->start_um, ale_observation_length_um(observation));
     return overlap_um * 10 > shorter_um * 8 ||
            (overlap_um > OVERLAP_LEAST_UM && overlap_um * 100 > shorter_um * OVERLAP_PERCENT);
 }
@@ -89,8 +92,8 @@ static inline bool is_beside(const ale_wall_t *wall, const candidate_t *c, const
                              ale_wall_error_t *e)
 {
     e->t_um = ale_wall_along(wall, c->centre);
-    e->overlap_um = ale_wall_overlap(wall, c->view, e->t_um);
-    if (!overlaps(wall, c->view, e->overlap_um)) {
+    e->overlap_um = ale_wall_overlap(wall, c->observation, e->t_um);
+    if (!overlaps(wall, c->observation, e->overlap_um)) {
         return false;
     }
     e->angle_urad = ale_wall_angle(wall, c->normal_bam);
@@ -127,7 +130,7 @@ static int64_t distance_q8(const ale_wall_t *wall, candidate_t *c, const ale_wal
 }
 
 /* Whether a place lies off the wall's line by `limit_q30` or more, um. */
-static inline bool is_off(const ale_glance_t *wall, ale_point_t p, int64_t limit_q30)
+static inline bool is_off(const ale_candidate_t *wall, ale_point_t p, int64_t limit_q30)
 {
     const int64_t off_q30 =
         (int64_t)p.x_um * wall->normal_x_q30 + (int64_t)p.y_um * wall->normal_y_q30 - wall->offset_q30;
@@ -135,8 +138,8 @@ static inline bool is_off(const ale_glance_t *wall, ale_point_t p, int64_t limit
 }
 
 /* The first wall of a range that a place does not lie off; most are passed over here. */
-static inline const ale_glance_t *skip_off(const ale_glance_t *wall, const ale_glance_t *last, ale_point_t p,
-                                           int64_t limit_q30)
+static inline const ale_candidate_t *skip_off(const ale_candidate_t *wall, const ale_candidate_t *last,
+                                              ale_point_t p, int64_t limit_q30)
 {
     while (wall < last && is_off(wall, p, limit_q30)) {
         wall++;
@@ -144,29 +147,30 @@ static inline const ale_glance_t *skip_off(const ale_glance_t *wall, const ale_g
     return wall;
 }
 
-ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
-                           const ale_matrix_t *cov, const ale_gate_t *gate, int32_t *looks)
+ale_association_t ale_associate(const ale_local_map_t *map, const ale_observation_t *observation,
+                                const ale_viewpoint_t *viewpoint, const ale_matrix_t *cov,
+                                const ale_gate_t *gate, int32_t *work)
 {
-    ale_match_t best = {.wall = ALE_NO_WALL, .mark = ALE_NO_MARK};
+    ale_association_t best = {.wall = ALE_NO_WALL, .landmark = ALE_NO_LANDMARK};
     int64_t least_q8 = -1; /* of the best, found out when another wall may be it */
-    candidate_t shown = {view, ale_point_from(view->centre, stand), view->normal_bam + stand->pose.theta_bam,
-                         cov, -1};
+    candidate_t shown = {observation, ale_point_from(observation->centre, viewpoint),
+                         observation->normal_bam + viewpoint->pose.theta_bam, cov, -1};
     const int64_t limit_q30 =
         ((int64_t)gate->offset_um << 30) + (1 << 29); /* what rounds to more than the gate */
     ale_range_t facing[2];
-    ale_local_map_facing(map->glance_first, shown.normal_bam, ale_local_map_buckets(gate->angle_urad),
+    ale_local_map_facing(map->candidate_first, shown.normal_bam, ale_local_map_buckets(gate->angle_urad),
                          facing);
     for (int r = 0; r < 2; r++) {
-        ale_take_looks(&facing[r], looks);
-        const ale_glance_t *const last = &map->glance[facing[r].last];
-        const ale_glance_t *const first = &map->glance[facing[r].first];
-        for (const ale_glance_t *glance = skip_off(first, last, shown.centre, limit_q30); glance < last;
-             glance = skip_off(glance + 1, last, shown.centre, limit_q30)) {
-            *looks -= ALE_LOOKS_OF_A_WALL;
-            if (*looks < 0) {
+        ale_spend_work(&facing[r], work);
+        const ale_candidate_t *const last = &map->candidate[facing[r].last];
+        const ale_candidate_t *const first = &map->candidate[facing[r].first];
+        for (const ale_candidate_t *candidate = skip_off(first, last, shown.centre, limit_q30);
+             candidate < last; candidate = skip_off(candidate + 1, last, shown.centre, limit_q30)) {
+            *work -= ALE_WALL_WORK;
+            if (*work < 0) {
                 return best;
             }
-            const ale_wall_t *wall = &map->wall[glance->wall];
+            const ale_wall_t *wall = &map->wall[candidate->wall];
             ale_wall_error_t e;
             if (!is_beside(wall, &shown, gate, &e) || !is_within(wall, &shown, &e, gate->sigmas)) {
                 continue;
@@ -179,42 +183,44 @@ ale_match_t ale_match_view(const ale_local_map_t *map, const ale_view_t *view, c
                 }
                 least_q8 = own_q8;
             }
-            best.wall = glance->wall;
+            best.wall = candidate->wall;
             best.error = e;
         }
     }
     return best;
 }
 
-static ale_wall_error_t mark_error(const ale_mark_t *mark, ale_point_t p)
+static ale_wall_error_t landmark_error(const ale_landmark_t *landmark, ale_point_t p)
 {
-    const ale_point_t d = ale_minus(p, mark->p);
-    const ale_direction_t n = ale_direction(mark->normal_bam);
+    const ale_point_t d = ale_minus(p, landmark->p);
+    const ale_direction_t n = ale_direction(landmark->normal_bam);
     return (ale_wall_error_t){
         .offset_um = ale_round_shift((int64_t)d.x_um * n.cos_q30 + (int64_t)d.y_um * n.sin_q30, 30),
         .t_um = ale_round_shift((int64_t)d.x_um * n.sin_q30 - (int64_t)d.y_um * n.cos_q30, 30)};
 }
 
-ale_match_t ale_match_mark(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
-                           int32_t reach_um)
+ale_association_t ale_associate_landmark(const ale_local_map_t *map, const ale_observation_t *observation,
+                                         const ale_viewpoint_t *viewpoint, int32_t reach_um)
 {
-    ale_match_t found = {.wall = ALE_NO_WALL};
-    const ale_point_t p = ale_point_from(view->centre, stand);
-    found.mark = ale_marks_find(&map->marks, p, view->normal_bam + stand->pose.theta_bam,
-                                view->kind == ALE_VIEW_SPOT, reach_um);
-    if (found.mark != ALE_NO_MARK) {
-        found.error = mark_error(&map->marks.mark[found.mark], p);
+    ale_association_t found = {.wall = ALE_NO_WALL};
+    const ale_point_t p = ale_point_from(observation->centre, viewpoint);
+    found.landmark =
+        ale_landmarks_find(&map->landmarks, p, observation->normal_bam + viewpoint->pose.theta_bam,
+                           observation->kind == ALE_OBSERVATION_POINT, reach_um);
+    if (found.landmark != ALE_NO_LANDMARK) {
+        found.error = landmark_error(&map->landmarks.landmark[found.landmark], p);
     }
     return found;
 }
 
-void ale_match_renew(const ale_local_map_t *map, const ale_view_t *view, const ale_stand_t *stand,
-                     ale_match_t *match)
+void ale_association_renew(const ale_local_map_t *map, const ale_observation_t *observation,
+                           const ale_viewpoint_t *viewpoint, ale_association_t *association)
 {
-    if (match->wall != ALE_NO_WALL) {
-        const ale_view_t moved = ale_view_from(view, stand);
-        match->error = ale_wall_error(&map->wall[match->wall], &moved);
-    } else if (match->mark != ALE_NO_MARK) {
-        match->error = mark_error(&map->marks.mark[match->mark], ale_point_from(view->centre, stand));
+    if (association->wall != ALE_NO_WALL) {
+        const ale_observation_t moved = ale_observation_from(observation, viewpoint);
+        association->error = ale_wall_error(&map->wall[association->wall], &moved);
+    } else if (association->landmark != ALE_NO_LANDMARK) {
+        association->error = landmark_error(&map->landmarks.landmark[association->landmark],
+                                            ale_point_from(observation->centre, viewpoint));
     }
 }

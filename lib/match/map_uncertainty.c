@@ -25,10 +25,10 @@ typedef struct {
     int64_t yy;
 } square_t;
 
-static int64_t weight_mm(const ale_view_t *view, const ale_match_t *match)
+static int64_t weight_mm(const ale_observation_t *observation, const ale_association_t *association)
 {
-    return match->wall != ALE_NO_WALL && view->kind == ALE_VIEW_WALL
-               ? ale_max64(ale_view_length_um(view) / 1000, 1)
+    return association->wall != ALE_NO_WALL && observation->kind == ALE_OBSERVATION_LINE
+               ? ale_max64(ale_observation_length_um(observation) / 1000, 1)
                : 0;
 }
 
@@ -93,26 +93,27 @@ static int64_t times(int64_t m_q20, int64_t v)
 }
 
 /* The drift when the point about which it turns moves by p. */
-static ale_drift_t moved(const ale_drift_t *d, metres_t p)
+static ale_map_uncertainty_t moved(const ale_map_uncertainty_t *d, metres_t p)
 {
     const int64_t x_turn = times(p.x_q20, d->tt_urad2);
     const int64_t y_turn = times(p.y_q20, d->tt_urad2);
-    return (ale_drift_t){.xx_um2 = d->xx_um2 - 2 * times(p.y_q20, d->xt_um_urad) + times(p.y_q20, y_turn),
-                         .xy_um2 = d->xy_um2 + times(p.x_q20, d->xt_um_urad) - times(p.y_q20, d->yt_um_urad) -
-                                   times(p.x_q20, y_turn),
-                         .yy_um2 = d->yy_um2 + 2 * times(p.x_q20, d->yt_um_urad) + times(p.x_q20, x_turn),
-                         .xt_um_urad = d->xt_um_urad - y_turn,
-                         .yt_um_urad = d->yt_um_urad + x_turn,
-                         .tt_urad2 = d->tt_urad2};
+    return (ale_map_uncertainty_t){
+        .xx_um2 = d->xx_um2 - 2 * times(p.y_q20, d->xt_um_urad) + times(p.y_q20, y_turn),
+        .xy_um2 = d->xy_um2 + times(p.x_q20, d->xt_um_urad) - times(p.y_q20, d->yt_um_urad) -
+                  times(p.x_q20, y_turn),
+        .yy_um2 = d->yy_um2 + 2 * times(p.x_q20, d->yt_um_urad) + times(p.x_q20, x_turn),
+        .xt_um_urad = d->xt_um_urad - y_turn,
+        .yt_um_urad = d->yt_um_urad + x_turn,
+        .tt_urad2 = d->tt_urad2};
 }
 
-ale_drift_t ale_drift_at(const ale_drift_t *drift, ale_point_t place)
+ale_map_uncertainty_t ale_map_uncertainty_at(const ale_map_uncertainty_t *map_uncertainty, ale_point_t place)
 {
-    return moved(drift, metres(place));
+    return moved(map_uncertainty, metres(place));
 }
 
 /* About the origin, of a drift that is felt so at a place. */
-static ale_drift_t about_origin(const ale_drift_t *at, ale_point_t place)
+static ale_map_uncertainty_t about_origin(const ale_map_uncertainty_t *at, ale_point_t place)
 {
     const metres_t p = metres(place);
     return moved(at, (metres_t){-p.x_q20, -p.y_q20});
@@ -126,7 +127,7 @@ typedef struct {
 
 static facing_drift_t facing_drift(const ale_wall_t *wall, const square_t *n_nt, metres_t place)
 {
-    const ale_drift_t *d = &wall->drift;
+    const ale_map_uncertainty_t *d = &wall->map_uncertainty;
     const int64_t x = ale_round_shift(wall->normal_x_q30, 10);
     const int64_t y = ale_round_shift(wall->normal_y_q30, 10);
     const int64_t lever_q20 = ale_round_shift(y * place.x_q20 - x * place.y_q20, 20);
@@ -140,7 +141,7 @@ static facing_drift_t facing_drift(const ale_wall_t *wall, const square_t *n_nt,
 /* What place and heading have in common, c, is told by walls that face one way, the heading by all: c may be
  * more than a covariance can have. It is held to c^T V^(-1) c <= 3/4 t, what a heading that drifts evenly
  * along a straight way has in common with the place at its end. */
-static void limit_common(ale_drift_t *at)
+static void limit_common(ale_map_uncertainty_t *at)
 {
     const int64_t turn_urad = ale_max64(ale_isqrt((uint64_t)at->tt_urad2), 1);
     const unsigned bits = ale_bit_length((uint64_t)ale_max64(ale_max64(at->xx_um2, at->yy_um2), 0));
@@ -171,7 +172,7 @@ typedef struct {
 } sums_t;
 
 /* What was there before counts in all directions, and not for the heading. */
-static sums_t begin_with(const ale_drift_t *old, int64_t part_q20)
+static sums_t begin_with(const ale_map_uncertainty_t *old, int64_t part_q20)
 {
     const int64_t xx = ale_min64(old->xx_um2, most_um2);
     const int64_t yy = ale_min64(old->yy_um2, most_um2);
@@ -186,53 +187,54 @@ static sums_t begin_with(const ale_drift_t *old, int64_t part_q20)
 static void add_wall(sums_t *sums, const ale_wall_t *wall, metres_t place, int64_t part_q20)
 {
     const square_t n_nt = facing(wall);
-    const facing_drift_t drift = facing_drift(wall, &n_nt, place);
-    const int64_t common = times(part_q20, drift.cov_um_urad);
+    const facing_drift_t map_uncertainty = facing_drift(wall, &n_nt, place);
+    const int64_t common = times(part_q20, map_uncertainty.cov_um_urad);
     add_scaled(&sums->facing_q20, &n_nt, part_q20);
-    add_scaled(&sums->var, &n_nt, times(part_q20, drift.var_um2));
+    add_scaled(&sums->var, &n_nt, times(part_q20, map_uncertainty.var_um2));
     sums->x_common += ale_mul_shift(common, wall->normal_x_q30, 30);
     sums->y_common += ale_mul_shift(common, wall->normal_y_q30, 30);
-    sums->var_urad2 += times(part_q20, wall->drift.tt_urad2);
+    sums->var_urad2 += times(part_q20, wall->map_uncertainty.tt_urad2);
 }
 
-static ale_drift_t mean_of(const sums_t *sums)
+static ale_map_uncertainty_t mean_of(const sums_t *sums)
 {
     const square_t root = inverse_root(&sums->facing_q20);
     const square_t var = congruence(&root, &sums->var);
     const int64_t x = of_two(root.xx, sums->x_common, root.xy, sums->y_common);
     const int64_t y = of_two(root.xy, sums->x_common, root.yy, sums->y_common);
-    ale_drift_t mean = {.xx_um2 = var.xx,
-                        .xy_um2 = var.xy,
-                        .yy_um2 = var.yy,
-                        .xt_um_urad = of_two(root.xx, x, root.xy, y),
-                        .yt_um_urad = of_two(root.xy, x, root.yy, y),
-                        .tt_urad2 = sums->var_urad2};
+    ale_map_uncertainty_t mean = {.xx_um2 = var.xx,
+                                  .xy_um2 = var.xy,
+                                  .yy_um2 = var.yy,
+                                  .xt_um_urad = of_two(root.xx, x, root.xy, y),
+                                  .yt_um_urad = of_two(root.xy, x, root.yy, y),
+                                  .tt_urad2 = sums->var_urad2};
     limit_common(&mean);
     return mean;
 }
 
-ale_drift_t ale_drift_here(const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
-                           const ale_fit_t *fit, const ale_drift_t *before)
+ale_map_uncertainty_t ale_map_uncertainty_here(const ale_local_map_t *map,
+                                               const ale_observation_t observation[], uint32_t count,
+                                               const ale_fit_t *fit, const ale_map_uncertainty_t *before)
 {
     int64_t whole_mm = 0;
     for (uint32_t i = 0; i < count; i++) {
-        whole_mm += weight_mm(&view[i], &fit->match[i]);
+        whole_mm += weight_mm(&observation[i], &fit->association[i]);
     }
     if (whole_mm == 0) {
         return *before;
     }
     const ale_point_t place = {fit->motion.pose.x_um, fit->motion.pose.y_um};
     const metres_t place_m = metres(place);
-    const ale_drift_t old = ale_drift_at(before, place);
+    const ale_map_uncertainty_t old = ale_map_uncertainty_at(before, place);
     sums_t sums = begin_with(
         &old, ale_clamp64(((int64_t)BEFORE_MM << 20) / whole_mm, BEFORE_LEAST_Q20, (int64_t)1 << 20));
     for (uint32_t i = 0; i < count; i++) {
-        const int64_t w_mm = weight_mm(&view[i], &fit->match[i]);
+        const int64_t w_mm = weight_mm(&observation[i], &fit->association[i]);
         if (w_mm > 0) {
-            add_wall(&sums, &map->wall[fit->match[i].wall], place_m, (w_mm << 20) / whole_mm);
+            add_wall(&sums, &map->wall[fit->association[i].wall], place_m, (w_mm << 20) / whole_mm);
         }
     }
-    const ale_drift_t mean = mean_of(&sums);
+    const ale_map_uncertainty_t mean = mean_of(&sums);
     return about_origin(&mean, place);
 }
 
@@ -244,10 +246,11 @@ static int64_t across(const square_t *var, uint32_t normal_bam)
            ale_mul_shift(var->yy, n_nt.yy_q20, 20);
 }
 
-ale_drift_t ale_drift_go_on(const ale_drift_t *here, const ale_motion_t *motion)
+ale_map_uncertainty_t ale_map_uncertainty_inherit(const ale_map_uncertainty_t *here,
+                                                  const ale_motion_t *motion)
 {
     const ale_point_t place = {motion->pose.x_um, motion->pose.y_um};
-    ale_drift_t at = ale_drift_at(here, place);
+    ale_map_uncertainty_t at = ale_map_uncertainty_at(here, place);
     ale_matrix_t turned;
     ale_motion_map_covariance(motion, &turned);
     if (ale_max64(at.xx_um2, at.yy_um2) < most_um2 && at.tt_urad2 < most_urad2) {
@@ -261,16 +264,17 @@ ale_drift_t ale_drift_go_on(const ale_drift_t *here, const ale_motion_t *motion)
     return about_origin(&at, place);
 }
 
-void ale_drift_slide(ale_drift_t *here, int64_t *slid_um, uint32_t along_bam, const ale_motion_t *before,
-                     const ale_motion_t *predicted)
+void ale_map_uncertainty_drift(ale_map_uncertainty_t *here, int64_t *drifted_um, uint32_t along_bam,
+                               const ale_motion_t *before, const ale_motion_t *predicted)
 {
     const square_t then = {before->cov.m[0][0], before->cov.m[0][1], before->cov.m[1][1]};
     const square_t now = {predicted->cov.m[0][0], predicted->cov.m[0][1], predicted->cov.m[1][1]};
     const int64_t grown_um2 = across(&now, along_bam - predicted->pose.theta_bam) -
                               across(&then, along_bam - before->pose.theta_bam);
-    const int64_t slid = ale_min64(*slid_um + ale_isqrt((uint64_t)ale_max64(grown_um2, 0)), SLID_MOST_UM);
-    const ale_drift_t at = ale_drift_at(here, (ale_point_t){predicted->pose.x_um, predicted->pose.y_um});
-    const int64_t more_um2 = ale_clamp64(slid * slid - *slid_um * *slid_um, 0,
+    const int64_t slid = ale_min64(*drifted_um + ale_isqrt((uint64_t)ale_max64(grown_um2, 0)), SLID_MOST_UM);
+    const ale_map_uncertainty_t at =
+        ale_map_uncertainty_at(here, (ale_point_t){predicted->pose.x_um, predicted->pose.y_um});
+    const int64_t more_um2 = ale_clamp64(slid * slid - *drifted_um * *drifted_um, 0,
                                          ale_max64(most_um2 - ale_max64(at.xx_um2, at.yy_um2), 0));
     const ale_direction_t along = ale_direction(along_bam);
     const int64_t x = ale_round_shift(along.cos_q30, 10);
@@ -278,5 +282,5 @@ void ale_drift_slide(ale_drift_t *here, int64_t *slid_um, uint32_t along_bam, co
     here->xx_um2 += ale_mul_shift(more_um2, x * x, 40);
     here->xy_um2 += ale_mul_shift(more_um2, x * y, 40);
     here->yy_um2 += ale_mul_shift(more_um2, y * y, 40);
-    *slid_um = slid;
+    *drifted_um = slid;
 }

@@ -6,7 +6,7 @@
 enum {
     HELD_UM = 30000,
     BARE_UM = 200000,
-    CONFIRMED = 3, /* a mark that was seen less often holds nothing */
+    CONFIRMED = 3, /* a landmark that was seen less often holds nothing */
     WEIGHT_BITS = 20
 };
 
@@ -19,7 +19,7 @@ typedef struct {
     int64_t pull_y;
 } information_t;
 
-static void add(information_t *sum, int64_t x_q30, int64_t y_q30, int64_t var_um2, int64_t wheel_drift_um)
+static void add(information_t *sum, int64_t x_q30, int64_t y_q30, int64_t var_um2, int64_t scale_error_um)
 {
     const int64_t weight = ((int64_t)1000000 << WEIGHT_BITS) / ale_max64(var_um2, ALE_ROW_VAR_MIN_UM2);
     const int64_t x_q14 = ale_round_shift(x_q30, 16);
@@ -27,8 +27,8 @@ static void add(information_t *sum, int64_t x_q30, int64_t y_q30, int64_t var_um
     sum->xx += ale_round_shift(weight * x_q14 * x_q14, 28);
     sum->xy += ale_round_shift(weight * x_q14 * y_q14, 28);
     sum->yy += ale_round_shift(weight * y_q14 * y_q14, 28);
-    sum->pull_x += ale_mul_shift(weight * x_q14, wheel_drift_um, 14);
-    sum->pull_y += ale_mul_shift(weight * y_q14, wheel_drift_um, 14);
+    sum->pull_x += ale_mul_shift(weight * x_q14, scale_error_um, 14);
+    sum->pull_y += ale_mul_shift(weight * y_q14, scale_error_um, 14);
 }
 
 /* Whether every direction is told better than to one sigma of so much. */
@@ -40,60 +40,65 @@ static bool tells(const information_t *sum, int64_t sigma_um)
     return xx > 0 && yy > 0 && xx * yy > sum->xy * sum->xy;
 }
 
-static void add_walls(const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
+static void add_walls(const ale_local_map_t *map, const ale_observation_t observation[], uint32_t count,
                       const ale_fit_t *fit, information_t *sum)
 {
     for (uint32_t i = 0; i < count; i++) {
-        const ale_match_t *match = &fit->match[i];
-        if (match->wall != ALE_NO_WALL) {
-            const ale_wall_t *wall = &map->wall[match->wall];
+        const ale_association_t *association = &fit->association[i];
+        if (association->wall != ALE_NO_WALL) {
+            const ale_wall_t *wall = &map->wall[association->wall];
             add(sum, wall->normal_x_q30, wall->normal_y_q30,
-                ale_wall_offset_var(wall, match->error.t_um) + view[i].var_offset_um2, wall->wheel_drift_um);
+                ale_wall_offset_var(wall, association->error.t_um) + observation[i].var_offset_um2,
+                wall->scale_error_um);
         }
     }
 }
 
 /* What a surface may have slid along itself: its length, as far as its direction may be another one than that
- * of the mark. */
-static int64_t slid_um2(const ale_view_t *view, int64_t turned_q30)
+ * of the landmark. */
+static int64_t slid_um2(const ale_observation_t *observation, int64_t turned_q30)
 {
-    const int64_t length_mm = ale_view_length_um(view) / 1000;
+    const int64_t length_mm = ale_observation_length_um(observation) / 1000;
     const int64_t turned_mrad = ale_round_shift(turned_q30 * 1000, 30);
-    return length_mm * length_mm * (turned_mrad * turned_mrad + view->var_angle_urad2 / 1000000);
+    return length_mm * length_mm * (turned_mrad * turned_mrad + observation->var_angle_urad2 / 1000000);
 }
 
-static void add_marks(const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
+static void add_marks(const ale_local_map_t *map, const ale_observation_t observation[], uint32_t count,
                       const ale_fit_t *fit, information_t *sum)
 {
     for (uint32_t i = 0; i < count; i++) {
-        const ale_match_t *match = &fit->match[i];
-        if (match->wall != ALE_NO_WALL || match->mark == ALE_NO_MARK ||
-            map->marks.mark[match->mark].seen < CONFIRMED) {
+        const ale_association_t *association = &fit->association[i];
+        if (association->wall != ALE_NO_WALL || association->landmark == ALE_NO_LANDMARK ||
+            map->landmarks.landmark[association->landmark].seen < CONFIRMED) {
             continue;
         }
-        const ale_mark_t *mark = &map->marks.mark[match->mark];
-        const ale_direction_t normal = ale_direction(mark->normal_bam);
-        const uint32_t turned_bam = view[i].normal_bam + fit->motion.pose.theta_bam - mark->normal_bam;
+        const ale_landmark_t *landmark = &map->landmarks.landmark[association->landmark];
+        const ale_direction_t normal = ale_direction(landmark->normal_bam);
+        const uint32_t turned_bam =
+            observation[i].normal_bam + fit->motion.pose.theta_bam - landmark->normal_bam;
         add(sum, normal.cos_q30, normal.sin_q30,
-            mark->var_um2 + view[i].var_offset_um2 + slid_um2(&view[i], ale_sin_q30(turned_bam)), 0);
+            landmark->var_um2 + observation[i].var_offset_um2 +
+                slid_um2(&observation[i], ale_sin_q30(turned_bam)),
+            0);
     }
 }
 
-ale_hold_t ale_hold_of(const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
-                       const ale_fit_t *fit)
+ale_observability_t ale_observability_of(const ale_local_map_t *map, const ale_observation_t observation[],
+                                         uint32_t count, const ale_fit_t *fit)
 {
     information_t sum = {0, 0, 0, 0, 0};
-    add_walls(map, view, count, fit, &sum);
+    add_walls(map, observation, count, fit, &sum);
     const information_t walls = sum;
     if (!tells(&sum, HELD_UM)) {
-        add_marks(map, view, count, fit, &sum);
+        add_marks(map, observation, count, fit, &sum);
     }
-    return (ale_hold_t){.held = tells(&sum, HELD_UM),
-                        .bare = !tells(&sum, BARE_UM),
-                        .along_bam = ale_atan2_bam(2 * sum.xy, sum.xx - sum.yy) / 2 + ALE_BAM_QUARTER_TURN,
-                        .xx_q20 = walls.xx,
-                        .xy_q20 = walls.xy,
-                        .yy_q20 = walls.yy,
-                        .pull_x_q20 = walls.pull_x,
-                        .pull_y_q20 = walls.pull_y};
+    return (ale_observability_t){.determined = tells(&sum, HELD_UM),
+                                 .degenerate = !tells(&sum, BARE_UM),
+                                 .along_bam =
+                                     ale_atan2_bam(2 * sum.xy, sum.xx - sum.yy) / 2 + ALE_BAM_QUARTER_TURN,
+                                 .xx_q20 = walls.xx,
+                                 .xy_q20 = walls.xy,
+                                 .yy_q20 = walls.yy,
+                                 .pull_x_q20 = walls.pull_x,
+                                 .pull_y_q20 = walls.pull_y};
 }

@@ -17,18 +17,21 @@
 typedef struct {
     int64_t x_um;
     int64_t y_um;
-} ale_wheel_drift_t;
+} ale_scale_error_t;
 
 /* The robot has gone from one place to another, as the wheels say, whose scale errs by so much. */
-void ale_wheel_drift_go(ale_wheel_drift_t *drift, ale_pose_t from, ale_pose_t to, int64_t error_ppm);
+void ale_scale_error_predict(ale_scale_error_t *map_uncertainty, ale_pose_t from, ale_pose_t to,
+                             int64_t error_ppm);
 
 /* The scan that was predicted so was fitted to walls. */
-void ale_wheel_drift_fit(ale_wheel_drift_t *drift, const ale_hold_t *hold, const ale_motion_t *predicted);
+void ale_scale_error_update(ale_scale_error_t *map_uncertainty, const ale_observability_t *observability,
+                            const ale_motion_t *predicted);
 
 /* Part of the shift along a unit vector of the map's frame, um; within +-2 m. */
-static inline int64_t ale_wheel_drift_along(const ale_wheel_drift_t *drift, int64_t x_q30, int64_t y_q30)
+static inline int64_t ale_scale_error_along(const ale_scale_error_t *map_uncertainty, int64_t x_q30,
+                                            int64_t y_q30)
 {
-    return ale_round_shift(drift->x_um * x_q30 + drift->y_um * y_q30, 30);
+    return ale_round_shift(map_uncertainty->x_um * x_q30 + map_uncertainty->y_um * y_q30, 30);
 }
 
 #endif

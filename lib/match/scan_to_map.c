@@ -13,43 +13,44 @@ enum {
     LATER_SIGMAS = 4, /* gates of the later iterations */
     LATER_OFFSET_UM = 60000,
     LATER_ANGLE_URAD = 200000,
-    LATER_PIECE_UM = 50000,
-    MARK_CONFIRMED = 3, /* until it was seen so often a mark may be of someone who walks: (20 mm)^2 more */
-    MARK_PASSING_UM2 = 400000000,
-    PIECE_ANGLE_URAD = 600000, /* a piece hardly has a direction */
+    LATER_SEGMENT_UM = 50000,
+    LANDMARK_CONFIRMED =
+        3, /* until it was seen so often a landmark may be of someone who walks: (20 mm)^2 more */
+    LANDMARK_PASSING_UM2 = 400000000,
+    SEGMENT_ANGLE_URAD = 600000, /* a short segment hardly has a direction */
     FOCUS_MARGIN_UM = 2000000
 };
 
 static const ale_information_t no_information = {{{{0}}}, {0}};
-static const ale_gate_t later = {LATER_OFFSET_UM, LATER_ANGLE_URAD, LATER_SIGMAS, LATER_PIECE_UM};
+static const ale_gate_t later = {LATER_OFFSET_UM, LATER_ANGLE_URAD, LATER_SIGMAS, LATER_SEGMENT_UM};
 
 static int64_t ticks_q20(int64_t time_us)
 {
     return ale_round_shift(time_us * (1 << 20), ALE_TICK_BITS);
 }
 
-/* Time at the view's centre, and how it grows along the wall (ticks per metre), Q20. */
-static void view_time(const ale_view_t *v, int64_t *centre_q20, int64_t *slope_q20)
+/* Time at the observation's centre, and how it grows along the wall (ticks per metre), Q20. */
+static void observation_time(const ale_observation_t *v, int64_t *centre_q20, int64_t *slope_q20)
 {
-    const int64_t length_um = ale_max64(ale_view_length_um(v), 10000);
+    const int64_t length_um = ale_max64(ale_observation_length_um(v), 10000);
     const int64_t start = ticks_q20(v->start_time_us);
     const int64_t growth = ticks_q20(v->end_time_us) - start;
     *centre_q20 = start + ale_round_div(growth * -v->start_um, length_um);
     *slope_q20 = ale_round_div(growth * 1000000, length_um);
 }
 
-void ale_view_rows(const ale_view_t *view, uint32_t pose_theta_bam, uint32_t wall_normal_bam,
-                   ale_view_rows_t *out)
+void ale_observation_rows(const ale_observation_t *observation, uint32_t pose_theta_bam,
+                          uint32_t wall_normal_bam, ale_observation_rows_t *out)
 {
     const uint32_t normal_bam = wall_normal_bam - pose_theta_bam;
     const ale_direction_t normal = ale_direction(normal_bam);
     const int64_t nx = ale_round_shift(normal.cos_q30, 16);
     const int64_t ny = ale_round_shift(normal.sin_q30, 16);
-    const int64_t lever =
-        ale_round_div((int64_t)view->centre.x_um * ny - (int64_t)view->centre.y_um * nx, 1000000);
+    const int64_t lever = ale_round_div(
+        (int64_t)observation->centre.x_um * ny - (int64_t)observation->centre.y_um * nx, 1000000);
     int64_t time;
     int64_t slope;
-    view_time(view, &time, &slope);
+    observation_time(observation, &time, &slope);
     const int64_t offset[3] = {nx, ny, lever};
     for (int i = 0; i < 3; i++) {
         out->offset_row_q14[i] = offset[i];
@@ -61,7 +62,8 @@ void ale_view_rows(const ale_view_t *view, uint32_t pose_theta_bam, uint32_t wal
 }
 
 /* Errors as they are with the velocity found so far: the scan was straightened with another. */
-static void correct_for_velocity(const ale_view_rows_t *rows, const int64_t change[3], ale_wall_error_t *e)
+static void correct_for_velocity(const ale_observation_rows_t *rows, const int64_t change[3],
+                                 ale_wall_error_t *e)
 {
     for (int i = 0; i < 3; i++) {
         if (change[i] == 0) {
@@ -81,14 +83,14 @@ static int64_t robust_var(int64_t error, int64_t var)
 }
 
 /* Two rows: the offset, and the angle freed of what the wall's own error shares between them. */
-static void add_rows(const ale_view_t *view, const ale_wall_t *wall, const ale_view_rows_t *rows,
-                     const ale_wall_error_t *e, ale_information_t *sum)
+static void add_rows(const ale_observation_t *observation, const ale_wall_t *wall,
+                     const ale_observation_rows_t *rows, const ale_wall_error_t *e, ale_information_t *sum)
 {
-    const int64_t var_offset = ale_wall_offset_var(wall, e->t_um) + view->var_offset_um2;
+    const int64_t var_offset = ale_wall_offset_var(wall, e->t_um) + observation->var_offset_um2;
     const int64_t shared = ale_wall_offset_angle_cov(wall, e->t_um);
     const int64_t part_q30 = ale_ratio_q30(shared, var_offset);
     const int64_t var_angle =
-        wall->var_angle_urad2 + view->var_angle_urad2 - ale_mul_shift(part_q30, shared, 30);
+        wall->var_angle_urad2 + observation->var_angle_urad2 - ale_mul_shift(part_q30, shared, 30);
     const int64_t rest_urad = e->angle_urad - ale_mul_shift(part_q30, e->offset_um, 30);
     int64_t rest_row[ALE_STATES];
     for (int i = 0; i < ALE_STATES; i++) {
@@ -98,55 +100,62 @@ static void add_rows(const ale_view_t *view, const ale_wall_t *wall, const ale_v
     ale_information_add(sum, rest_row, rest_urad, robust_var(rest_urad, var_angle));
 }
 
-/* A mark: the offset along its normal, and for a spot also the one across. */
-static void add_mark_rows(const ale_view_t *view, const ale_mark_t *mark, uint32_t theta_bam,
-                          const int64_t change[3], ale_match_t *match, ale_information_t *sum)
+/* A mark: the offset along its normal, and for a point feature also the one across. */
+static void add_landmark_rows(const ale_observation_t *observation, const ale_landmark_t *landmark,
+                              uint32_t theta_bam, const int64_t change[3], ale_association_t *association,
+                              ale_information_t *sum)
 {
-    ale_view_rows_t rows;
-    const int64_t passing = mark->seen < MARK_CONFIRMED ? MARK_PASSING_UM2 : 0;
-    const int64_t var = view->var_offset_um2 + mark->var_um2 + passing;
-    ale_view_rows(view, theta_bam, mark->normal_bam, &rows);
-    correct_for_velocity(&rows, change, &match->error);
-    ale_information_add(sum, rows.offset_row_q14, match->error.offset_um,
-                        robust_var(match->error.offset_um, var));
-    if (view->kind == ALE_VIEW_SPOT && mark->spot) {
-        const int64_t width_um = ale_view_length_um(view);
+    ale_observation_rows_t rows;
+    const int64_t passing = landmark->seen < LANDMARK_CONFIRMED ? LANDMARK_PASSING_UM2 : 0;
+    const int64_t var = observation->var_offset_um2 + landmark->var_um2 + passing;
+    ale_observation_rows(observation, theta_bam, landmark->normal_bam, &rows);
+    correct_for_velocity(&rows, change, &association->error);
+    ale_information_add(sum, rows.offset_row_q14, association->error.offset_um,
+                        robust_var(association->error.offset_um, var));
+    if (observation->kind == ALE_OBSERVATION_POINT && landmark->is_point) {
+        const int64_t width_um = ale_observation_length_um(observation);
         const int64_t var_across = var + width_um * width_um / 12;
-        ale_wall_error_t across = {.offset_um = match->error.t_um};
-        ale_view_rows(view, theta_bam, ale_tangent_bam(mark->normal_bam), &rows);
+        ale_wall_error_t across = {.offset_um = association->error.t_um};
+        ale_observation_rows(observation, theta_bam, ale_tangent_bam(landmark->normal_bam), &rows);
         correct_for_velocity(&rows, change, &across);
         ale_information_add(sum, rows.offset_row_q14, across.offset_um,
                             robust_var(across.offset_um, var_across));
     }
 }
 
-static void add_wall_rows(const ale_view_t *view, const ale_wall_t *wall, ale_fit_t *fit, ale_match_t *match)
+static void add_wall_rows(const ale_observation_t *observation, const ale_wall_t *wall, ale_fit_t *fit,
+                          ale_association_t *association)
 {
-    ale_view_rows_t rows;
-    ale_view_rows(view, fit->motion.pose.theta_bam, wall->normal_bam, &rows);
-    correct_for_velocity(&rows, fit->velocity_change, &match->error);
-    add_rows(view, wall, &rows, &match->error, &fit->information);
+    ale_observation_rows_t rows;
+    ale_observation_rows(observation, fit->motion.pose.theta_bam, wall->normal_bam, &rows);
+    correct_for_velocity(&rows, fit->velocity_change, &association->error);
+    add_rows(observation, wall, &rows, &association->error, &fit->information);
 }
 
-static ale_match_t find(const ale_scene_t *scene, const ale_view_t *view, const ale_stand_t *stand,
-                        const ale_matrix_t *cov, const ale_gate_t *gate, int32_t *looks)
+static ale_association_t find(const ale_scene_t *scene, const ale_observation_t *observation,
+                              const ale_viewpoint_t *viewpoint, const ale_matrix_t *cov,
+                              const ale_gate_t *gate, int32_t *work)
 {
-    if (view->kind == ALE_VIEW_WALL) {
-        const ale_match_t wall = ale_match_view(scene->map, view, stand, cov, gate, looks);
-        const bool found = wall.wall != ALE_NO_WALL || ale_view_length_um(view) >= ALE_WALL_LENGTH_UM;
-        return found ? wall : ale_match_mark(scene->map, view, stand, gate->piece_um);
+    if (observation->kind == ALE_OBSERVATION_LINE) {
+        const ale_association_t wall = ale_associate(scene->map, observation, viewpoint, cov, gate, work);
+        const bool found =
+            wall.wall != ALE_NO_WALL || ale_observation_length_um(observation) >= ALE_WALL_LENGTH_UM;
+        return found ? wall : ale_associate_landmark(scene->map, observation, viewpoint, gate->segment_um);
     }
-    const ale_gate_t loose = {gate->piece_um, PIECE_ANGLE_URAD, gate->sigmas, 0};
-    const ale_match_t match = view->kind == ALE_VIEW_PIECE
-                                  ? ale_match_view(scene->map, view, stand, cov, &loose, looks)
-                                  : (ale_match_t){.wall = ALE_NO_WALL};
-    return match.wall != ALE_NO_WALL ? match : ale_match_mark(scene->map, view, stand, gate->piece_um);
+    const ale_gate_t surface_run = {gate->segment_um, SEGMENT_ANGLE_URAD, gate->sigmas, 0};
+    const ale_association_t association =
+        observation->kind == ALE_OBSERVATION_SEGMENT
+            ? ale_associate(scene->map, observation, viewpoint, cov, &surface_run, work)
+            : (ale_association_t){.wall = ALE_NO_WALL};
+    return association.wall != ALE_NO_WALL
+               ? association
+               : ale_associate_landmark(scene->map, observation, viewpoint, gate->segment_um);
 }
 
 static void clear(ale_fit_t *fit)
 {
     fit->matched = 0;
-    fit->matched_pieces = 0;
+    fit->matched_segments = 0;
     fit->matched_um = 0;
     fit->shown_um = 0;
 }
@@ -155,37 +164,39 @@ static void clear(ale_fit_t *fit)
 static void find_all(const ale_scene_t *scene, const ale_matrix_t *cov, const ale_gate_t *gate,
                      ale_fit_t *fit)
 {
-    const ale_stand_t stand = ale_stand(fit->motion.pose);
-    int32_t looks = ALE_LOOKS;
+    const ale_viewpoint_t viewpoint = ale_viewpoint(fit->motion.pose);
+    int32_t work = ALE_ASSOCIATION_WORK;
     clear(fit);
-    for (uint32_t i = 0; i < scene->view_count; i++) {
-        const ale_view_t *view = &scene->view[i];
-        ale_match_t *match = &fit->match[i];
-        const int64_t length_um = ale_view_length_um(view);
-        looks -= ALE_LOOKS_OF_A_VIEW;
-        *match = looks < 0 ? (ale_match_t){.wall = ALE_NO_WALL, .mark = ALE_NO_MARK}
-                           : find(scene, view, &stand, cov, gate, &looks);
+    for (uint32_t i = 0; i < scene->observation_count; i++) {
+        const ale_observation_t *observation = &scene->observation[i];
+        ale_association_t *association = &fit->association[i];
+        const int64_t length_um = ale_observation_length_um(observation);
+        work -= ALE_OBSERVATION_WORK;
+        *association = work < 0 ? (ale_association_t){.wall = ALE_NO_WALL, .landmark = ALE_NO_LANDMARK}
+                                : find(scene, observation, &viewpoint, cov, gate, &work);
         fit->shown_um += length_um;
-        if (match->wall != ALE_NO_WALL || match->mark != ALE_NO_MARK) {
+        if (association->wall != ALE_NO_WALL || association->landmark != ALE_NO_LANDMARK) {
             fit->matched_um += length_um;
-            fit->matched = (uint16_t)(fit->matched + (view->kind == ALE_VIEW_WALL));
-            fit->matched_pieces = (uint16_t)(fit->matched_pieces + (view->kind != ALE_VIEW_WALL));
+            fit->matched = (uint16_t)(fit->matched + (observation->kind == ALE_OBSERVATION_LINE));
+            fit->matched_segments =
+                (uint16_t)(fit->matched_segments + (observation->kind != ALE_OBSERVATION_LINE));
         }
     }
-    fit->looks += ALE_LOOKS - (looks < 0 ? 0 : looks);
+    fit->work += ALE_ASSOCIATION_WORK - (work < 0 ? 0 : work);
 }
 
 /* The rows of all that was found. */
 static void add_all(const ale_scene_t *scene, ale_fit_t *fit)
 {
     fit->information = no_information;
-    for (uint32_t i = 0; i < scene->view_count; i++) {
-        ale_match_t *match = &fit->match[i];
-        if (match->wall != ALE_NO_WALL) {
-            add_wall_rows(&scene->view[i], &scene->map->wall[match->wall], fit, match);
-        } else if (match->mark != ALE_NO_MARK) {
-            add_mark_rows(&scene->view[i], &scene->map->marks.mark[match->mark], fit->motion.pose.theta_bam,
-                          fit->velocity_change, match, &fit->information);
+    for (uint32_t i = 0; i < scene->observation_count; i++) {
+        ale_association_t *association = &fit->association[i];
+        if (association->wall != ALE_NO_WALL) {
+            add_wall_rows(&scene->observation[i], &scene->map->wall[association->wall], fit, association);
+        } else if (association->landmark != ALE_NO_LANDMARK) {
+            add_landmark_rows(&scene->observation[i], &scene->map->landmarks.landmark[association->landmark],
+                              fit->motion.pose.theta_bam, fit->velocity_change, association,
+                              &fit->information);
         }
     }
 }
@@ -231,29 +242,29 @@ static void note_velocity_change(const ale_motion_t *predicted, const ale_scene_
 static void start(const ale_motion_t *predicted, const ale_scene_t *scene, ale_fit_t *fit)
 {
     fit->motion = *predicted;
-    fit->looks = 0;
+    fit->work = 0;
     note_velocity_change(predicted, scene, fit);
 }
 
-void ale_refine_reject(const ale_motion_t *predicted, const ale_scene_t *scene, ale_fit_t *fit)
+void ale_register_reject(const ale_motion_t *predicted, const ale_scene_t *scene, ale_fit_t *fit)
 {
     start(predicted, scene, fit);
     clear(fit);
-    fit->shown_um = ale_views_length_um(scene->view, scene->view_count);
+    fit->shown_um = ale_observations_length_um(scene->observation, scene->observation_count);
     fit->information = no_information;
     fit->iterations = 0;
-    for (uint32_t i = 0; i < scene->view_count; i++) {
-        fit->match[i] = (ale_match_t){.wall = ALE_NO_WALL, .mark = ALE_NO_MARK};
+    for (uint32_t i = 0; i < scene->observation_count; i++) {
+        fit->association[i] = (ale_association_t){.wall = ALE_NO_WALL, .landmark = ALE_NO_LANDMARK};
     }
 }
 
-/* How far from the robot a wall may be that one of the views shows: what the gates and a step of the pose
- * add is more than either allows. */
+/* How far from the robot a wall may be that one of the observations shows: what the gates and a step of the
+ * pose add is more than either allows. */
 static int32_t reach_um(const ale_scene_t *scene)
 {
     int64_t reach = 0;
-    for (uint32_t i = 0; i < scene->view_count; i++) {
-        const ale_view_t *v = &scene->view[i];
+    for (uint32_t i = 0; i < scene->observation_count; i++) {
+        const ale_observation_t *v = &scene->observation[i];
         const int64_t away = ale_abs64(v->centre.x_um) + ale_abs64(v->centre.y_um);
         reach = ale_max64(reach, away + ale_max64(ale_abs64(v->start_um), ale_abs64(v->end_um)));
     }
@@ -270,14 +281,14 @@ static void set_prior(const ale_motion_t *predicted, ale_fit_t *fit)
 /* Newton's steps from where out->motion is, with out->prior; the gates narrow from the first to the last.
  * `left` may be looked at: where that does not do for two more passes like the first, there is one step. */
 static void fit_from(const ale_motion_t *predicted, const ale_scene_t *scene,
-                     const ale_gate_t *const gates[ALE_REFINE_ITERATIONS], int32_t left, ale_fit_t *out)
+                     const ale_gate_t *const gates[ALE_REGISTER_ITERATIONS], int32_t left, ale_fit_t *out)
 {
     const ale_pose_t ahead = ale_pose_between(predicted->pose, out->motion.pose);
     int64_t total[ALE_STATES] = {ahead.x_um, ahead.y_um, ale_bam_to_nrad((int32_t)ahead.theta_bam) / 1000};
     int64_t size = INT64_MAX;
     ale_local_map_focus(scene->map, (ale_point_t){out->motion.pose.x_um, out->motion.pose.y_um},
                         reach_um(scene));
-    uint8_t most = ALE_REFINE_ITERATIONS;
+    uint8_t most = ALE_REGISTER_ITERATIONS;
     for (out->iterations = 0; out->iterations < most && size > CONVERGED_UM; out->iterations++) {
         if (out->iterations > 0) {
             find_covariance(out);
@@ -287,17 +298,17 @@ static void fit_from(const ale_motion_t *predicted, const ale_scene_t *scene,
         add_all(scene, out);
         size = step(&out->prior, total, out);
         note_velocity_change(predicted, scene, out);
-        most = out->iterations == 0 && 3 * out->looks > left ? 1 : most;
+        most = out->iterations == 0 && 3 * out->work > left ? 1 : most;
     }
 }
 
 /* After all iterations what the last of them found stays. */
 static bool is_looked_at(const ale_fit_t *fit)
 {
-    return fit->iterations == ALE_REFINE_ITERATIONS;
+    return fit->iterations == ALE_REGISTER_ITERATIONS;
 }
 
-void ale_refine_look(const ale_scene_t *scene, ale_fit_t *fit)
+void ale_register_associate(const ale_scene_t *scene, ale_fit_t *fit)
 {
     if (!is_looked_at(fit)) {
         find_covariance(fit);
@@ -305,41 +316,41 @@ void ale_refine_look(const ale_scene_t *scene, ale_fit_t *fit)
     }
 }
 
-void ale_refine_weigh(const ale_scene_t *scene, ale_fit_t *fit)
+void ale_register_weigh(const ale_scene_t *scene, ale_fit_t *fit)
 {
     if (is_looked_at(fit)) {
-        const ale_stand_t stand = ale_stand(fit->motion.pose);
+        const ale_viewpoint_t viewpoint = ale_viewpoint(fit->motion.pose);
         find_covariance(fit);
-        for (uint32_t i = 0; i < scene->view_count; i++) {
-            ale_match_renew(scene->map, &scene->view[i], &stand, &fit->match[i]);
+        for (uint32_t i = 0; i < scene->observation_count; i++) {
+            ale_association_renew(scene->map, &scene->observation[i], &viewpoint, &fit->association[i]);
         }
     }
     add_all(scene, fit);
 }
 
-void ale_refine_pose(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
-                     ale_fit_t *out)
+void ale_register_pose(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
+                       ale_fit_t *out)
 {
     const ale_gate_t second = {(gate->offset_um + LATER_OFFSET_UM) / 3, gate->angle_urad, LATER_SIGMAS,
-                               gate->piece_um};
-    const ale_gate_t *const wide[ALE_REFINE_ITERATIONS] = {gate, &second, &later};
+                               gate->segment_um};
+    const ale_gate_t *const wide[ALE_REGISTER_ITERATIONS] = {gate, &second, &later};
     start(predicted, scene, out);
     set_prior(predicted, out);
     fit_from(predicted, scene, wide, INT32_MAX, out);
 }
 
-void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
-                ale_fit_t *out)
+void ale_register_scan(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
+                       ale_fit_t *out)
 {
-    ale_refine_pose(predicted, scene, gate, out);
-    ale_refine_look(scene, out);
-    ale_refine_weigh(scene, out);
+    ale_register_pose(predicted, scene, gate, out);
+    ale_register_associate(scene, out);
+    ale_register_weigh(scene, out);
 }
 
-void ale_refine_again(const ale_motion_t *predicted, bool anew, ale_pose_t from, const ale_scene_t *scene,
-                      const ale_gate_t *gate, int32_t most_looks, ale_fit_t *other, ale_fit_t *fit)
+void ale_register_again(const ale_motion_t *predicted, bool anew, ale_pose_t from, const ale_scene_t *scene,
+                        const ale_gate_t *gate, int32_t most_work, ale_fit_t *other, ale_fit_t *fit)
 {
-    const ale_gate_t *const gates[ALE_REFINE_ITERATIONS] = {gate, &later, &later};
+    const ale_gate_t *const gates[ALE_REGISTER_ITERATIONS] = {gate, &later, &later};
     start(predicted, scene, other);
     other->motion.pose = from;
     if (anew) {
@@ -347,8 +358,8 @@ void ale_refine_again(const ale_motion_t *predicted, bool anew, ale_pose_t from,
     } else {
         other->prior = fit->prior;
     }
-    fit_from(predicted, scene, gates, most_looks - fit->looks, other);
-    ale_refine_look(scene, other);
+    fit_from(predicted, scene, gates, most_work - fit->work, other);
+    ale_register_associate(scene, other);
     if (other->matched_um >= fit->matched_um) {
         *fit = *other;
     }

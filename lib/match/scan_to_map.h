@@ -1,11 +1,11 @@
 /* The pose by least squares over all that a scan shows, together with the prediction; paper section IV.
  *
- * The predicted state (pose and velocity with covariance) is corrected by the walls that the views show:
- * an iterated Kalman update in information form. Each wall gives two independent rows, the offset at the
- * view's centre and what its angle says beyond that, weighted by the covariances of view and wall; rows
+ * The predicted state (pose and velocity with covariance) is corrected by the walls that the observations
+ * show: an iterated Kalman update in information form. Each wall gives two independent rows, the offset at
+ * the view's centre and what its angle says beyond that, weighted by the covariances of view and wall; rows
  * far out lose weight (Huber). Rows depend on the velocity too, by the time at which each wall was
  * passed: the motion within the scan is found along with the pose. What the scene does not determine
- * keeps the prediction and its variance. Iterations and views are bounded. */
+ * keeps the prediction and its variance. Iterations and observations are bounded. */
 #ifndef ALE_MATCH_SCAN_TO_MAP_H
 #define ALE_MATCH_SCAN_TO_MAP_H
 
@@ -20,13 +20,13 @@
 #include "observe/observation.h"
 #include "observe/short_segment.h"
 
-enum { ALE_REFINE_ITERATIONS = 3 };
+enum { ALE_REGISTER_ITERATIONS = 3 };
 
 typedef struct {
     ale_local_map_t *map; /* near list prepared; fits focus it */
-    const ale_view_t *view;
-    uint32_t view_count;     /* ALE_MAX_VIEWS at most */
-    const int32_t *velocity; /* that the scan was straightened with; NULL: the predicted one */
+    const ale_observation_t *observation;
+    uint32_t observation_count; /* ALE_MAX_OBSERVATIONS at most */
+    const int32_t *velocity;    /* that the scan was straightened with; NULL: the predicted one */
 } ale_scene_t;
 
 typedef struct {
@@ -35,42 +35,42 @@ typedef struct {
     ale_matrix_t prior;            /* the prediction's information, Q54 */
     ale_information_t information; /* of the scan alone */
     ale_factors_t factors;         /* of both together, at the last step */
-    ale_match_t match[ALE_MAX_VIEWS];
-    uint16_t matched;        /* lines that found a wall */
-    uint16_t matched_pieces; /* pieces and spots that found a wall or a mark */
-    int64_t matched_um;      /* their length, and that of all views */
+    ale_association_t association[ALE_MAX_OBSERVATIONS];
+    uint16_t matched;          /* lines that found a wall */
+    uint16_t matched_segments; /* short segments and point features that found a wall or a landmark */
+    int64_t matched_um;        /* their length, and that of all observations */
     int64_t shown_um;
-    int32_t looks; /* of its passes over the views: see association.h */
+    int32_t work; /* of its passes over the observations: see association.h */
     uint8_t iterations;
 } ale_fit_t;
 
-/* A view's errors against its wall with the change of velocity taken in; derivatives Q14. */
+/* An observation's errors against its wall with the change of velocity taken in; derivatives Q14. */
 typedef struct {
     int64_t offset_row_q14[ALE_STATES];
     int64_t angle_row_q14[ALE_STATES];
-} ale_view_rows_t;
+} ale_observation_rows_t;
 
-void ale_view_rows(const ale_view_t *view, uint32_t pose_theta_bam, uint32_t wall_normal_bam,
-                   ale_view_rows_t *out);
+void ale_observation_rows(const ale_observation_t *observation, uint32_t pose_theta_bam,
+                          uint32_t wall_normal_bam, ale_observation_rows_t *out);
 
-void ale_refine(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
-                ale_fit_t *out);
+void ale_register_scan(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
+                       ale_fit_t *out);
 
 /* Its three parts: out->motion, for one of many poses that are tried, of which no more is asked; what the
- * views show from there, while the map is focused on what that fit looked at; and what that says of the pose:
- * the errors with the velocity that was found, the information and the covariance. */
-void ale_refine_pose(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
-                     ale_fit_t *out);
-void ale_refine_look(const ale_scene_t *scene, ale_fit_t *fit);
-void ale_refine_weigh(const ale_scene_t *scene, ale_fit_t *fit);
+ * observations show from there, while the map is focused on what that fit looked at; and what that says of
+ * the pose: the errors with the velocity that was found, the information and the covariance. */
+void ale_register_pose(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
+                       ale_fit_t *out);
+void ale_register_associate(const ale_scene_t *scene, ale_fit_t *fit);
+void ale_register_weigh(const ale_scene_t *scene, ale_fit_t *fit);
 
 /* Fits once more, from another pose, with another gate to begin with and, if anew, another prediction than
  * that of fit, and keeps what explains more. fit was looked at and not yet weighed, and is so again. Where
  * both would look at more than most_looks, this one takes one step and a look. other: working memory. */
-void ale_refine_again(const ale_motion_t *predicted, bool anew, ale_pose_t from, const ale_scene_t *scene,
-                      const ale_gate_t *gate, int32_t most_looks, ale_fit_t *other, ale_fit_t *fit);
+void ale_register_again(const ale_motion_t *predicted, bool anew, ale_pose_t from, const ale_scene_t *scene,
+                        const ale_gate_t *gate, int32_t most_work, ale_fit_t *other, ale_fit_t *fit);
 
 /* Makes a fit of a scan that is not to be believed: the prediction stands, nothing is matched. */
-void ale_refine_reject(const ale_motion_t *predicted, const ale_scene_t *scene, ale_fit_t *fit);
+void ale_register_reject(const ale_motion_t *predicted, const ale_scene_t *scene, ale_fit_t *fit);
 
 #endif

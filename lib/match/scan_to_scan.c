@@ -6,10 +6,10 @@
 #include "base/trig.h"
 
 enum {
-    MIDDLE = ALE_REGISTRATION_CELLS / 2,
-    MIDDLE_HEADING = ALE_REGISTRATION_HEADINGS / 2,
+    MIDDLE = ALE_SCAN_MATCH_CELLS / 2,
+    MIDDLE_HEADING = ALE_SCAN_MATCH_HEADINGS / 2,
     FACING_BAM = 12 * ALE_BAM_PER_DEGREE,       /* two lines that may be one wall */
-    PIECE_FACING_BAM = 40 * ALE_BAM_PER_DEGREE, /* with a piece among them */
+    PIECE_FACING_BAM = 40 * ALE_BAM_PER_DEGREE, /* with a short segment among them */
     LEAST_VOTES_MM = 800,
     FACING_WORK = 3, /* of a pair that faces the same way, */
     PAIR_WORK = 2,   /* and of one that votes, in votes */
@@ -19,22 +19,22 @@ enum {
     DISCOUNT_CELLS2 = 6 * MIDDLE * MIDDLE /* a sixth of the votes at the edge of the grid */
 };
 
-static int32_t length_mm(const ale_view_t *v)
+static int32_t length_mm(const ale_observation_t *v)
 {
-    return (int32_t)(ale_view_length_um(v) / 1000);
+    return (int32_t)(ale_observation_length_um(v) / 1000);
 }
 
-/* Indices of the longest views, in order of length: insertion into a bounded list. */
-static uint32_t longest(ale_views_t views, uint16_t out[ALE_REGISTRATION_VIEWS])
+/* Indices of the longest observations, in order of length: insertion into a bounded list. */
+static uint32_t longest(ale_observations_t observations, uint16_t out[ALE_SCAN_MATCH_OBSERVATIONS])
 {
-    int32_t length[ALE_REGISTRATION_VIEWS];
+    int32_t length[ALE_SCAN_MATCH_OBSERVATIONS];
     uint32_t count = 0;
-    for (uint32_t i = 0; i < views.count; i++) {
-        const int32_t own = length_mm(&views.view[i]);
-        if (count == ALE_REGISTRATION_VIEWS && length[count - 1] >= own) {
+    for (uint32_t i = 0; i < observations.count; i++) {
+        const int32_t own = length_mm(&observations.observation[i]);
+        if (count == ALE_SCAN_MATCH_OBSERVATIONS && length[count - 1] >= own) {
             continue;
         }
-        count += count < ALE_REGISTRATION_VIEWS;
+        count += count < ALE_SCAN_MATCH_OBSERVATIONS;
         uint32_t at = count - 1;
         for (; at > 0 && length[at - 1] < own; at--) {
             length[at] = length[at - 1];
@@ -46,42 +46,43 @@ static uint32_t longest(ale_views_t views, uint16_t out[ALE_REGISTRATION_VIEWS])
     return count;
 }
 
-static void note_surfaces(ale_registration_t *r, ale_views_t before)
+static void note_surfaces(ale_scan_match_t *r, ale_observations_t before)
 {
     for (uint32_t k = 0; k < r->before_count; k++) {
-        const ale_view_t *view = &before.view[r->before[k]];
-        const ale_direction_t d = ale_direction(view->normal_bam);
+        const ale_observation_t *observation = &before.observation[r->before[k]];
+        const ale_direction_t d = ale_direction(observation->normal_bam);
         const int32_t nx = (int32_t)ale_round_shift(d.cos_q30, 16);
         const int32_t ny = (int32_t)ale_round_shift(d.sin_q30, 16);
-        r->surface[k] = (ale_registration_surface_t){
+        r->surface[k] = (ale_scan_match_surface_t){
             .normal_x_q14 = nx,
             .normal_y_q14 = ny,
-            .offset_q14 = (int64_t)view->centre.x_um * nx + (int64_t)view->centre.y_um * ny,
-            .along_q14 = (int64_t)view->centre.x_um * ny - (int64_t)view->centre.y_um * nx,
-            .normal_bam = view->normal_bam,
-            .length_mm = length_mm(view),
-            .kind = view->kind,
+            .offset_q14 = (int64_t)observation->centre.x_um * nx + (int64_t)observation->centre.y_um * ny,
+            .along_q14 = (int64_t)observation->centre.x_um * ny - (int64_t)observation->centre.y_um * nx,
+            .normal_bam = observation->normal_bam,
+            .length_mm = length_mm(observation),
+            .kind = observation->kind,
         };
     }
 }
 
 /* The pairs of a new view that face the same way at any heading within most_bam of the guess, from pair
- * number `count` on; returns the number after them. Spots have no sides, and are laid on spots alone. */
-static uint16_t list_pairs_of(ale_registration_t *r, const ale_view_t *now, uint32_t guess_bam,
+ * number `count` on; returns the number after them. Spots have no sides, and are laid on point features
+ * alone. */
+static uint16_t list_pairs_of(ale_scan_match_t *r, const ale_observation_t *now, uint32_t guess_bam,
                               int64_t most_bam, uint16_t count)
 {
     const int32_t now_mm = length_mm(now);
     for (uint32_t k = 0; k < r->before_count; k++) {
-        const ale_registration_surface_t *before = &r->surface[k];
-        const bool lines = before->kind == ALE_VIEW_WALL && now->kind == ALE_VIEW_WALL;
+        const ale_scan_match_surface_t *before = &r->surface[k];
+        const bool lines = before->kind == ALE_OBSERVATION_LINE && now->kind == ALE_OBSERVATION_LINE;
         const uint32_t turned_bam = now->normal_bam + guess_bam - before->normal_bam;
         const int32_t limit_bam = lines ? FACING_BAM : PIECE_FACING_BAM;
-        if ((before->kind == ALE_VIEW_SPOT) != (now->kind == ALE_VIEW_SPOT) ||
+        if ((before->kind == ALE_OBSERVATION_POINT) != (now->kind == ALE_OBSERVATION_POINT) ||
             ale_abs64((int32_t)turned_bam) >= limit_bam + most_bam) {
             continue;
         }
         const int64_t apart_um = ((int64_t)now_mm + before->length_mm) * 500;
-        r->pair[count++] = (ale_registration_pair_t){
+        r->pair[count++] = (ale_scan_match_pair_t){
             .turned_bam = turned_bam + (uint32_t)limit_bam - 1,
             .width_bam = 2 * (uint32_t)limit_bam - 1,
             .along_um = (int32_t)ale_max64(apart_um / 2, r->cell_um / 2),
@@ -93,12 +94,12 @@ static uint16_t list_pairs_of(ale_registration_t *r, const ale_view_t *now, uint
 }
 
 /* All of them, in the order in which they vote: the longest first. */
-static void list_pairs(ale_registration_t *r, ale_views_t now, uint32_t guess_bam, int64_t most_bam)
+static void list_pairs(ale_scan_match_t *r, ale_observations_t now, uint32_t guess_bam, int64_t most_bam)
 {
     uint16_t count = 0;
     for (uint32_t i = 0; i < r->now_count; i++) {
         r->pair_first[i] = count;
-        count = list_pairs_of(r, &now.view[r->now[i]], guess_bam, most_bam, count);
+        count = list_pairs_of(r, &now.observation[r->now[i]], guess_bam, most_bam, count);
     }
     r->pair_first[r->now_count] = count;
 }
@@ -115,7 +116,7 @@ typedef struct {
 /* Whether a place is in a cell of the grid; halves were rounded away from zero. */
 static inline bool is_inside(int64_t x_q14, int64_t y_q14)
 {
-    const uint64_t most_q14 = ((uint64_t)ALE_REGISTRATION_CELLS << CELL_BITS) - 1;
+    const uint64_t most_q14 = ((uint64_t)ALE_SCAN_MATCH_CELLS << CELL_BITS) - 1;
     return (uint64_t)(x_q14 - 1) < most_q14 && (uint64_t)(y_q14 - 1) < most_q14;
 }
 
@@ -136,8 +137,8 @@ static inline void clip(cells_t *c)
     }
 }
 
-/* A view votes once for a cell. */
-static inline void vote_cells(ale_registration_t *r, cells_t c, uint16_t voter, int32_t weight_mm)
+/* An observation votes once for a cell. */
+static inline void vote_cells(ale_scan_match_t *r, cells_t c, uint16_t voter, int32_t weight_mm)
 {
     clip(&c);
     for (; c.count > 0; c.count--) {
@@ -155,10 +156,10 @@ static inline void vote_cells(ale_registration_t *r, cells_t c, uint16_t voter, 
 
 /* All displacements that lay the pair on each other: the points offset + t * tangent, offset being the way
  * from the new view's centre to the other's. As far as the work that is left reaches. */
-static inline void vote_line(ale_registration_t *r, const ale_registration_pair_t *pair, ale_point_t centre,
+static inline void vote_line(ale_scan_match_t *r, const ale_scan_match_pair_t *pair, ale_point_t centre,
                              uint16_t voter)
 {
-    const ale_registration_surface_t *before = &r->surface[pair->before];
+    const ale_scan_match_surface_t *before = &r->surface[pair->before];
     const int64_t nx = before->normal_x_q14;
     const int64_t ny = before->normal_y_q14;
     const int64_t half_um = r->half_um;
@@ -183,11 +184,10 @@ static inline void vote_line(ale_registration_t *r, const ale_registration_pair_
 }
 
 /* One new view, its centre placed at a heading that is turned from the guess by turn_bam. */
-static void vote_view(ale_registration_t *r, uint32_t i, ale_point_t centre, uint32_t turn_bam,
-                      uint16_t voter)
+static void vote_view(ale_scan_match_t *r, uint32_t i, ale_point_t centre, uint32_t turn_bam, uint16_t voter)
 {
-    const ale_registration_pair_t *const end = &r->pair[r->pair_first[i + 1]];
-    for (const ale_registration_pair_t *pair = &r->pair[r->pair_first[i]];
+    const ale_scan_match_pair_t *const end = &r->pair[r->pair_first[i + 1]];
+    for (const ale_scan_match_pair_t *pair = &r->pair[r->pair_first[i]];
          pair < end && r->work > FACING_WORK + PAIR_WORK; pair++) {
         if (pair->turned_bam + turn_bam < pair->width_bam) {
             r->work -= FACING_WORK;
@@ -197,15 +197,15 @@ static void vote_view(ale_registration_t *r, uint32_t i, ale_point_t centre, uin
 }
 
 /* The votes for one heading; the first of its voters has the number given. */
-static void vote(ale_registration_t *r, ale_views_t now, ale_pose_t pose, uint32_t turn_bam,
+static void vote(ale_scan_match_t *r, ale_observations_t now, ale_pose_t pose, uint32_t turn_bam,
                  uint32_t first_voter)
 {
-    const ale_stand_t stand = ale_stand(pose);
+    const ale_viewpoint_t viewpoint = ale_viewpoint(pose);
     memset(r->votes_mm, 0, sizeof r->votes_mm);
     memset(r->row_mm, 0, sizeof r->row_mm);
-    r->work = ALE_REGISTRATION_WORK;
+    r->work = ALE_SCAN_MATCH_WORK;
     for (uint32_t i = 0; i < r->now_count; i++) {
-        vote_view(r, i, ale_point_from(now.view[r->now[i]].centre, &stand), turn_bam,
+        vote_view(r, i, ale_point_from(now.observation[r->now[i]].centre, &viewpoint), turn_bam,
                   (uint16_t)(first_voter + i));
     }
 }
@@ -219,11 +219,11 @@ static int64_t discounted(int64_t votes, int64_t x, int64_t y)
 
 /* Votes of the neighbourhood of each cell of a row, its own twice, left[x] being that of cell x + 1; whether
  * one has more than `most`. Loops of constant length without branches: the compiler makes vectors of them. */
-static bool row_sums(const ale_registration_t *r, int32_t y, int32_t most, int32_t sum_mm[SUMS])
+static bool row_sums(const ale_scan_match_t *r, int32_t y, int32_t most, int32_t sum_mm[SUMS])
 {
-    int32_t column_mm[ALE_REGISTRATION_COLUMNS]; /* of three rows */
+    int32_t column_mm[ALE_SCAN_MATCH_COLUMNS]; /* of three rows */
     int32_t more = 0;
-    for (int32_t x = 0; x < ALE_REGISTRATION_COLUMNS; x++) {
+    for (int32_t x = 0; x < ALE_SCAN_MATCH_COLUMNS; x++) {
         column_mm[x] = r->votes_mm[y - 1][x] + r->votes_mm[y][x] + r->votes_mm[y + 1][x];
     }
     for (int32_t x = 0; x < SUMS; x++) {
@@ -234,15 +234,15 @@ static bool row_sums(const ale_registration_t *r, int32_t y, int32_t most, int32
 }
 
 /* The cell whose neighbourhood has most votes, and more than `most`, with them; `most` if there is none. */
-static int64_t best_cell(const ale_registration_t *r, int64_t most, int32_t *column, int32_t *row)
+static int64_t best_cell(const ale_scan_match_t *r, int64_t most, int32_t *column, int32_t *row)
 {
-    for (int32_t y = 1; y < ALE_REGISTRATION_CELLS - 1; y++) {
+    for (int32_t y = 1; y < ALE_SCAN_MATCH_CELLS - 1; y++) {
         int32_t sum_mm[SUMS];
         const int64_t at_most_mm = (int64_t)r->row_mm[y - 1] + 2 * (int64_t)r->row_mm[y] + r->row_mm[y + 1];
         if (at_most_mm <= most || !row_sums(r, y, (int32_t)most, sum_mm)) {
             continue;
         }
-        for (int32_t x = 1; x < ALE_REGISTRATION_CELLS - 1; x++) {
+        for (int32_t x = 1; x < ALE_SCAN_MATCH_CELLS - 1; x++) {
             const int64_t sum = sum_mm[x - 1] > most ? discounted(sum_mm[x - 1], x, y) : 0;
             if (sum > most) {
                 most = sum;
@@ -254,18 +254,18 @@ static int64_t best_cell(const ale_registration_t *r, int64_t most, int32_t *col
     return most;
 }
 
-int32_t ale_registration_cell_um(int64_t reach_um)
+int32_t ale_scan_match_cell_um(int64_t reach_um)
 {
     return (int32_t)(reach_um / MIDDLE + 1);
 }
 
-int32_t ale_registration_step_urad(int64_t reach_urad)
+int32_t ale_scan_match_step_urad(int64_t reach_urad)
 {
     return (int32_t)(reach_urad / MIDDLE_HEADING);
 }
 
-bool ale_register(ale_registration_t *memory, ale_views_t before, ale_views_t now, int32_t reach_um,
-                  int32_t reach_urad, ale_pose_t *guess)
+bool ale_match_scans(ale_scan_match_t *memory, ale_observations_t before, ale_observations_t now,
+                     int32_t reach_um, int32_t reach_urad, ale_pose_t *guess)
 {
     const ale_pose_t first = *guess;
     const int64_t most_nrad = (int64_t)reach_urad * 1000;
@@ -273,18 +273,18 @@ bool ale_register(ale_registration_t *memory, ale_views_t before, ale_views_t no
     bool found = false;
     memory->before_count = longest(before, memory->before);
     memory->now_count = longest(now, memory->now);
-    memory->cell_um = ale_registration_cell_um(reach_um);
-    memory->half_um = (int32_t)((int64_t)memory->cell_um * ALE_REGISTRATION_CELLS * 3 / 4);
+    memory->cell_um = ale_scan_match_cell_um(reach_um);
+    memory->half_um = (int32_t)((int64_t)memory->cell_um * ALE_SCAN_MATCH_CELLS * 3 / 4);
     memset(memory->voter, 0xff, sizeof memory->voter);
     note_surfaces(memory, before);
     list_pairs(memory, now, first.theta_bam, ale_nrad_to_bam(most_nrad));
-    for (int32_t h = 0; h < ALE_REGISTRATION_HEADINGS; h++) {
+    for (int32_t h = 0; h < ALE_SCAN_MATCH_HEADINGS; h++) {
         const uint32_t turn_bam =
             (uint32_t)ale_nrad_to_bam(most_nrad * (h - MIDDLE_HEADING) / MIDDLE_HEADING);
         const ale_pose_t pose = {first.x_um, first.y_um, first.theta_bam + turn_bam};
         int32_t column = MIDDLE;
         int32_t row = MIDDLE;
-        vote(memory, now, pose, turn_bam, (uint32_t)h * ALE_REGISTRATION_VIEWS);
+        vote(memory, now, pose, turn_bam, (uint32_t)h * ALE_SCAN_MATCH_OBSERVATIONS);
         const int64_t votes = best_cell(memory, most, &column, &row);
         if (votes > most) {
             most = votes;

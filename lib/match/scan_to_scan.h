@@ -4,8 +4,9 @@
  * half a radian since the last scan, on poor wheels, has none. Here every surface of the new scan is laid on
  * every surface of the last one that then faces the same way; each such pair allows the displacements along a
  * line, and where most lines cross the scans lie on each other. The paper's section IV adopts a pair of
- * features and checks the rest; all pairs at once are its Hough transform. Bounded: ALE_REGISTRATION_VIEWS
- * longest views of each scan, headings, cells and votes as below; the longest views vote first. */
+ * features and checks the rest; all pairs at once are its Hough transform. Bounded:
+ * ALE_SCAN_MATCH_OBSERVATIONS longest observations of each scan, headings, cells and votes as below; the
+ * longest observations vote first. */
 #ifndef ALE_MATCH_SCAN_TO_SCAN_H
 #define ALE_MATCH_SCAN_TO_SCAN_H
 
@@ -15,18 +16,18 @@
 #include "observe/observation.h"
 
 enum {
-    ALE_REGISTRATION_VIEWS = 20,
-    ALE_REGISTRATION_HEADINGS = 15, /* odd: the guess and as many to either side */
-    ALE_REGISTRATION_CELLS = 17,    /* a side, the guess in the middle, */
-    ALE_REGISTRATION_COLUMNS = 20,  /* in rows of whole vectors */
-    ALE_REGISTRATION_WORK = 640     /* of one heading, in votes, with those of pairs that face the same way;
+    ALE_SCAN_MATCH_OBSERVATIONS = 20,
+    ALE_SCAN_MATCH_HEADINGS = 15, /* odd: the guess and as many to either side */
+    ALE_SCAN_MATCH_CELLS = 17,    /* a side, the guess in the middle, */
+    ALE_SCAN_MATCH_COLUMNS = 20,  /* in rows of whole vectors */
+    ALE_SCAN_MATCH_WORK = 640     /* of one heading, in votes, with those of pairs that face the same way;
                                        recorded scans ask for 300 as a rule */
 };
 
 typedef struct {
-    const ale_view_t *view; /* robot's frame */
+    const ale_observation_t *observation; /* robot's frame */
     uint32_t count;
-} ale_views_t;
+} ale_observations_t;
 
 /* A surface of the last scan. */
 typedef struct {
@@ -36,8 +37,8 @@ typedef struct {
     int64_t along_q14;  /* and along the tangent, um */
     uint32_t normal_bam;
     int32_t length_mm;
-    uint8_t kind; /* ale_view_kind_t */
-} ale_registration_surface_t;
+    uint8_t kind; /* ale_observation_kind_t */
+} ale_scan_match_surface_t;
 
 /* Two surfaces that may be one, as they lie at the guess. */
 typedef struct {
@@ -46,32 +47,32 @@ typedef struct {
     int32_t along_um;    /* how far the centres may lie apart along the wall, */
     int32_t weight_mm;   /* and what it counts */
     uint16_t before;
-} ale_registration_pair_t;
+} ale_scan_match_pair_t;
 
 /* Working memory. */
 typedef struct {
-    uint16_t before[ALE_REGISTRATION_VIEWS];
-    uint16_t now[ALE_REGISTRATION_VIEWS];
+    uint16_t before[ALE_SCAN_MATCH_OBSERVATIONS];
+    uint16_t now[ALE_SCAN_MATCH_OBSERVATIONS];
     uint32_t before_count;
     uint32_t now_count;
-    ale_registration_surface_t surface[ALE_REGISTRATION_VIEWS]; /* of the views before */
-    ale_registration_pair_t pair[ALE_REGISTRATION_VIEWS * ALE_REGISTRATION_VIEWS];
-    uint16_t pair_first[ALE_REGISTRATION_VIEWS + 1]; /* of each new view */
-    int32_t votes_mm[ALE_REGISTRATION_CELLS][ALE_REGISTRATION_COLUMNS];
-    int32_t row_mm[ALE_REGISTRATION_CELLS];                           /* sum of each row's votes */
-    uint16_t voter[ALE_REGISTRATION_CELLS][ALE_REGISTRATION_COLUMNS]; /* the last view, at which heading */
+    ale_scan_match_surface_t surface[ALE_SCAN_MATCH_OBSERVATIONS]; /* of the observations before */
+    ale_scan_match_pair_t pair[ALE_SCAN_MATCH_OBSERVATIONS * ALE_SCAN_MATCH_OBSERVATIONS];
+    uint16_t pair_first[ALE_SCAN_MATCH_OBSERVATIONS + 1]; /* of each new view */
+    int32_t votes_mm[ALE_SCAN_MATCH_CELLS][ALE_SCAN_MATCH_COLUMNS];
+    int32_t row_mm[ALE_SCAN_MATCH_CELLS];                         /* sum of each row's votes */
+    uint16_t voter[ALE_SCAN_MATCH_CELLS][ALE_SCAN_MATCH_COLUMNS]; /* the last view, at which heading */
     int32_t cell_um;
     int32_t half_um; /* of the grid's diagonal */
     int32_t work;    /* left for the heading at hand */
-} ale_registration_t;
+} ale_scan_match_t;
 
 /* The pose of the new scan's robot as seen from the last one's; *guess on the way in, within the reaches, and
  * the best found on the way out. False when nothing fits, then *guess is untouched. */
-bool ale_register(ale_registration_t *memory, ale_views_t before, ale_views_t now, int32_t reach_um,
-                  int32_t reach_urad, ale_pose_t *guess);
+bool ale_match_scans(ale_scan_match_t *memory, ale_observations_t before, ale_observations_t now,
+                     int32_t reach_um, int32_t reach_urad, ale_pose_t *guess);
 
 /* How far apart the places and the headings are that a vote with these reaches compares. */
-int32_t ale_registration_cell_um(int64_t reach_um);
-int32_t ale_registration_step_urad(int64_t reach_urad);
+int32_t ale_scan_match_cell_um(int64_t reach_um);
+int32_t ale_scan_match_step_urad(int64_t reach_urad);
 
 #endif

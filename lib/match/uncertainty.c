@@ -2,14 +2,15 @@
 
 #include "base/fixed.h"
 
-void ale_map_covariance(const ale_motion_t *motion, const ale_drift_t *drift,
-                        const ale_wheel_drift_t *wheel_drift, int64_t out[9])
+void ale_map_covariance(const ale_motion_t *motion, const ale_map_uncertainty_t *map_uncertainty,
+                        const ale_scale_error_t *scale_error, int64_t out[9])
 {
     ale_matrix_t turned;
     ale_motion_map_covariance(motion, &turned);
-    const ale_drift_t at = ale_drift_at(drift, (ale_point_t){motion->pose.x_um, motion->pose.y_um});
-    const int64_t x_um = wheel_drift->x_um;
-    const int64_t y_um = wheel_drift->y_um;
+    const ale_map_uncertainty_t at =
+        ale_map_uncertainty_at(map_uncertainty, (ale_point_t){motion->pose.x_um, motion->pose.y_um});
+    const int64_t x_um = scale_error->x_um;
+    const int64_t y_um = scale_error->y_um;
     const int64_t off[3][3] = {{at.xx_um2 + x_um * x_um, at.xy_um2 + x_um * y_um, at.xt_um_urad},
                                {at.xy_um2 + x_um * y_um, at.yy_um2 + y_um * y_um, at.yt_um_urad},
                                {at.xt_um_urad, at.yt_um_urad, at.tt_urad2}};

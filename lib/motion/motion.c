@@ -66,14 +66,14 @@ void ale_motion_init(ale_motion_t *motion, int64_t stamp_us, ale_pose_t pose, in
     motion->cov.m[5][5] = turn * turn + 1;
 }
 
-void ale_liveliness_init(ale_liveliness_t *l)
+void ale_process_noise_init(ale_process_noise_t *l)
 {
     for (int i = 0; i < ALE_AXES; i++) {
         l->factor_q8[i] = FACTOR_LEAST_Q8;
     }
 }
 
-void ale_liveliness_learn(ale_liveliness_t *l, const ale_motion_t *predicted, const ale_motion_t *found)
+void ale_process_noise_learn(ale_process_noise_t *l, const ale_motion_t *predicted, const ale_motion_t *found)
 {
     const ale_pose_t step = ale_pose_between(predicted->pose, found->pose);
     const int64_t correction[ALE_AXES] = {step.x_um, step.y_um,
@@ -115,12 +115,12 @@ static void acceleration_noise(int axis, int64_t dt_us, int64_t *way, int64_t *v
     *way = ale_round_shift(*velocity * dt_us, ALE_TICK_BITS + 1);
 }
 
-static int64_t livelier(const ale_liveliness_t *l, int axis, int64_t var)
+static int64_t livelier(const ale_process_noise_t *l, int axis, int64_t var)
 {
     return ale_mul_shift(var, l->factor_q8[axis], 8);
 }
 
-static void predict_free(ale_motion_t *m, int64_t dt_us, const ale_liveliness_t *l)
+static void predict_free(ale_motion_t *m, int64_t dt_us, const ale_process_noise_t *l)
 {
     const ale_pose_t d = ale_motion_sweep(m->velocity, dt_us);
     int64_t f_q20[ALE_STATES][ALE_STATES] = {{0}};
@@ -175,7 +175,7 @@ static void measure_velocity(axis_t *a, int64_t velocity, int64_t var)
 
 /* How one axis goes on, from the velocity so far and from the wheels. */
 static axis_t fuse_axis(const ale_motion_t *m, int i, int64_t dt_us, const ale_wheel_motion_t *wheels,
-                        int64_t wheels_way, const ale_liveliness_t *l)
+                        int64_t wheels_way, const ale_process_noise_t *l)
 {
     const int64_t var = m->cov.m[i + 3][i + 3];
     const int64_t dt_q20 = ale_round_shift(dt_us << 20, ALE_TICK_BITS);
@@ -193,7 +193,7 @@ static axis_t fuse_axis(const ale_motion_t *m, int i, int64_t dt_us, const ale_w
 
 /* With wheels the velocity begins anew: its correlation with the last pose is small and is dropped. */
 static void predict_with_wheels(ale_motion_t *m, int64_t dt_us, const ale_wheel_motion_t *wheels,
-                                const ale_liveliness_t *l)
+                                const ale_process_noise_t *l)
 {
     const ale_pose_t d = wheels->displacement;
     const uint32_t half = (uint32_t)((int32_t)d.theta_bam / 2);
@@ -222,7 +222,7 @@ static void predict_with_wheels(ale_motion_t *m, int64_t dt_us, const ale_wheel_
 }
 
 /* Wheels alone: no velocity goes into the step or comes out of it. */
-static void predict_jump(ale_motion_t *m, const ale_wheel_motion_t *wheels, const ale_liveliness_t *l)
+static void predict_jump(ale_motion_t *m, const ale_wheel_motion_t *wheels, const ale_process_noise_t *l)
 {
     const ale_pose_t d = wheels ? wheels->displacement : (ale_pose_t){0, 0, 0};
     int64_t f_q20[ALE_STATES][ALE_STATES] = {{0}};
@@ -257,7 +257,7 @@ static void bound(ale_motion_t *m)
 }
 
 void ale_motion_jump(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_motion_t *wheels,
-                     const ale_liveliness_t *l)
+                     const ale_process_noise_t *l)
 {
     predict_jump(motion, wheels, l);
     motion->stamp_us = stamp_us;
@@ -265,7 +265,7 @@ void ale_motion_jump(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_mot
 }
 
 void ale_motion_predict(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_motion_t *wheels,
-                        const ale_liveliness_t *l)
+                        const ale_process_noise_t *l)
 {
     const int64_t dt_us = stamp_us - motion->stamp_us;
     if (dt_us <= 0 || dt_us > STEP_MAX_US) {

@@ -38,13 +38,14 @@ typedef struct {
 /* How much livelier the motion is than the model says: factors on its variances, learnt on line. */
 typedef struct {
     int32_t factor_q8[ALE_AXES]; /* 256: as the model says */
-} ale_liveliness_t;
+} ale_process_noise_t;
 
-void ale_liveliness_init(ale_liveliness_t *l);
+void ale_process_noise_init(ale_process_noise_t *l);
 
 /* Learns from one scan: a correction d of an axis has the variance before - after when prediction and scan
  * keep what they promise; when d^2 is larger on average, the prediction promised too much. */
-void ale_liveliness_learn(ale_liveliness_t *l, const ale_motion_t *predicted, const ale_motion_t *found);
+void ale_process_noise_learn(ale_process_noise_t *l, const ale_motion_t *predicted,
+                             const ale_motion_t *found);
 
 /* At rest at a pose known without error (the origin of the map), speed unknown within what is stated. */
 void ale_motion_init(ale_motion_t *motion, int64_t stamp_us, ale_pose_t pose, int32_t speed_sigma_mm_s,
@@ -54,11 +55,11 @@ void ale_motion_init(ale_motion_t *motion, int64_t stamp_us, ale_pose_t pose, in
  * time, or of more than two seconds says nothing about velocity: without wheels the robot then is where
  * it was, within what it can have driven. */
 void ale_motion_predict(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_motion_t *wheels,
-                        const ale_liveliness_t *l);
+                        const ale_process_noise_t *l);
 
 /* Goes on to stamp_us when the time between says nothing, as predict does for a step of no time. */
 void ale_motion_jump(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_motion_t *wheels,
-                     const ale_liveliness_t *l);
+                     const ale_process_noise_t *l);
 
 /* Applies an error in the robot's frame to the state: pose, then velocity. */
 void ale_motion_correct(ale_motion_t *motion, const int64_t delta[ALE_STATES]);

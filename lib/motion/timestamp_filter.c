@@ -12,18 +12,19 @@ enum {
     USUAL_SCANS = 16
 };
 
-void ale_pace_init(ale_pace_t *pace)
+void ale_timestamp_filter_init(ale_timestamp_filter_t *timestamp_filter)
 {
-    *pace = (ale_pace_t){0};
+    *timestamp_filter = (ale_timestamp_filter_t){0};
 }
 
-static void take_up(ale_pace_t *p, int64_t stamp_us)
+static void take_up(ale_timestamp_filter_t *p, int64_t stamp_us)
 {
-    *p = (ale_pace_t){.scans = 1, .stamp_us = stamp_us, .even_us = stamp_us, .usual_us = p->usual_us};
+    *p = (ale_timestamp_filter_t){
+        .scans = 1, .stamp_us = stamp_us, .even_us = stamp_us, .usual_us = p->usual_us};
 }
 
 /* First scans: the period is their mean distance, the instants are the stamps. */
-static void learn(ale_pace_t *p, int64_t stamp_us)
+static void learn(ale_timestamp_filter_t *p, int64_t stamp_us)
 {
     const int64_t whole_q8_us = p->period_q8_us * (p->scans - 1) + (stamp_us - p->stamp_us) * 256;
     p->period_q8_us = whole_q8_us / p->scans;
@@ -32,7 +33,7 @@ static void learn(ale_pace_t *p, int64_t stamp_us)
 
 /* The loop: how many periods have passed, how far the stamp is off, and a part of that for phase and
  * period. */
-static void follow(ale_pace_t *p, int64_t stamp_us)
+static void follow(ale_timestamp_filter_t *p, int64_t stamp_us)
 {
     const int64_t period_q8 = ale_max64(p->period_q8_us, 256);
     const int64_t turns = ale_max64(ale_round_div((stamp_us - p->even_us) * 256, period_q8), 1);
@@ -45,32 +46,33 @@ static void follow(ale_pace_t *p, int64_t stamp_us)
     p->jitter2_us2 += ale_round_div(error_us * error_us - p->jitter2_us2, weight);
 }
 
-int64_t ale_pace_instant(ale_pace_t *pace, int64_t stamp_us)
+int64_t ale_timestamp_filter_instant(ale_timestamp_filter_t *timestamp_filter, int64_t stamp_us)
 {
-    const int64_t dt_us = stamp_us - pace->stamp_us;
-    if (pace->scans > 0 && dt_us > 0) {
+    const int64_t dt_us = stamp_us - timestamp_filter->stamp_us;
+    if (timestamp_filter->scans > 0 && dt_us > 0) {
         const int64_t gap_us = ale_min64(dt_us, STEP_MAX_US);
-        pace->usual_us += pace->usual_us > 0 ? (gap_us - pace->usual_us) / USUAL_SCANS : gap_us;
+        timestamp_filter->usual_us +=
+            timestamp_filter->usual_us > 0 ? (gap_us - timestamp_filter->usual_us) / USUAL_SCANS : gap_us;
     }
-    if (pace->scans == 0 || dt_us <= 0 || dt_us > STEP_MAX_US) {
-        take_up(pace, stamp_us);
+    if (timestamp_filter->scans == 0 || dt_us <= 0 || dt_us > STEP_MAX_US) {
+        take_up(timestamp_filter, stamp_us);
         return stamp_us;
     }
-    if (pace->scans <= LEARN_SCANS) {
-        learn(pace, stamp_us);
+    if (timestamp_filter->scans <= LEARN_SCANS) {
+        learn(timestamp_filter, stamp_us);
     } else {
-        follow(pace, stamp_us);
+        follow(timestamp_filter, stamp_us);
     }
-    pace->scans++;
-    pace->stamp_us = stamp_us;
-    const int64_t loose_us = pace->period_q8_us / 256 / PERIOD_PARTS;
-    const bool keeps_pace =
-        pace->period_q8_us / 256 < PERIOD_MOST_US && pace->jitter2_us2 < loose_us * loose_us;
-    const bool jitters = pace->jitter2_us2 > (int64_t)EVEN_US * EVEN_US;
-    return keeps_pace && jitters ? pace->even_us : stamp_us;
+    timestamp_filter->scans++;
+    timestamp_filter->stamp_us = stamp_us;
+    const int64_t loose_us = timestamp_filter->period_q8_us / 256 / PERIOD_PARTS;
+    const bool keeps_pace = timestamp_filter->period_q8_us / 256 < PERIOD_MOST_US &&
+                            timestamp_filter->jitter2_us2 < loose_us * loose_us;
+    const bool jitters = timestamp_filter->jitter2_us2 > (int64_t)EVEN_US * EVEN_US;
+    return keeps_pace && jitters ? timestamp_filter->even_us : stamp_us;
 }
 
-bool ale_pace_believes(const ale_pace_t *pace, int64_t step_us)
+bool ale_timestamp_filter_accepts(const ale_timestamp_filter_t *timestamp_filter, int64_t step_us)
 {
-    return step_us * PERIOD_PARTS >= pace->usual_us;
+    return step_us * PERIOD_PARTS >= timestamp_filter->usual_us;
 }

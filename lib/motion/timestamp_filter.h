@@ -18,16 +18,16 @@ typedef struct {
     int64_t period_q8_us;
     int64_t jitter2_us2; /* mean square of stamp minus pace */
     int64_t usual_us;    /* mean time between scans, whatever their pace; 0: not known */
-} ale_pace_t;
+} ale_timestamp_filter_t;
 
-void ale_pace_init(ale_pace_t *pace);
+void ale_timestamp_filter_init(ale_timestamp_filter_t *timestamp_filter);
 
 /* Takes the stamp of the next scan and returns its instant, on the stamps' clock. A step back, or of more
  * than two seconds, takes up the pace anew. */
-int64_t ale_pace_instant(ale_pace_t *pace, int64_t stamp_us);
+int64_t ale_timestamp_filter_instant(ale_timestamp_filter_t *timestamp_filter, int64_t stamp_us);
 
 /* Whether the time between two scans can be believed: not if it is far less than usual, as in logs whose
  * stamps were taken when a queue was emptied. */
-bool ale_pace_believes(const ale_pace_t *pace, int64_t step_us);
+bool ale_timestamp_filter_accepts(const ale_timestamp_filter_t *timestamp_filter, int64_t step_us);
 
 #endif

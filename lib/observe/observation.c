@@ -27,16 +27,16 @@ int64_t ale_along(ale_point_t v, uint32_t direction_bam)
     return component(v, ale_direction(direction_bam));
 }
 
-ale_point_t ale_point_from(ale_point_t p, const ale_stand_t *stand)
+ale_point_t ale_point_from(ale_point_t p, const ale_viewpoint_t *viewpoint)
 {
-    return ale_plus(ale_turn(p, stand->turn), (ale_point_t){stand->pose.x_um, stand->pose.y_um});
+    return ale_plus(ale_turn(p, viewpoint->turn), (ale_point_t){viewpoint->pose.x_um, viewpoint->pose.y_um});
 }
 
-ale_view_t ale_view_from(const ale_view_t *view, const ale_stand_t *stand)
+ale_observation_t ale_observation_from(const ale_observation_t *observation, const ale_viewpoint_t *viewpoint)
 {
-    ale_view_t moved = *view;
-    moved.centre = ale_point_from(view->centre, stand);
-    moved.normal_bam = view->normal_bam + stand->pose.theta_bam;
+    ale_observation_t moved = *observation;
+    moved.centre = ale_point_from(observation->centre, viewpoint);
+    moved.normal_bam = observation->normal_bam + viewpoint->pose.theta_bam;
     return moved;
 }
 
@@ -50,8 +50,8 @@ static int64_t centre_of(const ale_line_t *line, int64_t from_um, int64_t to_um)
     return ale_clamp64(t_um, ale_min64(from_um, to_um), ale_max64(from_um, to_um));
 }
 
-static void view_of(const ale_line_t *line, const ale_scan_t *scan, const ale_stand_t *sensor,
-                    int64_t systematic_um, ale_view_t *out)
+static void view_of(const ale_line_t *line, const ale_scan_t *scan, const ale_viewpoint_t *sensor,
+                    int64_t systematic_um, ale_observation_t *out)
 {
     const ale_direction_t along = ale_direction(line->alpha_bam + ALE_BAM_QUARTER_TURN);
     const int64_t a_um = component(line->start, along);
@@ -71,33 +71,33 @@ static void view_of(const ale_line_t *line, const ale_scan_t *scan, const ale_st
     out->end_time_us = forward ? last_us : first_us;
     out->start_end = forward ? line->first_end : line->last_end;
     out->end_end = forward ? line->last_end : line->first_end;
-    const int64_t length_mm = ale_max64(ale_view_length_um(out) / 1000, 10);
+    const int64_t length_mm = ale_max64(ale_observation_length_um(out) / 1000, 10);
     const int64_t bend_urad = systematic_um * 4000 / length_mm;
     out->var_offset_um2 = ale_max64(var_um2, 0) + OFFSET_FLOOR_UM2 + systematic_um * systematic_um;
     out->var_angle_urad2 = line->var_alpha_nrad2 / 1000000 + ANGLE_FLOOR_URAD2 + bend_urad * bend_urad;
 }
 
-uint32_t ale_views_of(const ale_features_t *features, const ale_scan_t *scan, ale_pose_t sensor,
-                      int32_t systematic_um, ale_view_t out[ALE_MAX_VIEWS])
+uint32_t ale_observe_lines(const ale_features_t *features, const ale_scan_t *scan, ale_pose_t sensor,
+                           int32_t systematic_um, ale_observation_t out[ALE_MAX_OBSERVATIONS])
 {
-    const ale_stand_t stand = ale_stand(sensor);
+    const ale_viewpoint_t viewpoint = ale_viewpoint(sensor);
     uint32_t count = 0;
     for (uint32_t i = 0; i < features->line_count; i++) {
-        if (ale_is_chosen(i, features->line_count, ALE_MAX_VIEWS)) {
-            view_of(&features->line[i], scan, &stand, systematic_um, &out[count]);
+        if (ale_is_chosen(i, features->line_count, ALE_MAX_OBSERVATIONS)) {
+            view_of(&features->line[i], scan, &viewpoint, systematic_um, &out[count]);
             out[count].first_beam = features->line[i].first;
             out[count].last_beam = features->line[i].last;
-            out[count++].kind = ALE_VIEW_WALL;
+            out[count++].kind = ALE_OBSERVATION_LINE;
         }
     }
     return count;
 }
 
-int64_t ale_views_length_um(const ale_view_t view[], uint32_t count)
+int64_t ale_observations_length_um(const ale_observation_t observation[], uint32_t count)
 {
     int64_t sum_um = 0;
     for (uint32_t i = 0; i < count; i++) {
-        sum_um += ale_view_length_um(&view[i]);
+        sum_um += ale_observation_length_um(&observation[i]);
     }
     return sum_um;
 }

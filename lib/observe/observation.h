@@ -17,7 +17,7 @@
 
 /* Views of one scan. Recorded scans of 682 beams show 29 as a rule and 44 or less nine times in ten; of more
  * an even choice is matched, since the time of a fit goes with their number. */
-enum { ALE_MAX_VIEWS = 44 };
+enum { ALE_MAX_OBSERVATIONS = 44 };
 
 /* Whether the i-th of n things is one of the even choice of at most `most` of them. */
 static inline bool ale_is_chosen(uint32_t i, uint32_t n, uint32_t most)
@@ -25,14 +25,14 @@ static inline bool ale_is_chosen(uint32_t i, uint32_t n, uint32_t most)
     return n <= most || (i + 1) * most / n != i * most / n;
 }
 
-/* Shorter lines begin no wall in the map: they leave marks, as pieces do. */
+/* Shorter lines begin no wall in the map: they leave landmarks, as short segments do. */
 enum { ALE_WALL_LENGTH_UM = 250000 };
 
 typedef enum {
-    ALE_VIEW_WALL = 0,  /* an extracted line */
-    ALE_VIEW_PIECE = 1, /* a few beams of a surface that made no line */
-    ALE_VIEW_SPOT = 2   /* a small thing that stands alone, such as the leg of a table */
-} ale_view_kind_t;
+    ALE_OBSERVATION_LINE = 0,    /* an extracted line */
+    ALE_OBSERVATION_SEGMENT = 1, /* a few beams of a surface that made no line */
+    ALE_OBSERVATION_POINT = 2    /* a small thing that stands alone, such as the leg of a table */
+} ale_observation_kind_t;
 
 typedef struct {
     ale_point_t centre;
@@ -47,37 +47,39 @@ typedef struct {
     uint16_t last_beam;
     uint8_t start_end; /* ale_end_kind_t of either end */
     uint8_t end_end;
-    uint8_t kind; /* ale_view_kind_t */
-} ale_view_t;
+    uint8_t kind; /* ale_observation_kind_t */
+} ale_observation_t;
 
-static inline int64_t ale_view_length_um(const ale_view_t *view)
+static inline int64_t ale_observation_length_um(const ale_observation_t *observation)
 {
-    return (int64_t)view->end_um - view->start_um;
+    return (int64_t)observation->end_um - observation->start_um;
 }
 
 /* Length of all of them together. */
-int64_t ale_views_length_um(const ale_view_t view[], uint32_t count);
+int64_t ale_observations_length_um(const ale_observation_t observation[], uint32_t count);
 
 /* Views of the lines of a scan. systematic_um: one sigma of what bends and shifts a line the same way in
  * scan after scan (the surface, the range), which no number of beams or scans averages away. Returns their
- * number, ALE_MAX_VIEWS at most. O(lines). */
-uint32_t ale_views_of(const ale_features_t *features, const ale_scan_t *scan, ale_pose_t sensor,
-                      int32_t systematic_um, ale_view_t out[ALE_MAX_VIEWS]);
+ * number, ALE_MAX_OBSERVATIONS at most. O(lines). */
+uint32_t ale_observe_lines(const ale_features_t *features, const ale_scan_t *scan, ale_pose_t sensor,
+                           int32_t systematic_um, ale_observation_t out[ALE_MAX_OBSERVATIONS]);
 
-/* Where views are seen from: a pose, with the direction that turns them, for many of them. */
+/* Where observations are seen from: a pose, with the direction that turns them, for many of them. */
 typedef struct {
     ale_pose_t pose;
     ale_direction_t turn;
-} ale_stand_t;
+} ale_viewpoint_t;
 
-static inline ale_stand_t ale_stand(ale_pose_t pose)
+static inline ale_viewpoint_t ale_viewpoint(ale_pose_t pose)
 {
-    return (ale_stand_t){pose, ale_direction(pose.theta_bam)};
+    return (ale_viewpoint_t){pose, ale_direction(pose.theta_bam)};
 }
 
-/* A point of the view's frame, and the view, as they lie in the frame that the pose is given in. */
-ale_point_t ale_point_from(ale_point_t p, const ale_stand_t *stand);
-ale_view_t ale_view_from(const ale_view_t *view, const ale_stand_t *stand);
+/* A point of the observation's frame, and the observation, as they lie in the frame that the pose is given
+ * in. */
+ale_point_t ale_point_from(ale_point_t p, const ale_viewpoint_t *viewpoint);
+ale_observation_t ale_observation_from(const ale_observation_t *observation,
+                                       const ale_viewpoint_t *viewpoint);
 
 /* The tangent that belongs to a normal (a quarter turn clockwise), as a direction. */
 static inline uint32_t ale_tangent_bam(uint32_t normal_bam)

@@ -15,11 +15,11 @@ typedef struct {
     const uint32_t *bearing_bam;
     ale_pose_t robot; /* in any frame that both scans are given in */
     ale_pose_t sensor;
-    const ale_view_t *view; /* robot's frame */
-    uint32_t view_count;    /* ALE_MAX_VIEWS at most */
+    const ale_observation_t *observation; /* robot's frame */
+    uint32_t observation_count;           /* ALE_MAX_OBSERVATIONS at most */
 } ale_seen_t;
 
-/* The same without the views, copied. */
+/* The same without the observations, copied. */
 typedef struct {
     ale_scan_t scan;
     uint32_t bearing_bam[ALE_MAX_BEAMS];

@@ -9,11 +9,11 @@ enum {
     PIECE_BEAMS = 6,
     GAP_FLOOR_UM = 60000, /* neighbours farther apart than this, and than 4 beam spacings, part a run */
     GAP_SPACINGS = 4,
-    SPOT_UM = 150000,        /* largest thing that counts as a spot */
+    SPOT_UM = 150000,        /* largest thing that counts as a point feature */
     SPOT_CLEAR_UM = 100000,  /* what is beside it must be farther by this */
     STRAIGHT_UM = 25000,     /* shortest piece that has a direction of its own */
     ROUNDNESS_UM = 10000,    /* a thing looks different from every side */
-    ANGLE_OWN_URAD = 150000, /* one sigma of the direction of a piece */
+    ANGLE_OWN_URAD = 150000, /* one sigma of the direction of a short segment */
     ANGLE_FACING_URAD = 600000,
     BAM_PER_RAD = 683565276,
     ROUNDING_UM = 10 /* more than two rounded points may be farther apart */
@@ -24,11 +24,11 @@ typedef struct {
     const uint32_t *bearing_bam;
     ale_pose_t sensor;
     const ale_noise_t *noise;
-    ale_pieces_t *memory;
-    ale_view_t *out;
-    uint32_t loose; /* runs found */
-    uint32_t parts; /* pieces that they make */
-    uint32_t count; /* pieces written */
+    ale_segment_workspace_t *memory;
+    ale_observation_t *out;
+    uint32_t surface_run; /* runs found */
+    uint32_t parts;       /* short segments that they make */
+    uint32_t count;       /* short segments written */
 } pieces_t;
 
 static int64_t spacing_um(const ale_scan_t *scan, int32_t beam)
@@ -44,7 +44,7 @@ static uint32_t bearing_of(const pieces_t *p, int32_t beam)
 /* Most beams of a scan with many are in no piece: few need their point. */
 static ale_point_t point_of(const pieces_t *p, int32_t beam)
 {
-    ale_pieces_t *memory = p->memory;
+    ale_segment_workspace_t *memory = p->memory;
     if (!memory->known[beam]) {
         memory->point[beam] = ale_polar(p->scan->range_um[beam], bearing_of(p, beam));
         memory->known[beam] = true;
@@ -102,7 +102,7 @@ static bool direction_of(const cloud_t *c, uint32_t *direction_bam)
     return spread * 5 > sum * 4;
 }
 
-static void add(pieces_t *p, int32_t first, int32_t last, bool spot)
+static void add(pieces_t *p, int32_t first, int32_t last, bool is_point)
 {
     const cloud_t c = cloud_of(p, first, last);
     const int32_t n = last - first + 1;
@@ -111,7 +111,7 @@ static void add(pieces_t *p, int32_t first, int32_t last, bool spot)
     const int64_t length_um = ale_isqrt((uint64_t)distance2(point_of(p, first), point_of(p, last)));
     const int64_t half_um = length_um / 2 + spacing_um(p->scan, middle) / 2;
     uint32_t direction_bam;
-    const bool straight = !spot && n >= 3 && length_um > STRAIGHT_UM && direction_of(&c, &direction_bam);
+    const bool straight = !is_point && n >= 3 && length_um > STRAIGHT_UM && direction_of(&c, &direction_bam);
     uint32_t normal_bam = straight ? direction_bam + ALE_BAM_QUARTER_TURN : facing_bam;
     if (ale_abs64(ale_bam_diff(normal_bam, facing_bam)) > ALE_BAM_QUARTER_TURN) {
         normal_bam += ALE_BAM_HALF_TURN;
@@ -120,7 +120,7 @@ static void add(pieces_t *p, int32_t first, int32_t last, bool spot)
     const int64_t systematic_um = p->noise->surface_um / 2;
     const int64_t round_um = straight ? 0 : ROUNDNESS_UM;
     const int32_t time_us = ale_scan_beam_offset_us(p->scan, middle);
-    p->out[p->count++] = (ale_view_t){
+    p->out[p->count++] = (ale_observation_t){
         .centre = ale_pose_apply(p->sensor, c.mean),
         .normal_bam = normal_bam + p->sensor.theta_bam,
         .start_um = (int32_t)-half_um,
@@ -133,7 +133,7 @@ static void add(pieces_t *p, int32_t first, int32_t last, bool spot)
         .end_time_us = time_us,
         .first_beam = (uint16_t)first,
         .last_beam = (uint16_t)last,
-        .kind = spot ? ALE_VIEW_SPOT : ALE_VIEW_PIECE,
+        .kind = is_point ? ALE_OBSERVATION_POINT : ALE_OBSERVATION_SEGMENT,
     };
 }
 
@@ -148,7 +148,7 @@ static bool is_clear(const pieces_t *p, int32_t beam, int32_t range_um)
            (flag == ALE_BEAM_VALID && p->scan->range_um[beam] > range_um + SPOT_CLEAR_UM);
 }
 
-/* Notes a run and how many pieces it makes. */
+/* Notes a run and how many short segments it makes. */
 static void note(pieces_t *p, int32_t first, int32_t last)
 {
     const int32_t n = last - first + 1;
@@ -156,19 +156,20 @@ static void note(pieces_t *p, int32_t first, int32_t last)
         return;
     }
     const bool small = distance2(point_of(p, first), point_of(p, last)) < (int64_t)SPOT_UM * SPOT_UM;
-    const bool spot = small && is_clear(p, first - 1, p->scan->range_um[first]) &&
-                      is_clear(p, last + 1, p->scan->range_um[last]);
-    const int32_t parts = spot ? 0 : (n + PIECE_BEAMS - 1) / PIECE_BEAMS;
-    p->memory->loose[p->loose++] = (ale_loose_t){(uint16_t)first, (uint16_t)last, (uint16_t)parts};
-    p->parts += spot ? 1 : (uint32_t)parts;
+    const bool is_point = small && is_clear(p, first - 1, p->scan->range_um[first]) &&
+                          is_clear(p, last + 1, p->scan->range_um[last]);
+    const int32_t parts = is_point ? 0 : (n + PIECE_BEAMS - 1) / PIECE_BEAMS;
+    p->memory->surface_run[p->surface_run++] =
+        (ale_surface_run_t){(uint16_t)first, (uint16_t)last, (uint16_t)parts};
+    p->parts += is_point ? 1 : (uint32_t)parts;
 }
 
-/* Cuts the runs into pieces, an even choice of them where there is no room for all. */
+/* Cuts the runs into short segments, an even choice of them where there is no room for all. */
 static void cut(pieces_t *p, uint32_t room)
 {
     uint32_t number = 0;
-    for (uint32_t i = 0; i < p->loose; i++) {
-        const ale_loose_t *run = &p->memory->loose[i];
+    for (uint32_t i = 0; i < p->surface_run; i++) {
+        const ale_surface_run_t *run = &p->memory->surface_run[i];
         const int32_t n = run->last - run->first + 1;
         const int32_t parts = run->parts > 0 ? run->parts : 1;
         for (int32_t k = 0; k < parts; k++) {
@@ -193,9 +194,9 @@ static bool continues(const pieces_t *p, int32_t k)
     return way_um < gap_um || distance2(point_of(p, k - 1), point_of(p, k)) < gap_um * gap_um;
 }
 
-uint32_t ale_pieces_of(const ale_features_t *features, const ale_scan_t *scan, const uint32_t *bearing_bam,
-                       ale_pose_t sensor, const ale_noise_t *noise, ale_pieces_t *memory, uint32_t room,
-                       ale_view_t out[])
+uint32_t ale_observe_segments(const ale_features_t *features, const ale_scan_t *scan,
+                              const uint32_t *bearing_bam, ale_pose_t sensor, const ale_noise_t *noise,
+                              ale_segment_workspace_t *memory, uint32_t room, ale_observation_t out[])
 {
     pieces_t p = {.scan = scan,
                   .bearing_bam = bearing_bam,
@@ -210,13 +211,13 @@ uint32_t ale_pieces_of(const ale_features_t *features, const ale_scan_t *scan, c
             line++;
         }
         const bool in_line = line < features->line_count && features->line[line].first <= k;
-        const bool loose = scan->flag[k] == ALE_BEAM_VALID && !in_line;
+        const bool surface_run = scan->flag[k] == ALE_BEAM_VALID && !in_line;
         memory->known[k] = false;
-        if (begun >= 0 && (!loose || !continues(&p, k))) {
+        if (begun >= 0 && (!surface_run || !continues(&p, k))) {
             note(&p, begun, k - 1);
             begun = -1;
         }
-        begun = loose && begun < 0 ? k : begun;
+        begun = surface_run && begun < 0 ? k : begun;
     }
     if (begun >= 0) {
         note(&p, begun, scan->beams - 1);

@@ -33,23 +33,24 @@ typedef struct {
     int64_t shorter_um; /* 0: no pair */
 } pair_t;
 
-/* Length of a view that may belong to a pair; of those that may not: 0. */
-static int64_t usable_um(const ale_view_t view[], uint32_t i, const pair_t *other)
+/* Length of an observation that may belong to a pair; of those that may not: 0. */
+static int64_t usable_um(const ale_observation_t observation[], uint32_t i, const pair_t *other)
 {
     const bool taken = other && (i == other->first || i == other->second);
-    return view[i].kind == ALE_VIEW_WALL && !taken ? ale_view_length_um(&view[i]) : 0;
+    return observation[i].kind == ALE_OBSERVATION_LINE && !taken ? ale_observation_length_um(&observation[i])
+                                                                 : 0;
 }
 
-/* The two views that fix a pose best, without those of another pair: long, and far from parallel. */
-static pair_t choose_pair(const ale_view_t view[], uint32_t count, const pair_t *other)
+/* The two observations that fix a pose best, without those of another pair: long, and far from parallel. */
+static pair_t choose_pair(const ale_observation_t observation[], uint32_t count, const pair_t *other)
 {
     pair_t best = {0, 0, 0};
     for (uint32_t i = 0; i < count; i++) {
-        const int64_t length_um = usable_um(view, i, other);
+        const int64_t length_um = usable_um(observation, i, other);
         for (uint32_t k = i + 1; length_um > best.shorter_um && k < count; k++) {
-            const int64_t shorter_um = ale_min64(length_um, ale_view_length_um(&view[k]));
-            if (shorter_um > best.shorter_um && usable_um(view, k, other) > 0 &&
-                is_open(enclosed(view[i].normal_bam, view[k].normal_bam))) {
+            const int64_t shorter_um = ale_min64(length_um, ale_observation_length_um(&observation[k]));
+            if (shorter_um > best.shorter_um && usable_um(observation, k, other) > 0 &&
+                is_open(enclosed(observation[i].normal_bam, observation[k].normal_bam))) {
                 best = (pair_t){i, k, shorter_um};
             }
         }
@@ -58,32 +59,33 @@ static pair_t choose_pair(const ale_view_t view[], uint32_t count, const pair_t 
 }
 
 /* The best pair, and in every other round the best one beside it where that is worth it. */
-static pair_t pair_of_round(const ale_search_t *search, const ale_view_t view[], uint32_t count)
+static pair_t pair_of_round(const ale_search_t *search, const ale_observation_t observation[], uint32_t count)
 {
-    const pair_t best = choose_pair(view, count, NULL);
+    const pair_t best = choose_pair(observation, count, NULL);
     if (search->rounds % 2 == 0 || best.shorter_um == 0) {
         return best;
     }
-    const pair_t second = choose_pair(view, count, &best);
+    const pair_t second = choose_pair(observation, count, &best);
     return second.shorter_um * SECOND_PART >= best.shorter_um ? second : best;
 }
 
-int32_t ale_search_pair_q8(const ale_search_t *search, const ale_view_t view[], uint32_t count)
+int32_t ale_search_pair_q8(const ale_search_t *search, const ale_observation_t observation[], uint32_t count)
 {
-    const pair_t pair = pair_of_round(search, view, count);
+    const pair_t pair = pair_of_round(search, observation, count);
     int64_t shown_um = 0;
     for (uint32_t i = 0; i < count; i++) {
-        shown_um += view[i].kind == ALE_VIEW_WALL ? ale_view_length_um(&view[i]) : 0;
+        shown_um +=
+            observation[i].kind == ALE_OBSERVATION_LINE ? ale_observation_length_um(&observation[i]) : 0;
     }
     return shown_um > 0 ? (int32_t)(pair.shorter_um * 256 / shown_um) : 0;
 }
 
-bool ale_pose_of_pair(const ale_view_t *a, const ale_view_t *b, const ale_wall_t *wall_a,
+bool ale_pose_of_pair(const ale_observation_t *a, const ale_observation_t *b, const ale_wall_t *wall_a,
                       const ale_wall_t *wall_b, ale_pose_t *out)
 {
     const uint32_t turn_a = wall_a->normal_bam - a->normal_bam;
-    const int32_t rest = ale_bam_diff(wall_b->normal_bam - b->normal_bam, turn_a);
-    const uint32_t theta = turn_a + (uint32_t)(rest / 2);
+    const int32_t zero_motion = ale_bam_diff(wall_b->normal_bam - b->normal_bam, turn_a);
+    const uint32_t theta = turn_a + (uint32_t)(zero_motion / 2);
     const ale_point_t pa = ale_minus(wall_a->anchor, ale_rotate(a->centre, theta));
     const ale_point_t pb = ale_minus(wall_b->anchor, ale_rotate(b->centre, theta));
     const int64_t ra = ale_round_shift(
@@ -102,38 +104,41 @@ bool ale_pose_of_pair(const ale_view_t *a, const ale_view_t *b, const ale_wall_t
     return ale_abs64(x) < INT32_MAX && ale_abs64(y) < INT32_MAX;
 }
 
-ale_hypothesis_t ale_hypothesis_at(const ale_local_map_t *map, const ale_view_t view[], uint32_t count,
-                                   ale_pose_t pose, const ale_gate_t *gate, int32_t *looks)
+ale_hypothesis_t ale_hypothesis_at(const ale_local_map_t *map, const ale_observation_t observation[],
+                                   uint32_t count, ale_pose_t pose, const ale_gate_t *gate, int32_t *work)
 {
-    const ale_stand_t stand = ale_stand(pose);
+    const ale_viewpoint_t viewpoint = ale_viewpoint(pose);
     ale_hypothesis_t h = {.pose = pose};
-    for (uint32_t i = 0; *looks > 0 && i < count; i++) {
-        if (view[i].kind != ALE_VIEW_WALL) {
+    for (uint32_t i = 0; *work > 0 && i < count; i++) {
+        if (observation[i].kind != ALE_OBSERVATION_LINE) {
             continue;
         }
-        *looks -= ALE_LOOKS_OF_A_MOVE;
-        const ale_match_t match = ale_match_view(map, &view[i], &stand, NULL, gate, looks);
-        h.shown_um += ale_view_length_um(&view[i]);
-        if (match.wall != ALE_NO_WALL) {
-            h.score_um += ale_min64(match.error.overlap_um, ale_view_length_um(&view[i]));
-            h.views++;
+        *work -= ALE_PLACEMENT_WORK;
+        const ale_association_t association =
+            ale_associate(map, &observation[i], &viewpoint, NULL, gate, work);
+        h.shown_um += ale_observation_length_um(&observation[i]);
+        if (association.wall != ALE_NO_WALL) {
+            h.score_um += ale_min64(association.error.overlap_um, ale_observation_length_um(&observation[i]));
+            h.observations++;
         }
     }
     return h;
 }
 
-/* Whether the view, seen from the pose, covers a part of the wall that is worth the name. */
-static bool lies_on(const ale_wall_t *wall, const ale_view_t *view, ale_pose_t pose)
+/* Whether the observation, seen from the pose, covers a part of the wall that is worth the name. */
+static bool lies_on(const ale_wall_t *wall, const ale_observation_t *observation, ale_pose_t pose)
 {
-    const ale_stand_t stand = ale_stand(pose);
-    const ale_view_t placed = ale_view_from(view, &stand);
-    return ale_wall_error(wall, &placed).overlap_um * 100 >= ale_view_length_um(view) * SHARED_PERCENT;
+    const ale_viewpoint_t viewpoint = ale_viewpoint(pose);
+    const ale_observation_t placed = ale_observation_from(observation, &viewpoint);
+    return ale_wall_error(wall, &placed).overlap_um * 100 >=
+           ale_observation_length_um(observation) * SHARED_PERCENT;
 }
 
-/* No pose can lay as much of the view on the wall as lies_on asks for. */
-static bool is_too_short(const ale_wall_t *wall, const ale_view_t *view)
+/* No pose can lay as much of the observation on the wall as lies_on asks for. */
+static bool is_too_short(const ale_wall_t *wall, const ale_observation_t *observation)
 {
-    return ((int64_t)wall->end_um - wall->start_um) * 100 < ale_view_length_um(view) * SHARED_PERCENT;
+    return ((int64_t)wall->end_um - wall->start_um) * 100 <
+           ale_observation_length_um(observation) * SHARED_PERCENT;
 }
 
 static void next_first(ale_search_t *s, uint16_t count)
@@ -151,10 +156,11 @@ static void next_pair(ale_search_t *s, uint16_t count)
     }
 }
 
-/* The next pair of the map that encloses the angle of the views and is long enough for them, in at most
- * *pairs steps; false: none up to the end of the round. */
-static bool next_candidate(ale_search_t *s, uint32_t round, const ale_local_map_t *map, const ale_view_t *a,
-                           const ale_view_t *b, int32_t *pairs, uint16_t wall[2])
+/* The next pair of the map that encloses the angle of the observations and is long enough for them, in at
+ * most *pairs steps; false: none up to the end of the round. */
+static bool next_candidate(ale_search_t *s, uint32_t round, const ale_local_map_t *map,
+                           const ale_observation_t *a, const ale_observation_t *b, int32_t *pairs,
+                           uint16_t wall[2])
 {
     const int32_t angle_bam = enclosed(a->normal_bam, b->normal_bam);
     for (; *pairs > 0 && s->rounds == round; --*pairs) {
@@ -176,20 +182,20 @@ static bool next_candidate(ale_search_t *s, uint32_t round, const ale_local_map_
     return false;
 }
 
-uint32_t ale_search(ale_search_t *search, ale_local_map_t *map, const ale_view_t view[], uint32_t count,
-                    ale_hypothesis_t out[ALE_MAX_HYPOTHESES])
+uint32_t ale_search(ale_search_t *search, ale_local_map_t *map, const ale_observation_t observation[],
+                    uint32_t count, ale_hypothesis_t out[ALE_MAX_HYPOTHESES])
 {
     const ale_gate_t gate = {SCORE_OFFSET_UM, SCORE_ANGLE_URAD, SCORE_SIGMAS, 0};
-    const pair_t pair = pair_of_round(search, view, count);
+    const pair_t pair = pair_of_round(search, observation, count);
     if (map->count < 2 || pair.shorter_um == 0) {
         return 0;
     }
-    const ale_view_t *a = &view[pair.first];
-    const ale_view_t *b = &view[pair.second];
+    const ale_observation_t *a = &observation[pair.first];
+    const ale_observation_t *b = &observation[pair.second];
     search->first = search->first < map->count ? search->first : 0;
     search->second = search->second < map->count ? search->second : 0;
     ale_local_map_focus(map, (ale_point_t){0, 0}, INT32_MAX);
-    int32_t looks = ALE_SEARCH_LOOKS;
+    int32_t work = ALE_SEARCH_WORK;
     int32_t pairs = ALE_HYPOTHESIS_PAIRS;
     const uint32_t round = search->rounds;
     uint32_t scored = 0;
@@ -204,8 +210,8 @@ uint32_t ale_search(ale_search_t *search, ale_local_map_t *map, const ale_view_t
             !lies_on(&map->wall[wall[0]], a, pose) || !lies_on(&map->wall[wall[1]], b, pose)) {
             continue;
         }
-        out[scored] = ale_hypothesis_at(map, view, count, pose, &gate, &looks);
-        if (looks <= 0 && scored > 0) {
+        out[scored] = ale_hypothesis_at(map, observation, count, pose, &gate, &work);
+        if (work <= 0 && scored > 0) {
             *search = before; /* what was scored in part only comes again */
             break;
         }

@@ -27,8 +27,9 @@ enum { ALE_PLACES = 32, ALE_PLACES_FITTED = 4 };
 
 typedef struct {
     ale_pose_t pose;
-    int32_t held_q8; /* part explained of what scans showed and of the walls in view: mean */
-    int32_t told_q8; /* what rounds have told of its rivals: the sum of the pairs' parts of what was seen */
+    int32_t score_q8; /* part explained of what scans showed and of the walls in view: mean */
+    int32_t
+        coverage_q8; /* what rounds have told of its rivals: the sum of the pairs' parts of what was seen */
     uint16_t scans;  /* fitted to so many */
 } ale_place_t;
 
@@ -50,7 +51,7 @@ typedef struct {
     const ale_scan_t *scan;
     const uint32_t *bearing_bam;
     ale_pose_t sensor;
-} ale_eye_t;
+} ale_mounted_scan_t;
 
 /* Lost anew. */
 void ale_relocation_clear(ale_relocation_t *relocation);
@@ -60,7 +61,7 @@ void ale_relocation_follow(ale_relocation_t *relocation, ale_pose_t way, bool co
 
 /* One scan more. `predicted`: the motion, of which only the velocity is believed; `fit`: working memory. The
  * near list of the map must hold all walls. True: fit->motion is where the robot is. */
-bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const ale_eye_t *eye,
+bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const ale_mounted_scan_t *mounted,
                   const ale_motion_t *predicted, ale_fit_t *fit);
 
 #endif

@@ -36,14 +36,14 @@ static bool is_newest_near(const ale_trail_t *trail)
     return trail->count > 1 && ale_are_near(trail->scan[before].from, here, APART_UM, APART_BAM);
 }
 
-void ale_trail_keep(ale_trail_t *trail, const ale_view_t view[], uint32_t count)
+void ale_trail_keep(ale_trail_t *trail, const ale_observation_t observation[], uint32_t count)
 {
     if (!is_newest_near(trail)) {
         trail->newest = trail->count > 0 ? (trail->newest + 1) % ALE_TRAIL_SCANS : 0;
         trail->count = (uint32_t)ale_min64(trail->count + 1, ALE_TRAIL_SCANS);
     }
     ale_trail_scan_t *scan = &trail->scan[trail->newest];
-    memcpy(scan->view, view, count * sizeof view[0]);
+    memcpy(scan->observation, observation, count * sizeof observation[0]);
     scan->count = count;
     scan->from = here;
 }
@@ -54,7 +54,7 @@ const ale_trail_scan_t *ale_trail_newest(const ale_trail_t *trail)
 }
 
 int32_t ale_trail_explained_q8(const ale_trail_t *trail, const ale_local_map_t *map, ale_pose_t pose,
-                               int32_t *looks)
+                               int32_t *work)
 {
     const ale_gate_t gate = {OFFSET_UM, ANGLE_URAD, SIGMAS, 0};
     int64_t score_um = 0;
@@ -64,9 +64,9 @@ int32_t ale_trail_explained_q8(const ale_trail_t *trail, const ale_local_map_t *
         if (i == trail->newest) {
             continue;
         }
-        const ale_hypothesis_t h =
-            ale_hypothesis_at(map, scan->view, scan->count, ale_pose_compose(pose, scan->from), &gate, looks);
-        if (*looks <= 0) {
+        const ale_hypothesis_t h = ale_hypothesis_at(map, scan->observation, scan->count,
+                                                     ale_pose_compose(pose, scan->from), &gate, work);
+        if (*work <= 0) {
             break;
         }
         score_um += h.score_um;

@@ -14,7 +14,7 @@
 enum { ALE_TRAIL_SCANS = 6 };
 
 typedef struct {
-    ale_view_t view[ALE_MAX_VIEWS];
+    ale_observation_t observation[ALE_MAX_OBSERVATIONS];
     uint32_t count;
     ale_pose_t from; /* where it was taken, in the frame of the robot as it is now */
 } ale_trail_scan_t;
@@ -31,16 +31,16 @@ void ale_trail_clear(ale_trail_t *trail);
 void ale_trail_follow(ale_trail_t *trail, ale_pose_t way);
 
 /* Takes a scan from where the robot is: it replaces the newest one while that is near, else the oldest.
- * `count` views, ALE_MAX_VIEWS at most. */
-void ale_trail_keep(ale_trail_t *trail, const ale_view_t view[], uint32_t count);
+ * `count` observations, ALE_MAX_OBSERVATIONS at most. */
+void ale_trail_keep(ale_trail_t *trail, const ale_observation_t observation[], uint32_t count);
 
 /* The newest scan; count > 0. */
 const ale_trail_scan_t *ale_trail_newest(const ale_trail_t *trail);
 
 /* Part of the lines of all scans but the newest that lies on walls with the robot at `pose`, 256: all. Scans
- * for which *looks (as for ale_match_view) do not suffice are left out; 256 when none is left. The map is
+ * for which *looks (as for ale_associate) do not suffice are left out; 256 when none is left. The map is
  * focused on the walls that count. */
 int32_t ale_trail_explained_q8(const ale_trail_t *trail, const ale_local_map_t *map, ale_pose_t pose,
-                               int32_t *looks);
+                               int32_t *work);
 
 #endif

@@ -9,9 +9,9 @@
 enum {
     SAME_UM = 60000, /* how far it may move to and fro before the robot, and per mille of the range */
     SAME_PER_MILLE = 50,
-    ASIDE_UM = 60000,  /* neighbours that differ by less may show the same thing, */
-    GAP_BEAMS = 3,     /* if fewer between them have no value or show what was there before */
-    THROUGH_LEAST = 2, /* points of a view that were looked through */
+    ASIDE_UM = 60000,   /* neighbours that differ by less may show the same thing, */
+    GAP_BEAMS = 3,      /* if fewer between them have no value or show what was there before */
+    VIOLATED_LEAST = 2, /* points of an observation that were looked through */
     SHORTER_UM = 120000,
     LEAST_PART = 8,         /* of the beams: less does no harm */
     EXPLAINED_PERCENT = 60, /* of what else is shown is in the map: it is not the robot that was carried */
@@ -124,35 +124,36 @@ static void spread(come_t *come, int32_t from, int32_t step)
     }
 }
 
-static void take_out(come_t *come, const ale_view_t *view)
+static void take_out(come_t *come, const ale_observation_t *observation)
 {
-    for (int32_t k = view->first_beam; k <= view->last_beam; k++) {
+    for (int32_t k = observation->first_beam; k <= observation->last_beam; k++) {
         if (come->now->flag[k] == ALE_BEAM_VALID) {
             add(come, k);
         }
     }
-    spread(come, view->first_beam, -1);
-    spread(come, view->last_beam, 1);
+    spread(come, observation->first_beam, -1);
+    spread(come, observation->last_beam, 1);
 }
 
-static bool is_out(const come_t *come, const ale_view_t *view)
+static bool is_out(const come_t *come, const ale_observation_t *observation)
 {
-    return has_come(come, view->first_beam) && has_come(come, view->last_beam);
+    return has_come(come, observation->first_beam) && has_come(come, observation->last_beam);
 }
 
-static bool is_matched(const ale_match_t *match)
+static bool is_matched(const ale_association_t *association)
 {
-    return match->wall != ALE_NO_WALL || match->mark != ALE_NO_MARK;
+    return association->wall != ALE_NO_WALL || association->landmark != ALE_NO_LANDMARK;
 }
 
-static bool was_looked_through(const ale_seen_t *before, const ale_stand_t *stand, const ale_view_t *view)
+static bool was_looked_through(const ale_seen_t *before, const ale_viewpoint_t *viewpoint,
+                               const ale_observation_t *observation)
 {
-    const ale_view_t placed = ale_view_from(view, stand);
+    const ale_observation_t placed = ale_observation_from(observation, viewpoint);
     ale_wall_t surface;
-    ale_wall_from_view(&surface, &placed);
-    const ale_points_sight_t sight = ale_wall_points_sight(&surface, before->scan, before->bearing_bam,
-                                                           before->sensor, (ale_slack_t){0, 0, false});
-    return sight.supported == 0 && sight.through >= THROUGH_LEAST;
+    ale_wall_from_observation(&surface, &placed);
+    const ale_points_visibility_t visibility = ale_wall_points_visibility(
+        &surface, before->scan, before->bearing_bam, before->sensor, (ale_slack_t){0, 0, false});
+    return visibility.supported == 0 && visibility.violated >= VIOLATED_LEAST;
 }
 
 /* Whether something came so lately that it may still move before the robot. */
@@ -161,40 +162,41 @@ static bool moves(const ale_carried_t *carried, const ale_scan_t *scan)
     return carried->any && scan->stamp_us - carried->came_us < TO_AND_FRO_US;
 }
 
-/* Whether most beams of a view showed in the last scan what goes along. */
-static bool moved_aside(const ale_carried_t *carried, const ale_view_t *view)
+/* Whether most beams of an observation showed in the last scan what goes along. */
+static bool moved_aside(const ale_carried_t *carried, const ale_observation_t *observation)
 {
     int32_t moved = 0;
-    for (int32_t k = view->first_beam; k <= view->last_beam; k++) {
+    for (int32_t k = observation->first_beam; k <= observation->last_beam; k++) {
         moved += carried->came_um[k] < 0;
     }
-    return 2 * moved > view->last_beam - view->first_beam + 1;
+    return 2 * moved > observation->last_beam - observation->first_beam + 1;
 }
 
 static void find(const ale_carried_t *carried, const ale_seen_t *before, const ale_seen_t *now,
-                 const ale_match_t match[], come_t *come)
+                 const ale_association_t association[], come_t *come)
 {
-    const ale_stand_t stand = ale_stand(now->robot);
+    const ale_viewpoint_t viewpoint = ale_viewpoint(now->robot);
     const bool to_and_fro = moves(carried, now->scan);
-    for (uint32_t i = 0; i < now->view_count; i++) {
-        const ale_view_t *view = &now->view[i];
-        if (!is_matched(&match[i]) && !is_out(come, view) &&
-            ((to_and_fro && moved_aside(carried, view)) || was_looked_through(before, &stand, view))) {
-            take_out(come, view);
+    for (uint32_t i = 0; i < now->observation_count; i++) {
+        const ale_observation_t *observation = &now->observation[i];
+        if (!is_matched(&association[i]) && !is_out(come, observation) &&
+            ((to_and_fro && moved_aside(carried, observation)) ||
+             was_looked_through(before, &viewpoint, observation))) {
+            take_out(come, observation);
         }
     }
 }
 
 /* Whether the map holds most of what the scan shows besides. */
-static bool is_explained(const come_t *come, const ale_seen_t *now, const ale_match_t match[])
+static bool is_explained(const come_t *come, const ale_seen_t *now, const ale_association_t association[])
 {
     int64_t shown_um = 0;
     int64_t matched_um = 0;
-    for (uint32_t i = 0; i < now->view_count; i++) {
-        const int64_t length_um = ale_view_length_um(&now->view[i]);
-        if (!is_out(come, &now->view[i])) {
+    for (uint32_t i = 0; i < now->observation_count; i++) {
+        const int64_t length_um = ale_observation_length_um(&now->observation[i]);
+        if (!is_out(come, &now->observation[i])) {
             shown_um += length_um;
-            matched_um += is_matched(&match[i]) ? length_um : 0;
+            matched_um += is_matched(&association[i]) ? length_um : 0;
         }
     }
     return matched_um * 100 > shown_um * EXPLAINED_PERCENT;
@@ -217,13 +219,14 @@ static void note(ale_carried_t *carried, const come_t *come, bool much, ale_scan
     }
 }
 
-static uint32_t without(const come_t *come, uint32_t count, ale_view_t view[], ale_match_t match[])
+static uint32_t without(const come_t *come, uint32_t count, ale_observation_t observation[],
+                        ale_association_t association[])
 {
     uint32_t left = 0;
     for (uint32_t i = 0; i < count; i++) {
-        if (!is_out(come, &view[i])) {
-            view[left] = view[i];
-            match[left++] = match[i];
+        if (!is_out(come, &observation[i])) {
+            observation[left] = observation[i];
+            association[left++] = association[i];
         }
     }
     return left;
@@ -237,20 +240,21 @@ static bool is_comparable(const ale_seen_t *before, const ale_seen_t *now)
 }
 
 uint32_t ale_carried_notice(ale_carried_t *carried, const ale_seen_t *before, const ale_seen_t *now,
-                            ale_scan_t *scan, ale_view_t view[], ale_match_t match[])
+                            ale_scan_t *scan, ale_observation_t observation[],
+                            ale_association_t association[])
 {
     const uint32_t turned_bam = now->robot.theta_bam - before->robot.theta_bam;
     if (!is_comparable(before, now)) {
-        return now->view_count;
+        return now->observation_count;
     }
     come_t come = {.before = before->scan,
                    .now = now->scan,
                    .turned = (int32_t)ale_round_div((int32_t)turned_bam, now->scan->step_bam)};
-    find(carried, before, now, match, &come);
+    find(carried, before, now, association, &come);
     const bool much = come.shorter * LEAST_PART >= scan->beams;
-    if ((!much && !moves(carried, scan)) || !is_explained(&come, now, match)) {
-        return now->view_count;
+    if ((!much && !moves(carried, scan)) || !is_explained(&come, now, association)) {
+        return now->observation_count;
     }
     note(carried, &come, much, scan);
-    return without(&come, now->view_count, view, match);
+    return without(&come, now->observation_count, observation, association);
 }

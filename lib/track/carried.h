@@ -34,10 +34,11 @@ void ale_carried_mask(ale_carried_t *carried, ale_scan_t *scan);
 /* Gives those beams their ranges back: the space up to it is free. */
 void ale_carried_show(const ale_carried_t *carried, ale_scan_t *scan);
 
-/* Takes what has come since an earlier scan out of a fitted one: its views with their matches, and its beams,
- * which become blind. now->view is `view`, now->scan is `scan`; the way between the two scans is known to
- * centimetres. Returns how many views are left. */
+/* Takes what has come since an earlier scan out of a fitted one: its observations with their matches, and its
+ * beams, which become blind. now->view is `view`, now->scan is `scan`; the way between the two scans is known
+ * to centimetres. Returns how many observations are left. */
 uint32_t ale_carried_notice(ale_carried_t *carried, const ale_seen_t *before, const ale_seen_t *now,
-                            ale_scan_t *scan, ale_view_t view[], ale_match_t match[]);
+                            ale_scan_t *scan, ale_observation_t observation[],
+                            ale_association_t association[]);
 
 #endif

@@ -43,17 +43,18 @@ static void correct_wall(ale_wall_t *wall, ale_pose_t shift)
 }
 
 /* Marks are found by where they lie: all are entered anew. */
-static void correct_marks(ale_marks_t *marks, const ale_correction_t *correction, ale_marks_t *spare)
+static void correct_marks(ale_landmarks_t *landmarks, const ale_correction_t *correction,
+                          ale_landmarks_t *spare)
 {
-    *spare = *marks;
-    ale_marks_clear(marks);
-    for (uint32_t i = 0; i < ALE_MARK_SETS * ALE_MARK_WAYS; i++) {
-        ale_mark_t mark = spare->mark[i];
-        if (mark.seen > 0) {
-            const ale_pose_t shift = ale_correction_at(correction, mark.born);
-            mark.p = ale_pose_apply(shift, mark.p);
-            mark.normal_bam += shift.theta_bam;
-            ale_marks_add(marks, &mark);
+    *spare = *landmarks;
+    ale_landmarks_clear(landmarks);
+    for (uint32_t i = 0; i < ALE_LANDMARK_SETS * ALE_LANDMARK_WAYS; i++) {
+        ale_landmark_t landmark = spare->landmark[i];
+        if (landmark.seen > 0) {
+            const ale_pose_t shift = ale_correction_at(correction, landmark.born);
+            landmark.p = ale_pose_apply(shift, landmark.p);
+            landmark.normal_bam += shift.theta_bam;
+            ale_landmarks_add(landmarks, &landmark);
         }
     }
 }
@@ -67,12 +68,12 @@ static void correct_corners(ale_map_corners_t *corners, const ale_correction_t *
     }
 }
 
-void ale_local_map_correct(ale_local_map_t *map, const ale_correction_t *correction, ale_marks_t *spare)
+void ale_local_map_correct(ale_local_map_t *map, const ale_correction_t *correction, ale_landmarks_t *spare)
 {
     for (uint32_t i = 0; i < map->count; i++) {
         correct_wall(&map->wall[i], ale_correction_at(correction, map->wall[i].born));
     }
-    correct_marks(&map->marks, correction, spare);
+    correct_marks(&map->landmarks, correction, spare);
     correct_corners(&map->corners, correction);
     map->near_radius_um = 0;
     map->version++;

@@ -30,8 +30,8 @@ struct ale_correction {
 /* The shift of a scan; none before the first keyframe, nor of ALE_BORN_BEFORE. O(log count). */
 ale_pose_t ale_correction_at(const ale_correction_t *correction, uint32_t scan);
 
-/* Moves walls, marks and corners by the shifts of the scans that saw them first, and doubts walls that moved
- * unlike their neighbours. `spare` is working memory. O(map * log count). */
-void ale_local_map_correct(ale_local_map_t *map, const ale_correction_t *correction, ale_marks_t *spare);
+/* Moves walls, landmarks and corners by the shifts of the scans that saw them first, and doubts walls that
+ * moved unlike their neighbours. `spare` is working memory. O(map * log count). */
+void ale_local_map_correct(ale_local_map_t *map, const ale_correction_t *correction, ale_landmarks_t *spare);
 
 #endif

@@ -53,18 +53,21 @@ static bool looked_through(const ale_elder_t *elder, const ale_wall_t *surface, 
     if (!elder->taken || !ale_are_near(then->robot, robot, NEAR_UM, NEAR_BAM)) {
         return false;
     }
-    const ale_slack_t slack = {0, 0, rests && ale_are_near(then->robot, robot, ALE_REST_UM, ALE_REST_BAM)};
-    const ale_points_sight_t sight =
-        ale_wall_points_sight(surface, &then->scan, ale_seen_bearings(then), then->sensor, slack);
-    return slack.same_place ? sight.through > sight.supported : sight.through >= DENIED_LEAST;
+    const ale_slack_t slack = {
+        0, 0, rests && ale_are_near(then->robot, robot, ALE_ZERO_MOTION_UM, ALE_ZERO_MOTION_BAM)};
+    const ale_points_visibility_t visibility =
+        ale_wall_points_visibility(surface, &then->scan, ale_seen_bearings(then), then->sensor, slack);
+    return slack.same_place ? visibility.violated > visibility.supported
+                            : visibility.violated >= DENIED_LEAST;
 }
 
-static bool has_come(const ale_elders_t *elders, const ale_seen_t *seen, const ale_view_t *view, bool rests)
+static bool has_come(const ale_elders_t *elders, const ale_seen_t *seen, const ale_observation_t *observation,
+                     bool rests)
 {
-    const ale_stand_t stand = ale_stand(seen->robot);
-    const ale_view_t placed = ale_view_from(view, &stand);
+    const ale_viewpoint_t viewpoint = ale_viewpoint(seen->robot);
+    const ale_observation_t placed = ale_observation_from(observation, &viewpoint);
     ale_wall_t surface;
-    ale_wall_from_view(&surface, &placed);
+    ale_wall_from_observation(&surface, &placed);
     for (int i = 0; i < ALE_ELDERS; i++) {
         if (looked_through(&elders->elder[i], &surface, seen->robot, rests)) {
             return true;
@@ -74,32 +77,34 @@ static bool has_come(const ale_elders_t *elders, const ale_seen_t *seen, const a
 }
 
 /* A line that the map does not hold; or, at rest, not for long or not as far as it goes. */
-static bool is_new(const ale_local_map_t *map, const ale_view_t *view, const ale_match_t *match, bool rests)
+static bool is_new(const ale_local_map_t *map, const ale_observation_t *observation,
+                   const ale_association_t *association, bool rests)
 {
-    if (view->kind != ALE_VIEW_WALL || match->wall == ALE_NO_WALL) {
-        return view->kind == ALE_VIEW_WALL;
+    if (observation->kind != ALE_OBSERVATION_LINE || association->wall == ALE_NO_WALL) {
+        return observation->kind == ALE_OBSERVATION_LINE;
     }
     if (!rests) {
         return false;
     }
-    const ale_wall_t *wall = &map->wall[match->wall];
+    const ale_wall_t *wall = &map->wall[association->wall];
     return wall->seen < YOUNG_LOOKS ||
-           match->error.t_um + view->start_um < (int64_t)wall->start_um - LENGTHENS_UM ||
-           match->error.t_um + view->end_um > (int64_t)wall->end_um + LENGTHENS_UM;
+           association->error.t_um + observation->start_um < (int64_t)wall->start_um - LENGTHENS_UM ||
+           association->error.t_um + observation->end_um > (int64_t)wall->end_um + LENGTHENS_UM;
 }
 
 uint32_t ale_elders_drop_newcomers(const ale_elders_t *elders, const ale_local_map_t *map,
-                                   const ale_seen_t *seen, bool rests, ale_view_t view[], ale_match_t match[])
+                                   const ale_seen_t *seen, bool rests, ale_observation_t observation[],
+                                   ale_association_t association[])
 {
     uint32_t left = 0;
     int asked = 0;
-    for (uint32_t i = 0; i < seen->view_count; i++) {
-        if (is_new(map, &view[i], &match[i], rests) && asked++ < ASKED_MOST &&
-            has_come(elders, seen, &view[i], rests)) {
+    for (uint32_t i = 0; i < seen->observation_count; i++) {
+        if (is_new(map, &observation[i], &association[i], rests) && asked++ < ASKED_MOST &&
+            has_come(elders, seen, &observation[i], rests)) {
             continue;
         }
-        view[left] = view[i];
-        match[left++] = match[i];
+        observation[left] = observation[i];
+        association[left++] = association[i];
     }
     return left;
 }

@@ -32,12 +32,12 @@ void ale_elders_clear(ale_elders_t *elders);
 /* Copies the scan when 5 s have passed since the last one. Only scans whose pose is known. */
 void ale_elders_keep(ale_elders_t *elders, const ale_seen_t *seen);
 
-/* Takes the lines that found no wall of the map and were not always there out of the views, and their matches
- * with them; seen->view is `view`. rests: the robot has stood still for long enough to tell more exactly;
- * those that found a young wall, or would lengthen theirs, are asked for, too. Returns how many views are
- * left. At most 8 lines are asked for, the rest are left as they are: O(8 * ALE_ELDERS). */
+/* Takes the lines that found no wall of the map and were not always there out of the observations, and their
+ * matches with them; seen->view is `view`. rests: the robot has stood still for long enough to tell more
+ * exactly; those that found a young wall, or would lengthen theirs, are asked for, too. Returns how many
+ * observations are left. At most 8 lines are asked for, the rest are left as they are: O(8 * ALE_ELDERS). */
 uint32_t ale_elders_drop_newcomers(const ale_elders_t *elders, const ale_local_map_t *map,
-                                   const ale_seen_t *seen, bool rests, ale_view_t view[],
-                                   ale_match_t match[]);
+                                   const ale_seen_t *seen, bool rests, ale_observation_t observation[],
+                                   ale_association_t association[]);
 
 #endif

@@ -1,8 +1,8 @@
 /* The map grows and sharpens: the paper's "the transformation is applied and added to the reference".
  *
- * A view that found its wall sharpens and lengthens it, weighted by the covariances of view and pose; one
- * that found none begins a new wall, but only from a well known pose and where no wall is near that it
- * might be. So old walls hold the map where it is: drift does not smear it. O(views * near walls). */
+ * An observation that found its wall sharpens and lengthens it, weighted by the covariances of view and pose;
+ * one that found none begins a new wall, but only from a well known pose and where no wall is near that it
+ * might be. So old walls hold the map where it is: drift does not smear it. O(observations * near walls). */
 #ifndef ALE_TRACK_MAP_UPDATE_H
 #define ALE_TRACK_MAP_UPDATE_H
 
@@ -17,15 +17,15 @@
 /* How a scan goes into the map. */
 typedef struct {
     uint32_t scan;                        /* its number */
-    const ale_drift_t *here;              /* drift of the map at this place, */
-    const ale_wheel_drift_t *wheel_drift; /* and what the wheels have made of the robot's */
+    const ale_map_uncertainty_t *here;    /* drift of the map at this place, */
+    const ale_scale_error_t *scale_error; /* and what the wheels have made of the robot's */
     uint32_t
         dilution; /* so many times the stated variance have its looks at what is known: see zero_motion.h */
     bool grow;    /* false: no new walls */
-} ale_taking_t;
+} ale_map_update_context_t;
 
-/* Takes the views of a scan, matched at fit->motion, into the map. */
-void ale_map_update(ale_local_map_t *map, const ale_view_t view[], uint32_t count, const ale_fit_t *fit,
-                    const ale_taking_t *taking);
+/* Takes the observations of a scan, matched at fit->motion, into the map. */
+void ale_map_update(ale_local_map_t *map, const ale_observation_t observation[], uint32_t count,
+                    const ale_fit_t *fit, const ale_map_update_context_t *context);
 
 #endif

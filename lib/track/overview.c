@@ -8,7 +8,7 @@ enum { KEPT_US = 2000000, KEPT_UM = 500000, KEPT_BAM = 500 * ALE_BAM_PER_MRAD, R
 
 void ale_overview_clear(ale_overview_t *overview)
 {
-    overview->view_count = 0;
+    overview->observation_count = 0;
     overview->shown_um = 0;
 }
 
@@ -16,12 +16,13 @@ void ale_overview_keep(ale_overview_t *overview, const ale_seen_t *seen, int64_t
 {
     const bool stale = stamp_us - overview->stamp_us > KEPT_US ||
                        !ale_are_near(overview->robot, seen->robot, KEPT_UM, KEPT_BAM);
-    if (!stale && ale_overview_is_richer(overview, seen->view, seen->view_count)) {
+    if (!stale && ale_overview_is_richer(overview, seen->observation, seen->observation_count)) {
         return;
     }
-    memcpy(overview->view, seen->view, seen->view_count * sizeof overview->view[0]);
-    overview->view_count = seen->view_count;
-    overview->shown_um = ale_views_length_um(seen->view, seen->view_count);
+    memcpy(overview->observation, seen->observation,
+           seen->observation_count * sizeof overview->observation[0]);
+    overview->observation_count = seen->observation_count;
+    overview->shown_um = ale_observations_length_um(seen->observation, seen->observation_count);
     overview->stamp_us = stamp_us;
     overview->robot = seen->robot;
 }
@@ -33,7 +34,8 @@ void ale_overview_stand(ale_overview_t *overview, int64_t stamp_us, ale_pose_t r
     }
 }
 
-bool ale_overview_is_richer(const ale_overview_t *overview, const ale_view_t view[], uint32_t count)
+bool ale_overview_is_richer(const ale_overview_t *overview, const ale_observation_t observation[],
+                            uint32_t count)
 {
-    return overview->shown_um > RICHER * ale_views_length_um(view, count);
+    return overview->shown_um > RICHER * ale_observations_length_um(observation, count);
 }

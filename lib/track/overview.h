@@ -13,9 +13,9 @@
 #include "observe/seen.h"
 
 typedef struct {
-    ale_view_t view[ALE_MAX_VIEWS]; /* robot's frame */
-    uint32_t view_count;            /* 0: nobody saw anything */
-    int64_t shown_um;               /* their length */
+    ale_observation_t observation[ALE_MAX_OBSERVATIONS]; /* robot's frame */
+    uint32_t observation_count;                          /* 0: nobody saw anything */
+    int64_t shown_um;                                    /* their length */
     int64_t stamp_us;
     ale_pose_t robot;
 } ale_overview_t;
@@ -23,13 +23,14 @@ typedef struct {
 void ale_overview_clear(ale_overview_t *overview);
 
 /* A scan that fitted: it takes the place of the one that is kept unless it shows less than half as much.
- * Copies; O(views). */
+ * Copies; O(observations). */
 void ale_overview_keep(ale_overview_t *overview, const ale_seen_t *seen, int64_t stamp_us);
 
 /* The scan of this stamp was taken from here, if it is the one that is kept. */
 void ale_overview_stand(ale_overview_t *overview, int64_t stamp_us, ale_pose_t robot);
 
-/* Whether it shows more than twice as much as these views. O(views). */
-bool ale_overview_is_richer(const ale_overview_t *overview, const ale_view_t view[], uint32_t count);
+/* Whether it shows more than twice as much as these observations. O(observations). */
+bool ale_overview_is_richer(const ale_overview_t *overview, const ale_observation_t observation[],
+                            uint32_t count);
 
 #endif

@@ -81,26 +81,26 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
                            c->odometry_turn_bias_urad_m);
     ale_lag_init(&pipeline->lag, c->odometry_lag_us);
     ale_wheel_scale_init(&pipeline->scale, &noise);
-    ale_liveliness_init(&pipeline->liveliness[0]);
-    ale_liveliness_init(&pipeline->liveliness[1]);
-    ale_pace_init(&pipeline->pace);
-    ale_tracker_init(&pipeline->tracker);
+    ale_process_noise_init(&pipeline->process_noise[0]);
+    ale_process_noise_init(&pipeline->process_noise[1]);
+    ale_timestamp_filter_init(&pipeline->timestamp_filter);
+    ale_tracking_init(&pipeline->monitor);
     ale_local_map_clear(&pipeline->map);
     ale_motion_init(&pipeline->motion, 0, (ale_pose_t){0, 0, 0}, START_SPEED_MM_S, START_TURN_MRAD_S);
     ale_smooth_init(&pipeline->smooth, (ale_pose_t){0, 0, 0});
     pipeline->scans = 0;
-    pipeline->drift = (ale_drift_t){0};
-    pipeline->wheel_drift = (ale_wheel_drift_t){0, 0};
-    pipeline->slid_um = 0;
-    pipeline->held = true;
-    pipeline->paced = false;
-    pipeline->fade.next = 0;
+    pipeline->map_uncertainty = (ale_map_uncertainty_t){0};
+    pipeline->scale_error = (ale_scale_error_t){0, 0};
+    pipeline->drifted_um = 0;
+    pipeline->determined = true;
+    pipeline->speed_known = false;
+    pipeline->map_decay.next = 0;
     ale_relocation_clear(&pipeline->relocation);
     ale_witness_clear(&pipeline->witness);
     ale_overview_clear(&pipeline->overview);
     ale_carried_clear(&pipeline->carried);
     ale_elders_clear(&pipeline->elders);
-    ale_rest_clear(&pipeline->rest);
+    ale_zero_motion_clear(&pipeline->zero_motion);
     pipeline->started = false;
     pipeline->looked = false;
     pipeline->loaded = 0;
@@ -112,7 +112,7 @@ void ale_pipeline_reset(ale_pipeline_t *pipeline)
     pipeline->moved = false;
     pipeline->claims = 0;
     pipeline->slips = false;
-    pipeline->view_count = 0;
+    pipeline->observation_count = 0;
     memset(&pipeline->features, 0, sizeof pipeline->features);
     memset(&pipeline->fit, 0, sizeof pipeline->fit);
 }
@@ -126,11 +126,11 @@ void ale_pipeline_odometry(ale_pipeline_t *pipeline, const ale_odometry_t *sampl
     }
 }
 
-void ale_pipeline_go_on(const ale_pipeline_t *p, ale_motion_t *motion, int64_t stamp_us,
-                        const ale_wheel_motion_t *wheels)
+void ale_pipeline_predict_motion(const ale_pipeline_t *p, ale_motion_t *motion, int64_t stamp_us,
+                                 const ale_wheel_motion_t *wheels)
 {
-    const ale_liveliness_t *l = &p->liveliness[wheels != NULL];
-    if (ale_pace_believes(&p->pace, stamp_us - motion->stamp_us)) {
+    const ale_process_noise_t *l = &p->process_noise[wheels != NULL];
+    if (ale_timestamp_filter_accepts(&p->timestamp_filter, stamp_us - motion->stamp_us)) {
         ale_motion_predict(motion, stamp_us, wheels, l);
     } else {
         ale_motion_jump(motion, stamp_us, wheels, l);
@@ -141,7 +141,7 @@ void ale_pipeline_go_on(const ale_pipeline_t *p, ale_motion_t *motion, int64_t s
 static bool predict(ale_pipeline_t *p, int64_t stamp_us, ale_wheel_motion_t *wheels)
 {
     const bool known = ale_wheel_motion(&p->wheels, &p->lag, &p->scale, p->motion.stamp_us, stamp_us, wheels);
-    ale_pipeline_go_on(p, &p->motion, stamp_us, known ? wheels : NULL);
+    ale_pipeline_predict_motion(p, &p->motion, stamp_us, known ? wheels : NULL);
     return known;
 }
 
@@ -149,7 +149,7 @@ static bool predict(ale_pipeline_t *p, int64_t stamp_us, ale_wheel_motion_t *whe
  * back is followed. */
 static int64_t instant_of(ale_pipeline_t *p, int64_t stamp_us)
 {
-    const int64_t instant_us = ale_pace_instant(&p->pace, stamp_us);
+    const int64_t instant_us = ale_timestamp_filter_instant(&p->timestamp_filter, stamp_us);
     const int64_t last_us = p->motion.stamp_us;
     return instant_us <= last_us && instant_us > last_us - SCAN_SET_BACK_US ? last_us + 1 : instant_us;
 }
@@ -181,9 +181,9 @@ static void advance_smooth(ale_pipeline_t *p, ale_pose_t from, ale_pose_t predic
 
 static void begin(ale_pipeline_t *p, const ale_scan_t *scan)
 {
-    ale_motion_init(&p->motion, ale_pace_instant(&p->pace, scan->stamp_us), p->motion.pose, START_SPEED_MM_S,
-                    START_TURN_MRAD_S);
-    ale_pipeline_look(p, scan, p->motion.velocity);
+    ale_motion_init(&p->motion, ale_timestamp_filter_instant(&p->timestamp_filter, scan->stamp_us),
+                    p->motion.pose, START_SPEED_MM_S, START_TURN_MRAD_S);
+    ale_pipeline_preprocess(p, scan, p->motion.velocity);
     ale_pipeline_first(p);
 }
 
@@ -195,8 +195,8 @@ static void choose_way(ale_pipeline_t *p, const ale_motion_t *before, bool count
         return;
     }
     ale_motion_t as_before = *before;
-    ale_pipeline_go_on(p, &as_before, p->motion.stamp_us, NULL);
-    p->ways = ale_ways_of(&p->motion, &as_before, p->slips && p->tracker.state != ALE_STATE_LOST);
+    ale_pipeline_predict_motion(p, &as_before, p->motion.stamp_us, NULL);
+    p->ways = ale_ways_of(&p->motion, &as_before, p->slips && p->monitor.state != ALE_STATE_LOST);
     p->motion = p->ways.believed;
 }
 
@@ -208,9 +208,9 @@ static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
     const bool counted = predict(p, instant_us, &wheels);
     choose_way(p, &before, counted);
     const ale_motion_t predicted = p->motion;
-    ale_pipeline_look(p, scan, predicted.velocity);
-    if (p->tracker.state == ALE_STATE_LOST) {
-        p->paced = false;
+    ale_pipeline_preprocess(p, scan, predicted.velocity);
+    if (p->monitor.state == ALE_STATE_LOST) {
+        p->speed_known = false;
         ale_pipeline_search(p, ale_pose_between(before.pose, predicted.pose), p->ways.counted);
     } else {
         ale_pipeline_track(p, &before, &wheels);
@@ -218,8 +218,9 @@ static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
     const int64_t dt_us = instant_us - before.stamp_us;
     /* a time that cannot be believed forbids no way */
     advance_smooth(p, before.pose, predicted.pose,
-                   ale_pace_believes(&p->pace, dt_us) ? dt_us : p->pace.usual_us);
-    ale_pipeline_stand(p);
+                   ale_timestamp_filter_accepts(&p->timestamp_filter, dt_us) ? dt_us
+                                                                             : p->timestamp_filter.usual_us);
+    ale_pipeline_set_record_pose(p);
     ale_stage_end(&p->hook, ALE_STAGE_MAP);
 }
 
@@ -237,7 +238,7 @@ static void answer(ale_pipeline_t *p, int64_t stamp_us, bool predicted, uint32_t
     out->corrections = p->corrections;
     out->smooth = p->smooth.pose;
     out->map = p->motion.pose;
-    ale_map_covariance(&p->motion, &p->drift, &p->wheel_drift, out->cov);
+    ale_map_covariance(&p->motion, &p->map_uncertainty, &p->scale_error, out->cov);
     if (!predicted) {
         ale_scan_information(&p->fit.information, out->information);
         out->matched_lines = p->fit.matched;
@@ -247,7 +248,8 @@ static void answer(ale_pipeline_t *p, int64_t stamp_us, bool predicted, uint32_t
     out->velocity_y_um_s = per_second(p->motion.velocity[1]);
     out->velocity_theta_urad_s = per_second(p->motion.velocity[2]);
     out->lag_us = p->lag.lag_us;
-    out->state = (uint8_t)(p->held || p->tracker.state == ALE_STATE_LOST ? p->tracker.state : ALE_STATE_WEAK);
+    out->state =
+        (uint8_t)(p->determined || p->monitor.state == ALE_STATE_LOST ? p->monitor.state : ALE_STATE_WEAK);
     out->predicted = predicted;
     out->map_changed = p->map.version != version;
 }
@@ -270,11 +272,11 @@ void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estima
     if (pipeline->started) {
         const ale_pose_t before = pipeline->motion.pose;
         if (predict(pipeline, stamp_us, &wheels)) {
-            ale_wheel_drift_go(&pipeline->wheel_drift, before, pipeline->motion.pose,
-                               ale_wheel_scale_error_ppm(&pipeline->scale));
+            ale_scale_error_predict(&pipeline->scale_error, before, pipeline->motion.pose,
+                                    ale_wheel_scale_error_ppm(&pipeline->scale));
         }
         ale_smooth_follow(&pipeline->smooth, pipeline->motion.pose);
-        ale_tracker_skip(&pipeline->tracker, &pipeline->motion);
+        ale_tracking_skip(&pipeline->monitor, &pipeline->motion);
     } else {
         pipeline->motion.stamp_us = stamp_us;
     }
@@ -288,18 +290,18 @@ const ale_features_t *ale_pipeline_features(const ale_pipeline_t *pipeline)
 
 void ale_pipeline_copy_map(const ale_pipeline_t *pipeline, ale_map_t *out)
 {
-    ale_map_hand_out(&pipeline->map, out);
+    ale_map_export(&pipeline->map, out);
 }
 
 void ale_pipeline_load_map(ale_pipeline_t *pipeline, const ale_map_t *map, uint32_t number, ale_pose_t pose,
                            bool known)
 {
     ale_pipeline_reset(pipeline);
-    ale_map_take_in(&pipeline->map, map);
+    ale_map_import(&pipeline->map, map);
     pipeline->loaded = number;
     ale_motion_init(&pipeline->motion, 0, pose, START_SPEED_MM_S, START_TURN_MRAD_S);
     ale_smooth_init(&pipeline->smooth, pose);
-    pipeline->tracker.state = ALE_STATE_LOST;
+    pipeline->monitor.state = ALE_STATE_LOST;
     pipeline->claims = known ? CLAIM_SCANS : 0;
     pipeline->started = pipeline->map.count > 0;
 }

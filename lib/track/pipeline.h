@@ -99,7 +99,7 @@ typedef struct {
 typedef struct ale_pipeline ale_pipeline_t;
 typedef struct ale_keyframe ale_keyframe_t;
 typedef struct ale_correction ale_correction_t;
-typedef struct ale_sighting ale_sighting_t;
+typedef struct ale_scan_observation ale_scan_observation_t;
 
 uint32_t ale_pipeline_size(void);
 
@@ -119,9 +119,9 @@ void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estima
 bool ale_pipeline_keyframe(ale_pipeline_t *pipeline, ale_keyframe_t *out);
 
 /* For those who draw the map anew: what the scan last handed over has shown (see scan_observation.h). Copies
- * at most sizeof(ale_sighting_t). False, and *out is untouched: there was no scan, the robot is lost or may
- * be, no keyframe was taken since it was put elsewhere, or the map is frozen. */
-bool ale_pipeline_sighting(const ale_pipeline_t *pipeline, ale_sighting_t *out);
+ * at most sizeof(ale_scan_observation_t). False, and *out is untouched: there was no scan, the robot is lost
+ * or may be, no keyframe was taken since it was put elsewhere, or the map is frozen. */
+bool ale_pipeline_scan_observation(const ale_pipeline_t *pipeline, ale_scan_observation_t *out);
 
 /* From the mapper, between two scans: map and map pose move as loops have shown; the smooth pose does not.
  * False: not due yet, offer it again before the next scan. One made for another map (epoch) is ignored. O(map

@@ -30,7 +30,7 @@ static bool has_gone_on(const ale_pipeline_t *p)
 
 bool ale_pipeline_keyframe(ale_pipeline_t *p, ale_keyframe_t *out)
 {
-    if (!p->started || !p->looked || p->tracker.state == ALE_STATE_LOST) {
+    if (!p->started || !p->looked || p->monitor.state == ALE_STATE_LOST) {
         return false;
     }
     if (p->keyframes > 0 && !p->broken && !has_gone_on(p)) {
@@ -44,7 +44,7 @@ bool ale_pipeline_keyframe(ale_pipeline_t *p, ale_keyframe_t *out)
     out->smooth = p->smooth.pose;
     out->map = p->motion.pose;
     out->broken = p->broken;
-    out->weak = p->tracker.state != ALE_STATE_GOOD;
+    out->weak = p->monitor.state != ALE_STATE_GOOD;
     out->sensor = p->config.sensor;
     out->taken = p->scan;
     out->straightened = p->straightened;
@@ -57,17 +57,17 @@ bool ale_pipeline_keyframe(ale_pipeline_t *p, ale_keyframe_t *out)
     return true;
 }
 
-static void copy_lines(const ale_seen_t *seen, ale_sighting_t *out)
+static void copy_lines(const ale_seen_t *seen, ale_scan_observation_t *out)
 {
     out->line_count = 0;
-    for (uint32_t i = 0; i < seen->view_count; i++) {
-        if (seen->view[i].kind == ALE_VIEW_WALL) {
-            out->line[out->line_count++] = seen->view[i];
+    for (uint32_t i = 0; i < seen->observation_count; i++) {
+        if (seen->observation[i].kind == ALE_OBSERVATION_LINE) {
+            out->line[out->line_count++] = seen->observation[i];
         }
     }
 }
 
-bool ale_pipeline_sighting(const ale_pipeline_t *p, ale_sighting_t *out)
+bool ale_pipeline_scan_observation(const ale_pipeline_t *p, ale_scan_observation_t *out)
 {
     ale_seen_t seen;
     const bool tied = p->keyframes > 0 && !p->broken;
@@ -109,7 +109,7 @@ bool ale_pipeline_correct(ale_pipeline_t *p, const ale_correction_t *correction)
     if (!ours || correction->due > p->scans) {
         return !ours;
     }
-    ale_local_map_correct(&p->map, correction, &p->spare_marks);
+    ale_local_map_correct(&p->map, correction, &p->spare_landmarks);
     correct_robot(p, correction->shift[correction->count - 1].shift);
     p->corrections++;
     return true;
@@ -120,9 +120,9 @@ void ale_pipeline_relocate(ale_pipeline_t *p, ale_pose_t pose)
     p->motion.pose = pose;
     ale_smooth_hold(&p->smooth, pose);
     ale_motion_widen(&p->motion, SHOWN_SIGMA_UM, SHOWN_SIGMA_URAD);
-    ale_tracker_found(&p->tracker);
+    ale_tracking_found(&p->monitor);
     p->map.near_radius_um = 0;
-    p->wheel_drift = (ale_wheel_drift_t){0, 0};
+    p->scale_error = (ale_scale_error_t){0, 0};
     p->moved = true;
     p->broken = true;
 }

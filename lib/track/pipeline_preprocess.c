@@ -26,7 +26,7 @@ const uint32_t *ale_pipeline_bearings(const ale_pipeline_t *p)
  * that was taken beside them, which is called weak until it is called lost. */
 static bool is_placed(const ale_pipeline_t *p)
 {
-    return p->tracker.state != ALE_STATE_LOST && !(p->tracker.jumped && p->tracker.beside);
+    return p->monitor.state != ALE_STATE_LOST && !(p->monitor.jumped && p->monitor.beside);
 }
 
 bool ale_pipeline_seen(const ale_pipeline_t *p, ale_seen_t *out)
@@ -38,12 +38,12 @@ bool ale_pipeline_seen(const ale_pipeline_t *p, ale_seen_t *out)
                         .bearing_bam = ale_pipeline_bearings(p),
                         .robot = p->motion.pose,
                         .sensor = ale_pose_compose(p->motion.pose, p->config.sensor),
-                        .view = p->view,
-                        .view_count = p->view_count};
+                        .observation = p->observation,
+                        .observation_count = p->observation_count};
     return true;
 }
 
-void ale_pipeline_look(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t velocity[ALE_AXES])
+void ale_pipeline_preprocess(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t velocity[ALE_AXES])
 {
     int32_t sensor_velocity[ALE_AXES];
     p->scan = *raw;
@@ -57,7 +57,9 @@ void ale_pipeline_look(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t v
     ale_stage_end(&p->hook, ALE_STAGE_DESKEW);
     ale_extract_scan(&p->extractor, &p->scan, bearing_bam, &p->features);
     const ale_noise_t noise = measured_noise(p);
-    p->view_count = ale_views_of(&p->features, &p->scan, p->config.sensor, noise.surface_um / 2, p->view);
-    p->view_count += ale_pieces_of(&p->features, &p->scan, bearing_bam, p->config.sensor, &noise, &p->pieces,
-                                   ALE_MAX_VIEWS - p->view_count, &p->view[p->view_count]);
+    p->observation_count =
+        ale_observe_lines(&p->features, &p->scan, p->config.sensor, noise.surface_um / 2, p->observation);
+    p->observation_count += ale_observe_segments(
+        &p->features, &p->scan, bearing_bam, p->config.sensor, &noise, &p->segments,
+        ALE_MAX_OBSERVATIONS - p->observation_count, &p->observation[p->observation_count]);
 }

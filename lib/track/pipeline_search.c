@@ -19,10 +19,10 @@ static void try_at(ale_pipeline_t *p, ale_pose_t pose)
 static void settle(ale_pipeline_t *p)
 {
     p->motion = p->fit.motion;
-    p->wheel_drift = (ale_wheel_drift_t){0, 0};
+    p->scale_error = (ale_scale_error_t){0, 0};
     p->claims = 0;
     ale_relocation_clear(&p->relocation);
-    ale_tracker_found(&p->tracker);
+    ale_tracking_found(&p->monitor);
 }
 
 /* Where the robot is said to be is looked at in every other scan, for a while. */
@@ -35,7 +35,7 @@ static bool is_claim_due(ale_pipeline_t *p)
 static bool is_where_claimed(ale_pipeline_t *p)
 {
     try_at(p, p->motion.pose);
-    return ale_tracker_expected(&p->fit);
+    return ale_tracking_confirms(&p->fit);
 }
 
 static bool is_found(ale_pipeline_t *p)
@@ -43,8 +43,9 @@ static bool is_found(ale_pipeline_t *p)
     const ale_point_t anywhere = {0, 0};
     ale_local_map_approach(&p->map, anywhere, WHOLE_MAP_UM);
     const ale_scene_t scene = ale_pipeline_scene(p);
-    const ale_eye_t eye = {&p->scan, ale_pipeline_bearings(p), p->config.sensor};
-    return ale_relocate(&p->relocation, &scene, &eye, &p->motion, &p->fit) && ale_tracker_believes(&p->fit);
+    const ale_mounted_scan_t mounted = {&p->scan, ale_pipeline_bearings(p), p->config.sensor};
+    return ale_relocate(&p->relocation, &scene, &mounted, &p->motion, &p->fit) &&
+           ale_tracking_accepts(&p->fit);
 }
 
 void ale_pipeline_search(ale_pipeline_t *p, ale_pose_t way, bool counted)

@@ -37,38 +37,38 @@ struct ale_pipeline {
     ale_wheels_t wheels;
     ale_lag_t lag;
     ale_wheel_scale_t scale;
-    ale_liveliness_t liveliness[2]; /* without wheels, with wheels */
+    ale_process_noise_t process_noise[2]; /* without wheels, with wheels */
 
-    ale_pace_t pace;
+    ale_timestamp_filter_t timestamp_filter;
     ale_motion_t motion;
-    ale_tracker_t tracker;
+    ale_tracking_monitor_t monitor;
     ale_smooth_t smooth;
     uint32_t scans;
     ale_local_map_t map;
-    ale_drift_t drift; /* of the map around the robot */
-    ale_wheel_drift_t wheel_drift;
-    int64_t slid_um; /* since a scan last held the robot in every direction */
-    bool held;       /* by the last one */
-    bool paced;      /* its speed is known: one has, and it has gone on evenly since */
-    ale_fade_t fade;
+    ale_map_uncertainty_t map_uncertainty; /* of the map around the robot */
+    ale_scale_error_t scale_error;
+    int64_t drifted_um; /* since a scan last held the robot in every direction */
+    bool determined;    /* by the last one */
+    bool speed_known;   /* its speed is known: one has, and it has gone on evenly since */
+    ale_map_decay_t map_decay;
     ale_relocation_t relocation;
     ale_witness_t witness;
     bool witnessed; /* by the scan at hand: it is the one that is kept */
     ale_carried_t carried;
     ale_elders_t elders;
-    ale_rest_t rest;
-    ale_registration_t registration;
+    ale_zero_motion_t zero_motion;
+    ale_scan_match_t scan_match;
     ale_overview_t overview; /* on the way that is smooth */
 
     /* the scan at hand */
     ale_scan_t scan;
     uint32_t bearing_bam[ALE_MAX_BEAMS];
-    ale_pieces_t pieces;
+    ale_segment_workspace_t segments;
     ale_features_t features;
-    ale_view_t view[ALE_MAX_VIEWS];
+    ale_observation_t observation[ALE_MAX_OBSERVATIONS];
     ale_fit_t fit;
     ale_fit_t other; /* of the same scan, from another pose */
-    uint32_t view_count;
+    uint32_t observation_count;
     uint16_t matched_corners;
     int32_t velocity[ALE_AXES]; /* that it was straightened with */
     bool straightened;          /* bearing_bam holds */
@@ -86,7 +86,7 @@ struct ale_pipeline {
     ale_pose_t keyframe_smooth;
     bool broken; /* since the last keyframe: see ale_keyframe_t */
     bool moved;  /* the map pose was put elsewhere: how it settles there is no way of the robot */
-    ale_marks_t spare_marks;
+    ale_landmarks_t spare_landmarks;
     ale_ways_t ways; /* to the scan at hand */
     bool slips;      /* the last time that wheels could have slipped they did */
     uint16_t claims; /* scans that may still show that the robot is where it is said to be */

@@ -11,7 +11,7 @@ enum {
     ACQUIRE_OFFSET_UM = 600000, /* how far a wall may lie from where the prediction puts it */
     ACQUIRE_ANGLE_URAD = 300000,
     ACQUIRE_SIGMAS = 4,
-    ACQUIRE_PIECE_UM = 100000,
+    ACQUIRE_SEGMENT_UM = 100000,
     LEARN_DETERMINED_UM = 10000, /* scans that know the way well enough to teach the wheels */
     LEARN_LAG_VAR_UM2 = 4000000, /* and a lag that could not have made (2 mm)^2 of it */
     ANCHOR_SIGMA_UM = 1000,      /* of the pose to the walls that are born from it */
@@ -31,13 +31,13 @@ enum {
 };
 
 static const ale_gate_t acquire_gate = {ACQUIRE_OFFSET_UM, ACQUIRE_ANGLE_URAD, ACQUIRE_SIGMAS,
-                                        ACQUIRE_PIECE_UM};
+                                        ACQUIRE_SEGMENT_UM};
 static const ale_gate_t narrow_gate = {60000, 200000, 4, 50000};
 static const ale_gate_t register_gate = {250000, 200000, 6, 100000};
 
 ale_scene_t ale_pipeline_scene(ale_pipeline_t *p)
 {
-    return (ale_scene_t){&p->map, p->view, p->view_count, p->velocity};
+    return (ale_scene_t){&p->map, p->observation, p->observation_count, p->velocity};
 }
 
 static void approach(ale_pipeline_t *p, ale_pose_t pose, int32_t reach_um)
@@ -49,13 +49,13 @@ void ale_pipeline_match(ale_pipeline_t *p, const ale_motion_t *predicted, int32_
 {
     const ale_scene_t scene = ale_pipeline_scene(p);
     approach(p, predicted->pose, reach_um);
-    ale_refine(predicted, &scene, &acquire_gate, &p->fit);
+    ale_register_scan(predicted, &scene, &acquire_gate, &p->fit);
 }
 
 /* What a good scan teaches about the wheels: their lag from turns, their scale from the way. drifted: by the
  * wheels, before this scan. */
 static void teach_wheels(ale_pipeline_t *p, const ale_motion_t *before, const ale_wheel_motion_t *counted,
-                         const ale_wheel_drift_t *drifted)
+                         const ale_scale_error_t *drifted)
 {
     const int64_t dt_us = p->motion.stamp_us - before->stamp_us;
     if (!p->config.use_odometry || dt_us <= 0 || dt_us > ALE_SCAN_PERIOD_MAX_US ||
@@ -67,11 +67,11 @@ static void teach_wheels(ale_pipeline_t *p, const ale_motion_t *before, const al
     ale_lag_add_heading(&p->lag, &heading);
     ale_lag_update(&p->lag, &p->wheels);
     if (counted && counted->lag_var_um2 < LEARN_LAG_VAR_UM2) {
-        const ale_wheel_drift_t erred = {p->wheel_drift.x_um - drifted->x_um,
-                                         p->wheel_drift.y_um - drifted->y_um};
+        const ale_scale_error_t erred = {p->scale_error.x_um - drifted->x_um,
+                                         p->scale_error.y_um - drifted->y_um};
         const ale_direction_t ahead = ale_direction(p->motion.pose.theta_bam);
         ale_wheel_scale_learn(&p->scale, way.x_um, counted->counted_um,
-                              ale_wheel_drift_along(&erred, ahead.cos_q30, ahead.sin_q30));
+                              ale_scale_error_along(&erred, ahead.cos_q30, ahead.sin_q30));
     }
 }
 
@@ -82,8 +82,9 @@ static void take_in(ale_pipeline_t *p, bool grow)
         return;
     }
     const ale_pose_t sensor = ale_pose_compose(p->fit.motion.pose, p->config.sensor);
-    const ale_taking_t taking = {p->scans, &p->drift, &p->wheel_drift, ale_rest_dilution(&p->rest), grow};
-    ale_map_update(&p->map, p->view, p->view_count, &p->fit, &taking);
+    const ale_map_update_context_t context = {p->scans, &p->map_uncertainty, &p->scale_error,
+                                              ale_zero_motion_dilution(&p->zero_motion), grow};
+    ale_map_update(&p->map, p->observation, p->observation_count, &p->fit, &context);
     p->matched_corners = ale_map_corners_update(&p->map.corners, &p->features, sensor, p->scans, grow);
 }
 
@@ -93,15 +94,15 @@ void ale_pipeline_first(ale_pipeline_t *p)
     p->fit.motion = p->motion;
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);
     take_in(p, true);
-    p->started = p->view_count > 0;
+    p->started = p->observation_count > 0;
 }
 
 /* Asks the near walls that were not matched whether they are there; those that are not fade. */
-static ale_sights_t look_around(ale_pipeline_t *p)
+static ale_visibility_counts_t look_around(ale_pipeline_t *p)
 {
     const ale_pose_t sensor = ale_pose_compose(p->motion.pose, p->config.sensor);
-    return ale_fade(&p->fade, &p->map, &p->scan, ale_pipeline_bearings(p), sensor, p->scans,
-                    p->tracker.state == ALE_STATE_GOOD && !p->frozen);
+    return ale_map_decay(&p->map_decay, &p->map, &p->scan, ale_pipeline_bearings(p), sensor, p->scans,
+                         p->monitor.state == ALE_STATE_GOOD && !p->frozen);
 }
 
 /* A pose of the map on the way that is smooth, which no correction of the map bends. */
@@ -118,8 +119,8 @@ static ale_seen_t seen_from(const ale_pipeline_t *p, const ale_motion_t *before,
                         .bearing_bam = ale_pipeline_bearings(p),
                         .robot = robot,
                         .sensor = ale_pose_compose(robot, p->config.sensor),
-                        .view = p->view,
-                        .view_count = p->view_count};
+                        .observation = p->observation,
+                        .observation_count = p->observation_count};
 }
 
 /* What has come since the last scan, and was not there when it looked, is left out: it may go along with the
@@ -130,9 +131,10 @@ static void leave_out_carried(ale_pipeline_t *p, ale_seen_t *now)
     const ale_matrix_t *cov = &p->motion.cov;
     const bool known = 2 * ale_max64(ale_matrix_sigma(cov, 0), ale_matrix_sigma(cov, 1)) < SLACK_UM &&
                        2 * ale_matrix_sigma(cov, 2) < SLACK_URAD;
-    if (before.view_count > 0 && known) {
-        p->view_count = ale_carried_notice(&p->carried, &before, now, &p->scan, p->view, p->fit.match);
-        now->view_count = p->view_count;
+    if (before.observation_count > 0 && known) {
+        p->observation_count =
+            ale_carried_notice(&p->carried, &before, now, &p->scan, p->observation, p->fit.association);
+        now->observation_count = p->observation_count;
     }
 }
 
@@ -147,12 +149,12 @@ static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_moti
     const ale_slack_t slack = {
         (int32_t)ale_min64(offset_um, counted ? SLACK_MOST_UM : 2 * SLACK_UM),
         (int32_t)ale_min64(2 * ale_matrix_sigma(cov, 2), counted ? SLACK_MOST_URAD : SLACK_URAD), false};
-    const bool doubt = ale_tracker_is_strange(&p->tracker, &p->fit);
+    const bool doubt = ale_tracking_is_strange(&p->monitor, &p->fit);
     const ale_testimony_t heard = doubt ? ale_witness_hear(&p->witness, &now, slack) : (ale_testimony_t){0};
-    ale_tracker_notice(&p->tracker, doubt ? &heard : NULL, counted, p->map.count > 0);
-    if (p->tracker.jumped) {
+    ale_tracking_notice(&p->monitor, doubt ? &heard : NULL, counted, p->map.count > 0);
+    if (p->monitor.jumped) {
         const ale_scene_t scene = ale_pipeline_scene(p);
-        ale_refine_reject(predicted, &scene, &p->fit);
+        ale_register_reject(predicted, &scene, &p->fit);
         p->motion = *predicted;
         return;
     }
@@ -160,7 +162,7 @@ static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_moti
         leave_out_carried(p, &now);
     }
     ale_overview_keep(&p->overview, &now, p->motion.stamp_us);
-    if (p->view_count > 0) {
+    if (p->observation_count > 0) {
         ale_witness_keep(&p->witness, &now);
         p->witnessed = true;
         ale_carried_show(&p->carried, &p->witness.seen.scan);
@@ -172,8 +174,8 @@ static void notice(ale_pipeline_t *p, const ale_motion_t *before, const ale_moti
  * born with. */
 static void anchor(ale_pipeline_t *p)
 {
-    if (ale_tracker_may_anchor(&p->tracker, &p->fit)) {
-        p->drift = ale_drift_go_on(&p->drift, &p->fit.motion);
+    if (ale_tracking_may_reanchor(&p->monitor, &p->fit)) {
+        p->map_uncertainty = ale_map_uncertainty_inherit(&p->map_uncertainty, &p->fit.motion);
         ale_motion_widen(&p->fit.motion, ANCHOR_SIGMA_UM, ANCHOR_SIGMA_URAD);
         p->motion = p->fit.motion;
     }
@@ -181,34 +183,38 @@ static void anchor(ale_pipeline_t *p)
 
 /* Where nothing holds the robot, wheels outvote what the fit made of chance matches; without them it goes on
  * as it did: such matches go along with it and would stop it. */
-static void keep_pace(ale_pipeline_t *p, const ale_hold_t *hold, const ale_motion_t *before,
-                      const ale_motion_t *predicted, bool counted)
+static void keep_speed(ale_pipeline_t *p, const ale_observability_t *observability,
+                       const ale_motion_t *before, const ale_motion_t *predicted, bool counted)
 {
     const int64_t dt_us = predicted->stamp_us - before->stamp_us;
-    const bool even = dt_us <= EVEN_US && ale_pace_believes(&p->pace, dt_us) && !p->tracker.jumped;
-    p->paced = hold->held || (p->paced && even);
-    if (hold->bare && p->paced && !counted) {
-        ale_motion_keep_along(&p->fit.motion, predicted, hold->along_bam);
+    const bool even =
+        dt_us <= EVEN_US && ale_timestamp_filter_accepts(&p->timestamp_filter, dt_us) && !p->monitor.jumped;
+    p->speed_known = observability->determined || (p->speed_known && even);
+    if (observability->degenerate && p->speed_known && !counted) {
+        ale_motion_keep_along(&p->fit.motion, predicted, observability->along_bam);
         p->motion = p->fit.motion;
     }
 }
 
 /* What the scan leaves open is said, and left to the prediction. */
-static void hold(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted, bool counted)
+static void observability(ale_pipeline_t *p, const ale_motion_t *before, const ale_motion_t *predicted,
+                          bool counted)
 {
-    const ale_hold_t hold = ale_hold_of(&p->map, p->view, p->view_count, &p->fit);
+    const ale_observability_t observability =
+        ale_observability_of(&p->map, p->observation, p->observation_count, &p->fit);
     if (counted) {
-        ale_wheel_drift_go(&p->wheel_drift, before->pose, predicted->pose,
-                           ale_wheel_scale_error_ppm(&p->scale));
+        ale_scale_error_predict(&p->scale_error, before->pose, predicted->pose,
+                                ale_wheel_scale_error_ppm(&p->scale));
     }
-    ale_wheel_drift_fit(&p->wheel_drift, &hold, predicted);
-    p->held = hold.held;
-    if (hold.held) {
-        p->slid_um = 0;
+    ale_scale_error_update(&p->scale_error, &observability, predicted);
+    p->determined = observability.determined;
+    if (observability.determined) {
+        p->drifted_um = 0;
     } else {
-        ale_drift_slide(&p->drift, &p->slid_um, hold.along_bam, before, predicted);
+        ale_map_uncertainty_drift(&p->map_uncertainty, &p->drifted_um, observability.along_bam, before,
+                                  predicted);
     }
-    keep_pace(p, &hold, before, predicted, counted);
+    keep_speed(p, &observability, before, predicted, counted);
 }
 
 /* Where the last scan says that this one was taken, and how exactly. */
@@ -236,22 +242,24 @@ static ale_registered_t register_scan(ale_pipeline_t *p, const ale_motion_t *bef
     /* on the way that is smooth, as the witness is */
     const ale_pose_t guess = on_smooth_way(p, before, predicted->pose);
     const ale_overview_t *overview = &p->overview;
-    const bool richer = beyond.turn_urad < STRAIGHT_URAD &&
-                        ale_overview_is_richer(overview, p->witness.view, p->witness.view_count);
-    const ale_views_t then = richer ? (ale_views_t){overview->view, overview->view_count}
-                                    : (ale_views_t){p->witness.view, p->witness.view_count};
+    const bool richer =
+        beyond.turn_urad < STRAIGHT_URAD &&
+        ale_overview_is_richer(overview, p->witness.observation, p->witness.observation_count);
+    const ale_observations_t then =
+        richer ? (ale_observations_t){overview->observation, overview->observation_count}
+               : (ale_observations_t){p->witness.observation, p->witness.observation_count};
     const ale_pose_t stood = richer ? overview->robot : p->witness.seen.robot;
     ale_pose_t way = ale_pose_between(stood, guess);
-    if (!ale_register(&p->registration, then, (ale_views_t){p->view, p->view_count}, (int32_t)reach_um,
-                      (int32_t)reach_urad, &way)) {
+    if (!ale_match_scans(&p->scan_match, then, (ale_observations_t){p->observation, p->observation_count},
+                         (int32_t)reach_um, (int32_t)reach_urad, &way)) {
         return (ale_registered_t){.pose = predicted->pose};
     }
     const ale_pose_t there = ale_pose_compose(stood, way);
     return (ale_registered_t){
         .found = true,
         .pose = ale_pose_compose(before->pose, ale_pose_between(p->smooth.pose, there)),
-        .sigma_um = ale_max64(sigma_um, ale_registration_cell_um(reach_um)),
-        .sigma_urad = ale_max64(sigma_urad, ale_registration_step_urad(reach_urad)),
+        .sigma_um = ale_max64(sigma_um, ale_scan_match_cell_um(reach_um)),
+        .sigma_urad = ale_max64(sigma_urad, ale_scan_match_step_urad(reach_urad)),
     };
 }
 
@@ -289,7 +297,7 @@ static void match_again(ale_pipeline_t *p, const ale_motion_t *before)
     ale_ways_t *ways = &p->ways;
     const ale_registered_t registered = register_scan(p, before);
     const bool turns = ways->part && (!registered.found || ale_ways_rival_is_nearer(ways, registered.pose));
-    const bool preferred = !turns && registered.found && ale_tracker_is_strange(&p->tracker, &p->fit) &&
+    const bool preferred = !turns && registered.found && ale_tracking_is_strange(&p->monitor, &p->fit) &&
                            is_preferred(p, before, &registered);
     if (preferred) {
         ways->believed = registered_motion(&ways->believed, &registered);
@@ -297,14 +305,14 @@ static void match_again(ale_pipeline_t *p, const ale_motion_t *before)
     }
     const ale_motion_t *prior = turns ? &ways->rival : &ways->believed;
     const ale_gate_t *unguided = turns ? &acquire_gate : &narrow_gate;
-    const int32_t most_looks = ALE_LOOKS_OF_A_SCAN - ALE_LOOKS_OF_A_BEAM * p->scan.beams;
-    ale_refine_again(prior, turns || preferred, registered.found ? registered.pose : prior->pose, &scene,
-                     registered.found ? &register_gate : unguided, most_looks, &p->other, &p->fit);
+    const int32_t most_work = ALE_SCAN_WORK - ALE_BEAM_WORK * p->scan.beams;
+    ale_register_again(prior, turns || preferred, registered.found ? registered.pose : prior->pose, &scene,
+                       registered.found ? &register_gate : unguided, most_work, &p->other, &p->fit);
     if (turns && p->fit.matched_um > found_um) {
         ale_ways_swap(ways);
     }
     if (p->fit.matched_um * CHANCE_PARTS < p->fit.shown_um) {
-        ale_refine_reject(&ways->believed, &scene, &p->fit);
+        ale_register_reject(&ways->believed, &scene, &p->fit);
     }
 }
 
@@ -312,15 +320,16 @@ static void match_again(ale_pipeline_t *p, const ale_motion_t *before)
 static void leave_out_newcomers(ale_pipeline_t *p, const ale_motion_t *before)
 {
     const ale_seen_t now = seen_from(p, before, p->motion.pose);
-    ale_rest_look(&p->rest, now.robot);
-    p->view_count = ale_elders_drop_newcomers(&p->elders, &p->map, &now, ale_rest_is_long(&p->rest), p->view,
-                                              p->fit.match);
-    if (p->tracker.state == ALE_STATE_GOOD && !p->tracker.jumped) {
+    ale_zero_motion_update(&p->zero_motion, now.robot);
+    p->observation_count =
+        ale_elders_drop_newcomers(&p->elders, &p->map, &now, ale_zero_motion_is_long(&p->zero_motion),
+                                  p->observation, p->fit.association);
+    if (p->monitor.state == ALE_STATE_GOOD && !p->monitor.jumped) {
         ale_elders_keep(&p->elders, &now);
     }
 }
 
-void ale_pipeline_stand(ale_pipeline_t *p)
+void ale_pipeline_set_record_pose(ale_pipeline_t *p)
 {
     if (p->witnessed) {
         const ale_pose_t robot = p->smooth.pose;
@@ -335,28 +344,29 @@ void ale_pipeline_track(ale_pipeline_t *p, const ale_motion_t *before, const ale
     const ale_motion_t *predicted = &p->ways.believed;
     p->witnessed = false;
     approach(p, predicted->pose, p->scan.range_max_um);
-    ale_refine_pose(predicted, &scene, &acquire_gate, &p->fit);
-    ale_refine_look(&scene, &p->fit);
-    if (ale_tracker_doubts(&p->fit)) {
+    ale_register_pose(predicted, &scene, &acquire_gate, &p->fit);
+    ale_register_associate(&scene, &p->fit);
+    if (ale_tracking_doubts(&p->fit)) {
         match_again(p, before);
     }
-    ale_refine_weigh(&scene, &p->fit);
+    ale_register_weigh(&scene, &p->fit);
     const bool counted = p->ways.counted;
     p->motion = p->fit.motion;
     notice(p, before, predicted, counted);
-    p->drift = ale_drift_here(&p->map, p->view, p->view_count, &p->fit, &p->drift);
-    const ale_wheel_drift_t drifted = p->wheel_drift;
-    hold(p, before, predicted, counted);
-    if (!p->tracker.jumped) {
-        ale_liveliness_learn(&p->liveliness[counted], predicted, &p->motion);
+    p->map_uncertainty =
+        ale_map_uncertainty_here(&p->map, p->observation, p->observation_count, &p->fit, &p->map_uncertainty);
+    const ale_scale_error_t drifted = p->scale_error;
+    observability(p, before, predicted, counted);
+    if (!p->monitor.jumped) {
+        ale_process_noise_learn(&p->process_noise[counted], predicted, &p->motion);
         teach_wheels(p, before, counted ? wheels : NULL, &drifted);
         p->slips = p->ways.part ? ale_ways_slip(&p->ways, p->motion.pose, p->slips) : p->slips;
     }
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);
     anchor(p);
     leave_out_newcomers(p, before);
-    take_in(p, ale_tracker_may_map(&p->tracker, &p->fit));
+    take_in(p, ale_tracking_may_map(&p->monitor, &p->fit));
     approach(p, p->motion.pose, p->scan.range_max_um);
-    const ale_sights_t sights = look_around(p);
-    ale_tracker_judge(&p->tracker, &p->fit, &sights);
+    const ale_visibility_counts_t visibility = look_around(p);
+    ale_tracking_judge(&p->monitor, &p->fit, &visibility);
 }

@@ -14,7 +14,7 @@
 #include "observe/seen.h"
 #include "track/pipeline.h"
 
-struct ale_sighting {
+struct ale_scan_observation {
     uint32_t epoch;  /* of the map */
     uint32_t loaded; /* the number of that map, see ale_pipeline_load_map; 0: begun by this drive */
     uint32_t scan;
@@ -22,7 +22,7 @@ struct ale_sighting {
     int64_t stamp_us;
     ale_pose_t smooth;
     uint32_t line_count;
-    ale_view_t line[ALE_MAX_VIEWS]; /* robot's frame */
+    ale_observation_t line[ALE_MAX_OBSERVATIONS]; /* robot's frame */
     uint32_t corner_count;
     ale_corner_t corner[ALE_CORNERS_PER_SCAN]; /* sensor's frame */
     ale_seen_copy_t seen;                      /* at its map pose */

@@ -4,8 +4,8 @@
 
 enum {
     MISFITS_UNTIL_LOST = 8,
-    THROUGH_LEAST = 3,         /* walls seen through that make a contradiction, if they also are */
-    THROUGH_TO_FOUND = 2,      /* so many times those that are where they should be */
+    VIOLATED_LEAST = 3,        /* walls seen through that make a contradiction, if they also are */
+    VIOLATED_TO_FOUND = 2,     /* so many times those that are where they should be */
     DOUBT_PERCENT = 60,        /* of what is shown is found in the map: no question; */
     STRANGE_PERCENT = 35,      /* less than this is found: has the scene changed? */
     DENIED_LEAST_UM = 1000000, /* surfaces that must be gone before a change is called one, */
@@ -40,9 +40,9 @@ static int64_t position_var(const ale_motion_t *m)
     return ale_max64(m->cov.m[0][0], m->cov.m[1][1]);
 }
 
-void ale_tracker_init(ale_tracker_t *tracker)
+void ale_tracking_init(ale_tracking_monitor_t *monitor)
 {
-    *tracker = (ale_tracker_t){.state = ALE_STATE_GOOD};
+    *monitor = (ale_tracking_monitor_t){.state = ALE_STATE_GOOD};
 }
 
 static ale_state_t by_variance(const ale_motion_t *m)
@@ -50,59 +50,60 @@ static ale_state_t by_variance(const ale_motion_t *m)
     return position_var(m) > square(LOST_SIGMA_UM) ? ALE_STATE_LOST : ALE_STATE_WEAK;
 }
 
-static bool contradicts(const ale_fit_t *fit, const ale_sights_t *sights)
+static bool contradicts(const ale_fit_t *fit, const ale_visibility_counts_t *visibility)
 {
-    const uint32_t found = (uint32_t)fit->matched + sights->supported;
-    return sights->through >= THROUGH_LEAST && sights->through > THROUGH_TO_FOUND * found;
+    const uint32_t found = (uint32_t)fit->matched + visibility->supported;
+    return visibility->violated >= VIOLATED_LEAST && visibility->violated > VIOLATED_TO_FOUND * found;
 }
 
-bool ale_tracker_doubts(const ale_fit_t *fit)
+bool ale_tracking_doubts(const ale_fit_t *fit)
 {
     return fit->matched_um * 100 < fit->shown_um * DOUBT_PERCENT;
 }
 
-bool ale_tracker_is_strange(const ale_tracker_t *tracker, const ale_fit_t *fit)
+bool ale_tracking_is_strange(const ale_tracking_monitor_t *monitor, const ale_fit_t *fit)
 {
-    const int64_t percent = tracker->misfits > 0 ? BELIEVE_PERCENT : STRANGE_PERCENT;
+    const int64_t percent = monitor->misfits > 0 ? BELIEVE_PERCENT : STRANGE_PERCENT;
     return fit->matched_um * 100 < fit->shown_um * percent;
 }
 
 /* What the robot did since the last scan that showed anything was not seen: the wheels alone tell it. */
-static bool is_unwatched(const ale_tracker_t *tracker)
+static bool is_unwatched(const ale_tracking_monitor_t *monitor)
 {
-    return tracker->unseeing >= UNSEEING_LEAST;
+    return monitor->unseeing >= UNSEEING_LEAST;
 }
 
 /* Once a scan did not fit, the next must be confirmed, not only not denied. */
-static bool is_confirmed(const ale_tracker_t *tracker, const ale_testimony_t *heard)
+static bool is_confirmed(const ale_tracking_monitor_t *monitor, const ale_testimony_t *heard)
 {
-    const bool much = heard->close || is_unwatched(tracker);
+    const bool much = heard->close || is_unwatched(monitor);
     const int64_t percent =
-        (much ? CLOSE_PERCENT : CONFIRM_PERCENT) + (tracker->misfits > 0 ? MISFIT_PERCENT : 0);
+        (much ? CLOSE_PERCENT : CONFIRM_PERCENT) + (monitor->misfits > 0 ? MISFIT_PERCENT : 0);
     return heard->confirmed_um * 100 >= heard->shown_um * percent;
 }
 
 /* Without wheels nobody knows where the robot went while a scan did not fit: only the map can tell. */
-static bool is_adrift(const ale_tracker_t *tracker, bool counted)
+static bool is_adrift(const ale_tracking_monitor_t *monitor, bool counted)
 {
-    return tracker->misfits > 0 && !counted;
+    return monitor->misfits > 0 && !counted;
 }
 
-void ale_tracker_notice(ale_tracker_t *tracker, const ale_testimony_t *heard, bool counted, bool mapped)
+void ale_tracking_notice(ale_tracking_monitor_t *monitor, const ale_testimony_t *heard, bool counted,
+                         bool mapped)
 {
     const int64_t told_um = heard ? heard->denied_um + heard->confirmed_um : 0;
-    const int64_t percent = is_unwatched(tracker) ? UNWATCHED_PERCENT : DENIED_PERCENT;
+    const int64_t percent = is_unwatched(monitor) ? UNWATCHED_PERCENT : DENIED_PERCENT;
     const bool denied =
         heard && heard->denied_um > DENIED_LEAST_UM && heard->denied_um * 100 > told_um * percent;
-    tracker->in_reach = counted || !mapped;
-    tracker->beside = tracker->misfits > 0 ? tracker->beside : heard && heard->close;
-    tracker->jumped = heard && heard->shown_um > SHOWN_LEAST_UM &&
-                      (denied || !is_confirmed(tracker, heard) || is_adrift(tracker, counted));
+    monitor->in_reach = counted || !mapped;
+    monitor->beside = monitor->misfits > 0 ? monitor->beside : heard && heard->close;
+    monitor->jumped = heard && heard->shown_um > SHOWN_LEAST_UM &&
+                      (denied || !is_confirmed(monitor, heard) || is_adrift(monitor, counted));
 }
 
-static bool is_undisturbed(const ale_tracker_t *tracker)
+static bool is_undisturbed(const ale_tracking_monitor_t *monitor)
 {
-    return tracker->state != ALE_STATE_LOST && tracker->misfits == 0 && !tracker->jumped;
+    return monitor->state != ALE_STATE_LOST && monitor->misfits == 0 && !monitor->jumped;
 }
 
 static bool is_well_known(const ale_motion_t *m)
@@ -112,77 +113,78 @@ static bool is_well_known(const ale_motion_t *m)
 
 /* A scan shows enough, but without wheels the heading is so uncertain that not finding it in the map says
  * nothing: the robot may be in the midst of what the map holds. */
-static bool is_out_of_reach(const ale_tracker_t *tracker, const ale_fit_t *fit)
+static bool is_out_of_reach(const ale_tracking_monitor_t *monitor, const ale_fit_t *fit)
 {
-    return is_undisturbed(tracker) && !tracker->in_reach && fit->shown_um > ANCHOR_SHOWN_UM &&
+    return is_undisturbed(monitor) && !monitor->in_reach && fit->shown_um > ANCHOR_SHOWN_UM &&
            fit->motion.cov.m[2][2] >= square(ANCHOR_SIGMA_URAD);
 }
 
 /* Scans that showed nothing count until one is believed to be where the pose says. */
-static void count_unseeing(ale_tracker_t *tracker, const ale_fit_t *fit)
+static void count_unseeing(ale_tracking_monitor_t *monitor, const ale_fit_t *fit)
 {
     if (fit->shown_um == 0) {
-        tracker->unseeing = (uint16_t)ale_min64(tracker->unseeing + 1, UNSEEING_LEAST);
-    } else if (!tracker->jumped) {
-        tracker->unseeing = 0;
+        monitor->unseeing = (uint16_t)ale_min64(monitor->unseeing + 1, UNSEEING_LEAST);
+    } else if (!monitor->jumped) {
+        monitor->unseeing = 0;
     }
 }
 
-ale_state_t ale_tracker_judge(ale_tracker_t *tracker, const ale_fit_t *fit, const ale_sights_t *sights)
+ale_state_t ale_tracking_judge(ale_tracking_monitor_t *monitor, const ale_fit_t *fit,
+                               const ale_visibility_counts_t *visibility)
 {
-    const bool out_of_reach = is_out_of_reach(tracker, fit);
-    count_unseeing(tracker, fit);
-    if (tracker->jumped || contradicts(fit, sights)) {
-        tracker->misfits++;
-    } else if (tracker->misfits > 0) {
-        tracker->misfits--;
+    const bool out_of_reach = is_out_of_reach(monitor, fit);
+    count_unseeing(monitor, fit);
+    if (monitor->jumped || contradicts(fit, visibility)) {
+        monitor->misfits++;
+    } else if (monitor->misfits > 0) {
+        monitor->misfits--;
     }
-    if (out_of_reach || tracker->misfits >= MISFITS_UNTIL_LOST) {
-        tracker->state = ALE_STATE_LOST;
+    if (out_of_reach || monitor->misfits >= MISFITS_UNTIL_LOST) {
+        monitor->state = ALE_STATE_LOST;
     } else if (position_var(&fit->motion) < square(WEAK_SIGMA_UM) &&
                ale_information_determines(&fit->information, DETERMINED_UM)) {
-        tracker->state = ALE_STATE_GOOD;
+        monitor->state = ALE_STATE_GOOD;
     } else {
-        tracker->state = by_variance(&fit->motion);
+        monitor->state = by_variance(&fit->motion);
     }
-    return tracker->state;
+    return monitor->state;
 }
 
-bool ale_tracker_believes(const ale_fit_t *fit)
+bool ale_tracking_accepts(const ale_fit_t *fit)
 {
     return fit->matched >= BELIEVE_WALLS && fit->shown_um >= BELIEVE_SHOWN_UM &&
            fit->matched_um * 100 >= fit->shown_um * BELIEVE_PERCENT;
 }
 
-bool ale_tracker_expected(const ale_fit_t *fit)
+bool ale_tracking_confirms(const ale_fit_t *fit)
 {
     return fit->shown_um >= BELIEVE_SHOWN_UM && fit->matched_um * 100 >= fit->shown_um * EXPECT_PERCENT &&
            ale_information_determines(&fit->information, DETERMINED_UM);
 }
 
-void ale_tracker_found(ale_tracker_t *tracker)
+void ale_tracking_found(ale_tracking_monitor_t *monitor)
 {
-    tracker->state = ALE_STATE_WEAK;
-    tracker->misfits = MISFITS_UNTIL_LOST / 2; /* on probation */
-    tracker->jumped = false;
-    tracker->unseeing = 0;
+    monitor->state = ALE_STATE_WEAK;
+    monitor->misfits = MISFITS_UNTIL_LOST / 2; /* on probation */
+    monitor->jumped = false;
+    monitor->unseeing = 0;
 }
 
-ale_state_t ale_tracker_skip(ale_tracker_t *tracker, const ale_motion_t *predicted)
+ale_state_t ale_tracking_skip(ale_tracking_monitor_t *monitor, const ale_motion_t *predicted)
 {
-    if (tracker->state != ALE_STATE_LOST) {
-        tracker->state = by_variance(predicted);
+    if (monitor->state != ALE_STATE_LOST) {
+        monitor->state = by_variance(predicted);
     }
-    return tracker->state;
+    return monitor->state;
 }
 
-bool ale_tracker_may_map(const ale_tracker_t *tracker, const ale_fit_t *fit)
+bool ale_tracking_may_map(const ale_tracking_monitor_t *monitor, const ale_fit_t *fit)
 {
-    return is_undisturbed(tracker) && is_well_known(&fit->motion);
+    return is_undisturbed(monitor) && is_well_known(&fit->motion);
 }
 
-bool ale_tracker_may_anchor(const ale_tracker_t *tracker, const ale_fit_t *fit)
+bool ale_tracking_may_reanchor(const ale_tracking_monitor_t *monitor, const ale_fit_t *fit)
 {
-    return is_undisturbed(tracker) && !is_well_known(&fit->motion) && !is_out_of_reach(tracker, fit) &&
+    return is_undisturbed(monitor) && !is_well_known(&fit->motion) && !is_out_of_reach(monitor, fit) &&
            fit->shown_um > ANCHOR_SHOWN_UM;
 }

@@ -19,8 +19,8 @@
 
 typedef struct {
     ale_seen_copy_t seen;
-    ale_view_t view[ALE_MAX_VIEWS];
-    uint32_t view_count; /* 0: nobody saw anything */
+    ale_observation_t observation[ALE_MAX_OBSERVATIONS];
+    uint32_t observation_count; /* 0: nobody saw anything */
 } ale_witness_t;
 
 /* Length of the surfaces of both scans, and of those that the other one confirms, and that it saw through. */

@@ -4,25 +4,26 @@
 
 enum { LOOKS_MOST = 1 << 20 };
 
-void ale_rest_clear(ale_rest_t *rest)
+void ale_zero_motion_clear(ale_zero_motion_t *zero_motion)
 {
-    rest->looks = 0;
+    zero_motion->scans = 0;
 }
 
-void ale_rest_look(ale_rest_t *rest, ale_pose_t smooth)
+void ale_zero_motion_update(ale_zero_motion_t *zero_motion, ale_pose_t smooth)
 {
-    if (rest->looks == 0 || !ale_are_near(rest->at, smooth, ALE_REST_UM, ALE_REST_BAM)) {
-        *rest = (ale_rest_t){smooth, 0};
+    if (zero_motion->scans == 0 ||
+        !ale_are_near(zero_motion->at, smooth, ALE_ZERO_MOTION_UM, ALE_ZERO_MOTION_BAM)) {
+        *zero_motion = (ale_zero_motion_t){smooth, 0};
     }
-    rest->looks += rest->looks < LOOKS_MOST;
+    zero_motion->scans += zero_motion->scans < LOOKS_MOST;
 }
 
-bool ale_rest_is_long(const ale_rest_t *rest)
+bool ale_zero_motion_is_long(const ale_zero_motion_t *zero_motion)
 {
-    return rest->looks > ALE_REST_WHOLE;
+    return zero_motion->scans > ALE_ZERO_MOTION_WHOLE;
 }
 
-uint32_t ale_rest_dilution(const ale_rest_t *rest)
+uint32_t ale_zero_motion_dilution(const ale_zero_motion_t *zero_motion)
 {
-    return ale_rest_is_long(rest) ? rest->looks / ALE_REST_WHOLE : 1;
+    return ale_zero_motion_is_long(zero_motion) ? zero_motion->scans / ALE_ZERO_MOTION_WHOLE : 1;
 }

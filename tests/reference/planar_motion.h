@@ -56,7 +56,8 @@ struct WallPair {
     double wall_angle;
 };
 
-// Pose by Gauss-Newton on all pairs together with a prediction: the twin of ale_refine without velocity.
+// Pose by Gauss-Newton on all pairs together with a prediction: the twin of ale_register_scan without
+// velocity.
 inline Pose refine(const Pose &predicted, const Eigen::Matrix3d &cov, const std::vector<WallPair> &pairs)
 {
     Pose x = predicted;

@@ -20,7 +20,7 @@ constexpr int64_t look_wait_us = 5000000;
 
 } // namespace
 
-bool MapRecord::is_worth_a_look(const ale_sighting_t &sighting) const
+bool MapRecord::is_worth_a_look(const ale_scan_observation_t &sighting) const
 {
     return sights_.empty() || !ale_are_near(looked_from_, sighting.seen.robot, look_step_um, look_turn_bam) ||
            ale_abs64(sighting.stamp_us - looked_us_) > look_wait_us;
@@ -34,7 +34,7 @@ void MapRecord::know(uint32_t epoch, const ale_map_t &map)
     known_corners_.assign(map.corner, map.corner + map.corner_count);
 }
 
-void MapRecord::take(const ale_sighting_t &sighting)
+void MapRecord::take(const ale_scan_observation_t &sighting)
 {
     if (sighting.epoch != epoch_) {
         *this = MapRecord();

@@ -25,7 +25,7 @@ struct Sight {
     uint32_t keyframe;                     // that it belongs to
     ale_pose_t smooth;                     // where it was taken
     ale_pose_t tracked;                    // the same, in the map as it was then
-    std::vector<ale_view_t> lines;         // robot's frame
+    std::vector<ale_observation_t> lines;  // robot's frame
     std::vector<ale_corner_t> corners;     // sensor's frame
     std::unique_ptr<ale_seen_copy_t> look; // of some
 };
@@ -38,7 +38,7 @@ class MapRecord
     void know(uint32_t epoch, const ale_map_t &map);
 
     // Of a later scan than the last one. That of a map begun anew forgets what was kept.
-    void take(const ale_sighting_t &sighting);
+    void take(const ale_scan_observation_t &sighting);
 
     // Forgets those for which this holds.
     void forget(const std::function<bool(const Sight &)> &is_spared);
@@ -69,7 +69,7 @@ class MapRecord
     }
 
   private:
-    bool is_worth_a_look(const ale_sighting_t &sighting) const;
+    bool is_worth_a_look(const ale_scan_observation_t &sighting) const;
 
     uint32_t epoch_ = 0;
     ale_pose_t sensor_{};

@@ -27,11 +27,11 @@ constexpr int64_t pose_urad = 6000;
 constexpr int64_t million = 1000000;
 constexpr uint32_t known_scan = UINT32_MAX; // later than any, so that lines stay sorted
 
-PlacedLine placed(uint32_t scan, const ale_view_t &line, const ale_stand_t &robot)
+PlacedLine placed(uint32_t scan, const ale_observation_t &line, const ale_viewpoint_t &robot)
 {
     const int64_t aside_um = ale_along(line.centre, ale_tangent_bam(line.normal_bam));
     const int64_t swung_um = ale_mul_div(aside_um, pose_urad, million);
-    return {scan, ale_view_from(&line, &robot), pose_um * pose_um + swung_um * swung_um,
+    return {scan, ale_observation_from(&line, &robot), pose_um * pose_um + swung_um * swung_um,
             pose_urad * pose_urad};
 }
 
@@ -43,7 +43,7 @@ std::optional<PlacedLine> placed(const ale_map_line_t &known)
     if (!ale_map_line_wall(&known, &wall)) {
         return std::nullopt;
     }
-    ale_view_t view{};
+    ale_observation_t view{};
     view.centre = wall.anchor;
     view.normal_bam = wall.normal_bam;
     view.start_um = wall.start_um;
@@ -77,8 +77,8 @@ void redraw_map(const MapRecord &record, const PoseOfSight &pose_of, ale_map_t *
                                   [](size_t sum, const Sight &sight) { return sum + sight.lines.size(); }));
     std::vector<PlacedLook> looks;
     for (const Sight &sight : record.sights()) {
-        const ale_stand_t robot = ale_stand(pose_of(sight));
-        for (const ale_view_t &line : sight.lines) {
+        const ale_viewpoint_t robot = ale_viewpoint(pose_of(sight));
+        for (const ale_observation_t &line : sight.lines) {
             lines.push_back(placed(sight.scan, line, robot));
         }
         if (sight.look) {

@@ -30,14 +30,14 @@ constexpr int64_t beside_angle_urad = 150000;
 constexpr int64_t apart_um = 40000;
 constexpr int apart_least = 2; // scans
 
-int64_t length_um(const ale_view_t &view)
+int64_t length_um(const ale_observation_t &view)
 {
     return int64_t{view.end_um} - view.start_um;
 }
 
-ale_view_t view_of(const ale_wall_t &wall)
+ale_observation_t view_of(const ale_wall_t &wall)
 {
-    ale_view_t view{};
+    ale_observation_t view{};
     view.centre = wall.anchor;
     view.normal_bam = wall.normal_bam;
     view.start_um = wall.start_um;
@@ -63,7 +63,7 @@ void observe(ale_wall_t *wall, const PlacedLine &line)
 ale_wall_t begun_by(const PlacedLine &line)
 {
     ale_wall_t wall;
-    ale_wall_from_view(&wall, &line.view);
+    ale_wall_from_observation(&wall, &line.view);
     wall.var_offset_um2 += line.doubt_um2;
     wall.var_angle_urad2 += line.doubt_urad2;
     wall.seen = 1;
@@ -121,10 +121,10 @@ std::vector<WallGroup> gather(const std::vector<PlacedLine> &lines)
 
 // Whether a scan shows two lines that cannot be one surface: they do not continue each other, as far as one
 // scan knows, which no pose can change.
-bool are_apart(const ale_view_t &a, const ale_view_t &b)
+bool are_apart(const ale_observation_t &a, const ale_observation_t &b)
 {
     ale_wall_t wall;
-    ale_wall_from_view(&wall, &a);
+    ale_wall_from_observation(&wall, &a);
     const ale_wall_error_t e = ale_wall_error(&wall, &b);
     const bool before = e.t_um + b.end_um < wall.start_um;
     const int64_t nearest_um =
@@ -168,7 +168,7 @@ int64_t farthest_um(const std::vector<PlacedLine> &lines, const WallGroup &a, co
 
 bool are_one(const std::vector<PlacedLine> &lines, const WallGroup &a, const WallGroup &b)
 {
-    const ale_view_t as_view = view_of(b.wall);
+    const ale_observation_t as_view = view_of(b.wall);
     const ale_wall_error_t e = ale_wall_error(&a.wall, &as_view);
     if (e.overlap_um < 0 || ale_abs64(e.angle_urad) > beside_angle_urad) {
         return false;

@@ -22,7 +22,7 @@ namespace ale
 // A line where the pose of its scan puts it.
 struct PlacedLine {
     uint32_t scan;
-    ale_view_t view; // map frame; variances as one scan knows them
+    ale_observation_t view; // map frame; variances as one scan knows them
     // What the doubt of the pose adds to the variances.
     int64_t doubt_um2;
     int64_t doubt_urad2;

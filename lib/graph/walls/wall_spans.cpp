@@ -38,7 +38,7 @@ struct Range {
     int64_t to_um;
 };
 
-Range along(const ale_wall_t &wall, const ale_view_t &view)
+Range along(const ale_wall_t &wall, const ale_observation_t &view)
 {
     const ale_wall_error_t e = ale_wall_error(&wall, &view);
     return {e.t_um + view.start_um, e.t_um + view.end_um};
@@ -67,10 +67,10 @@ class Cells
     {
         const uint32_t *bearing_bam = ale_seen_bearings(from.seen);
         for (size_t k = 0; k < cells_.size(); k++) {
-            const ale_sight_t sight =
-                ale_wall_point_sight(&wall_, middle_um(k), &from.seen->scan, bearing_bam, from.sensor);
-            cells_[k].there += sight == ALE_SIGHT_SUPPORTED;
-            cells_[k].through += sight == ALE_SIGHT_THROUGH;
+            const ale_visibility_t sight =
+                ale_wall_point_visibility(&wall_, middle_um(k), &from.seen->scan, bearing_bam, from.sensor);
+            cells_[k].there += sight == ALE_VISIBILITY_SUPPORTED;
+            cells_[k].through += sight == ALE_VISIBILITY_VIOLATED;
         }
     }
 

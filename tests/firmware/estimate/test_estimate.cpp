@@ -159,7 +159,7 @@ TEST_F(Estimate, WhatScansHaveShownIsToldWhenTheRobotHasGoneOnAndWhereItStaysNow
     EXPECT_LE(there, 8U);
     EXPECT_EQ(told_after(kPeriod * 31, 0.15), there);
     EXPECT_EQ(told_after(kPeriod * 82, 0.15), there + 1);
-    const auto *last = static_cast<ale_sighting_t *>(ale_ring_at(exchange.sightings, there));
+    const auto *last = static_cast<ale_scan_observation_t *>(ale_ring_at(exchange.sightings, there));
     EXPECT_EQ(last->scan, 31U);
     EXPECT_GE(last->line_count, 3U);
 }

@@ -44,8 +44,8 @@ class MapDrawer : public surroundings::WithExchange
         for (size_t k = first; k < end; k++) {
             void *slot = ale_ring_reserve(exchange.sightings);
             ASSERT_NE(slot, nullptr);
-            *static_cast<ale_sighting_t *>(slot) = *drive().sightings[k];
-            static_cast<ale_sighting_t *>(slot)->loaded = loaded;
+            *static_cast<ale_scan_observation_t *>(slot) = *drive().sightings[k];
+            static_cast<ale_scan_observation_t *>(slot)->loaded = loaded;
             ale_ring_commit(exchange.sightings);
         }
     }

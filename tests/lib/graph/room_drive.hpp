@@ -13,8 +13,8 @@ extern "C" {
 }
 
 struct RoomDrive {
-    std::vector<std::unique_ptr<ale_sighting_t>> sightings; // of every scan
-    std::vector<ale_pose_t> truth;                          // by scan, in the frame of the room
+    std::vector<std::unique_ptr<ale_scan_observation_t>> sightings; // of every scan
+    std::vector<ale_pose_t> truth;                                  // by scan, in the frame of the room
     std::unique_ptr<ale_mapper_poses_t> keyframes =
         std::make_unique<ale_mapper_poses_t>(); // where they truly are
 
@@ -37,8 +37,8 @@ struct RoomDrive {
                 keyframes->epoch = keyframe->epoch;
                 keyframes->pose[keyframes->count++] = {keyframe->scan, keyframe->smooth, truth.back()};
             }
-            sightings.push_back(std::make_unique<ale_sighting_t>());
-            EXPECT_TRUE(ale_pipeline_sighting(pipeline.get(), sightings.back().get()));
+            sightings.push_back(std::make_unique<ale_scan_observation_t>());
+            EXPECT_TRUE(ale_pipeline_scan_observation(pipeline.get(), sightings.back().get()));
         }
     }
     template <typename WallsAt>

@@ -26,7 +26,7 @@ struct DestroyLiveMap {
 using LiveMap = std::unique_ptr<ale_live_map_t, DestroyLiveMap>;
 using Map = std::unique_ptr<ale_map_t>;
 
-LiveMap with(const std::vector<std::unique_ptr<ale_sighting_t>> &sightings)
+LiveMap with(const std::vector<std::unique_ptr<ale_scan_observation_t>> &sightings)
 {
     LiveMap live(ale_live_map_create());
     for (const auto &sighting : sightings) {
@@ -141,7 +141,7 @@ TEST(LiveMap, WhereTheRobotStaysTheOldestScansGoAndWhatIsGoneWithThem)
 TEST(LiveMap, WhateverIsSeenTheRecordIsBounded)
 {
     const LiveMap live(ale_live_map_create());
-    auto sighting = std::make_unique<ale_sighting_t>(*plain_drive().sightings[0]);
+    auto sighting = std::make_unique<ale_scan_observation_t>(*plain_drive().sightings[0]);
     uint32_t most = 0;
     for (uint32_t scan = 0; scan < 3000; scan++) {
         sighting->scan = scan;
@@ -158,7 +158,7 @@ TEST(LiveMap, ANewMapForgetsTheOldOne)
 {
     const RoomDrive &drive = plain_drive();
     const LiveMap live = with(drive.sightings);
-    auto first = std::make_unique<ale_sighting_t>(*drive.sightings[0]);
+    auto first = std::make_unique<ale_scan_observation_t>(*drive.sightings[0]);
     first->epoch++;
     ale_live_map_take(live.get(), first.get());
     auto map = std::make_unique<ale_map_t>();

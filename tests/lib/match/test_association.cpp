@@ -1,4 +1,5 @@
-// lib/match/association.c and hypothesis.c against their twins in double, over random maps, poses and views.
+// lib/match/association.c and hypothesis.c against their twins in double, over random maps, poses and
+// observations.
 #include <memory>
 #include <random>
 
@@ -31,9 +32,9 @@ class Scene
             const double length = uniform(0.2, 3);
             const double y = uniform(-4, 4);
             const double x = uniform(-4, 4);
-            const ale_view_t view = piece(x, y, facing, length, 1e-3, 2e-3);
+            const ale_observation_t observation = piece(x, y, facing, length, 1e-3, 2e-3);
             ale_wall_t wall;
-            ale_wall_from_view(&wall, &view);
+            ale_wall_from_observation(&wall, &observation);
             wall.cov_um_urad = static_cast<int64_t>(uniform(-0.8, 0.8) * 1e3 * 2e3);
             wall.seen = 9;
             ale_local_map_add(map.get(), &wall);
@@ -59,22 +60,22 @@ class Scene
         return {x, y, theta};
     }
 
-    static ale_view_t piece(double x, double y, double normal, double length, double sigma,
-                            double sigma_angle)
+    static ale_observation_t piece(double x, double y, double normal, double length, double sigma,
+                                   double sigma_angle)
     {
-        ale_view_t v = {};
+        ale_observation_t v = {};
         v.centre = {convert::um(x), convert::um(y)};
         v.normal_bam = convert::bam(normal);
         v.start_um = convert::um(-0.45 * length);
         v.end_um = convert::um(0.55 * length);
         v.var_offset_um2 = std::llround(sigma * sigma * 1e12);
         v.var_angle_urad2 = std::llround(sigma_angle * sigma_angle * 1e12);
-        v.kind = ALE_VIEW_WALL;
+        v.kind = ALE_OBSERVATION_LINE;
         return v;
     }
 
     // What a robot at a pose sees of a wall: a part of it, with an error.
-    ale_view_t seen(size_t wall, const Pose &pose, double spread, double spread_angle)
+    ale_observation_t seen(size_t wall, const Pose &pose, double spread, double spread_angle)
     {
         const WallPiece &w = walls[wall];
         const double length = w.end - w.start;
@@ -88,7 +89,7 @@ class Scene
         return piece(local.x(), local.y(), facing, seen_length, 3e-3, 5e-3);
     }
 
-    static WallPiece in_double(const ale_view_t &v)
+    static WallPiece in_double(const ale_observation_t &v)
     {
         return {metres(v.centre),
                 convert::radians(v.normal_bam),
@@ -140,18 +141,19 @@ TEST(Match, TheWallThatAViewShowsIsThatOfTheTwin)
         Scene scene(seed);
         for (size_t k = 0; k < scene.walls.size(); k++) {
             const ale_pose_t pose = convert::pose(scene.somewhere());
-            const ale_view_t view = scene.seen(k, convert::pose(pose), 0.3, 0.15);
+            const ale_observation_t observation = scene.seen(k, convert::pose(pose), 0.3, 0.15);
             Eigen::Matrix3d exact;
             const ale_matrix_t cov = pose_covariance(scene, exact);
             const ale_gate_t gate = {250000, 120000, 3, 0};
             Decisions decisions;
-            const int twin = reference::wall_shown(scene.walls, Scene::in_double(view), convert::pose(pose),
-                                                   exact, {0.25, 0.12, 3}, decisions);
-            const ale_stand_t stand = ale_stand(pose);
-            int32_t looks = ALE_LOOKS;
+            const int twin = reference::wall_shown(scene.walls, Scene::in_double(observation),
+                                                   convert::pose(pose), exact, {0.25, 0.12, 3}, decisions);
+            const ale_viewpoint_t viewpoint = ale_viewpoint(pose);
+            int32_t work = ALE_ASSOCIATION_WORK;
             ale_local_map_focus(scene.map.get(), {pose.x_um, pose.y_um}, 20000000);
-            const ale_match_t match = ale_match_view(scene.map.get(), &view, &stand, &cov, &gate, &looks);
-            const int wall = match.wall == ALE_NO_WALL ? -1 : match.wall;
+            const ale_association_t association =
+                ale_associate(scene.map.get(), &observation, &viewpoint, &cov, &gate, &work);
+            const int wall = association.wall == ALE_NO_WALL ? -1 : association.wall;
             EXPECT_TRUE(wall == twin || decisions.nearest_miss() < 0.01)
                 << "seed " << seed << ", wall " << k << ": " << wall << ", twin " << twin;
             found += twin >= 0 ? 1 : 0;
@@ -170,8 +172,8 @@ TEST(Hypothesis, ThePoseOfAPairIsThatOfTheTwin)
         Scene scene(seed);
         for (size_t k = 0; k + 1 < scene.walls.size(); k++) {
             const Pose truth = scene.somewhere();
-            const ale_view_t a = scene.seen(k, truth, 0.02, 0.01);
-            const ale_view_t b = scene.seen(k + 1, truth, 0.02, 0.01);
+            const ale_observation_t a = scene.seen(k, truth, 0.02, 0.01);
+            const ale_observation_t b = scene.seen(k + 1, truth, 0.02, 0.01);
             if (std::fabs(std::sin(scene.walls[k].normal - scene.walls[k + 1].normal)) < 0.5) {
                 continue;
             }
@@ -213,9 +215,10 @@ TEST(Variance, IsThatOfTheTwinForNumbersOfAnySize)
         EXPECT_NEAR(static_cast<double>(ale_wall_offset_var(&wall, t_um)), std::max(var, 1e4),
                     2 + std::fabs(t_m) + 1e-14 * size);
 
-        ale_view_t view = {};
-        view.normal_bam = rng();
-        view.centre = {convert::um(sign() * of_size(0.01, 60)), convert::um(sign() * of_size(0.01, 60))};
+        ale_observation_t observation = {};
+        observation.normal_bam = rng();
+        observation.centre = {convert::um(sign() * of_size(0.01, 60)),
+                              convert::um(sign() * of_size(0.01, 60))};
         const Eigen::Vector3d a(sign() * of_size(1e3, 1e6), sign() * of_size(1e3, 1e6),
                                 sign() * of_size(100, 5e5));
         const Eigen::Vector3d b(sign() * of_size(1e2, 1e6), sign() * of_size(1e2, 1e6),
@@ -228,14 +231,14 @@ TEST(Variance, IsThatOfTheTwinForNumbersOfAnySize)
                 twin(i, j) = static_cast<double>(cov.m[i][j]);
             }
         }
-        const double normal = convert::radians(view.normal_bam);
+        const double normal = convert::radians(observation.normal_bam);
         const Eigen::Vector3d row(std::cos(normal), std::sin(normal),
-                                  view.centre.x_um * 1e-6 * std::sin(normal) -
-                                      view.centre.y_um * 1e-6 * std::cos(normal));
+                                  observation.centre.x_um * 1e-6 * std::sin(normal) -
+                                      observation.centre.y_um * 1e-6 * std::cos(normal));
         const Eigen::Vector3d rounded(std::round(row[0] * 16384) / 16384, std::round(row[1] * 16384) / 16384,
                                       std::round(row[2] * 16384) / 16384);
         const double most = rounded.cwiseAbs().transpose() * twin.cwiseAbs() * rounded.cwiseAbs();
-        EXPECT_NEAR(static_cast<double>(ale_view_offset_var(&view, &cov)),
+        EXPECT_NEAR(static_cast<double>(ale_observation_offset_var(&observation, &cov)),
                     rounded.transpose() * twin * rounded,
                     10 + 1e-4 * most + 1e-4 * std::sqrt(most * twin.maxCoeff()));
     }
@@ -250,18 +253,18 @@ TEST(Hypothesis, TheSearchFindsThePlaceAndTheScoresOfTheTwin)
     for (unsigned seed = 0; seed < 160; seed++) {
         Scene scene(seed);
         const Pose truth = scene.somewhere();
-        std::vector<ale_view_t> views;
+        std::vector<ale_observation_t> observations;
         std::vector<WallPiece> lines;
         for (const size_t k : {0U, 3U, 6U, 9U, 12U, 15U, 18U, 21U}) {
-            views.push_back(scene.seen(k, truth, 0.003, 0.002));
-            lines.push_back(Scene::in_double(views.back()));
+            observations.push_back(scene.seen(k, truth, 0.003, 0.002));
+            lines.push_back(Scene::in_double(observations.back()));
         }
         ale_search_t search = {};
         ale_hypothesis_t best = {};
         for (int scan = 0; scan < 100 && search.rounds == 0; scan++) {
             ale_hypothesis_t made[ALE_MAX_HYPOTHESES];
-            const uint32_t count =
-                ale_search(&search, scene.map.get(), views.data(), static_cast<uint32_t>(views.size()), made);
+            const uint32_t count = ale_search(&search, scene.map.get(), observations.data(),
+                                              static_cast<uint32_t>(observations.size()), made);
             for (uint32_t k = 0; k < count; k++) {
                 Decisions decisions;
                 const double twin =

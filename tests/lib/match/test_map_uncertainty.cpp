@@ -16,7 +16,7 @@ extern "C" {
 namespace
 {
 /* Metres and radians. */
-Eigen::Matrix3d matrix(const ale_drift_t &d)
+Eigen::Matrix3d matrix(const ale_map_uncertainty_t &d)
 {
     Eigen::Matrix3d out;
     out << static_cast<double>(d.xx_um2), static_cast<double>(d.xy_um2), static_cast<double>(d.xt_um_urad),
@@ -25,15 +25,15 @@ Eigen::Matrix3d matrix(const ale_drift_t &d)
     return out * 1e-12;
 }
 
-ale_drift_t drift(const Eigen::Matrix3d &m)
+ale_map_uncertainty_t map_uncertainty(const Eigen::Matrix3d &m)
 {
     const auto um2 = [](double v) { return static_cast<int64_t>(std::llround(v * 1e12)); };
     return {um2(m(0, 0)), um2(m(0, 1)), um2(m(1, 1)), um2(m(0, 2)), um2(m(1, 2)), um2(m(2, 2))};
 }
 
-ale_drift_t shifted(double sigma_m)
+ale_map_uncertainty_t shifted(double sigma_m)
 {
-    return drift(Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, 1e-6).asDiagonal());
+    return map_uncertainty(Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, 1e-6).asDiagonal());
 }
 
 /* What a shift and a turn about the origin make of place and heading. */
@@ -49,7 +49,7 @@ Eigen::Matrix3d lever(const Eigen::Vector2d &place)
 struct Place {
     std::unique_ptr<ale_local_map_t> map = std::make_unique<ale_local_map_t>();
     std::unique_ptr<ale_fit_t> fit = std::make_unique<ale_fit_t>();
-    std::vector<ale_view_t> views;
+    std::vector<ale_observation_t> observations;
     Eigen::Vector2d at;
     double whole = 0;
     Eigen::Matrix2d facing = Eigen::Matrix2d::Zero();
@@ -63,17 +63,17 @@ struct Place {
         fit->motion.pose = {convert::um(place[0]), convert::um(place[1]), 0};
     }
 
-    void add(double normal_rad, double length_m, const ale_drift_t &its)
+    void add(double normal_rad, double length_m, const ale_map_uncertainty_t &its)
     {
         ale_wall_t wall = make_wall(0, 0, normal_rad, length_m / 2, 10);
-        wall.drift = its;
-        const size_t n = views.size();
+        wall.map_uncertainty = its;
+        const size_t n = observations.size();
         ale_local_map_add(map.get(), &wall);
-        fit->match[n] = {static_cast<uint16_t>(map->count - 1), ALE_NO_MARK, {}};
-        ale_view_t view = {};
-        view.kind = ALE_VIEW_WALL;
-        view.end_um = convert::um(length_m);
-        views.push_back(view);
+        fit->association[n] = {static_cast<uint16_t>(map->count - 1), ALE_NO_LANDMARK, {}};
+        ale_observation_t observation = {};
+        observation.kind = ALE_OBSERVATION_LINE;
+        observation.end_um = convert::um(length_m);
+        observations.push_back(observation);
         const Eigen::Matrix3d here = lever(at) * matrix(its) * lever(at).transpose();
         const Eigen::Vector2d across(std::cos(normal_rad), std::sin(normal_rad));
         whole += length_m;
@@ -83,14 +83,14 @@ struct Place {
         turned += length_m * here(2, 2);
     }
 
-    Eigen::Matrix3d got(const ale_drift_t &before) const
+    Eigen::Matrix3d got(const ale_map_uncertainty_t &before) const
     {
-        const ale_drift_t here =
-            ale_drift_here(map.get(), views.data(), static_cast<uint32_t>(views.size()), fit.get(), &before);
-        return matrix(ale_drift_at(&here, {fit->motion.pose.x_um, fit->motion.pose.y_um}));
+        const ale_map_uncertainty_t here = ale_map_uncertainty_here(
+            map.get(), observations.data(), static_cast<uint32_t>(observations.size()), fit.get(), &before);
+        return matrix(ale_map_uncertainty_at(&here, {fit->motion.pose.x_um, fit->motion.pose.y_um}));
     }
 
-    Eigen::Matrix3d expected(const ale_drift_t &before) const
+    Eigen::Matrix3d expected(const ale_map_uncertainty_t &before) const
     {
         const Eigen::Matrix3d old = 0.1 * lever(at) * matrix(before) * lever(at).transpose();
         const Eigen::Matrix2d a = facing + 0.1 * Eigen::Matrix2d::Identity();
@@ -118,9 +118,9 @@ TEST(Drift, OfAPlaceIsTheMeanOfItsWallsEachAcrossItself)
             const Eigen::Vector3d sigma(0.01 + 0.3 * unit(rng), 0.01 + 0.3 * unit(rng), 0.02 * unit(rng));
             const Eigen::Matrix3d there = sigma.cwiseAbs2().asDiagonal();
             place.add(2 * reference::pi * unit(rng), 1 + 4 * unit(rng),
-                      drift(lever(-turned_at) * there * lever(-turned_at).transpose()));
+                      map_uncertainty(lever(-turned_at) * there * lever(-turned_at).transpose()));
         }
-        const ale_drift_t old = shifted(0.2);
+        const ale_map_uncertainty_t old = shifted(0.2);
         const Eigen::Matrix3d truth = place.expected(old);
         const Eigen::Vector3d sigma = truth.diagonal().cwiseSqrt();
         const Eigen::Matrix3d off = place.got(old) - truth;
@@ -148,9 +148,9 @@ TEST(Drift, OfWhatIsBornIsWhatTheScanLeavesOpenThere)
     ale_motion_init(&motion, 0, {5000000, -3000000, convert::bam(1.0)}, 1, 1);
     ale_motion_widen(&motion, 1000, 1000);
     motion.cov.m[0][0] = int64_t{200000} * 200000;
-    const ale_drift_t none = {};
-    const ale_drift_t born = ale_drift_go_on(&none, &motion);
-    const Eigen::Matrix3d got = matrix(ale_drift_at(&born, {5000000, -3000000}));
+    const ale_map_uncertainty_t none = {};
+    const ale_map_uncertainty_t born = ale_map_uncertainty_inherit(&none, &motion);
+    const Eigen::Matrix3d got = matrix(ale_map_uncertainty_at(&born, {5000000, -3000000}));
     EXPECT_NEAR(got(0, 0), 0.04 * std::cos(1.0) * std::cos(1.0), 4e-6);
     EXPECT_NEAR(got(0, 1), 0.04 * std::cos(1.0) * std::sin(1.0), 4e-6);
     EXPECT_NEAR(got(0, 2), 0, 1e-9);
@@ -171,12 +171,12 @@ TEST(Drift, OfAWayThatComesBackIsThatOfManyRandomWalks)
     }
     ale_motion_t motion;
     ale_motion_init(&motion, 0, {0, 0, 0}, 1, 1);
-    ale_drift_t here = {};
+    ale_map_uncertainty_t here = {};
     for (const Eigen::Vector2d &p : way) {
         motion.pose = {convert::um(p[0]), convert::um(p[1]), 0};
-        here = ale_drift_go_on(&here, &motion);
+        here = ale_map_uncertainty_inherit(&here, &motion);
     }
-    const Eigen::Matrix3d got = matrix(ale_drift_at(&here, {0, 12000000}));
+    const Eigen::Matrix3d got = matrix(ale_map_uncertainty_at(&here, {0, 12000000}));
     const double turn_sigma = std::sqrt(got(2, 2) / (3 * steps));
     std::mt19937 rng(4);
     std::normal_distribution<double> normal;
@@ -207,19 +207,19 @@ TEST(Drift, WhatAScanLeavesOpenGrowsWithTheStepsAndInThatDirectionAlone)
     ale_motion_t predicted = before;
     predicted.cov.m[0][0] += 1000000; /* 1 mm a step ahead, */
     predicted.cov.m[1][1] += 4000000; /* 2 mm to the left */
-    ale_drift_t here = {};
-    int64_t slid_um = 0;
+    ale_map_uncertainty_t here = {};
+    int64_t drifted_um = 0;
     for (int k = 0; k < 50; k++) {
-        ale_drift_slide(&here, &slid_um, convert::bam(0.4), &before, &predicted);
+        ale_map_uncertainty_drift(&here, &drifted_um, convert::bam(0.4), &before, &predicted);
     }
     const double var = 50000.0 * 50000;
-    EXPECT_NEAR(static_cast<double>(slid_um), 50000, 60);
+    EXPECT_NEAR(static_cast<double>(drifted_um), 50000, 60);
     EXPECT_NEAR(static_cast<double>(here.xx_um2), var * std::cos(0.4) * std::cos(0.4), 0.003 * var);
     EXPECT_NEAR(static_cast<double>(here.xy_um2), var * std::cos(0.4) * std::sin(0.4), 0.003 * var);
     EXPECT_NEAR(static_cast<double>(here.yy_um2), var * std::sin(0.4) * std::sin(0.4), 0.003 * var);
-    slid_um = 0; /* held, and left open again the other way: what there is stays */
-    ale_drift_slide(&here, &slid_um, convert::bam(0.4 + reference::pi / 2), &before, &predicted);
-    EXPECT_NEAR(static_cast<double>(slid_um), 2000, 3);
+    drifted_um = 0; /* held, and left open again the other way: what there is stays */
+    ale_map_uncertainty_drift(&here, &drifted_um, convert::bam(0.4 + reference::pi / 2), &before, &predicted);
+    EXPECT_NEAR(static_cast<double>(drifted_um), 2000, 3);
     EXPECT_NEAR(static_cast<double>(here.xx_um2 + here.yy_um2), var + 4e6, 0.003 * var);
 }
 
@@ -229,10 +229,10 @@ TEST(Drift, WhatScansLeaveOpenAgainAndAgainDoesNotGrowBeyondAnyMeaning)
     ale_motion_init(&before, 0, {30000000, -20000000, convert::bam(0.4)}, 1, 1);
     ale_motion_t predicted = before;
     predicted.cov.m[0][0] += 250000000000; /* half a metre a step */
-    ale_drift_t here = {};
+    ale_map_uncertainty_t here = {};
     for (int k = 0; k < 1000; k++) {
-        int64_t slid_um = 0; /* held for a moment in between */
-        ale_drift_slide(&here, &slid_um, convert::bam(0.4), &before, &predicted);
+        int64_t drifted_um = 0; /* held for a moment in between */
+        ale_map_uncertainty_drift(&here, &drifted_um, convert::bam(0.4), &before, &predicted);
     }
     EXPECT_GT(here.xx_um2, 3000000000000);
     EXPECT_LE(here.xx_um2, 4000000000000);

@@ -18,7 +18,7 @@ namespace
 constexpr double per_mm2_q20 = 1048576;
 
 /* What walls with such information (1/m^2) and such pulls tell. */
-ale_hold_t hold_of(const Eigen::Matrix2d &information, const Eigen::Vector2d &pull)
+ale_observability_t hold_of(const Eigen::Matrix2d &information, const Eigen::Vector2d &pull)
 {
     const Eigen::Matrix2d told = information * 1e-6 * per_mm2_q20;
     const Eigen::Vector2d pulled = pull * 1e-6 * per_mm2_q20 * 1e6;
@@ -60,33 +60,33 @@ TEST(WheelDrift, AScanTakesFromItWhatItsWallsWeighBesideThePrediction)
         const Eigen::Vector2d before(0.1 * unit(rng), 0.1 * unit(rng));
         const Eigen::Matrix2d prior = Eigen::Matrix2d::Identity() / (sigma * sigma);
         const Eigen::Vector2d expected = (prior + information).inverse() * (prior * before + pull);
-        ale_hold_t hold = hold_of(information, pull);
-        hold.along_bam =
-            convert::bam(6 * unit(rng)); // marks may turn it: what walls tell is not asked along it
+        ale_observability_t observability = hold_of(information, pull);
+        observability.along_bam =
+            convert::bam(6 * unit(rng)); // landmarks may turn it: what walls tell is not asked along it
         const ale_motion_t motion = predicted(sigma);
-        ale_wheel_drift_t drift = {convert::um(before[0]), convert::um(before[1])};
-        ale_wheel_drift_fit(&drift, &hold, &motion);
-        EXPECT_NEAR(static_cast<double>(drift.x_um) * 1e-6, expected[0], 2e-5) << n;
-        EXPECT_NEAR(static_cast<double>(drift.y_um) * 1e-6, expected[1], 2e-5) << n;
+        ale_scale_error_t map_uncertainty = {convert::um(before[0]), convert::um(before[1])};
+        ale_scale_error_update(&map_uncertainty, &observability, &motion);
+        EXPECT_NEAR(static_cast<double>(map_uncertainty.x_um) * 1e-6, expected[0], 2e-5) << n;
+        EXPECT_NEAR(static_cast<double>(map_uncertainty.y_um) * 1e-6, expected[1], 2e-5) << n;
     }
 }
 
 TEST(WheelDrift, StaysAlongBareWallsAndIsGoneWhereOldWallsHold)
 {
     const ale_motion_t motion = predicted(0.003);
-    ale_wheel_drift_t drift = {0, 0};
+    ale_scale_error_t map_uncertainty = {0, 0};
     for (int k = 0; k < 100; k++) {
-        ale_wheel_drift_go(&drift, {50000 * k, 0, 0}, {50000 * (k + 1), 0, 0}, 20000);
-        const ale_hold_t across = hold_of(Eigen::Vector2d(0, 1e7).asDiagonal(), {0, 0});
-        ale_wheel_drift_fit(&drift, &across, &motion);
+        ale_scale_error_predict(&map_uncertainty, {50000 * k, 0, 0}, {50000 * (k + 1), 0, 0}, 20000);
+        const ale_observability_t across = hold_of(Eigen::Vector2d(0, 1e7).asDiagonal(), {0, 0});
+        ale_scale_error_update(&map_uncertainty, &across, &motion);
     }
-    EXPECT_NEAR(static_cast<double>(drift.x_um), 100000, 200);
-    EXPECT_EQ(ale_wheel_drift_along(&drift, -(1 << 30), 0), -drift.x_um);
+    EXPECT_NEAR(static_cast<double>(map_uncertainty.x_um), 100000, 200);
+    EXPECT_EQ(ale_scale_error_along(&map_uncertainty, -(1 << 30), 0), -map_uncertainty.x_um);
     for (int k = 0; k < 20; k++) {
-        const ale_hold_t held = hold_of(Eigen::Vector2d(1e6, 1e7).asDiagonal(), {0, 0});
-        ale_wheel_drift_fit(&drift, &held, &motion);
+        const ale_observability_t determined = hold_of(Eigen::Vector2d(1e6, 1e7).asDiagonal(), {0, 0});
+        ale_scale_error_update(&map_uncertainty, &determined, &motion);
     }
-    EXPECT_NEAR(static_cast<double>(drift.x_um), 0, 10);
+    EXPECT_NEAR(static_cast<double>(map_uncertainty.x_um), 0, 10);
 }
 
 /* Along a corridor with a door frame every two metres, each seen from three metres on: where the robot gets
@@ -103,7 +103,7 @@ TEST(WheelDrift, IsWhatAWrongScaleDoesToAFilterThatTakesItForNoise)
     const ale_wheel_noise_t noise = {50000, 35000, 20000};
     ale_wheel_scale_t scale;
     ale_wheel_scale_init(&scale, &noise);
-    ale_wheel_drift_t drift = {0, 0};
+    ale_scale_error_t map_uncertainty = {0, 0};
     const ale_motion_t motion = predicted(0.0025);
     std::deque<Frame> frames = {{2, 0, 0}};
     double error = 0;
@@ -112,10 +112,10 @@ TEST(WheelDrift, IsWhatAWrongScaleDoesToAFilterThatTakesItForNoise)
     for (int k = 1; k <= 160; k++) {
         const double at = 0.05 * k;
         const double before = error;
-        const int64_t drift_before = drift.x_um;
+        const int64_t drift_before = map_uncertainty.x_um;
         error += counted * found_sum / counted_sum - 0.05;
-        ale_wheel_drift_go(&drift, {convert::um(at - 0.05), 0, 0}, {convert::um(at), 0, 0},
-                           ale_wheel_scale_error_ppm(&scale));
+        ale_scale_error_predict(&map_uncertainty, {convert::um(at - 0.05), 0, 0}, {convert::um(at), 0, 0},
+                                ale_wheel_scale_error_ppm(&scale));
         double told = prior_weight * error;
         double weight = prior_weight;
         Eigen::Vector2d pull(0, 0);
@@ -128,17 +128,18 @@ TEST(WheelDrift, IsWhatAWrongScaleDoesToAFilterThatTakesItForNoise)
             pull[0] += frame_weight * frame.drift_um * 1e-6;
         }
         error = told / weight;
-        const ale_hold_t hold = hold_of(Eigen::Vector2d(weight - prior_weight, 1e7).asDiagonal(), pull);
-        ale_wheel_drift_fit(&drift, &hold, &motion);
+        const ale_observability_t observability =
+            hold_of(Eigen::Vector2d(weight - prior_weight, 1e7).asDiagonal(), pull);
+        ale_scale_error_update(&map_uncertainty, &observability, &motion);
         const double next = frames.back().at + 2;
         if (next - at < 3) {
-            frames.push_back({next, error, static_cast<int32_t>(drift.x_um)});
+            frames.push_back({next, error, static_cast<int32_t>(map_uncertainty.x_um)});
         }
         found_sum += 0.05 + error - before;
         counted_sum += counted;
         ale_wheel_scale_learn(&scale, convert::um(0.05 + error - before), convert::um(counted),
-                              drift.x_um - drift_before);
-        ASSERT_NEAR(static_cast<double>(drift.x_um) * 1e-6, error, 0.0005 + 0.1 * error) << at;
+                              map_uncertainty.x_um - drift_before);
+        ASSERT_NEAR(static_cast<double>(map_uncertainty.x_um) * 1e-6, error, 0.0005 + 0.1 * error) << at;
     }
     EXPECT_GT(error, 0.01) << "which is far from noise";
 }

@@ -17,7 +17,7 @@ namespace
 // A room of four walls and a niche about the origin, and what a robot at a pose sees of it.
 struct Scene {
     std::unique_ptr<ale_local_map_t> map = std::make_unique<ale_local_map_t>();
-    std::vector<ale_view_t> views;
+    std::vector<ale_observation_t> observations;
     std::vector<reference::WallPair> pairs;
 
     Scene()
@@ -38,7 +38,7 @@ struct Scene {
               uint16_t last = 4)
     {
         std::normal_distribution<double> normal;
-        views.clear();
+        observations.clear();
         pairs.clear();
         for (uint16_t i = first; i <= last; i++) {
             const ale_wall_t &w = map->wall[i];
@@ -47,14 +47,14 @@ struct Scene {
             const Eigen::Vector2d n(std::cos(angle), std::sin(angle));
             const Eigen::Vector2d seen =
                 reference::rotation(-p[2]) * (anchor + n * noise * normal(rng) - p.head<2>());
-            ale_view_t v = {};
+            ale_observation_t v = {};
             v.centre = {convert::um(seen[0]), convert::um(seen[1])};
             v.normal_bam = convert::bam(angle - p[2] + noise * normal(rng));
             v.start_um = w.start_um / 2;
             v.end_um = w.end_um / 2;
             v.var_offset_um2 = 9000000;
             v.var_angle_urad2 = 9000000;
-            views.push_back(v);
+            observations.push_back(v);
             pairs.push_back({Eigen::Vector2d(v.centre.x_um * 1e-6, v.centre.y_um * 1e-6),
                              convert::radians(v.normal_bam), 13e-6, 13e-6, anchor, angle});
         }
@@ -63,10 +63,11 @@ struct Scene {
     ale_fit_t fit(const ale_motion_t &predicted)
     {
         const ale_gate_t gate = {600000, 300000, 4, 100000};
-        const ale_scene_t scene = {map.get(), views.data(), static_cast<uint32_t>(views.size()), nullptr};
+        const ale_scene_t scene = {map.get(), observations.data(), static_cast<uint32_t>(observations.size()),
+                                   nullptr};
         ale_local_map_approach(map.get(), {0, 0}, 10000000);
         ale_fit_t out;
-        ale_refine(&predicted, &scene, &gate, &out);
+        ale_register_scan(&predicted, &scene, &gate, &out);
         return out;
     }
 };
@@ -83,20 +84,20 @@ TEST(Hypothesis, EveryOtherRoundLooksForTheBestPairBesideTheFirst)
     std::mt19937 rng(11);
     Scene s;
     s.look({0.4, 0.3, -1.2}, 0, rng);
-    s.views[2].end_um -=
+    s.observations[2].end_um -=
         500000; // the west wall is the shortest of the four, and still half as long as the east one
-    const double east = s.views[0].end_um - s.views[0].start_um;
-    const double west = s.views[2].end_um - s.views[2].start_um;
+    const double east = s.observations[0].end_um - s.observations[0].start_um;
+    const double west = s.observations[2].end_um - s.observations[2].start_um;
     double shown = 0;
     for (int k = 0; k < 4; k++) {
-        shown += s.views[k].end_um - s.views[k].start_um;
+        shown += s.observations[k].end_um - s.observations[k].start_um;
     }
     for (const uint32_t rounds : {0U, 1U, 2U, 3U}) {
         const ale_search_t search = {0, 0, rounds};
-        EXPECT_NEAR(ale_search_pair_q8(&search, s.views.data(), 4),
+        EXPECT_NEAR(ale_search_pair_q8(&search, s.observations.data(), 4),
                     256 * (rounds % 2 == 0 ? east : west) / shown, 1);
-        EXPECT_GT(ale_search_pair_q8(&search, s.views.data(), 2), 0) << "the only pair is taken again";
-        EXPECT_EQ(ale_search_pair_q8(&search, s.views.data(), 1), 0) << "one view is no pair";
+        EXPECT_GT(ale_search_pair_q8(&search, s.observations.data(), 2), 0) << "the only pair is taken again";
+        EXPECT_EQ(ale_search_pair_q8(&search, s.observations.data(), 1), 0) << "one view is no pair";
     }
 }
 
@@ -110,7 +111,7 @@ TEST(Hypothesis, ACallEndsWithItsRound)
     for (uint32_t round = 0; round < 4; round++) {
         ale_hypothesis_t found[ALE_MAX_HYPOTHESES];
         EXPECT_EQ(search.rounds, round);
-        EXPECT_GE(ale_search(&search, s.map.get(), s.views.data(), 4, found), 2U)
+        EXPECT_GE(ale_search(&search, s.map.get(), s.observations.data(), 4, found), 2U)
             << "a rectangle looks the same after half a turn";
     }
 }
@@ -196,17 +197,17 @@ TEST(Refine, ASecondFitLooksAtNoMoreThanIsLeftUnlessItTakesOneStep)
     std::mt19937 rng(12);
     Scene s;
     s.look({0.4, 0.3, -1.2}, 0, rng);
-    const ale_scene_t scene = {s.map.get(), s.views.data(), 5, nullptr};
+    const ale_scene_t scene = {s.map.get(), s.observations.data(), 5, nullptr};
     const ale_motion_t predicted = at({0.48, 0.25, -1.17}, 0.1, 0.05);
     const ale_fit_t first = s.fit(predicted);
     const ale_gate_t gate = {250000, 200000, 6, 100000};
-    EXPECT_GE(first.looks, 3 * 5 * ALE_LOOKS_OF_A_VIEW);
+    EXPECT_GE(first.work, 3 * 5 * ALE_OBSERVATION_WORK);
     int brief = 0;
     int whole = 0;
-    for (int32_t most_looks = 0; most_looks < 4 * first.looks; most_looks += 50) {
+    for (int32_t most_work = 0; most_work < 4 * first.work; most_work += 50) {
         ale_fit_t fit = first;
         ale_fit_t other;
-        ale_refine_again(&predicted, false, predicted.pose, &scene, &gate, most_looks, &other, &fit);
+        ale_register_again(&predicted, false, predicted.pose, &scene, &gate, most_work, &other, &fit);
         const double off_m =
             (convert::pose(fit.motion.pose) - reference::Pose(0.4, 0.3, -1.2)).head<2>().norm();
         EXPECT_EQ(fit.matched, 5);
@@ -215,8 +216,8 @@ TEST(Refine, ASecondFitLooksAtNoMoreThanIsLeftUnlessItTakesOneStep)
             EXPECT_LT(off_m, 0.01);
             brief++;
         } else {
-            EXPECT_EQ(other.iterations, ALE_REFINE_ITERATIONS);
-            EXPECT_LE(first.looks + other.looks, most_looks);
+            EXPECT_EQ(other.iterations, ALE_REGISTER_ITERATIONS);
+            EXPECT_LE(first.work + other.work, most_work);
             EXPECT_LT(off_m, 0.001);
             whole++;
         }
@@ -227,7 +228,7 @@ TEST(Refine, ASecondFitLooksAtNoMoreThanIsLeftUnlessItTakesOneStep)
 
 TEST(Refine, AScanOf682BeamsHasLooksEnoughForTwoWholeFits)
 {
-    EXPECT_GE(ALE_LOOKS_OF_A_SCAN - 682 * ALE_LOOKS_OF_A_BEAM, 2 * ALE_REFINE_ITERATIONS * ALE_LOOKS);
+    EXPECT_GE(ALE_SCAN_WORK - 682 * ALE_BEAM_WORK, 2 * ALE_REGISTER_ITERATIONS * ALE_ASSOCIATION_WORK);
 }
 
 TEST(Refine, AScanThatDeterminesAllDirectionsSaysSo)
@@ -280,13 +281,15 @@ TEST(Hypothesis, TwoViewsAndTwoWallsGiveThePose)
         const reference::Pose truth(normal(rng), normal(rng), 3 * normal(rng));
         s.look(truth, 0, rng);
         ale_pose_t got;
-        ASSERT_TRUE(ale_pose_of_pair(&s.views[0], &s.views[1], &s.map->wall[0], &s.map->wall[1], &got));
+        ASSERT_TRUE(
+            ale_pose_of_pair(&s.observations[0], &s.observations[1], &s.map->wall[0], &s.map->wall[1], &got));
         EXPECT_NEAR(got.x_um, truth[0] * 1e6, 20);
         EXPECT_NEAR(got.y_um, truth[1] * 1e6, 20);
         EXPECT_NEAR(reference::wrap(convert::radians(got.theta_bam) - truth[2]), 0, 3e-6);
     }
     ale_pose_t none;
-    EXPECT_FALSE(ale_pose_of_pair(&s.views[0], &s.views[2], &s.map->wall[0], &s.map->wall[2], &none));
+    EXPECT_FALSE(
+        ale_pose_of_pair(&s.observations[0], &s.observations[2], &s.map->wall[0], &s.map->wall[2], &none));
 }
 
 TEST(Hypothesis, TheSearchFindsThePlaceOfAScanInBoundedSteps)
@@ -299,12 +302,12 @@ TEST(Hypothesis, TheSearchFindsThePlaceOfAScanInBoundedSteps)
     ale_hypothesis_t best = {};
     while (search.rounds == 0) {
         ale_hypothesis_t found[ALE_MAX_HYPOTHESES];
-        const uint32_t count = ale_search(&search, s.map.get(), s.views.data(), 5, found);
+        const uint32_t count = ale_search(&search, s.map.get(), s.observations.data(), 5, found);
         for (uint32_t i = 0; i < count; i++) {
             best = found[i].score_um > best.score_um ? found[i] : best;
         }
     }
     EXPECT_NEAR(best.pose.x_um, 1100000, 100);
     EXPECT_NEAR(best.pose.y_um, -600000, 100);
-    EXPECT_EQ(best.views, 5);
+    EXPECT_EQ(best.observations, 5);
 }

@@ -14,10 +14,10 @@ ale_pose_t found(const std::vector<room::Wall> &walls, const reference::Pose &be
 {
     const Look first(walls, before, before);
     const Look second(walls, now, now);
-    const auto memory = std::make_unique<ale_registration_t>();
+    const auto memory = std::make_unique<ale_scan_match_t>();
     ale_pose_t pose = convert::pose(guess);
-    *any = ale_register(memory.get(), {first.seen.view, first.seen.view_count},
-                        {second.seen.view, second.seen.view_count}, 1000000, 400000, &pose);
+    *any = ale_match_scans(memory.get(), {first.seen.observation, first.seen.observation_count},
+                           {second.seen.observation, second.seen.observation_count}, 1000000, 400000, &pose);
     return pose;
 }
 } // namespace
@@ -55,10 +55,10 @@ TEST(Registration, WithoutAnythingInCommonTheGuessIsUntouched)
 {
     bool any = true;
     const Look first({{2, -2, 2, 2}}, {0, 0, 0}, {0, 0, 0});
-    const auto memory = std::make_unique<ale_registration_t>();
+    const auto memory = std::make_unique<ale_scan_match_t>();
     ale_pose_t pose = {1, 2, 3};
-    any = ale_register(memory.get(), {first.seen.view, first.seen.view_count}, {first.seen.view, 0}, 1000000,
-                       400000, &pose);
+    any = ale_match_scans(memory.get(), {first.seen.observation, first.seen.observation_count},
+                          {first.seen.observation, 0}, 1000000, 400000, &pose);
     EXPECT_FALSE(any);
     EXPECT_EQ(pose.x_um, 1);
     EXPECT_EQ(pose.theta_bam, 3u);

@@ -13,10 +13,11 @@ TEST(Uncertainty, OfAPoseIsThatToTheWallsAndTheDriftWhereItIsAndWhatTheWheelsHav
     ale_motion_init(&motion, 0, {6000000, 8000000, convert::bam(0.7)}, 1, 1);
     ale_motion_widen(&motion, 2000, 1000);
     const double turn = 0.02;
-    const ale_drift_t drift = {9000000, 0, 9000000, 0, 0, std::llround(turn * turn * 1e12)};
-    const ale_wheel_drift_t wheel_drift = {30000, -40000};
+    const ale_map_uncertainty_t map_uncertainty = {9000000, 0, 9000000,
+                                                   0,       0, std::llround(turn * turn * 1e12)};
+    const ale_scale_error_t scale_error = {30000, -40000};
     int64_t cov[9];
-    ale_map_covariance(&motion, &drift, &wheel_drift, cov);
+    ale_map_covariance(&motion, &map_uncertainty, &scale_error, cov);
     const double white = 4e-6 + 9e-6;
     const double expected[9] = {white + turn * turn * 64 + 9e-4,
                                 -turn * turn * 48 - 12e-4,

@@ -45,8 +45,8 @@ TEST(Motion, SweepIsTheExactArcWithinFiveMicrometres)
 TEST(Motion, WithoutWheelsTheVelocityGoesOn)
 {
     ale_motion_t m = moving(0.5, 1.0);
-    ale_liveliness_t l;
-    ale_liveliness_init(&l);
+    ale_process_noise_t l;
+    ale_process_noise_init(&l);
     ale_motion_predict(&m, 1100000, nullptr, &l);
     const reference::Pose truth = reference::sweep({0.5, 0, 1.0}, 0.1);
     EXPECT_NEAR(m.pose.x_um, truth[0] * 1e6, 10);
@@ -71,8 +71,8 @@ TEST(Motion, CovarianceGrowsAsItsTwinInDouble)
             m.cov.m[i][j] = std::llround(p(i, j));
         }
     }
-    ale_liveliness_t l;
-    ale_liveliness_init(&l);
+    ale_process_noise_t l;
+    ale_process_noise_init(&l);
     ale_motion_predict(&m, 1100000, nullptr, &l);
 
     const reference::Pose d = reference::sweep({0.6, 0, 1.4}, 0.1);
@@ -102,8 +102,8 @@ TEST(Motion, AStepWithoutTimeOrOfMoreThanTwoSecondsGivesNoVelocity)
 {
     for (int64_t stamp_us : {1000000, 900000, 3100000}) {
         ale_motion_t m = moving(0.5, 1.0);
-        ale_liveliness_t l;
-        ale_liveliness_init(&l);
+        ale_process_noise_t l;
+        ale_process_noise_init(&l);
         ale_motion_predict(&m, stamp_us, nullptr, &l);
         EXPECT_EQ(m.pose.x_um, 0);
         EXPECT_EQ(m.velocity[0], 0);
@@ -118,8 +118,8 @@ TEST(Motion, GoodWheelsDecideTheWayAndPoorOnesHardly)
     double x[2];
     for (int k = 0; k < 2; k++) {
         ale_motion_t m = moving(0.5, 0);
-        ale_liveliness_t l;
-        ale_liveliness_init(&l);
+        ale_process_noise_t l;
+        ale_process_noise_init(&l);
         ale_wheel_motion_t wheels = {};
         wheels.displacement = convert::pose(reference::Pose(0.06, 0, 0));
         wheels.velocity[0] = convert::um(0.6 * tick_s);
@@ -155,12 +155,12 @@ TEST(Motion, WhatAScanSaysNothingOfStaysAsPredicted)
         const double heading = normal(rng);
         const double direction = normal(rng);
         const Eigen::Vector2d u(std::cos(direction - heading), std::sin(direction - heading));
-        Matrix6 rest = Matrix6::Identity();
-        rest.block<2, 2>(0, 0) -= u * u.transpose();
-        rest.block<2, 2>(3, 3) -= u * u.transpose();
-        const Matrix6 left = Matrix6::Identity() - rest * gain * h;
+        Matrix6 zero_motion = Matrix6::Identity();
+        zero_motion.block<2, 2>(0, 0) -= u * u.transpose();
+        zero_motion.block<2, 2>(3, 3) -= u * u.transpose();
+        const Matrix6 left = Matrix6::Identity() - zero_motion * gain * h;
         const Matrix6 twin =
-            left * p * left.transpose() + rest * gain * r * gain.transpose() * rest.transpose();
+            left * p * left.transpose() + zero_motion * gain * r * gain.transpose() * zero_motion.transpose();
 
         ale_motion_t predicted = moving(0.5, 0);
         predicted.pose = convert::pose(reference::Pose(3, -2, heading));
@@ -179,7 +179,7 @@ TEST(Motion, WhatAScanSaysNothingOfStaysAsPredicted)
         }
         ale_motion_keep_along(&found, &predicted, convert::bam(direction));
 
-        const Eigen::Matrix<double, 6, 1> kept = rest * step;
+        const Eigen::Matrix<double, 6, 1> kept = zero_motion * step;
         const ale_pose_t way = ale_pose_between(predicted.pose, found.pose);
         EXPECT_NEAR(way.x_um, kept[0], 4);
         EXPECT_NEAR(way.y_um, kept[1], 4);
@@ -197,20 +197,20 @@ TEST(Motion, WhatAScanSaysNothingOfStaysAsPredicted)
 
 TEST(Motion, LivelinessGrowsWhenCorrectionsSurpriseAndFallsBack)
 {
-    ale_liveliness_t l;
-    ale_liveliness_init(&l);
+    ale_process_noise_t l;
+    ale_process_noise_init(&l);
     ale_motion_t before = moving(0, 0);
     ale_motion_t after = before;
     before.cov.m[0][0] = 2000000;
     after.cov.m[0][0] = 1000000;
     after.pose.x_um = 5000;
     for (int k = 0; k < 50; k++) {
-        ale_liveliness_learn(&l, &before, &after);
+        ale_process_noise_learn(&l, &before, &after);
     }
     EXPECT_GT(l.factor_q8[0], 3 * 256);
     after.pose.x_um = 100;
     for (int k = 0; k < 200; k++) {
-        ale_liveliness_learn(&l, &before, &after);
+        ale_process_noise_learn(&l, &before, &after);
     }
     EXPECT_EQ(l.factor_q8[0], 256);
 }
@@ -218,8 +218,8 @@ TEST(Motion, LivelinessGrowsWhenCorrectionsSurpriseAndFallsBack)
 TEST(Motion, NumbersStayBoundedWithoutAnyScan)
 {
     ale_motion_t m = moving(9, 9);
-    ale_liveliness_t l;
-    ale_liveliness_init(&l);
+    ale_process_noise_t l;
+    ale_process_noise_init(&l);
     for (int k = 1; k < 5000; k++) {
         ale_motion_predict(&m, 1000000 + 400000 * int64_t{k}, nullptr, &l);
         for (int i = 0; i < 6; i++) {

@@ -85,12 +85,12 @@ class WheelDrift : public testing::Test
   protected:
     WheelDrift()
     {
-        robot.pipeline->wheel_drift = {800000, -600000};
+        robot.pipeline->scale_error = {800000, -600000};
     }
     void is_gone() const
     {
-        EXPECT_EQ(robot.pipeline->wheel_drift.x_um, 0);
-        EXPECT_EQ(robot.pipeline->wheel_drift.y_um, 0);
+        EXPECT_EQ(robot.pipeline->scale_error.x_um, 0);
+        EXPECT_EQ(robot.pipeline->scale_error.y_um, 0);
     }
     Robot robot;
 };
@@ -99,7 +99,7 @@ TEST_F(WheelDrift, EndsWhereARobotThatWasLostIsFound)
 {
     const auto map = map_of(room::l_shape());
     ale_pipeline_load_map(robot.pipeline.get(), map.get(), 1, {0, 0, 0}, false);
-    robot.pipeline->wheel_drift = {800000, -600000};
+    robot.pipeline->scale_error = {800000, -600000};
     for (int k = 0; k < 60 && (k == 0 || robot.last.state == ALE_STATE_LOST); k++) {
         robot.see(room::l_shape(), 3 + 0.1 * k);
     }

@@ -36,23 +36,24 @@ std::unique_ptr<ale_local_map_t> two_rooms()
 
 // What a robot at a pose in the first room sees of it: the walls from..to-1, a metre to either side of the
 // middle.
-std::vector<ale_view_t> seen_from(const ale_local_map_t &map, const reference::Pose &p, int from, int to)
+std::vector<ale_observation_t> seen_from(const ale_local_map_t &map, const reference::Pose &p, int from,
+                                         int to)
 {
-    std::vector<ale_view_t> views;
+    std::vector<ale_observation_t> observations;
     for (int k = from; k < to; k++) {
         const ale_wall_t &wall = map.wall[k];
         const Eigen::Vector2d anchor(wall.anchor.x_um * 1e-6, wall.anchor.y_um * 1e-6);
         const Eigen::Vector2d seen = reference::rotation(-p[2]) * (anchor - p.head<2>());
-        ale_view_t view = {};
-        view.centre = {convert::um(seen[0]), convert::um(seen[1])};
-        view.normal_bam = convert::bam(convert::radians(wall.normal_bam) - p[2]);
-        view.start_um = -1000000;
-        view.end_um = 1000000;
-        view.var_offset_um2 = 9000000;
-        view.var_angle_urad2 = 9000000;
-        views.push_back(view);
+        ale_observation_t observation = {};
+        observation.centre = {convert::um(seen[0]), convert::um(seen[1])};
+        observation.normal_bam = convert::bam(convert::radians(wall.normal_bam) - p[2]);
+        observation.start_um = -1000000;
+        observation.end_um = 1000000;
+        observation.var_offset_um2 = 9000000;
+        observation.var_angle_urad2 = 9000000;
+        observations.push_back(observation);
     }
-    return views;
+    return observations;
 }
 
 struct Drive {
@@ -66,8 +67,8 @@ struct Drive {
     }
     void see(int from, int to)
     {
-        const auto views = seen_from(*map, at, from, to);
-        ale_trail_keep(trail.get(), views.data(), static_cast<uint32_t>(views.size()));
+        const auto observations = seen_from(*map, at, from, to);
+        ale_trail_keep(trail.get(), observations.data(), static_cast<uint32_t>(observations.size()));
     }
     void go(const reference::Pose &way)
     {
@@ -75,10 +76,10 @@ struct Drive {
         at[2] += way[2];
         ale_trail_follow(trail.get(), convert::pose(way));
     }
-    double explained(double x_aside, int32_t looks = ALE_LOOKS) const
+    double explained(double x_aside, int32_t work = ALE_ASSOCIATION_WORK) const
     {
         const ale_pose_t pose = convert::pose(reference::Pose(at[0] + x_aside, at[1], at[2]));
-        return ale_trail_explained_q8(trail.get(), map.get(), pose, &looks) / 256.0;
+        return ale_trail_explained_q8(trail.get(), map.get(), pose, &work) / 256.0;
     }
 };
 

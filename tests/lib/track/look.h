@@ -14,7 +14,7 @@ namespace room
 {
 struct Look {
     std::unique_ptr<ale_scan_t> scan = std::make_unique<ale_scan_t>();
-    std::vector<ale_view_t> views = std::vector<ale_view_t>(ALE_MAX_VIEWS);
+    std::vector<ale_observation_t> observations = std::vector<ale_observation_t>(ALE_MAX_OBSERVATIONS);
     ale_seen_t seen = {};
 
     // What the scanner shows at `from`, for a robot that believes to be at `believed`.
@@ -34,8 +34,9 @@ struct Look {
         const auto features = std::make_unique<ale_features_t>();
         ale_extract_scan(extractor.get(), scan.get(), nullptr, features.get());
         const ale_pose_t pose = convert::pose(believed);
-        const uint32_t count = ale_views_of(features.get(), scan.get(), {0, 0, 0}, 0, views.data());
-        seen = {scan.get(), nullptr, pose, pose, views.data(), count};
+        const uint32_t count =
+            ale_observe_lines(features.get(), scan.get(), {0, 0, 0}, 0, observations.data());
+        seen = {scan.get(), nullptr, pose, pose, observations.data(), count};
     }
 };
 } // namespace room

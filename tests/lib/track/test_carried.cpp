@@ -22,7 +22,7 @@ struct Drive {
 
 /* Drives for 22 s with something held before the scanner from the 8th to the 14th; or standing in the room
  * since the 8th. */
-Drive drive(bool wheels, const Held &held, const std::vector<room::Wall> &come = {})
+Drive drive(bool wheels, const Held &determined, const std::vector<room::Wall> &come = {})
 {
     std::mt19937 rng(9);
     ale_pipeline_config_t config = ale_pipeline_default_config();
@@ -39,7 +39,7 @@ Drive drive(bool wheels, const Held &held, const std::vector<room::Wall> &come =
         const reference::Pose truth = room::since_start(room::path(1), room::path(t));
         ale_scan_t scan = room::scan_at(k < 80 ? room::l_shape() : after, sensor, room::path, t, rng);
         for (int beam = 0; k >= 80 && k < 140 && beam < sensor.beams; beam++) {
-            const double range = held(beam);
+            const double range = determined(beam);
             if (range > 0 && (scan.range_um[beam] == 0 || scan.range_um[beam] > convert::um(range))) {
                 ale_scan_set_range(&scan, static_cast<uint16_t>(beam),
                                    convert::um(range + 0.002 * normal(rng)));

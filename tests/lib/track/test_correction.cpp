@@ -143,7 +143,7 @@ TEST(Correction, WhileTheRobotSettlesTheLastScanStaysOnTheWayThatIsSmooth)
     for (int k = 0; k < 3; k++) {
         d.drive(1);
         const ale_pipeline_t &p = *d.pipeline;
-        ASSERT_GT(p.witness.view_count, 0U);
+        ASSERT_GT(p.witness.observation_count, 0U);
         EXPECT_EQ(p.witness.seen.robot.x_um, d.last.smooth.x_um) << k;
         EXPECT_EQ(p.witness.seen.robot.y_um, d.last.smooth.y_um) << k;
         EXPECT_EQ(p.witness.seen.robot.theta_bam, d.last.smooth.theta_bam) << k;
@@ -194,17 +194,17 @@ TEST(Sighting, ItHoldsWhatTheScanHasShownAndTheKeyframeItBelongsTo)
 {
     Driven d;
     d.drive(20);
-    auto sighting = std::make_unique<ale_sighting_t>();
-    ASSERT_TRUE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
-    EXPECT_EQ(sighting->scan, 19U);
-    EXPECT_EQ(sighting->epoch, d.last.epoch);
-    EXPECT_EQ(sighting->keyframe, d.keyframes.back());
-    EXPECT_EQ(sighting->stamp_us, d.last.stamp_us);
-    EXPECT_EQ(std::memcmp(&sighting->smooth, &d.last.smooth, sizeof(ale_pose_t)), 0);
-    EXPECT_EQ(std::memcmp(&sighting->seen.robot, &d.last.map, sizeof(ale_pose_t)), 0);
-    EXPECT_EQ(sighting->seen.scan.beams, 682);
-    EXPECT_EQ(sighting->line_count, ale_pipeline_features(d.pipeline.get())->line_count);
-    EXPECT_EQ(sighting->corner_count, ale_pipeline_features(d.pipeline.get())->corner_count);
+    auto scan_observation = std::make_unique<ale_scan_observation_t>();
+    ASSERT_TRUE(ale_pipeline_scan_observation(d.pipeline.get(), scan_observation.get()));
+    EXPECT_EQ(scan_observation->scan, 19U);
+    EXPECT_EQ(scan_observation->epoch, d.last.epoch);
+    EXPECT_EQ(scan_observation->keyframe, d.keyframes.back());
+    EXPECT_EQ(scan_observation->stamp_us, d.last.stamp_us);
+    EXPECT_EQ(std::memcmp(&scan_observation->smooth, &d.last.smooth, sizeof(ale_pose_t)), 0);
+    EXPECT_EQ(std::memcmp(&scan_observation->seen.robot, &d.last.map, sizeof(ale_pose_t)), 0);
+    EXPECT_EQ(scan_observation->seen.scan.beams, 682);
+    EXPECT_EQ(scan_observation->line_count, ale_pipeline_features(d.pipeline.get())->line_count);
+    EXPECT_EQ(scan_observation->corner_count, ale_pipeline_features(d.pipeline.get())->corner_count);
 }
 
 TEST(Sighting, ThereIsNoneOfAScanThatWasLost)
@@ -212,28 +212,28 @@ TEST(Sighting, ThereIsNoneOfAScanThatWasLost)
     Driven d;
     d.drive(20);
     ale_pipeline_dropped(d.pipeline.get(), d.last.stamp_us + 100000, &d.last);
-    auto sighting = std::make_unique<ale_sighting_t>();
-    EXPECT_FALSE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
+    auto scan_observation = std::make_unique<ale_scan_observation_t>();
+    EXPECT_FALSE(ale_pipeline_scan_observation(d.pipeline.get(), scan_observation.get()));
 }
 
 TEST(Sighting, ThereIsNoneForAMapThatIsFrozenOrWasLoaded)
 {
     Driven d;
     d.drive(20);
-    auto sighting = std::make_unique<ale_sighting_t>();
+    auto scan_observation = std::make_unique<ale_scan_observation_t>();
     ale_pipeline_freeze_map(d.pipeline.get(), true);
-    EXPECT_FALSE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
+    EXPECT_FALSE(ale_pipeline_scan_observation(d.pipeline.get(), scan_observation.get()));
     ale_pipeline_freeze_map(d.pipeline.get(), false);
-    EXPECT_TRUE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
+    EXPECT_TRUE(ale_pipeline_scan_observation(d.pipeline.get(), scan_observation.get()));
     ale_pipeline_load_map(d.pipeline.get(), d.map().get(), 1, d.last.map, true);
     d.drive(10);
     ASSERT_NE(d.last.state, ALE_STATE_LOST);
-    ASSERT_TRUE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
-    EXPECT_TRUE(sighting->loaded);
+    ASSERT_TRUE(ale_pipeline_scan_observation(d.pipeline.get(), scan_observation.get()));
+    EXPECT_TRUE(scan_observation->loaded);
     ale_pipeline_reset(d.pipeline.get());
     d.drive(1);
-    ASSERT_TRUE(ale_pipeline_sighting(d.pipeline.get(), sighting.get()));
-    EXPECT_FALSE(sighting->loaded);
+    ASSERT_TRUE(ale_pipeline_scan_observation(d.pipeline.get(), scan_observation.get()));
+    EXPECT_FALSE(scan_observation->loaded);
 }
 
 // Not even with its own first scan, where the robot was found at once.

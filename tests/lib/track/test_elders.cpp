@@ -29,15 +29,15 @@ std::unique_ptr<ale_scan_t> round_room(double range_m, double seconds)
 }
 
 /* A line straight ahead, square to the beam. */
-ale_view_t line_ahead(double range_m)
+ale_observation_t line_ahead(double range_m)
 {
-    ale_view_t view = {};
-    view.centre = {static_cast<int32_t>(range_m * 1e6), 0};
-    view.normal_bam = 0x80000000u;
-    view.start_um = -150000;
-    view.end_um = 150000;
-    view.kind = ALE_VIEW_WALL;
-    return view;
+    ale_observation_t observation = {};
+    observation.centre = {static_cast<int32_t>(range_m * 1e6), 0};
+    observation.normal_bam = 0x80000000u;
+    observation.start_um = -150000;
+    observation.end_um = 150000;
+    observation.kind = ALE_OBSERVATION_LINE;
+    return observation;
 }
 
 class Elders : public testing::Test
@@ -52,7 +52,7 @@ class Elders : public testing::Test
     }
     ale_seen_t seen(const ale_scan_t &scan) const
     {
-        return {&scan, nullptr, robot, robot, view, views};
+        return {&scan, nullptr, robot, robot, observation, observations};
     }
     void keep(double range_m, double from_s, double to_s)
     {
@@ -66,15 +66,16 @@ class Elders : public testing::Test
     bool may_begin(double range_m, double seconds, uint16_t wall = ALE_NO_WALL)
     {
         const auto scan = round_room(range_m, seconds);
-        view[0] = line_ahead(range_m);
-        view[1] = line_ahead(4);
-        match[0].wall = wall;
-        match[1].wall = 7;
-        views = 2;
+        observation[0] = line_ahead(range_m);
+        observation[1] = line_ahead(4);
+        association[0].wall = wall;
+        association[1].wall = 7;
+        observations = 2;
         const ale_seen_t now = seen(*scan);
-        const uint32_t left = ale_elders_drop_newcomers(elders.get(), map.get(), &now, rests, view, match);
-        EXPECT_EQ(match[left - 1].wall, 7) << "what has a wall stays, with its match";
-        EXPECT_EQ(view[left - 1].centre.x_um, 4000000);
+        const uint32_t left =
+            ale_elders_drop_newcomers(elders.get(), map.get(), &now, rests, observation, association);
+        EXPECT_EQ(association[left - 1].wall, 7) << "what has a wall stays, with its match";
+        EXPECT_EQ(observation[left - 1].centre.x_um, 4000000);
         return left == 2;
     }
 
@@ -82,9 +83,9 @@ class Elders : public testing::Test
     bool rests = false;
     std::unique_ptr<ale_elders_t> elders = std::make_unique<ale_elders_t>();
     ale_pose_t robot = {0, 0, 0};
-    ale_view_t view[2] = {};
-    ale_match_t match[2] = {};
-    uint32_t views = 0;
+    ale_observation_t observation[2] = {};
+    ale_association_t association[2] = {};
+    uint32_t observations = 0;
 };
 
 TEST_F(Elders, WhatHasComeBeginsNoWall)

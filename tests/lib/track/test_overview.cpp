@@ -25,15 +25,15 @@ class Overview : public ::testing::Test
 
 TEST_F(Overview, IsTheLastScanThatShowsNoLessThanHalfAsMuch)
 {
-    EXPECT_FALSE(ale_overview_is_richer(&overview, corner.seen.view, corner.seen.view_count));
+    EXPECT_FALSE(ale_overview_is_richer(&overview, corner.seen.observation, corner.seen.observation_count));
     ale_overview_keep(&overview, &corner.seen, 0);
-    EXPECT_EQ(overview.view_count, corner.seen.view_count);
+    EXPECT_EQ(overview.observation_count, corner.seen.observation_count);
     ale_overview_keep(&overview, &room.seen, 100000);
-    EXPECT_EQ(overview.view_count, room.seen.view_count);
+    EXPECT_EQ(overview.observation_count, room.seen.observation_count);
     ale_overview_keep(&overview, &corner.seen, 200000);
-    EXPECT_EQ(overview.view_count, room.seen.view_count);
-    EXPECT_TRUE(ale_overview_is_richer(&overview, corner.seen.view, corner.seen.view_count));
-    EXPECT_FALSE(ale_overview_is_richer(&overview, room.seen.view, room.seen.view_count));
+    EXPECT_EQ(overview.observation_count, room.seen.observation_count);
+    EXPECT_TRUE(ale_overview_is_richer(&overview, corner.seen.observation, corner.seen.observation_count));
+    EXPECT_FALSE(ale_overview_is_richer(&overview, room.seen.observation, room.seen.observation_count));
 }
 
 TEST_F(Overview, GivesWayToAnyAfterTwoSecondsOrHalfAMetreOrHalfARadian)

@@ -95,7 +95,7 @@ TEST(PipelineSearch, CarriedAwayItShowsNothingToTheMapperBeforeItIsFound)
     room::Sensor sensor;
     sensor.noise = 0.003;
     const auto keyframe = std::make_unique<ale_keyframe_t>();
-    const auto sighting = std::make_unique<ale_sighting_t>();
+    const auto scan_observation = std::make_unique<ale_scan_observation_t>();
     const auto map = std::make_unique<ale_map_t>();
     ale_estimate_t e = {};
     double t = 1;
@@ -122,7 +122,7 @@ TEST(PipelineSearch, CarriedAwayItShowsNothingToTheMapperBeforeItIsFound)
         const bool taken = ale_pipeline_keyframe(p.get(), keyframe.get());
         broken = broken || (taken && keyframe->broken);
         ale_seen_t seen;
-        shown_wrong += wrong && (taken || ale_pipeline_sighting(p.get(), sighting.get()) ||
+        shown_wrong += wrong && (taken || ale_pipeline_scan_observation(p.get(), scan_observation.get()) ||
                                  ale_pipeline_seen(p.get(), &seen));
     }
     EXPECT_EQ(e.state, ALE_STATE_GOOD);

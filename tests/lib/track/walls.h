@@ -10,7 +10,7 @@ extern "C" {
 // About (x, y), its normal in a direction, to half a length on either side; seen so many times.
 inline ale_wall_t make_wall(double x, double y, double normal, double half, uint32_t seen = 5)
 {
-    ale_view_t v = {};
+    ale_observation_t v = {};
     v.centre = {convert::um(x), convert::um(y)};
     v.normal_bam = convert::bam(normal);
     v.start_um = convert::um(-half);
@@ -18,7 +18,7 @@ inline ale_wall_t make_wall(double x, double y, double normal, double half, uint
     v.var_offset_um2 = 4000000;
     v.var_angle_urad2 = 4000000;
     ale_wall_t w;
-    ale_wall_from_view(&w, &v);
+    ale_wall_from_observation(&w, &v);
     w.seen = seen;
     return w;
 }

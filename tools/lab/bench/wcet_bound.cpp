@@ -130,8 +130,8 @@ void looking(Parts &parts)
     const ale_noise_t &noise = config.extract.noise;
     auto extractor = std::make_unique<ale_extractor_t>();
     auto features = std::make_unique<ale_features_t>();
-    auto pieces = std::make_unique<ale_pieces_t>();
-    std::vector<ale_view_t> views(ALE_MAX_VIEWS);
+    auto pieces = std::make_unique<ale_segment_workspace_t>();
+    std::vector<ale_observation_t> views(ALE_MAX_OBSERVATIONS);
     ale_extractor_init(extractor.get(), &config.extract);
     const ale_scan_t first =
         any_scan(random); /* with it the beams' directions are listed; it meets an empty map */
@@ -145,18 +145,18 @@ void looking(Parts &parts)
         const ale_scan_t scan = any_scan(random);
         ale_extract_scan(extractor.get(), &scan, bearing.data(), features.get());
         parts.measure("views of lines", 1, [&] {
-            ale_views_of(features.get(), &scan, {0, 0, 0}, 3000, views.data());
+            ale_observe_lines(features.get(), &scan, {0, 0, 0}, 3000, views.data());
         });
         features->line_count = 0;
         parts.measure("views of pieces", 1, [&] {
-            ale_pieces_of(features.get(), &scan, bearing.data(), {0, 0, 0}, &noise, pieces.get(),
-                          ALE_MAX_VIEWS, views.data());
+            ale_observe_segments(features.get(), &scan, bearing.data(), {0, 0, 0}, &noise, pieces.get(),
+                                 ALE_MAX_OBSERVATIONS, views.data());
         });
     }
 }
 
 /* What the fits of a scan of full size may look at together. */
-constexpr int32_t most_looks = ALE_LOOKS_OF_A_SCAN - ALE_LOOKS_OF_A_BEAM * ALE_MAX_BEAMS;
+constexpr int32_t most_looks = ALE_SCAN_WORK - ALE_BEAM_WORK * ALE_MAX_BEAMS;
 
 constexpr ale_gate_t first_gate = {600000, 300000, 4, 100000};
 constexpr ale_gate_t second_gate = {250000, 200000, 6, 100000};
@@ -178,11 +178,11 @@ std::unique_ptr<ale_fit_t> fits(Parts &parts, const ale_motion_t &predicted, Cro
     for (uint32_t views = 4; views <= crowd.views.size(); views += 4) { /* the fewer, the more steps */
         const ale_scene_t some = {crowd.map.get(), crowd.views.data(), views, nullptr};
         parts.measure("two fits", 1, [&] {
-            ale_refine_pose(&predicted, &some, &first_gate, fit.get());
-            ale_refine_look(&some, fit.get());
-            ale_refine_again(&predicted, true, predicted.pose, &some, &second_gate, most_looks, other.get(),
-                             fit.get());
-            ale_refine_weigh(&some, fit.get());
+            ale_register_pose(&predicted, &some, &first_gate, fit.get());
+            ale_register_associate(&some, fit.get());
+            ale_register_again(&predicted, true, predicted.pose, &some, &second_gate, most_looks, other.get(),
+                               fit.get());
+            ale_register_weigh(&some, fit.get());
         });
     }
     return fit;
@@ -190,11 +190,11 @@ std::unique_ptr<ale_fit_t> fits(Parts &parts, const ale_motion_t &predicted, Cro
 
 void vote(Parts &parts, const Crowd &crowd)
 {
-    auto memory = std::make_unique<ale_registration_t>();
-    const ale_views_t all = {crowd.views.data(), static_cast<uint32_t>(crowd.views.size())};
+    auto memory = std::make_unique<ale_scan_match_t>();
+    const ale_observations_t all = {crowd.views.data(), static_cast<uint32_t>(crowd.views.size())};
     ale_pose_t way = {0, 0, 0};
     parts.measure("vote of the last scan", 1,
-                  [&] { ale_register(memory.get(), all, all, 1000000, 450000, &way); });
+                  [&] { ale_match_scans(memory.get(), all, all, 1000000, 450000, &way); });
 }
 
 /* All views begin something new in the map, then all are found in it; then the map says how far it may be
@@ -203,23 +203,25 @@ void vote(Parts &parts, const Crowd &crowd)
 void taking_in(Parts &parts, const ale_motion_t &predicted, Crowd &crowd, ale_fit_t *fit)
 {
     const ale_scene_t scene = scene_of(crowd);
-    const ale_drift_t here = {int64_t{1} << 41, int64_t{1} << 40, int64_t{1} << 41,
-                              int64_t{1} << 38, int64_t{1} << 38, int64_t{1} << 36};
-    const ale_wheel_drift_t by_wheels = {100000, 100000};
-    ale_taking_t taking = {1, &here, &by_wheels, 1, true};
-    std::fill(std::begin(fit->match), std::end(fit->match), ale_match_t{ALE_NO_WALL, ALE_NO_MARK, {}});
+    const ale_map_uncertainty_t here = {int64_t{1} << 41, int64_t{1} << 40, int64_t{1} << 41,
+                                        int64_t{1} << 38, int64_t{1} << 38, int64_t{1} << 36};
+    const ale_scale_error_t by_wheels = {100000, 100000};
+    ale_map_update_context_t taking = {1, &here, &by_wheels, 1, true};
+    std::fill(std::begin(fit->match), std::end(fit->match),
+              ale_association_t{ALE_NO_WALL, ALE_NO_LANDMARK, {}});
     const auto take_in = [&] { ale_map_update(crowd.map.get(), scene.view, scene.view_count, fit, &taking); };
     parts.measure("walls and marks of the map", 1, take_in);
-    ale_refine(&predicted, &scene, &first_gate, fit);
+    ale_register_scan(&predicted, &scene, &first_gate, fit);
     taking.scan = 2;
     parts.measure("walls and marks of the map", 1, take_in);
     std::for_each(crowd.map->wall, crowd.map->wall + crowd.map->count,
                   [&](ale_wall_t &wall) { wall.drift = here; });
     parts.measure("drift, and what holds the robot", 1, [&] {
-        ale_drift_here(crowd.map.get(), scene.view, scene.view_count, fit, &here);
-        const ale_hold_t hold = ale_hold_of(crowd.map.get(), scene.view, scene.view_count, fit);
-        ale_wheel_drift_t drift = by_wheels;
-        ale_wheel_drift_fit(&drift, &hold, &predicted);
+        ale_map_uncertainty_here(crowd.map.get(), scene.view, scene.view_count, fit, &here);
+        const ale_observability_t hold =
+            ale_observability_of(crowd.map.get(), scene.view, scene.view_count, fit);
+        ale_scale_error_t drift = by_wheels;
+        ale_scale_error_update(&drift, &hold, &predicted);
         ale_motion_t found = predicted;
         ale_motion_keep_along(&found, &predicted, hold.along_bam);
     });
@@ -246,9 +248,9 @@ ale_scan_t far_scan(Random &random)
 /* The last scan is looked through for what has come: all views but one, which is in the map. late: something
  * came before. */
 void notice(Parts &parts, const std::string &name, const ale_scan_t &before, const uint32_t *bearing_bam,
-            std::vector<ale_view_t> views, bool late)
+            std::vector<ale_observation_t> views, bool late)
 {
-    std::vector<ale_match_t> match(views.size(), {ALE_NO_WALL, ALE_NO_MARK, {}});
+    std::vector<ale_association_t> match(views.size(), {ALE_NO_WALL, ALE_NO_LANDMARK, {}});
     match.back().wall = 0;
     ale_scan_t scan = before;
     const int beams = scan.beams / static_cast<int>(views.size());
@@ -308,15 +310,15 @@ void witnesses(Parts &parts, Random &random, Crowd &crowd)
     }
     scan.stamp_us += 10000000;
     parts.measure("an elder kept", 1, [&] { ale_elders_keep(&pipeline->elders, &seen); });
-    std::vector<ale_match_t> match(ALE_MAX_VIEWS, {ALE_NO_WALL, ALE_NO_MARK, {}});
+    std::vector<ale_association_t> match(ALE_MAX_OBSERVATIONS, {ALE_NO_WALL, ALE_NO_LANDMARK, {}});
     parts.measure("elders asked", 1, [&] {
         ale_elders_drop_newcomers(&pipeline->elders, &pipeline->map, &seen, false, crowd.views.data(),
                                   match.data());
     });
-    ale_fade_t fade = {0};
+    ale_map_decay_t fade = {0};
     ale_local_map_approach(crowd.map.get(), {0, 0}, 30000000);
     parts.measure("fading", 1, [&] {
-        ale_fade(&fade, crowd.map.get(), &scan, bearing.data(), {0, 0, 0}, 1000000, true);
+        ale_map_decay(&fade, crowd.map.get(), &scan, bearing.data(), {0, 0, 0}, 1000000, true);
     });
 }
 
@@ -325,11 +327,11 @@ void witnesses(Parts &parts, Random &random, Crowd &crowd)
 void relocation(Parts &parts, Random &random, Crowd &crowd)
 {
     const ale_scan_t scan = far_scan(random);
-    const ale_eye_t eye = {&scan, nullptr, {0, 0, 0}};
+    const ale_mounted_scan_t eye = {&scan, nullptr, {0, 0, 0}};
     auto memory = std::make_unique<ale_relocation_t>();
     auto fit = std::make_unique<ale_fit_t>();
     ale_relocation_clear(memory.get());
-    for (uint32_t views = 4; views <= ALE_MAX_VIEWS; views += 2) {
+    for (uint32_t views = 4; views <= ALE_MAX_OBSERVATIONS; views += 2) {
         const ale_scene_t scene = {crowd.map.get(), crowd.views.data(), views, nullptr};
         ale_relocation_follow(memory.get(), {60 * centimetre_um, 0, 0}, true);
         memory->count = ALE_PLACES;
@@ -410,7 +412,7 @@ void always(Parts &parts)
     ale_ways_t ways;
     parts.measure("going on as before", 1, [&] {
         ale_motion_t as_before = by_wheels;
-        ale_pipeline_go_on(pipeline.get(), &as_before, by_wheels.stamp_us + 100000, nullptr);
+        ale_pipeline_predict_motion(pipeline.get(), &as_before, by_wheels.stamp_us + 100000, nullptr);
         ways = ale_ways_of(&by_wheels, &as_before, true);
     });
 }
@@ -427,15 +429,16 @@ Bound bound_of_a_scan(InstructionCounter &counter)
     always(any_scan);
     for (unsigned seed = 0; seed < seeds; seed++) {
         Random random(seed);
-        for (const uint8_t kind : {ALE_VIEW_WALL, ALE_VIEW_PIECE, ALE_VIEW_SPOT}) {
-            Crowd crowd(random, kind, seed % 2 == 1, seed % 4 < 2 ? ALE_MAP_MAX_LINES : ALE_MAX_VIEWS);
+        for (const uint8_t kind : {ALE_OBSERVATION_LINE, ALE_OBSERVATION_SEGMENT, ALE_OBSERVATION_POINT}) {
+            Crowd crowd(random, kind, seed % 2 == 1, seed % 4 < 2 ? ALE_MAP_MAX_LINES : ALE_MAX_OBSERVATIONS);
             matching(tracked, random, crowd);
             witnesses(tracked, random, crowd);
         }
     }
     for (unsigned seed = 0; seed < seeds; seed++) {
         Random random(seed);
-        Crowd crowd(random, ALE_VIEW_WALL, seed % 2 == 1, seed % 4 < 2 ? ALE_MAP_MAX_LINES : ALE_MAX_VIEWS);
+        Crowd crowd(random, ALE_OBSERVATION_LINE, seed % 2 == 1,
+                    seed % 4 < 2 ? ALE_MAP_MAX_LINES : ALE_MAX_OBSERVATIONS);
         relocation(lost, random, crowd);
     }
     Random random(5);

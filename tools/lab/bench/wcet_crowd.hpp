@@ -21,14 +21,14 @@ namespace bench
  * walls as there is room for, and marks wherever one is looked for. */
 struct Crowd {
     std::unique_ptr<ale_local_map_t> map = std::make_unique<ale_local_map_t>();
-    std::vector<ale_view_t> views;
+    std::vector<ale_observation_t> views;
 
-    /* kind: of the views, ale_view_kind_t; square: all face one of two ways; walls: of the map. */
+    /* kind: of the views, ale_observation_kind_t; square: all face one of two ways; walls: of the map. */
     Crowd(Random &random, uint8_t kind, bool square, int walls);
 
   private:
-    void add_wall(const ale_view_t &view);
-    void add_marks(const ale_view_t &view);
+    void add_wall(const ale_observation_t &view);
+    void add_marks(const ale_observation_t &view);
 };
 
 uint32_t any_direction(Random &random);

@@ -50,7 +50,7 @@ bool is_other_place(const ale_pose_t &a, const ale_pose_t &b)
 
 /* The two best places of a scan. */
 struct Places {
-    std::vector<ale_view_t> views;
+    std::vector<ale_observation_t> views;
     ale_hypothesis_t best;
     ale_hypothesis_t second;
 };
@@ -66,7 +66,7 @@ class Finder
             throw std::runtime_error("the extractor refuses the configuration");
         }
         ale_local_map_clear(map_.get());
-        ale_map_take_in(map_.get(), &map);
+        ale_map_import(map_.get(), &map);
         ale_local_map_approach(map_.get(), {0, 0}, all_um);
     }
 
@@ -74,8 +74,9 @@ class Finder
     std::optional<Places> places(const ale_scan_t &scan)
     {
         ale_extract_scan(extractor_.get(), &scan, nullptr, features_.get());
-        Places found{std::vector<ale_view_t>(ALE_MAX_LINES), {}, {}};
-        found.views.resize(ale_views_of(features_.get(), &scan, sensor_, systematic_um_, found.views.data()));
+        Places found{std::vector<ale_observation_t>(ALE_MAX_LINES), {}, {}};
+        found.views.resize(
+            ale_observe_lines(features_.get(), &scan, sensor_, systematic_um_, found.views.data()));
         const std::vector<ale_hypothesis_t> all = search(found.views);
         const auto by_part = [](const auto &a, const auto &b) { return part(a) < part(b); };
         const auto best = std::max_element(all.begin(), all.end(), by_part);
@@ -92,7 +93,7 @@ class Finder
 
   private:
     /* All pairs of walls once. */
-    std::vector<ale_hypothesis_t> search(const std::vector<ale_view_t> &views)
+    std::vector<ale_hypothesis_t> search(const std::vector<ale_observation_t> &views)
     {
         std::vector<ale_hypothesis_t> all;
         ale_search_t search{};
@@ -135,10 +136,10 @@ json as_json(const ale_map_t &map)
     return walls;
 }
 
-json as_json(const std::vector<ale_view_t> &views)
+json as_json(const std::vector<ale_observation_t> &views)
 {
     json lines = json::array();
-    for (const ale_view_t &view : views) {
+    for (const ale_observation_t &view : views) {
         const uint32_t along = ale_tangent_bam(view.normal_bam);
         lines.push_back(segment(ale_plus(view.centre, ale_polar(view.start_um, along)),
                                 ale_plus(view.centre, ale_polar(view.end_um, along))));

@@ -69,7 +69,7 @@ class Replay
     std::optional<Loops> loops_;
     std::optional<MapRecord> record_;  /* when a map is asked for that may be drawn anew */
     std::unique_ptr<ale_map_t> known_; /* loaded; until the record knows it */
-    std::unique_ptr<ale_sighting_t> sighting_ = std::make_unique<ale_sighting_t>();
+    std::unique_ptr<ale_scan_observation_t> sighting_ = std::make_unique<ale_scan_observation_t>();
     std::vector<ScanPose> track_;
     StageClock clock_;
     ReplayCounts counts_;
@@ -197,7 +197,7 @@ void Replay::put_estimate(const ale_estimate_t &estimate)
     if (loops_) {
         loops_->after_scan(pipeline_.get(), estimate);
     }
-    if (record_ && ale_pipeline_sighting(pipeline_.get(), sighting_.get())) {
+    if (record_ && ale_pipeline_scan_observation(pipeline_.get(), sighting_.get())) {
         if (known_) {
             record_->know(sighting_->epoch, *known_);
             known_.reset();

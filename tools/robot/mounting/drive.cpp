@@ -64,7 +64,7 @@ class Reader
     ale::ReplayOptions options_;
     ale_config_t config_{};
     ale::CoreObject<ale_pipeline_t> pipeline_;
-    ale_pace_t pace_{};
+    ale_timestamp_filter_t pace_{};
     ale_wheels_t buffer_{};
     ale_lag_t lag_{};
     int64_t instant_us_ = INT64_MIN;
@@ -90,7 +90,7 @@ void Reader::begin(const char *recorded_config)
     if (ale_pipeline_init(pipeline_.get(), &alone) < 0) {
         throw cli::WrongUse("the configuration has a value that the core refuses");
     }
-    ale_pace_init(&pace_);
+    ale_timestamp_filter_init(&pace_);
     ale_wheels_init(&buffer_, alone.max_speed_mm_s, alone.max_turn_mrad_s);
     ale_lag_init(&lag_, alone.odometry_lag_us);
 }
@@ -100,7 +100,7 @@ void Reader::take_scan(const ale_scan_t &scan)
     ale_estimate_t estimate;
     const ale_scan_t as_mounted = ale::mounted(scan, config_.reversed && log_.info().raw_device);
     ale_pipeline_scan(pipeline_.get(), &as_mounted, &estimate);
-    instant_us_ = std::max(ale_pace_instant(&pace_, scan.stamp_us), instant_us_ + 1);
+    instant_us_ = std::max(ale_timestamp_filter_instant(&pace_, scan.stamp_us), instant_us_ + 1);
     const double before = laser_.empty() ? 0 : laser_.back().pose.z();
     laser_.push_back(
         {seconds(instant_us_), pose_of(estimate.map, before),
