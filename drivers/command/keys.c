@@ -9,9 +9,9 @@
 #include <unistd.h>
 
 #include "command/message.h"
+#include "file/bytes.h"
+#include "file/text.h"
 #include "file/whole_file.h"
-#include "log/bytes.h"
-#include "log/text.h"
 
 static const char KEYS_HEAD[] = "ALE-SLAM keys 1";
 static const char SECRET_HEAD[] = "ALE-SLAM operator key 1";

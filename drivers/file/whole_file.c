@@ -49,24 +49,36 @@ static void sync_folder(const char *path)
     }
 }
 
-int ale_whole_file_commit(ale_whole_file_t *file)
+/* Closes the file once its bytes are on the disk. 0, or the errno of the first thing that failed. */
+static int write_out(ale_whole_file_t *file)
 {
     errno = EIO;
     const bool written =
         fflush(file->out) == 0 && !ferror(file->out) && (!is_beside(file) || fsync(fileno(file->out)) == 0);
-    int reason = errno;
-    bool whole = fclose(file->out) == 0 && written;
-    reason = written ? errno : reason;
-    if (is_beside(file) && whole && rename(file->beside, file->path) < 0) {
-        whole = false;
+    const int reason = written ? 0 : errno;
+    return fclose(file->out) == 0 || !written ? reason : errno;
+}
+
+/* Puts the written file in the place of the old one, or removes it. 0, or an errno. */
+static int take_its_place(const ale_whole_file_t *file, int reason)
+{
+    if (reason == 0 && rename(file->beside, file->path) < 0) {
         reason = errno;
     }
-    if (is_beside(file) && !whole) {
+    if (reason == 0) {
+        sync_folder(file->path);
+    } else {
         unlink(file->beside);
     }
-    if (is_beside(file) && whole) {
-        sync_folder(file->path);
+    return reason;
+}
+
+int ale_whole_file_commit(ale_whole_file_t *file)
+{
+    int reason = write_out(file);
+    if (is_beside(file)) {
+        reason = take_its_place(file, reason);
     }
     errno = reason;
-    return whole ? 0 : -1;
+    return reason == 0 ? 0 : -1;
 }

@@ -11,7 +11,7 @@
  * One laser is followed: the one of the first scan line. The mounting is the laser's pose as seen from the
  * robot's where a line has both; it is stated only if all lines agree (in some logs the first pose is a
  * corrected one and has nothing to do with the second). */
-#include <stdlib.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "base/fixed.h"
@@ -42,6 +42,17 @@ static bool is_scan_keyword(ale_span_t word)
 {
     return ale_text_is(word, "FLASER") || ale_text_is(word, "RLASER") || ale_text_is(word, "ROBOTLASER1") ||
            ale_text_is(word, "ROBOTLASER2");
+}
+
+/* ROBOTLASER1 and 2, which state the pose of the robot beside that of the laser. */
+static bool is_robot_laser(ale_span_t keyword)
+{
+    return keyword.at && keyword.end - keyword.at > (ptrdiff_t)strlen("RLASER");
+}
+
+static bool looks_back(ale_span_t keyword)
+{
+    return keyword.at && *keyword.at == 'R' && !is_robot_laser(keyword);
 }
 
 static bool claims_line(ale_span_t line)
@@ -126,6 +137,11 @@ static bool take_ranges(ale_log_t *log, ale_span_t *line, ale_scan_t *scan)
         ale_geometry_set_range(scan, k, (int32_t)ale_clamp64(range_um, 0, INT32_MAX));
     }
     return true;
+}
+
+static bool is_origin(const ale_pose_t *pose)
+{
+    return pose->x_um == 0 && pose->y_um == 0 && pose->theta_bam == 0;
 }
 
 static void note_mounting(carmen_t *carmen, ale_pose_t laser, ale_pose_t robot)
@@ -279,8 +295,7 @@ static bool take_scan(ale_log_t *log, ale_span_t keyword, ale_span_t *line, ale_
         memcmp(keyword.at, carmen->laser.at, length) != 0) {
         return false; /* another laser of the same robot */
     }
-    return keyword.at[0] == 'R' && length > strlen("RLASER") ? take_robot_laser(log, line, record)
-                                                             : take_old_laser(log, line, record);
+    return is_robot_laser(keyword) ? take_robot_laser(log, line, record) : take_old_laser(log, line, record);
 }
 
 static bool take_line(ale_log_t *log, ale_span_t line, ale_log_record_t *record)
@@ -303,20 +318,22 @@ static bool take_line(ale_log_t *log, ale_span_t line, ale_log_record_t *record)
     return false;
 }
 
-/* What is known of the mounting so far; complete once the log has been read through. */
+/* What is known of the mounting so far; complete once the log has been read through. Many programs write the
+ * robot's pose for the laser's into FLASER: a mounting of zero is believed of ROBOTLASER only. */
 static void state_mounting(ale_log_t *log)
 {
     const carmen_t *carmen = log->state;
-    const ale_pose_t *seen = &carmen->mounting;
-    const bool poses_tell =
-        carmen->mounting_seen && !carmen->mounting_varies && (seen->x_um || seen->y_um || seen->theta_bam);
-    const bool robot_laser = carmen->laser.at && carmen->laser.end - carmen->laser.at > 6;
-    const bool backward = carmen->laser.at && carmen->laser.at[0] == 'R' && !robot_laser;
-    log->info.has_sensor = poses_tell || carmen->offset_stated || backward ||
-                           (robot_laser && carmen->mounting_seen && !carmen->mounting_varies);
-    log->info.sensor = poses_tell ? *seen : carmen->offset;
-    if (backward && !poses_tell) {
-        log->info.sensor = (ale_pose_t){.theta_bam = ALE_BAM_HALF_TURN};
+    ale_log_info_t *info = &log->info;
+    const bool agreed = carmen->mounting_seen && !carmen->mounting_varies;
+    if (agreed && !is_origin(&carmen->mounting)) {
+        info->has_sensor = true;
+        info->sensor = carmen->mounting;
+    } else if (looks_back(carmen->laser)) {
+        info->has_sensor = true;
+        info->sensor = (ale_pose_t){.theta_bam = ALE_BAM_HALF_TURN};
+    } else {
+        info->has_sensor = carmen->offset_stated || (agreed && is_robot_laser(carmen->laser));
+        info->sensor = carmen->offset;
     }
 }
 

@@ -1,6 +1,6 @@
-#include <string.h>
+#include "log/detect.h"
 
-#include "log/format.h"
+#include <string.h>
 
 static const ale_log_format_t *const BINARY[] = {&ale_log_scip, &ale_log_lcm_events};
 static const ale_log_format_t *const TEXT[] = {&ale_log_carmen, &ale_log_pairs, &ale_log_rover,

@@ -6,9 +6,11 @@
 #ifndef ALE_LOG_FORMAT_H
 #define ALE_LOG_FORMAT_H
 
-#include "log/bytes.h"
-#include "log/log.h"
-#include "log/text.h"
+#include "file/bytes.h"
+#include "file/text.h"
+#include "log/log_event.h"
+
+typedef struct ale_log ale_log_t;
 
 typedef struct {
     ale_log_event_t event; /* complete but for the stamps, when the log has none of use */
@@ -51,9 +53,6 @@ struct ale_log {
     bool scan_waiting; /* record.event is a scan whose odometry was handed out */
     ale_log_record_t record;
 };
-
-/* Which format the bytes are; NULL and *reason in plain words when none. */
-const ale_log_format_t *ale_log_detect(ale_log_t *log, const char **reason);
 
 /* Text formats: takes lines until one is a record. False at the end. */
 bool ale_log_next_line(ale_log_t *log, ale_log_record_t *record,

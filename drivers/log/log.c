@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "log/detect.h"
 #include "log/format.h"
 
 /* Without stamps of use a scan is taken to come ten times a second. */
@@ -13,47 +14,6 @@ static int fail(ale_log_error_t *error, const char *path, const char *reason)
 {
     snprintf(error->message, sizeof error->message, "%s: %s", path, reason);
     return -1;
-}
-
-bool ale_log_next_line(ale_log_t *log, ale_log_record_t *record,
-                       bool (*take_line)(ale_log_t *log, ale_span_t line, ale_log_record_t *record))
-{
-    ale_span_t line;
-    while (ale_text_line(&log->text, &line)) {
-        if (take_line(log, line, record)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-void ale_log_bad_line(ale_log_t *log, const char *what)
-{
-    snprintf(log->last_error, sizeof log->last_error, "%s: line %llu: %s", log->path,
-             (unsigned long long)log->text.line, what);
-    log->statistics.bad_lines++;
-}
-
-void ale_log_cut_line(ale_log_t *log, uint32_t count, uint32_t wanted, const char *of_what)
-{
-    char what[64];
-    snprintf(what, sizeof what, "%u %s instead of %u", count, of_what, wanted);
-    ale_log_bad_line(log, what);
-}
-
-void ale_log_bad_chunk(ale_log_t *log, const char *what)
-{
-    const uint64_t offset = (uint64_t)((const uint8_t *)log->text.at - log->bytes.at);
-    snprintf(log->last_error, sizeof log->last_error, "%s: before byte %llu: %s", log->path,
-             (unsigned long long)offset, what);
-    log->statistics.bad_chunks++;
-}
-
-void ale_log_too_many_beams(ale_log_t *log, int64_t beams)
-{
-    snprintf(log->last_error, sizeof log->last_error, "%s: scan of %lld beams; at most %d are possible",
-             log->path, (long long)beams, ALE_MAX_BEAMS);
-    log->statistics.too_many_beams++;
 }
 
 static void rewind_log(ale_log_t *log)
@@ -170,7 +130,7 @@ int ale_log_open_memory(ale_log_t **out, const uint8_t *bytes, uint64_t count, a
         return fail(error, "memory", "not enough memory");
     }
     const char *wrong =
-        count <= ALE_LOG_MOST_BYTES ? ale_bytes_from_memory(&log->bytes, bytes, (size_t)count) : "too large";
+        count <= ALE_BYTES_MOST ? ale_bytes_from_memory(&log->bytes, bytes, (size_t)count) : "too large";
     return finish_open(out, log, wrong, error);
 }
 

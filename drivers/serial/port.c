@@ -13,28 +13,6 @@
 
 #include "serial/port_backend.h"
 
-int ale_port_status_of_errno(int error)
-{
-    switch (error) {
-    case EACCES:
-    case EPERM:
-    case EBUSY:
-    case EWOULDBLOCK:
-        return ALE_PORT_DENIED;
-    case ENOENT:
-    case ENODEV:
-    case ENXIO:
-    case ENOTDIR:
-    case EISDIR:
-    case ELOOP:
-        return ALE_PORT_ABSENT;
-    case ENOTTY:
-        return ALE_PORT_OTHER;
-    default:
-        return ALE_PORT_GONE;
-    }
-}
-
 /* libserialport serves what the kernel lists as a terminal; it refuses pseudo terminals. */
 static bool listed_by_kernel(const char *name)
 {
@@ -236,31 +214,5 @@ void ale_port_close(ale_port_t *port)
     if (port != NULL) {
         port->backend->close(port);
         free(port);
-    }
-}
-
-const char *ale_port_strerror(int status)
-{
-    switch (status) {
-    case ALE_PORT_OK:
-        return "no error";
-    case ALE_PORT_GONE:
-        return "the port is gone (unplugged or hung up)";
-    case ALE_PORT_DENIED:
-        return "no access: permission is missing (group dialout), or another program holds the port";
-    case ALE_PORT_ABSENT:
-        return "no such serial device";
-    case ALE_PORT_FILE:
-        return "is an ordinary file and no serial device (ale-sim --log plays a recording)";
-    case ALE_PORT_FOLDER:
-        return "is a directory and no serial device";
-    case ALE_PORT_OTHER:
-        return "is no serial device";
-    case ALE_PORT_BAUD:
-        return "the port cannot do this baud rate";
-    case ALE_PORT_TIMEOUT:
-        return "the port takes no bytes";
-    default:
-        return "unknown status";
     }
 }

@@ -10,34 +10,39 @@
 #include <stddef.h>
 #include <stdint.h>
 
-typedef enum {
-    ALE_PORT_OK = 0,
-    ALE_PORT_GONE = -1,   /* unplugged, hung up, I/O error */
-    ALE_PORT_DENIED = -2, /* no permission, or another program holds it */
-    ALE_PORT_ABSENT = -3, /* no such device */
-    ALE_PORT_BAUD = -4,   /* rate not possible on this port */
-    ALE_PORT_TIMEOUT = -5,
-    ALE_PORT_FILE = -6, /* the path is an ordinary file, */
-    ALE_PORT_FOLDER = -7,
-    ALE_PORT_OTHER = -8 /* or no terminal */
-} ale_port_status_t;
+#include "serial/port_status.h"
 
 typedef struct ale_port ale_port_t;
+struct ale_port_backend; /* serial/port_backend.h */
 
-/* Opens path (links are resolved) exclusively, raw, 8N1, no flow control, DTR untouched.
- * On failure returns a negative ale_port_status_t and *out is NULL. */
+/* Opens path (links are resolved) exclusively, raw, 8N1, no flow control, DTR untouched. ALE_PORT_OK and
+ * *out, the caller's to close; else *out is NULL and the status ALE_PORT_ABSENT, DENIED, FILE, FOLDER, OTHER,
+ * BAUD (baud is not possible there), or GONE (any other error, and no memory). */
 int ale_port_open(ale_port_t **out, const char *path, int32_t baud);
+
+/* Changes the rate, bit/s. ALE_PORT_OK, or ALE_PORT_BAUD: the rate is as it was. */
 int ale_port_set_baud(ale_port_t *port, int32_t baud);
-/* Bytes read now without waiting, 0 when there are none, or a negative status. */
+
+/* Bytes read now without waiting, at most capacity; 0 when there are none; or a negative status,
+ * ALE_PORT_GONE as a rule. */
 int ale_port_read(ale_port_t *port, uint8_t *bytes, size_t capacity);
-/* All of the bytes within timeout_ms, or a negative status. */
+
+/* Writes all of the bytes. ALE_PORT_OK; ALE_PORT_TIMEOUT: some of them did not go within timeout_ms, how many
+ * is not known; or another negative status, ALE_PORT_GONE as a rule. */
 int ale_port_write(ale_port_t *port, const uint8_t *bytes, size_t count, int32_t timeout_ms);
-/* Waits for bytes: 1 readable, 0 time-out, negative status; some kernels call a port readable that has hung
- * up, reading then tells. port NULL: only lets the time pass. */
+
+/* Waits for bytes: 1 readable, 0 nothing within timeout_ms, or ALE_PORT_GONE; some kernels call a port
+ * readable that has hung up, reading then tells. port NULL: only lets the time pass. */
 int ale_port_wait(ale_port_t *port, int32_t timeout_ms);
+
 /* True when a change of the rate has an effect (a real RS-232 port); false for pseudo terminals and USB. */
 bool ale_port_has_baud(const ale_port_t *port);
+
+/* NULL: nothing. */
 void ale_port_close(ale_port_t *port);
-const char *ale_port_strerror(int status);
+
+/* A back end from above drivers/ that serves the paths which begin with prefix ("name:"); it is given what
+ * follows. Once, before the first port is opened; both must stay. */
+void ale_port_offer(const char *prefix, const struct ale_port_backend *backend);
 
 #endif

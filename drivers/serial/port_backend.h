@@ -2,9 +2,15 @@
 #ifndef ALE_SERIAL_PORT_BACKEND_H
 #define ALE_SERIAL_PORT_BACKEND_H
 
-#include "serial/port.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 
-typedef struct {
+#include "serial/port_status.h"
+
+typedef struct ale_port ale_port_t;
+
+typedef struct ale_port_backend {
     /* Opens the real path (no link) raw, 8N1, without flow control; sets port->fd, which poll can wait for.
      */
     int (*open)(ale_port_t *port, const char *real_path, int32_t baud);
@@ -27,13 +33,6 @@ struct ale_port {
 
 extern const ale_port_backend_t ale_port_fd_backend;
 extern const ale_port_backend_t ale_port_libserialport_backend;
-
-/* A back end from above drivers/ that serves the paths which begin with prefix ("name:"); it is given what
- * follows. Once, before the first port is opened; both must stay. */
-void ale_port_offer(const char *prefix, const ale_port_backend_t *backend);
-
-/* The status that an errno of open, read or write stands for. */
-int ale_port_status_of_errno(int error);
 
 /* Sets any rate, also those without a constant (Linux: termios2, BOTHER). 0, or ALE_PORT_BAUD. */
 int ale_port_set_any_baud(int fd, int32_t baud);

@@ -7,9 +7,9 @@
 #include <string.h>
 #include <zlib.h>
 
+#include "file/bytes.h"
+#include "file/text.h"
 #include "file/whole_file.h"
-#include "log/bytes.h"
-#include "log/text.h"
 
 static const char HEAD[] = "ALE-SLAM map 1";
 static const char WALL_LEGEND[] =

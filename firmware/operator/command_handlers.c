@@ -7,7 +7,7 @@
 #include "command/verb.h"
 #include "config/decimal.h"
 #include "exchange/wake.h"
-#include "log/text.h"
+#include "file/text.h"
 #include "operator/explore_thread.h"
 #include "recorder/recorder.h"
 

@@ -28,6 +28,7 @@
 #include "realtime/findings.h"
 #include "realtime/machine.h"
 #include "realtime/memory.h"
+#include "serial/port.h"
 #include "serial/port_backend.h"
 
 /* A release of RTAI may be built without its serial driver, the newest have none. */

@@ -151,11 +151,17 @@ static ale_scip_loss_t read_data_character(ale_scip_parser_t *p, const uint8_t *
     return ALE_SCIP_INTACT;
 }
 
+/* Whole, of a possible length, and not behind the last line of its reply. */
+static bool can_be_data(const ale_scip_parser_t *p, uint32_t sum_characters)
+{
+    return p->line.dropped == 0 && !p->ended && p->line.count > sum_characters &&
+           p->line.count <= DATA_CHARACTERS + sum_characters;
+}
+
 static ale_scip_loss_t read_data(ale_scip_parser_t *p)
 {
     const uint32_t sum_characters = p->reply.protocol == 2 ? 1 : 0;
-    if (p->line.dropped > 0 || p->ended || p->line.count <= sum_characters ||
-        p->line.count > DATA_CHARACTERS + sum_characters) {
+    if (!can_be_data(p, sum_characters)) {
         return ALE_SCIP_BAD_SHAPE;
     }
     if (sum_characters > 0 && !ale_scip_line_sum_right(&p->line)) {
@@ -213,6 +219,25 @@ static bool begin_next(ale_scip_parser_t *p, uint8_t protocol, ale_scip_event_t 
     return emitted;
 }
 
+/* A line of stamp or values. */
+static void read_measurement(ale_scip_parser_t *p, bool echo_at_end)
+{
+    ale_scip_loss_t loss = p->reply.loss;
+    if (p->stamp_due) {
+        loss = read_stamp(p);
+        p->stamp_due = false;
+    } else if (loss == ALE_SCIP_INTACT) {
+        loss = read_data(p);
+    }
+    if (loss != ALE_SCIP_INTACT) {
+        damage(p, loss);
+    }
+    /* The cut piece of a line and an echo behind it may by chance have a right sum. */
+    if (loss != ALE_SCIP_INTACT || echo_at_end) {
+        keep_candidate(p);
+    }
+}
+
 static bool read_body_line(ale_scip_parser_t *p, ale_scip_event_t *event)
 {
     const uint8_t protocol = ale_scip_line_status(&p->line);
@@ -230,28 +255,15 @@ static bool read_body_line(ale_scip_parser_t *p, ale_scip_event_t *event)
     }
     ale_scip_request_t request;
     const bool echo_at_end = ale_scip_line_request(&p->line, &request) >= 0;
-    if (!p->has_data && !echo_at_end) {
-        return read_info(p, event);
+    if (p->has_data) {
+        read_measurement(p, echo_at_end);
+        return false;
     }
-    if (!p->has_data) {
+    if (echo_at_end) {
         keep_candidate(p);
         return false;
     }
-    ale_scip_loss_t loss = p->reply.loss;
-    if (p->stamp_due) {
-        loss = read_stamp(p);
-        p->stamp_due = false;
-    } else if (loss == ALE_SCIP_INTACT) {
-        loss = read_data(p);
-    }
-    if (loss != ALE_SCIP_INTACT) {
-        damage(p, loss);
-    }
-    /* The cut piece of a line and an echo behind it may by chance have a right sum. */
-    if (loss != ALE_SCIP_INTACT || echo_at_end) {
-        keep_candidate(p);
-    }
-    return false;
+    return read_info(p, event);
 }
 
 /* An echo of a range request without a readable status: this line stands where it should be. */

@@ -44,29 +44,40 @@ static bool parse_window(const uint8_t **at, unsigned step_digits, ale_scip_requ
     return true;
 }
 
+/* The command of SCIP 2.0: GD, GS, MD or MS. */
+static bool parse_symbol(const uint8_t *text, ale_scip_request_t *out)
+{
+    if ((text[0] != 'M' && text[0] != 'G') || (text[1] != 'D' && text[1] != 'S')) {
+        return false;
+    }
+    out->stream = text[0] == 'M';
+    out->characters = text[1] == 'D' ? 3 : 2;
+    return true;
+}
+
+/* What MD and MS have behind the window. */
+static bool parse_repetition(const uint8_t **at, ale_scip_request_t *out)
+{
+    const int32_t skip = digits(at, 1);
+    const int32_t scans = digits(at, 2);
+    if (skip < 0 || scans < 0) {
+        return false;
+    }
+    out->skip = (uint8_t)skip;
+    out->scans = (uint8_t)scans;
+    return true;
+}
+
 static bool parse_2(const uint8_t *text, size_t count, ale_scip_request_t *out)
 {
     ale_scip_request_t request = {.protocol = 2};
-    if (count < LAST_LENGTH || (text[0] != 'M' && text[0] != 'G') || (text[1] != 'D' && text[1] != 'S')) {
-        return false;
-    }
-    request.stream = text[0] == 'M';
-    request.characters = text[1] == 'D' ? 3 : 2;
-    if (count != (request.stream ? STREAM_LENGTH : LAST_LENGTH)) {
+    if (count < LAST_LENGTH || !parse_symbol(text, &request) ||
+        count != (request.stream ? STREAM_LENGTH : LAST_LENGTH)) {
         return false;
     }
     const uint8_t *at = text + SYMBOL_2;
-    if (!parse_window(&at, 4, &request)) {
+    if (!parse_window(&at, 4, &request) || (request.stream && !parse_repetition(&at, &request))) {
         return false;
-    }
-    if (request.stream) {
-        const int32_t skip = digits(&at, 1);
-        const int32_t scans = digits(&at, 2);
-        if (skip < 0 || scans < 0) {
-            return false;
-        }
-        request.skip = (uint8_t)skip;
-        request.scans = (uint8_t)scans;
     }
     *out = request;
     return true;

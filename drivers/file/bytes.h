@@ -1,6 +1,6 @@
 /* A whole log in memory, unpacked: every reader works on bytes and none on files. */
-#ifndef ALE_LOG_BYTES_H
-#define ALE_LOG_BYTES_H
+#ifndef ALE_FILE_BYTES_H
+#define ALE_FILE_BYTES_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -8,7 +8,7 @@
 
 /* Largest log, unpacked: above, the file is refused (a damaged or hostile gzip file can claim anything). A
  * machine of 32 bits has no room for more than a quarter of what it can address. */
-#define ALE_LOG_MOST_BYTES (SIZE_MAX > UINT32_MAX ? (size_t)((uint64_t)4 << 30) : (size_t)1 << 30)
+#define ALE_BYTES_MOST (SIZE_MAX > UINT32_MAX ? (size_t)((uint64_t)4 << 30) : (size_t)1 << 30)
 
 typedef struct {
     const uint8_t *at;

@@ -1,4 +1,4 @@
-#include "log/bytes.h"
+#include "file/bytes.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -21,7 +21,7 @@ static const char *make_room(buffer_t *buffer)
     if (buffer->count < buffer->capacity) {
         return NULL;
     }
-    if (buffer->capacity >= ALE_LOG_MOST_BYTES) {
+    if (buffer->capacity >= ALE_BYTES_MOST) {
         return "too large";
     }
     const size_t capacity = buffer->capacity ? 2 * buffer->capacity : FIRST_CAPACITY;

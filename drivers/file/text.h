@@ -4,8 +4,8 @@
  *   while (ale_text_line(&text, &line)) while (ale_text_word(&line, &word)) ...
  *
  * Numbers become integers of a stated unit by decimal arithmetic alone: the same on every machine. */
-#ifndef ALE_LOG_TEXT_H
-#define ALE_LOG_TEXT_H
+#ifndef ALE_FILE_TEXT_H
+#define ALE_FILE_TEXT_H
 
 #include <stdbool.h>
 #include <stddef.h>

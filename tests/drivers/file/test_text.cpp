@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 extern "C" {
-#include "log/text.h"
+#include "file/text.h"
 }
 
 namespace

@@ -1,4 +1,4 @@
-#include "log/text.h"
+#include "file/text.h"
 
 #include <string.h>
 
