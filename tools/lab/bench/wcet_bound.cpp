@@ -207,19 +207,21 @@ void taking_in(Parts &parts, const ale_motion_t &predicted, Crowd &crowd, ale_fi
                                         int64_t{1} << 38, int64_t{1} << 38, int64_t{1} << 36};
     const ale_scale_error_t by_wheels = {100000, 100000};
     ale_map_update_context_t taking = {1, &here, &by_wheels, 1, true};
-    std::fill(std::begin(fit->match), std::end(fit->match),
+    std::fill(std::begin(fit->association), std::end(fit->association),
               ale_association_t{ALE_NO_WALL, ALE_NO_LANDMARK, {}});
-    const auto take_in = [&] { ale_map_update(crowd.map.get(), scene.view, scene.view_count, fit, &taking); };
+    const auto take_in = [&] {
+        ale_map_update(crowd.map.get(), scene.observation, scene.observation_count, fit, &taking);
+    };
     parts.measure("walls and marks of the map", 1, take_in);
     ale_register_scan(&predicted, &scene, &first_gate, fit);
     taking.scan = 2;
     parts.measure("walls and marks of the map", 1, take_in);
     std::for_each(crowd.map->wall, crowd.map->wall + crowd.map->count,
-                  [&](ale_wall_t &wall) { wall.drift = here; });
+                  [&](ale_wall_t &wall) { wall.map_uncertainty = here; });
     parts.measure("drift, and what holds the robot", 1, [&] {
-        ale_map_uncertainty_here(crowd.map.get(), scene.view, scene.view_count, fit, &here);
+        ale_map_uncertainty_here(crowd.map.get(), scene.observation, scene.observation_count, fit, &here);
         const ale_observability_t hold =
-            ale_observability_of(crowd.map.get(), scene.view, scene.view_count, fit);
+            ale_observability_of(crowd.map.get(), scene.observation, scene.observation_count, fit);
         ale_scale_error_t drift = by_wheels;
         ale_scale_error_update(&drift, &hold, &predicted);
         ale_motion_t found = predicted;

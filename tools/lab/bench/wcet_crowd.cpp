@@ -75,7 +75,7 @@ void Crowd::add_marks(const ale_observation_t &view)
         const ale_landmark_t mark = {
             place, view.normal_bam, 0, 9000000, 1, view.kind == ALE_OBSERVATION_POINT, 0, 0};
         for (int way = 0; way < ALE_LANDMARK_WAYS; way++) {
-            ale_landmarks_add(&map->marks, &mark);
+            ale_landmarks_add(&map->landmarks, &mark);
         }
     }
 }
