@@ -10,9 +10,9 @@
 #include <stdint.h>
 
 #include "map/landmarks.h"
+#include "map/line_map.h"
 #include "map/map_corner.h"
 #include "map/wall.h"
-#include "track/pipeline.h"
 
 enum {
     ALE_MAP_DIRECTIONS = 64, /* buckets of the near list: 5.6 degrees each */

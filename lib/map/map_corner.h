@@ -10,8 +10,8 @@
 #include <stdint.h>
 
 #include "extract/extract.h"
+#include "map/line_map.h"
 #include "motion/motion.h"
-#include "track/pipeline.h"
 
 enum {
     ALE_CORNERS_PER_SCAN = 16,

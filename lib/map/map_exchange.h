@@ -2,8 +2,8 @@
 #ifndef ALE_MAP_MAP_EXCHANGE_H
 #define ALE_MAP_MAP_EXCHANGE_H
 
+#include "map/line_map.h"
 #include "map/local_map.h"
-#include "track/pipeline.h"
 
 /* Confirmed walls and corners, in the order they lie in the map. O(map). */
 void ale_map_export(const ale_local_map_t *map, ale_map_t *out);

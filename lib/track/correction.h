@@ -11,6 +11,7 @@
 
 #include "base/pose.h"
 #include "map/local_map.h"
+#include "track/pipeline.h"
 
 enum { ALE_CORRECTION_SHIFTS = 2048 };
 

@@ -18,11 +18,9 @@
 #include "base/scan.h"
 #include "base/stage.h"
 #include "extract/extract.h"
+#include "map/line_map.h"
 #include "motion/odometry_sample.h"
 #include "observe/seen.h"
-
-#define ALE_MAP_MAX_LINES 2048
-#define ALE_MAP_MAX_CORNERS 1024
 
 typedef struct {
     ale_extract_config_t extract;
@@ -66,35 +64,6 @@ typedef struct {
     bool predicted; /* no scan stood behind this pose */
     bool map_changed;
 } ale_estimate_t;
-
-/* A wall of the map, map frame, seen from the side its normal points away from the wall into the room. */
-typedef struct {
-    uint32_t id;       /* stays with the wall while it lives */
-    ale_point_t start; /* counter-clockwise as seen from the room: start is to the right */
-    ale_point_t end;
-    int64_t var_alpha_nrad2;
-    int64_t cov_alpha_rho;
-    int64_t var_rho_um2;
-    uint32_t seen; /* scans that support it */
-} ale_map_line_t;
-
-typedef struct {
-    ale_point_t p;
-    int64_t cov_um2[3];
-    uint32_t angle_bam;
-    uint32_t bisector_bam;
-    uint32_t seen;
-    uint8_t kind; /* ale_corner_kind_t */
-} ale_map_corner_t;
-
-typedef struct {
-    uint32_t version; /* grows with every change */
-    uint16_t line_count;
-    uint16_t corner_count;
-    uint32_t refused; /* features that found no room */
-    ale_map_line_t line[ALE_MAP_MAX_LINES];
-    ale_map_corner_t corner[ALE_MAP_MAX_CORNERS];
-} ale_map_t;
 
 typedef struct ale_pipeline ale_pipeline_t;
 typedef struct ale_keyframe ale_keyframe_t;
