@@ -24,7 +24,7 @@ struct ale_daemon {
     bool exchange_open;
     ale_exchange_t exchange;
     ale_recorder_t *recorder;
-    ale_last_place_t *last_place;
+    ale_persistence_t *persistence;
     ale_service_t service;
     ale_bus_t *bus;
     ale_estimator_t *estimator;
@@ -75,10 +75,10 @@ static int start_writers(ale_daemon_t *daemon)
     const bool record = config->recorder_folder[0] != '\0';
     const bool keep = config->keep[0] != '\0';
     daemon->recorder = record ? ale_recorder_start(config) : NULL;
-    daemon->last_place = keep ? ale_last_place_start(config->keep) : NULL;
+    daemon->persistence = keep ? ale_persistence_start(config->keep) : NULL;
     daemon->exchange.recorder = daemon->recorder;
-    daemon->exchange.last_place = daemon->last_place;
-    const bool started = (daemon->recorder || !record) && (daemon->last_place || !keep);
+    daemon->exchange.persistence = daemon->persistence;
+    const bool started = (daemon->recorder || !record) && (daemon->persistence || !keep);
     return started ? 0 : fail(1, "no memory or no thread for the flight recorder or for what is kept");
 }
 
@@ -169,7 +169,7 @@ void ale_daemon_stop(ale_daemon_t *daemon)
     ale_telemetry_stop(daemon->telemetry);
     ale_explore_stop(daemon->exchange.explore);
     ale_recorder_stop(daemon->recorder);
-    ale_last_place_stop(daemon->last_place);
+    ale_persistence_stop(daemon->persistence);
     ale_estimator_destroy(daemon->estimator);
     if (daemon->exchange_open) {
         ale_exchange_close(&daemon->exchange);

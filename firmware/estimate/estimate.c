@@ -290,7 +290,7 @@ void ale_estimator_run(ale_rt_task_t *self, void *user)
     while (!ale_rt_task_stopping(self)) {
         ale_rt_release_wait(estimator->exchange->arrived, ale_rt_now_ns() + IDLE_NS);
         ale_estimator_step(estimator);
-        ale_pulse_beat(estimator->exchange->pulse);
+        ale_heartbeat_beat(estimator->exchange->heartbeat);
     }
     ale_estimator_step(estimator);
 }

@@ -31,10 +31,10 @@ int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock)
         .known_to_drawer = ale_snapshot_create(sizeof(ale_loaded_map_t)),
         .drive_orders = ale_snapshot_create(sizeof(ale_drive_orders_t)),
         .drive_scan = ale_snapshot_create(sizeof(ale_scan_t)),
-        .exploration = ale_snapshot_create(sizeof(ale_wish_t)),
+        .exploration = ale_snapshot_create(sizeof(ale_velocity_request_t)),
         .drive_again = ale_wake_open(),
         .arrived = ale_rt_release_create(),
-        .pulse = ale_pulse_create(),
+        .heartbeat = ale_heartbeat_create(),
         .under_way = ale_wake_open(),
     };
     const bool complete = exchange->scans && exchange->odometry && exchange->results && exchange->keyframes &&
@@ -43,7 +43,7 @@ int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock)
                           exchange->health && exchange->requests && exchange->loaded_map &&
                           exchange->known_to_mapper && exchange->known_to_drawer && exchange->drive_orders &&
                           exchange->drive_scan && exchange->exploration && exchange->drive_again >= 0 &&
-                          exchange->arrived && exchange->pulse && exchange->under_way >= 0;
+                          exchange->arrived && exchange->heartbeat && exchange->under_way >= 0;
     if (!complete) {
         ale_exchange_close(exchange);
     }
@@ -72,7 +72,7 @@ void ale_exchange_close(ale_exchange_t *exchange)
     ale_snapshot_destroy(exchange->exploration);
     ale_wake_close(exchange->drive_again);
     ale_rt_release_destroy(exchange->arrived);
-    ale_pulse_destroy(exchange->pulse);
+    ale_heartbeat_destroy(exchange->heartbeat);
     ale_wake_close(exchange->under_way);
     memset(exchange, 0, sizeof *exchange);
     exchange->drive_again = exchange->under_way = -1;

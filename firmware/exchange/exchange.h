@@ -7,9 +7,9 @@
  *      └──────────── health of the scanner (newest) ─────────────────┘
  *
  *              requests                  orders, scan (newest)
- *   estimate ◄──────────── telemetry ──────────────────────────► drive ◄── wish (newest) ── exploration
+ *   estimate ◄──────────── telemetry ──────────────────────────► drive ◄── request (newest) ── exploration
  *      ▲                      ▲ jobs  └──── scans with poses, on or off ───────────────────────►┘
- *      └── loaded map ── map keeper ── the same map ──► mapper, drawer
+ *      └── loaded map ── map storage ── the same map ──► mapper, drawer
  *   estimate ── keyframes ──► mapper ── corrections ──► estimate, exploration
  *      └── sightings ──► drawer ◄── keyframe poses (newest) ──┘
  *                          └── drawn map (newest) ──► telemetry
@@ -98,30 +98,30 @@ typedef struct {
 
 typedef struct {
     ale_clock_t clock;
-    ale_ring_t *scans;                 /* ale_scan_record_t: acquire to estimate */
-    ale_ring_t *odometry;              /* ale_odometry_t: telemetry to estimate */
-    ale_ring_t *results;               /* ale_result_t: estimate to telemetry */
-    ale_ring_t *keyframes;             /* ale_keyframe_t: estimate to mapper */
-    ale_ring_t *corrections;           /* ale_correction_t: mapper to estimate */
-    ale_ring_t *grid_corrections;      /* the same: mapper to exploration, when there is one */
-    ale_ring_t *sightings;             /* ale_scan_observation_t: estimate to drawer */
-    ale_snapshot_t *keyframe_poses;    /* ale_mapper_poses_t: mapper to drawer */
-    ale_snapshot_t *drawn_map;         /* ale_drawn_map_t: drawer to telemetry */
-    ale_snapshot_t *map;               /* ale_map_t, the tracker's: estimate to telemetry */
-    ale_snapshot_t *health;            /* ale_urg_health_t: acquire to telemetry */
-    ale_ring_t *requests;              /* ale_request_t: telemetry to estimate */
-    ale_snapshot_t *loaded_map;        /* ale_loaded_map_t: map keeper to estimate */
-    ale_snapshot_t *known_to_mapper;   /* ale_loaded_map_t, the one that is or will be driven in: */
-    ale_snapshot_t *known_to_drawer;   /* map keeper to both */
-    ale_snapshot_t *drive_orders;      /* ale_drive_orders_t: telemetry to drive */
-    ale_snapshot_t *drive_scan;        /* ale_scan_t: telemetry to drive */
-    ale_snapshot_t *exploration;       /* ale_wish_t: exploration to drive */
-    ale_rt_release_t *arrived;         /* releases the estimate task */
-    struct ale_explore *explore;       /* is told by telemetry; NULL: nobody may ask for it */
-    struct ale_recorder *recorder;     /* is told by acquire and telemetry; NULL: none is wanted */
-    struct ale_last_place *last_place; /* is offered map and pose by telemetry; NULL: none is wanted */
-    ale_pulse_t *pulse;                /* of the estimate task: ten beats a second or more */
-    int drive_again;                   /* wakes the drive thread (wake.h): something has changed */
+    ale_ring_t *scans;                   /* ale_scan_record_t: acquire to estimate */
+    ale_ring_t *odometry;                /* ale_odometry_t: telemetry to estimate */
+    ale_ring_t *results;                 /* ale_result_t: estimate to telemetry */
+    ale_ring_t *keyframes;               /* ale_keyframe_t: estimate to mapper */
+    ale_ring_t *corrections;             /* ale_correction_t: mapper to estimate */
+    ale_ring_t *grid_corrections;        /* the same: mapper to exploration, when there is one */
+    ale_ring_t *sightings;               /* ale_scan_observation_t: estimate to drawer */
+    ale_snapshot_t *keyframe_poses;      /* ale_mapper_poses_t: mapper to drawer */
+    ale_snapshot_t *drawn_map;           /* ale_drawn_map_t: drawer to telemetry */
+    ale_snapshot_t *map;                 /* ale_map_t, the tracker's: estimate to telemetry */
+    ale_snapshot_t *health;              /* ale_urg_health_t: acquire to telemetry */
+    ale_ring_t *requests;                /* ale_request_t: telemetry to estimate */
+    ale_snapshot_t *loaded_map;          /* ale_loaded_map_t: map storage to estimate */
+    ale_snapshot_t *known_to_mapper;     /* ale_loaded_map_t, the one that is or will be driven in: */
+    ale_snapshot_t *known_to_drawer;     /* map storage to both */
+    ale_snapshot_t *drive_orders;        /* ale_drive_orders_t: telemetry to drive */
+    ale_snapshot_t *drive_scan;          /* ale_scan_t: telemetry to drive */
+    ale_snapshot_t *exploration;         /* ale_velocity_request_t: exploration to drive */
+    ale_rt_release_t *arrived;           /* releases the estimate task */
+    struct ale_explore *explore;         /* is told by telemetry; NULL: nobody may ask for it */
+    struct ale_recorder *recorder;       /* is told by acquire and telemetry; NULL: none is wanted */
+    struct ale_persistence *persistence; /* is offered map and pose by telemetry; NULL: none is wanted */
+    ale_heartbeat_t *heartbeat;          /* of the estimate task: ten beats a second or more */
+    int drive_again;                     /* wakes the drive thread (wake.h): something has changed */
     int under_way;        /* event descriptor: a scan has gone to the estimate task, or health has changed */
     uint32_t maps_loaded; /* so far */
 } ale_exchange_t;

@@ -43,7 +43,7 @@ static void give_orders(ale_commands_t *commands)
 
 static bool drive(ale_commands_t *commands, const ale_command_t *command)
 {
-    ale_drive_desk_t *desk = &commands->desk;
+    ale_drive_arbiter_t *arbiter = &commands->arbiter;
     int32_t v_um_s = 0;
     int32_t w_urad_s = 0;
     if (!read_metres(command->arg[0], &v_um_s) || !read_metres(command->arg[1], &w_urad_s)) {
@@ -51,16 +51,16 @@ static bool drive(ale_commands_t *commands, const ale_command_t *command)
     }
     v_um_s = (int32_t)ale_clamp64(v_um_s, -commands->drive_um_s, commands->drive_um_s);
     w_urad_s = (int32_t)ale_clamp64(w_urad_s, -commands->drive_urad_s, commands->drive_urad_s);
-    const bool begins = commands->now_us >= desk->wish.valid_until_us;
-    switch (ale_drive_desk_drive(desk, command->operator_name, v_um_s, w_urad_s, commands->now_us)) {
-    case ALE_DESK_TAKEN:
-        return ANSWER(commands, false, "%s drives", desk->holder);
-    case ALE_DESK_STOPPED:
+    const bool begins = commands->now_us >= arbiter->request.valid_until_us;
+    switch (ale_drive_arbiter_drive(arbiter, command->operator_name, v_um_s, w_urad_s, commands->now_us)) {
+    case ALE_ARBITER_TAKEN:
+        return ANSWER(commands, false, "%s drives", arbiter->holder);
+    case ALE_ARBITER_STOPPED:
         return ANSWER(commands, false, "stopped: let go first");
-    case ALE_DESK_HIS:
+    case ALE_ARBITER_GRANTED:
         break;
     }
-    commands->orders.operator_wish = desk->wish;
+    commands->orders.operator_request = arbiter->request;
     give_orders(commands);
     commands->news = commands->news || begins;
     return ANSWER(commands, true, "%s drives", command->operator_name);
@@ -68,7 +68,7 @@ static bool drive(ale_commands_t *commands, const ale_command_t *command)
 
 static bool stop(ale_commands_t *commands, const ale_command_t *command)
 {
-    ale_drive_desk_stop(&commands->desk, commands->now_us);
+    ale_drive_arbiter_stop(&commands->arbiter, commands->now_us);
     commands->orders = (ale_drive_orders_t){0};
     give_orders(commands);
     if (commands->exchange->explore) {
@@ -86,7 +86,7 @@ static bool explore(ale_commands_t *commands, const ale_command_t *command)
     if (!commands->exchange->explore) {
         return ANSWER(commands, false, "this robot does not explore");
     }
-    const char *holder = ale_drive_desk_holder(&commands->desk, commands->now_us);
+    const char *holder = ale_drive_arbiter_holder(&commands->arbiter, commands->now_us);
     if (on && holder[0] != '\0' && strcmp(holder, command->operator_name) != 0) {
         return ANSWER(commands, false, "%s drives", holder);
     }
@@ -96,7 +96,7 @@ static bool explore(ale_commands_t *commands, const ale_command_t *command)
     return ANSWER(commands, true, on ? "explores" : "exploration is off");
 }
 
-bool ale_verbs_request(ale_commands_t *commands, const ale_request_t *request)
+bool ale_command_handlers_request(ale_commands_t *commands, const ale_request_t *request)
 {
     ale_request_t *slot = ale_ring_reserve(commands->exchange->requests);
     if (!slot) {
@@ -110,7 +110,7 @@ bool ale_verbs_request(ale_commands_t *commands, const ale_request_t *request)
 
 static bool ask_estimate(ale_commands_t *commands, ale_request_t request, const char *done)
 {
-    return ale_verbs_request(commands, &request) && ANSWER(commands, true, "%s", done);
+    return ale_command_handlers_request(commands, &request) && ANSWER(commands, true, "%s", done);
 }
 
 static bool reset(ale_commands_t *commands, const ale_command_t *command)
@@ -148,7 +148,7 @@ static bool save_map(ale_commands_t *commands, const ale_command_t *command)
         return ANSWER(commands, false, "no map yet");
     }
     return begin_job(commands, command,
-                     ale_map_keeper_save(commands->keeper, command->arg[0], commands->newest_map));
+                     ale_map_storage_save(commands->storage, command->arg[0], commands->newest_map));
 }
 
 static bool load_map(ale_commands_t *commands, const ale_command_t *command)
@@ -161,7 +161,7 @@ static bool load_map(ale_commands_t *commands, const ale_command_t *command)
         return ANSWER(commands, false, "load_map wants a name, or a name and x y theta");
     }
     commands->job_request = request;
-    return begin_job(commands, command, ale_map_keeper_load(commands->keeper, command->arg[0]));
+    return begin_job(commands, command, ale_map_storage_load(commands->storage, command->arg[0]));
 }
 
 /* Settings that operators may change until the next start. */
@@ -211,7 +211,7 @@ static bool set_freeze_map(ale_commands_t *commands, const ale_command_t *comman
     if (!set_switch(commands, command, &on)) {
         return false;
     }
-    if (!ale_verbs_request(commands, &(ale_request_t){.kind = ALE_REQUEST_FREEZE, .on = on})) {
+    if (!ale_command_handlers_request(commands, &(ale_request_t){.kind = ALE_REQUEST_FREEZE, .on = on})) {
         return false;
     }
     commands->map_frozen = on;
@@ -248,7 +248,7 @@ static const handler_t verbs[ALE_VERBS] = {
     [ALE_VERB_LOAD_MAP] = load_map, [ALE_VERB_RECORD] = record,     [ALE_VERB_SET] = set,
 };
 
-bool ale_verbs_obey(ale_commands_t *commands, const ale_command_t *command)
+bool ale_command_handlers_obey(ale_commands_t *commands, const ale_command_t *command)
 {
     char error[ALE_VERB_ERROR];
     const int verb = ale_verb_of(command, error);

@@ -9,9 +9,9 @@
 struct ale_commands {
     const ale_config_t *config;
     ale_exchange_t *exchange;
-    ale_map_keeper_t *keeper;
+    ale_map_storage_t *storage;
     ale_verifier_t verifier;
-    ale_drive_desk_t desk;
+    ale_drive_arbiter_t arbiter;
     ale_drive_orders_t orders;
     const ale_map_t *newest_map; /* while a command is obeyed */
     bool map_frozen;
@@ -34,9 +34,9 @@ struct ale_commands {
 
 /* Does what the command says and writes the answer: true obeyed, false refused. A save or load that has
  * begun sets job_waits: its answer comes later. */
-bool ale_verbs_obey(ale_commands_t *commands, const ale_command_t *command);
+bool ale_command_handlers_obey(ale_commands_t *commands, const ale_command_t *command);
 
 /* False, and the answer is written: the estimate task has not taken the last ones yet. */
-bool ale_verbs_request(ale_commands_t *commands, const ale_request_t *request);
+bool ale_command_handlers_request(ale_commands_t *commands, const ale_request_t *request);
 
 #endif

@@ -9,7 +9,7 @@
 #include "recorder/recorder.h"
 
 ale_commands_t *ale_commands_create(const ale_config_t *config, const ale_keys_t *keys, int64_t boot,
-                                    ale_exchange_t *exchange, ale_map_keeper_t *keeper)
+                                    ale_exchange_t *exchange, ale_map_storage_t *storage)
 {
     ale_commands_t *commands = calloc(1, sizeof *commands);
     if (!commands) {
@@ -17,7 +17,7 @@ ale_commands_t *ale_commands_create(const ale_config_t *config, const ale_keys_t
     }
     commands->config = config;
     commands->exchange = exchange;
-    commands->keeper = keeper;
+    commands->storage = storage;
     commands->publish_scan = config->publish_scan;
     commands->drive_um_s = config->drive_um_s;
     commands->drive_urad_s = config->drive_urad_s;
@@ -64,7 +64,7 @@ bool ale_commands_take(ale_commands_t *commands, const uint8_t *bytes, size_t co
     const bool driving = strcmp(command.verb, "drive") == 0;
     const bool job_before = commands->job_waits;
     commands->newest_map = newest_map;
-    const bool obeyed = ale_verbs_obey(commands, &command);
+    const bool obeyed = ale_command_handlers_obey(commands, &command);
     if (commands->job_waits == job_before) {
         answer(commands, command.operator_name, command.counter, obeyed);
         commands->news = commands->news || !driving || !obeyed;
@@ -86,14 +86,14 @@ void ale_commands_work(ale_commands_t *commands)
 {
     ale_map_outcome_t outcome;
     watch_exploration(commands);
-    if (!commands->job_waits || !ale_map_keeper_done(commands->keeper, &outcome)) {
+    if (!commands->job_waits || !ale_map_storage_done(commands->storage, &outcome)) {
         return;
     }
     commands->job_waits = false;
     commands->news = true;
     memcpy(commands->result, outcome.text, sizeof commands->result);
     const bool obeyed =
-        outcome.fine && (!outcome.loaded || ale_verbs_request(commands, &commands->job_request));
+        outcome.fine && (!outcome.loaded || ale_command_handlers_request(commands, &commands->job_request));
     answer(commands, commands->job_operator, commands->job_counter, obeyed);
 }
 
@@ -115,7 +115,7 @@ void ale_commands_report(const ale_commands_t *commands, ale_operation_report_t 
     };
     snprintf(report->robot, sizeof report->robot, "%s", commands->config->name);
     snprintf(report->who_drives, sizeof report->who_drives, "%s",
-             ale_drive_desk_holder(&commands->desk, now_us));
+             ale_drive_arbiter_holder(&commands->arbiter, now_us));
     if (commands->exchange->explore) {
         ale_explore_words(commands->exchange->explore, report->exploration);
         if (report->who_drives[0] == '\0' && ale_explore_is_on(commands->exchange->explore)) {

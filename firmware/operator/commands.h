@@ -1,6 +1,6 @@
 /* Commands of operators: checked, obeyed or refused, answered. drivers/command/README.md lists the verbs.
  *
- *   commands = ale_commands_create(config, &keys, boot, exchange, keeper);
+ *   commands = ale_commands_create(config, &keys, boot, exchange, storage);
  *   ale_commands_take(commands, bytes, count, newest_map);     (for every ALE_COMMAND)
  *   ale_commands_work(commands);                               (often: answers what took its time)
  *   if (ale_commands_news(commands)) ... ale_commands_report(commands, &report.operation), ALE_STATUS at once
@@ -22,9 +22,9 @@
 typedef struct ale_commands ale_commands_t;
 
 /* boot: the nonce of this start, as in ALE_STATUS. keys may be none: then nobody is obeyed. config, exchange
- * and keeper must outlive it. NULL: out of memory. */
+ * and storage must outlive it. NULL: out of memory. */
 ale_commands_t *ale_commands_create(const ale_config_t *config, const ale_keys_t *keys, int64_t boot,
-                                    ale_exchange_t *exchange, ale_map_keeper_t *keeper);
+                                    ale_exchange_t *exchange, ale_map_storage_t *storage);
 void ale_commands_destroy(ale_commands_t *commands);
 
 /* Any bytes. newest_map: what save_map saves; NULL: none yet. Whether it was a genuine command; what is none

@@ -15,36 +15,38 @@ struct ale_drive {
 };
 
 /* Along the same arc, as fast as is safe. */
-static ale_set_point_t slowed(const ale_wish_t *wish, const ale_scan_t *scan, const ale_config_t *config)
+static ale_set_point_t slowed(const ale_velocity_request_t *request, const ale_scan_t *scan,
+                              const ale_config_t *config)
 {
-    const int32_t v_um_s =
-        ale_safe_speed_um_s(scan, &config->pipeline.sensor, &config->robot, wish->v_um_s, wish->w_urad_s);
+    const int32_t v_um_s = ale_safe_speed_um_s(scan, &config->pipeline.sensor, &config->robot,
+                                               request->v_um_s, request->w_urad_s);
     if (v_um_s == 0) {
-        return (ale_set_point_t){.w_urad_s = wish->w_urad_s};
+        return (ale_set_point_t){.w_urad_s = request->w_urad_s};
     }
     return (ale_set_point_t){.v_um_s = v_um_s,
-                             .w_urad_s = (int32_t)ale_mul_div(wish->w_urad_s, v_um_s, wish->v_um_s)};
+                             .w_urad_s = (int32_t)ale_mul_div(request->w_urad_s, v_um_s, request->v_um_s)};
 }
 
-ale_set_point_t ale_drive_choose(const ale_drive_orders_t *orders, const ale_wish_t *exploration,
+ale_set_point_t ale_drive_choose(const ale_drive_orders_t *orders, const ale_velocity_request_t *exploration,
                                  const ale_scan_t *scan, const ale_config_t *config, int64_t now_us)
 {
-    const ale_wish_t *wish = NULL;
-    if (now_us < orders->operator_wish.valid_until_us) {
-        wish = &orders->operator_wish;
+    const ale_velocity_request_t *request = NULL;
+    if (now_us < orders->operator_request.valid_until_us) {
+        request = &orders->operator_request;
     } else if (orders->exploring && now_us < exploration->valid_until_us) {
-        wish = exploration;
+        request = exploration;
     }
     const bool sees = scan->beams > 0 && now_us - scan->stamp_us <= ALE_DRIVE_SCAN_LIFE_US;
-    return wish && sees ? slowed(wish, scan, config) : (ale_set_point_t){0};
+    return request && sees ? slowed(request, scan, config) : (ale_set_point_t){0};
 }
 
-int64_t ale_drive_wait_us(const ale_drive_orders_t *orders, const ale_wish_t *exploration, int64_t now_us)
+int64_t ale_drive_wait_us(const ale_drive_orders_t *orders, const ale_velocity_request_t *exploration,
+                          int64_t now_us)
 {
     int64_t wait_us = ALE_DRIVE_PERIOD_US;
-    const ale_wish_t *const wishes[] = {&orders->operator_wish, exploration};
+    const ale_velocity_request_t *const requests[] = {&orders->operator_request, exploration};
     for (int k = 0; k < 2; k++) {
-        const int64_t left_us = wishes[k]->valid_until_us - now_us;
+        const int64_t left_us = requests[k]->valid_until_us - now_us;
         wait_us = left_us > 0 ? ale_min64(wait_us, left_us) : wait_us;
     }
     return wait_us;
@@ -65,7 +67,7 @@ static void run(ale_rt_task_t *self, void *user)
     while (!ale_rt_task_stopping(self)) {
         bool fresh = false;
         const ale_drive_orders_t *orders = ale_snapshot_newest(exchange->drive_orders, &fresh);
-        const ale_wish_t *exploration = ale_snapshot_newest(exchange->exploration, &fresh);
+        const ale_velocity_request_t *exploration = ale_snapshot_newest(exchange->exploration, &fresh);
         const ale_scan_t *scan = ale_snapshot_newest(exchange->drive_scan, &fresh);
         const int64_t now_us = ale_clock_now_us(clock);
         publish(drive, now_us, ale_drive_choose(orders, exploration, scan, drive->config, now_us));

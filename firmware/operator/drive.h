@@ -18,7 +18,7 @@ enum { ALE_DRIVE_PERIOD_US = 40000, ALE_DRIVE_SCAN_LIFE_US = 500000 };
 
 /* From the telemetry thread. */
 typedef struct {
-    ale_wish_t operator_wish;
+    ale_velocity_request_t operator_request;
     bool exploring; /* exploration may drive when the operator does not */
 } ale_drive_orders_t;
 
@@ -28,12 +28,13 @@ typedef struct {
 } ale_set_point_t;
 
 /* What the motors are told at now_us. Pure. scan: the newest; its stamp is of the clock inside. */
-ale_set_point_t ale_drive_choose(const ale_drive_orders_t *orders, const ale_wish_t *exploration,
+ale_set_point_t ale_drive_choose(const ale_drive_orders_t *orders, const ale_velocity_request_t *exploration,
                                  const ale_scan_t *scan, const ale_config_t *config, int64_t now_us);
 
-/* How long to wait at now_us for the next turn: a period, or less where a wish runs out before. 1 us at the
- * least. Pure. */
-int64_t ale_drive_wait_us(const ale_drive_orders_t *orders, const ale_wish_t *exploration, int64_t now_us);
+/* How long to wait at now_us for the next turn: a period, or less where a request runs out before. 1 us at
+ * the least. Pure. */
+int64_t ale_drive_wait_us(const ale_drive_orders_t *orders, const ale_velocity_request_t *exploration,
+                          int64_t now_us);
 
 typedef struct ale_drive ale_drive_t;
 

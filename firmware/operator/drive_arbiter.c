@@ -3,32 +3,32 @@
 #include <stdio.h>
 #include <string.h>
 
-const char *ale_drive_desk_holder(const ale_drive_desk_t *desk, int64_t now_us)
+const char *ale_drive_arbiter_holder(const ale_drive_arbiter_t *arbiter, int64_t now_us)
 {
-    return now_us < desk->held_until_us ? desk->holder : "";
+    return now_us < arbiter->held_until_us ? arbiter->holder : "";
 }
 
-ale_desk_answer_t ale_drive_desk_drive(ale_drive_desk_t *desk, const char *name, int32_t v_um_s,
-                                       int32_t w_urad_s, int64_t now_us)
+ale_arbiter_answer_t ale_drive_arbiter_drive(ale_drive_arbiter_t *arbiter, const char *name, int32_t v_um_s,
+                                             int32_t w_urad_s, int64_t now_us)
 {
-    const char *holder = ale_drive_desk_holder(desk, now_us);
+    const char *holder = ale_drive_arbiter_holder(arbiter, now_us);
     if (holder[0] != '\0' && strcmp(holder, name) != 0) {
-        return ALE_DESK_TAKEN;
+        return ALE_ARBITER_TAKEN;
     }
-    const bool paused = now_us - desk->asked_us >= ALE_DEAD_MAN_US;
-    desk->asked_us = now_us;
-    if (desk->stopped && !paused) {
-        return ALE_DESK_STOPPED;
+    const bool paused = now_us - arbiter->asked_us >= ALE_DEAD_MAN_US;
+    arbiter->asked_us = now_us;
+    if (arbiter->stopped && !paused) {
+        return ALE_ARBITER_STOPPED;
     }
-    desk->stopped = false;
-    snprintf(desk->holder, sizeof desk->holder, "%s", name);
-    desk->held_until_us = now_us + ALE_DESK_HOLD_US;
-    desk->wish =
-        (ale_wish_t){.v_um_s = v_um_s, .w_urad_s = w_urad_s, .valid_until_us = now_us + ALE_DEAD_MAN_US};
-    return ALE_DESK_HIS;
+    arbiter->stopped = false;
+    snprintf(arbiter->holder, sizeof arbiter->holder, "%s", name);
+    arbiter->held_until_us = now_us + ALE_ARBITER_HOLD_US;
+    arbiter->request = (ale_velocity_request_t){
+        .v_um_s = v_um_s, .w_urad_s = w_urad_s, .valid_until_us = now_us + ALE_DEAD_MAN_US};
+    return ALE_ARBITER_GRANTED;
 }
 
-void ale_drive_desk_stop(ale_drive_desk_t *desk, int64_t now_us)
+void ale_drive_arbiter_stop(ale_drive_arbiter_t *arbiter, int64_t now_us)
 {
-    *desk = (ale_drive_desk_t){.stopped = true, .asked_us = now_us};
+    *arbiter = (ale_drive_arbiter_t){.stopped = true, .asked_us = now_us};
 }

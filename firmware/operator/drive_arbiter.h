@@ -1,8 +1,8 @@
-/* Who drives, and what he wants: one operator at a time, for so long as he keeps asking.
+/* Decides which operator drives: one at a time, for as long as he keeps asking.
  *
- *   drive ──► refused while somebody else drives, or while asked for without a pause since a stop
- *        └──► wish, valid for ALE_DEAD_MAN_US; the desk is his for ALE_DESK_HOLD_US
- *   stop  ──► no wish, nobody's desk; driving begins again after ALE_DEAD_MAN_US in which nobody asked
+ *   drive ──► refused while another operator drives, or while asked for without a pause since a stop
+ *        └──► granted: velocity request, valid for ALE_DEAD_MAN_US; no other operator for ALE_ARBITER_HOLD_US
+ *   stop  ──► no request, nobody drives; driving begins again when nobody has asked for ALE_DEAD_MAN_US
  *
  * So a stop is stronger than a stick that is still held, wherever it is held. Pure; times are of the clock
  * inside (monotonic). One owner: the telemetry thread. */
@@ -14,32 +14,33 @@
 
 #include "command/command.h"
 
-enum { ALE_DEAD_MAN_US = 300000, ALE_DESK_HOLD_US = 2000000 };
+enum { ALE_DEAD_MAN_US = 300000, ALE_ARBITER_HOLD_US = 2000000 };
 
 /* A velocity that somebody wants, until a moment. All zero: none. */
 typedef struct {
     int32_t v_um_s;
     int32_t w_urad_s;
     int64_t valid_until_us;
-} ale_wish_t;
+} ale_velocity_request_t;
 
-typedef enum { ALE_DESK_HIS, ALE_DESK_TAKEN, ALE_DESK_STOPPED } ale_desk_answer_t;
+typedef enum { ALE_ARBITER_GRANTED, ALE_ARBITER_TAKEN, ALE_ARBITER_STOPPED } ale_arbiter_answer_t;
 
 typedef struct {
     char holder[ALE_NAME_BYTES];
     int64_t held_until_us;
-    ale_wish_t wish;
+    ale_velocity_request_t request;
     bool stopped;
-    int64_t asked_us; /* last time that anybody wanted to drive, or the stop */
-} ale_drive_desk_t;   /* all zero: nobody drives */
+    int64_t asked_us;  /* last time that anybody wanted to drive, or the stop */
+} ale_drive_arbiter_t; /* all zero: nobody drives */
 
-/* An operator wants to drive. ALE_DESK_HIS: the wish is set. */
-ale_desk_answer_t ale_drive_desk_drive(ale_drive_desk_t *desk, const char *name, int32_t v_um_s,
-                                       int32_t w_urad_s, int64_t now_us);
+/* An operator asks to drive. GRANTED: the velocity request is set. TAKEN: another operator drives. STOPPED:
+ * nobody has paused for ALE_DEAD_MAN_US since the stop. */
+ale_arbiter_answer_t ale_drive_arbiter_drive(ale_drive_arbiter_t *arbiter, const char *name, int32_t v_um_s,
+                                             int32_t w_urad_s, int64_t now_us);
 
-void ale_drive_desk_stop(ale_drive_desk_t *desk, int64_t now_us);
+void ale_drive_arbiter_stop(ale_drive_arbiter_t *arbiter, int64_t now_us);
 
-/* Who holds the desk; empty: nobody. */
-const char *ale_drive_desk_holder(const ale_drive_desk_t *desk, int64_t now_us);
+/* The operator who drives; empty: nobody. */
+const char *ale_drive_arbiter_holder(const ale_drive_arbiter_t *arbiter, int64_t now_us);
 
 #endif

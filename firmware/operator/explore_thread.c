@@ -59,9 +59,9 @@ static void publish_doing(ale_explore_t *explore, bool lost)
     ale_snapshot_publish(explore->doing);
 }
 
-static void publish_wish(ale_explore_t *explore, ale_velocity_t velocity, int64_t valid_until_us)
+static void publish_request(ale_explore_t *explore, ale_velocity_t velocity, int64_t valid_until_us)
 {
-    *(ale_wish_t *)ale_snapshot_back(explore->exchange->exploration) = (ale_wish_t){
+    *(ale_velocity_request_t *)ale_snapshot_back(explore->exchange->exploration) = (ale_velocity_request_t){
         .v_um_s = velocity.speed_um_s, .w_urad_s = velocity.turn_urad_s, .valid_until_us = valid_until_us};
     ale_snapshot_publish(explore->exchange->exploration);
     ale_wake_post(explore->exchange->drive_again);
@@ -73,7 +73,7 @@ static void hear_request(ale_explore_t *explore)
     if (request != explore->heard) {
         explore->heard = request;
         ale_explorer_request(&explore->explorer, request % 2 == 1);
-        publish_wish(explore, (ale_velocity_t){0, 0}, 0);
+        publish_request(explore, (ale_velocity_t){0, 0}, 0);
         publish_doing(explore, false);
     }
 }
@@ -103,7 +103,7 @@ static void use(ale_explore_t *explore, const seen_t *seen)
     const int64_t now_us = ale_clock_now_us(&explore->exchange->clock);
     const ale_velocity_t velocity =
         ale_explorer_step(&explore->explorer, &seen->scan, &seen->estimate, now_us + EFFECT_US);
-    publish_wish(explore, velocity, now_us + ALE_EXPLORE_WISH_LIFE_US);
+    publish_request(explore, velocity, now_us + ALE_EXPLORE_REQUEST_LIFE_US);
     publish_doing(explore, seen->estimate.state == ALE_STATE_LOST);
 }
 
@@ -121,7 +121,7 @@ static void run(ale_rt_task_t *self, void *user)
             ale_ring_release(explore->seen);
         }
     }
-    publish_wish(explore, (ale_velocity_t){0, 0}, 0);
+    publish_request(explore, (ale_velocity_t){0, 0}, 0);
 }
 
 ale_explore_t *ale_explore_start(const ale_config_t *config, ale_exchange_t *exchange)

@@ -1,11 +1,11 @@
 /* The exploration thread: scans with their poses come in, what it wants to drive goes out, and what it is
  * doing.
  *
- *   telemetry ── scans, on or off ──► exploration ── wish (newest) ──► drive
+ *   telemetry ── scans, on or off ──► exploration ── request (newest) ──► drive
  *        ▲                                │   ▲
  *        └──────── in words (newest) ─────┘   └── corrections ── mapper
  *
- * Ordinary, and never in the estimate task's way: it hears of scans from the telemetry thread. Its wishes
+ * Ordinary, and never in the estimate task's way: it hears of scans from the telemetry thread. Its requests
  * last for three scans; the drive thread decides whether they are fulfilled. */
 #ifndef ALE_FIRMWARE_OPERATOR_EXPLORE_THREAD_H
 #define ALE_FIRMWARE_OPERATOR_EXPLORE_THREAD_H
@@ -18,14 +18,14 @@
 #include "lcm/report.h"
 #include "track/pipeline.h"
 
-enum { ALE_EXPLORE_WISH_LIFE_US = 300000 };
+enum { ALE_EXPLORE_REQUEST_LIFE_US = 300000 };
 
 typedef struct ale_explore ale_explore_t;
 
 /* Starts the thread, doing nothing yet. NULL: no memory or no thread. exchange must outlive it. */
 ale_explore_t *ale_explore_start(const ale_config_t *config, ale_exchange_t *exchange);
 
-/* Wishes to stand still, then stops. NULL: nothing. */
+/* Asks to stand still, then stops. NULL: nothing. */
 void ale_explore_stop(ale_explore_t *explore);
 
 /* The rest is for one thread, telemetry. */

@@ -10,89 +10,89 @@
 enum { LINES = 16 };
 
 typedef struct {
-    char words[ALE_SPEAKER_LINE];
+    char words[ALE_LOGGER_LINE];
 } line_t;
 
-struct ale_speaker {
+struct ale_logger {
     FILE *out;
     ale_ring_t *lines; /* line_t */
     uint32_t told;     /* of those left out */
     ale_background_t thread;
 };
 
-static void write_line(ale_speaker_t *speaker, const char *words)
+static void write_line(ale_logger_t *logger, const char *words)
 {
-    fprintf(speaker->out, "ale-slamd: %s\n", words);
-    fflush(speaker->out);
+    fprintf(logger->out, "ale-slamd: %s\n", words);
+    fflush(logger->out);
 }
 
 /* There is room again. */
-static void tell_left_out(ale_speaker_t *speaker)
+static void tell_dropped(ale_logger_t *logger)
 {
-    const uint32_t fresh = ale_speaker_left_out(speaker) - speaker->told;
+    const uint32_t fresh = ale_logger_dropped(logger) - logger->told;
     if (fresh > 0) {
-        char words[ALE_SPEAKER_LINE];
+        char words[ALE_LOGGER_LINE];
         snprintf(words, sizeof words, "%u line%s left out here: nobody took them in time", fresh,
                  fresh == 1 ? "" : "s");
-        write_line(speaker, words);
-        speaker->told += fresh;
+        write_line(logger, words);
+        logger->told += fresh;
     }
 }
 
-static void write_out(ale_speaker_t *speaker)
+static void write_out(ale_logger_t *logger)
 {
-    while (ale_ring_ready(speaker->lines) > 0) {
-        write_line(speaker, ((const line_t *)ale_ring_at(speaker->lines, 0))->words);
-        ale_ring_release(speaker->lines);
+    while (ale_ring_ready(logger->lines) > 0) {
+        write_line(logger, ((const line_t *)ale_ring_at(logger->lines, 0))->words);
+        ale_ring_release(logger->lines);
     }
-    tell_left_out(speaker);
+    tell_dropped(logger);
 }
 
 static void run(ale_rt_task_t *self, void *user)
 {
-    ale_speaker_t *speaker = user;
+    ale_logger_t *logger = user;
     while (!ale_rt_task_stopping(self)) {
-        ale_background_wait(&speaker->thread, LOOK_NS);
-        write_out(speaker);
+        ale_background_wait(&logger->thread, LOOK_NS);
+        write_out(logger);
     }
-    write_out(speaker);
+    write_out(logger);
 }
 
-ale_speaker_t *ale_speaker_start(FILE *out)
+ale_logger_t *ale_logger_start(FILE *out)
 {
-    ale_speaker_t *speaker = calloc(1, sizeof *speaker);
-    if (!speaker) {
+    ale_logger_t *logger = calloc(1, sizeof *logger);
+    if (!logger) {
         return NULL;
     }
-    speaker->out = out;
-    speaker->lines = ale_ring_create(sizeof(line_t), LINES);
-    if (!speaker->lines || ale_background_start(&speaker->thread, "ale-speaker", run, speaker, 0) < 0) {
-        ale_speaker_stop(speaker);
+    logger->out = out;
+    logger->lines = ale_ring_create(sizeof(line_t), LINES);
+    if (!logger->lines || ale_background_start(&logger->thread, "ale-logger", run, logger, 0) < 0) {
+        ale_logger_stop(logger);
         return NULL;
     }
-    return speaker;
+    return logger;
 }
 
-void ale_speaker_stop(ale_speaker_t *speaker)
+void ale_logger_stop(ale_logger_t *logger)
 {
-    if (speaker) {
-        ale_background_stop(&speaker->thread);
-        ale_ring_destroy(speaker->lines);
-        free(speaker);
+    if (logger) {
+        ale_background_stop(&logger->thread);
+        ale_ring_destroy(logger->lines);
+        free(logger);
     }
 }
 
-void ale_speaker_say(ale_speaker_t *speaker, const char *words)
+void ale_logger_log(ale_logger_t *logger, const char *words)
 {
-    line_t *line = ale_ring_reserve(speaker->lines);
+    line_t *line = ale_ring_reserve(logger->lines);
     if (line) {
         snprintf(line->words, sizeof line->words, "%s", words);
-        ale_ring_commit(speaker->lines);
-        ale_background_wake(&speaker->thread);
+        ale_ring_commit(logger->lines);
+        ale_background_wake(&logger->thread);
     }
 }
 
-uint32_t ale_speaker_left_out(const ale_speaker_t *speaker)
+uint32_t ale_logger_dropped(const ale_logger_t *logger)
 {
-    return ale_ring_refused(speaker->lines);
+    return ale_ring_refused(logger->lines);
 }

@@ -3,26 +3,26 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
-struct ale_pulse {
+struct ale_heartbeat {
     atomic_uint beats;
 };
 
-ale_pulse_t *ale_pulse_create(void)
+ale_heartbeat_t *ale_heartbeat_create(void)
 {
-    return calloc(1, sizeof(ale_pulse_t));
+    return calloc(1, sizeof(ale_heartbeat_t));
 }
 
-void ale_pulse_destroy(ale_pulse_t *pulse)
+void ale_heartbeat_destroy(ale_heartbeat_t *heartbeat)
 {
-    free(pulse);
+    free(heartbeat);
 }
 
-void ale_pulse_beat(ale_pulse_t *pulse)
+void ale_heartbeat_beat(ale_heartbeat_t *heartbeat)
 {
-    atomic_fetch_add_explicit(&pulse->beats, 1, memory_order_relaxed);
+    atomic_fetch_add_explicit(&heartbeat->beats, 1, memory_order_relaxed);
 }
 
-uint32_t ale_pulse_beats(const ale_pulse_t *pulse)
+uint32_t ale_heartbeat_beats(const ale_heartbeat_t *heartbeat)
 {
-    return atomic_load_explicit(&pulse->beats, memory_order_relaxed);
+    return atomic_load_explicit(&heartbeat->beats, memory_order_relaxed);
 }

@@ -4,14 +4,14 @@
 
 #include <stdint.h>
 
-typedef struct ale_pulse ale_pulse_t;
+typedef struct ale_heartbeat ale_heartbeat_t;
 
-ale_pulse_t *ale_pulse_create(void); /* NULL: out of memory */
-void ale_pulse_destroy(ale_pulse_t *pulse);
+ale_heartbeat_t *ale_heartbeat_create(void); /* NULL: out of memory */
+void ale_heartbeat_destroy(ale_heartbeat_t *heartbeat);
 
-void ale_pulse_beat(ale_pulse_t *pulse);
+void ale_heartbeat_beat(ale_heartbeat_t *heartbeat);
 
 /* Beats since the start; wraps. */
-uint32_t ale_pulse_beats(const ale_pulse_t *pulse);
+uint32_t ale_heartbeat_beats(const ale_heartbeat_t *heartbeat);
 
 #endif

@@ -15,70 +15,71 @@ typedef struct {
     ale_pose_t pose;
 } kept_t;
 
-struct ale_last_place {
+struct ale_persistence {
     const char *path;
     ale_snapshot_t *offered; /* kept_t */
     ale_background_t thread;
     bool failed; /* and said so */
 };
 
-static void save_newest(ale_last_place_t *place)
+static void save_newest(ale_persistence_t *persistence)
 {
     bool fresh = false;
-    const kept_t *kept = ale_snapshot_newest(place->offered, &fresh);
+    const kept_t *kept = ale_snapshot_newest(persistence->offered, &fresh);
     if (!fresh) {
         return;
     }
     char error[ALE_MAP_FILE_ERROR];
-    const bool failed = ale_map_file_save_with_pose(place->path, &kept->map, &kept->pose, error) < 0;
-    if (failed && !place->failed) {
+    const bool failed = ale_map_file_save_with_pose(persistence->path, &kept->map, &kept->pose, error) < 0;
+    if (failed && !persistence->failed) {
         fprintf(stderr, "ale-slamd: map and pose are not kept: %s\n", error);
     }
-    place->failed = failed;
+    persistence->failed = failed;
 }
 
 static void run(ale_rt_task_t *self, void *user)
 {
-    ale_last_place_t *place = user;
+    ale_persistence_t *persistence = user;
     while (!ale_rt_task_stopping(self)) {
-        ale_background_wait(&place->thread, LOOK_NS);
-        save_newest(place);
+        ale_background_wait(&persistence->thread, LOOK_NS);
+        save_newest(persistence);
     }
-    save_newest(place);
+    save_newest(persistence);
 }
 
-ale_last_place_t *ale_last_place_start(const char *path)
+ale_persistence_t *ale_persistence_start(const char *path)
 {
-    ale_last_place_t *place = calloc(1, sizeof *place);
-    if (!place) {
+    ale_persistence_t *persistence = calloc(1, sizeof *persistence);
+    if (!persistence) {
         return NULL;
     }
-    place->path = path;
-    place->offered = ale_snapshot_create(sizeof(kept_t));
-    if (!place->offered || ale_background_start(&place->thread, "ale-last-place", run, place, 0) < 0) {
-        ale_last_place_stop(place);
+    persistence->path = path;
+    persistence->offered = ale_snapshot_create(sizeof(kept_t));
+    if (!persistence->offered ||
+        ale_background_start(&persistence->thread, "ale-persistence", run, persistence, 0) < 0) {
+        ale_persistence_stop(persistence);
         return NULL;
     }
-    return place;
+    return persistence;
 }
 
-void ale_last_place_stop(ale_last_place_t *place)
+void ale_persistence_stop(ale_persistence_t *persistence)
 {
-    if (place) {
-        ale_background_stop(&place->thread);
-        ale_snapshot_destroy(place->offered);
-        free(place);
+    if (persistence) {
+        ale_background_stop(&persistence->thread);
+        ale_snapshot_destroy(persistence->offered);
+        free(persistence);
     }
 }
 
-void ale_last_place_offer(ale_last_place_t *place, const ale_map_t *map, const ale_pose_t *pose)
+void ale_persistence_offer(ale_persistence_t *persistence, const ale_map_t *map, const ale_pose_t *pose)
 {
     if (map->line_count == 0) {
         return; /* nothing in it could confirm the pose */
     }
-    kept_t *kept = ale_snapshot_back(place->offered);
+    kept_t *kept = ale_snapshot_back(persistence->offered);
     kept->map = *map;
     kept->pose = *pose;
-    ale_snapshot_publish(place->offered);
-    ale_background_wake(&place->thread);
+    ale_snapshot_publish(persistence->offered);
+    ale_background_wake(&persistence->thread);
 }

@@ -32,7 +32,7 @@ struct ale_telemetry {
     sem_t listening; /* posted once, when LCM is heard */
     ale_rt_report_t realtime;
     int64_t boot;
-    ale_map_keeper_t *keeper;
+    ale_map_storage_t *storage;
     ale_commands_t *commands;
     ale_supervisor_t supervisor;
     ale_statistics_t statistics;
@@ -46,7 +46,7 @@ struct ale_telemetry {
     ale_pose_t pose; /* in the map, newest */
     uint32_t epoch;  /* of that map */
     ale_service_t service;
-    ale_speaker_t *speaker; /* what a terminal or a disk does must not hold up poses */
+    ale_logger_t *logger; /* what a terminal or a disk does must not hold up poses */
     ale_status_report_t report;
 };
 
@@ -157,7 +157,7 @@ static void watch_scanner(ale_telemetry_t *telemetry)
     const ale_link_t before = telemetry->supervisor.link;
     if (fresh && ale_supervisor_watch(&telemetry->supervisor, telemetry->health, line)) {
         char words[sizeof line + 8];
-        ale_speaker_say(telemetry->speaker, line);
+        ale_logger_log(telemetry->logger, line);
         snprintf(words, sizeof words, "STATUS=%s", line);
         ale_service_tell(&telemetry->service, words);
         if (before == ALE_LINK_STREAMING) {
@@ -181,7 +181,7 @@ static void send_status(ale_telemetry_t *telemetry)
     ale_commands_report(telemetry->commands, &report->operation);
     ale_commands_counters(telemetry->commands, report);
     report->counter[report->counters++] =
-        (ale_counter_t){.name = "words_left_out", .value = ale_speaker_left_out(telemetry->speaker)};
+        (ale_counter_t){.name = "words_left_out", .value = ale_logger_dropped(telemetry->logger)};
     ale_bus_send_status(telemetry->bus, report);
     telemetry->last_status_ns = ale_rt_now_ns();
     telemetry->news = false;
@@ -205,9 +205,9 @@ static void take_command(void *user, const uint8_t *bytes, size_t count)
  * stays. */
 static void keep_map(ale_telemetry_t *telemetry)
 {
-    ale_last_place_t *place = telemetry->exchange->last_place;
-    if (place && telemetry->statistics.state != ALE_STATE_LOST) {
-        ale_last_place_offer(place, ale_map_publisher_tracked(&telemetry->map), &telemetry->pose);
+    ale_persistence_t *persistence = telemetry->exchange->persistence;
+    if (persistence && telemetry->statistics.state != ALE_STATE_LOST) {
+        ale_persistence_offer(persistence, ale_map_publisher_tracked(&telemetry->map), &telemetry->pose);
     }
 }
 
@@ -244,17 +244,17 @@ static void work(ale_telemetry_t *telemetry)
         keep_map(telemetry);
         telemetry->next_keep_ns = now_ns + (int64_t)telemetry->config->keep_seconds * NS_PER_S;
     }
-    ale_service_feed(&telemetry->service, ale_pulse_beats(telemetry->exchange->pulse), now_ns);
+    ale_service_feed(&telemetry->service, ale_heartbeat_beats(telemetry->exchange->heartbeat), now_ns);
 }
 
 static void run(ale_rt_task_t *self, void *user)
 {
     ale_telemetry_t *telemetry = user;
     if (ale_bus_on_odometry(telemetry->bus, take_odometry, telemetry) < 0) {
-        ale_speaker_say(telemetry->speaker, "LCM refuses the subscription of odometry: going on without");
+        ale_logger_log(telemetry->logger, "LCM refuses the subscription of odometry: going on without");
     }
     if (ale_bus_on_command(telemetry->bus, take_command, telemetry) < 0) {
-        ale_speaker_say(telemetry->speaker, "LCM refuses the subscription of commands: none will be taken");
+        ale_logger_log(telemetry->logger, "LCM refuses the subscription of commands: none will be taken");
     }
     sem_post(&telemetry->listening);
     while (!ale_rt_task_stopping(self)) {
@@ -278,10 +278,10 @@ static int64_t boot_nonce(void)
 
 static int start_commands(ale_telemetry_t *telemetry, const ale_keys_t *keys)
 {
-    telemetry->keeper = ale_map_keeper_start(telemetry->config, telemetry->exchange);
-    if (telemetry->keeper) {
+    telemetry->storage = ale_map_storage_start(telemetry->config, telemetry->exchange);
+    if (telemetry->storage) {
         telemetry->commands = ale_commands_create(telemetry->config, keys, telemetry->boot,
-                                                  telemetry->exchange, telemetry->keeper);
+                                                  telemetry->exchange, telemetry->storage);
     }
     return telemetry->commands ? 0 : -1;
 }
@@ -303,8 +303,8 @@ ale_telemetry_t *ale_telemetry_start(const ale_config_t *config, const ale_keys_
     ale_service_open(&telemetry->service);
     telemetry->next_status_ns = ale_rt_now_ns() + STATUS_PERIOD_NS;
     sem_init(&telemetry->listening, 0, 0);
-    telemetry->speaker = ale_speaker_start(stderr);
-    if (telemetry->speaker && start_commands(telemetry, keys) == 0) {
+    telemetry->logger = ale_logger_start(stderr);
+    if (telemetry->logger && start_commands(telemetry, keys) == 0) {
         telemetry->task = ale_rt_task_start(&(ale_rt_task_config_t){
             .name = "ale-telemetry", .kind = ALE_RT_ORDINARY, .body = run, .user = telemetry});
     }
@@ -327,10 +327,10 @@ void ale_telemetry_stop(ale_telemetry_t *telemetry)
         ale_wake_post(telemetry->exchange->under_way);
         ale_rt_task_join(telemetry->task);
     }
-    ale_map_keeper_stop(telemetry->keeper);
+    ale_map_storage_stop(telemetry->storage);
     ale_commands_destroy(telemetry->commands);
     ale_service_close(&telemetry->service);
-    ale_speaker_stop(telemetry->speaker);
+    ale_logger_stop(telemetry->logger);
     sem_destroy(&telemetry->listening);
     free(telemetry);
 }

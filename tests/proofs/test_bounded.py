@@ -105,7 +105,7 @@ def graph(graph_files):
 def with_fault(graph_files, fault, folder):
     """The graph with the planted estimate.c in the place of the real one."""
     planted = planted_estimate(fault, folder, *GRAPH).with_suffix(".ci")
-    made = CallGraph([path for path in graph_files if path.name != "firmware_estimate.c.ci"] + [planted])
+    made = CallGraph([path for path in graph_files if path.name != "firmware_estimate_estimate.c.ci"] + [planted])
     connect_hook(made)
     return made
 

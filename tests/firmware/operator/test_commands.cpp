@@ -41,17 +41,17 @@ class Commands : public surroundings::WithExchange
     {
         config = ale_config_default();
         std::snprintf(config.map_folder, sizeof config.map_folder, "%s/maps", folder.path().c_str());
-        keeper = ale_map_keeper_start(&config, &exchange);
-        ASSERT_NE(keeper, nullptr);
+        storage = ale_map_storage_start(&config, &exchange);
+        ASSERT_NE(storage, nullptr);
         const ale_keys_t keys = signed_command::keys_of({alice, bob});
-        commands = ale_commands_create(&config, &keys, boot, &exchange, keeper);
+        commands = ale_commands_create(&config, &keys, boot, &exchange, storage);
         ASSERT_NE(commands, nullptr);
         map->line_count = 3;
         map->line[0].end = {4000000, 0};
     }
     void TearDown() override
     {
-        ale_map_keeper_stop(keeper);
+        ale_map_storage_stop(storage);
         ale_commands_destroy(commands);
     }
 
@@ -82,7 +82,7 @@ class Commands : public surroundings::WithExchange
         send(who, words);
         return answer();
     }
-    /* The answer of a job of the map keeper. */
+    /* The answer of a job of the map storage. */
     std::string job(std::initializer_list<const char *> words)
     {
         send(alice, words);
@@ -122,23 +122,23 @@ class Commands : public surroundings::WithExchange
     const Operator bob{"bob"};
     const files::TemporaryFolder folder;
     ale_config_t config{};
-    ale_map_keeper_t *keeper = nullptr;
+    ale_map_storage_t *storage = nullptr;
     ale_commands_t *commands = nullptr;
     int64_t counter = 1;
     std::unique_ptr<ale_map_t> map = std::make_unique<ale_map_t>();
 };
 
-TEST_F(Commands, DrivingIsAWishWithinTheLimits)
+TEST_F(Commands, DrivingIsAVelocityRequestWithinTheLimits)
 {
     EXPECT_EQ(ask(alice, {"drive", "0.25", "-0.5"}), "+alice drives");
-    EXPECT_EQ(orders().operator_wish.v_um_s, 250000);
-    EXPECT_EQ(orders().operator_wish.w_urad_s, -500000);
-    const int64_t left_us = orders().operator_wish.valid_until_us - ale_clock_now_us(&exchange.clock);
+    EXPECT_EQ(orders().operator_request.v_um_s, 250000);
+    EXPECT_EQ(orders().operator_request.w_urad_s, -500000);
+    const int64_t left_us = orders().operator_request.valid_until_us - ale_clock_now_us(&exchange.clock);
     EXPECT_GT(left_us, 0);
     EXPECT_LE(left_us, ALE_DEAD_MAN_US);
     EXPECT_EQ(ask(alice, {"drive", "-99", "99"}), "+alice drives");
-    EXPECT_EQ(orders().operator_wish.v_um_s, -config.drive_um_s);
-    EXPECT_EQ(orders().operator_wish.w_urad_s, config.drive_urad_s);
+    EXPECT_EQ(orders().operator_request.v_um_s, -config.drive_um_s);
+    EXPECT_EQ(orders().operator_request.w_urad_s, config.drive_urad_s);
 }
 
 TEST_F(Commands, OneDrivesAndEveryoneSeesWhoButAnyoneMayStop)
@@ -148,11 +148,11 @@ TEST_F(Commands, OneDrivesAndEveryoneSeesWhoButAnyoneMayStop)
     ale_commands_report(commands, &report);
     EXPECT_STREQ(report.who_drives, "alice");
     EXPECT_EQ(ask(bob, {"drive", "0.1", "0"}), "-alice drives");
-    EXPECT_EQ(orders().operator_wish.v_um_s, 250000);
+    EXPECT_EQ(orders().operator_request.v_um_s, 250000);
     EXPECT_EQ(ask(bob, {"stop"}), "+stopped by bob");
-    EXPECT_EQ(orders().operator_wish.valid_until_us, 0);
+    EXPECT_EQ(orders().operator_request.valid_until_us, 0);
     EXPECT_EQ(ask(alice, {"drive", "0.25", "0"}), "-stopped: let go first");
-    EXPECT_EQ(orders().operator_wish.valid_until_us, 0);
+    EXPECT_EQ(orders().operator_request.valid_until_us, 0);
     EXPECT_EQ(counted("command_refused"), 2U);
 }
 
@@ -251,8 +251,8 @@ TEST_F(Commands, ShortListOfSettings)
     EXPECT_EQ(ask(alice, {"set", "drive_speed", "0.1"}), "+drive_speed is 0.1");
     EXPECT_EQ(ask(alice, {"set", "drive_turn", "0.2"}), "+drive_turn is 0.2");
     ask(alice, {"drive", "5", "5"});
-    EXPECT_EQ(orders().operator_wish.v_um_s, 100000);
-    EXPECT_EQ(orders().operator_wish.w_urad_s, 200000);
+    EXPECT_EQ(orders().operator_request.v_um_s, 100000);
+    EXPECT_EQ(orders().operator_request.w_urad_s, 200000);
     EXPECT_EQ(ask(alice, {"set", "drive_speed", "-1"})[0], '-');
     EXPECT_EQ(ask(alice, {"set", "drive_speed", "1000"})[0], '-');
     EXPECT_FALSE(ale_commands_publish_scan(commands));

@@ -45,18 +45,18 @@ class DriveChoice : public testing::Test
     ale_config_t config{};
     std::unique_ptr<ale_scan_t> scan = std::make_unique<ale_scan_t>();
     ale_drive_orders_t orders{};
-    ale_wish_t exploration{};
+    ale_velocity_request_t exploration{};
 };
 
-TEST_F(DriveChoice, WithoutAWishItStandsStill)
+TEST_F(DriveChoice, WithoutARequestItStandsStill)
 {
     EXPECT_EQ(choose().v_um_s, 0);
     EXPECT_EQ(choose().w_urad_s, 0);
 }
 
-TEST_F(DriveChoice, AWishHoldsUntilItsMomentAndNoLonger)
+TEST_F(DriveChoice, ARequestHoldsUntilItsMomentAndNoLonger)
 {
-    orders.operator_wish = {200000, 100000, kNow};
+    orders.operator_request = {200000, 100000, kNow};
     EXPECT_EQ(choose(kNow - 1).v_um_s, 200000);
     EXPECT_EQ(choose(kNow - 1).w_urad_s, 100000);
     EXPECT_EQ(choose(kNow).v_um_s, 0);
@@ -68,9 +68,9 @@ TEST_F(DriveChoice, AWishHoldsUntilItsMomentAndNoLonger)
 TEST_F(DriveChoice, TheRobotStandsExactlyWhenTheDeadMansTimeIsOver)
 {
     for (int64_t phase_us = 0; phase_us < ALE_DRIVE_PERIOD_US; phase_us += 777) {
-        ale_drive_desk_t desk{};
-        ASSERT_EQ(ale_drive_desk_drive(&desk, "alice", 200000, 300000, kNow), ALE_DESK_HIS);
-        orders.operator_wish = desk.wish;
+        ale_drive_arbiter_t arbiter{};
+        ASSERT_EQ(ale_drive_arbiter_drive(&arbiter, "alice", 200000, 300000, kNow), ALE_ARBITER_GRANTED);
+        orders.operator_request = arbiter.request;
         int64_t now = kNow + phase_us;
         int64_t longest_us = 0;
         while (choose(now).v_um_s > 0) {
@@ -99,7 +99,7 @@ TEST_F(DriveChoice, TheOperatorGoesBeforeExplorationAndAStopBeforeBoth)
     EXPECT_EQ(choose().v_um_s, 0) << "nobody has asked for exploration";
     orders.exploring = true;
     EXPECT_EQ(choose().v_um_s, 100000);
-    orders.operator_wish = {200000, 0, kNow + 1};
+    orders.operator_request = {200000, 0, kNow + 1};
     EXPECT_EQ(choose().v_um_s, 200000);
     orders = {};
     EXPECT_EQ(choose().v_um_s, 0);
@@ -107,20 +107,20 @@ TEST_F(DriveChoice, TheOperatorGoesBeforeExplorationAndAStopBeforeBoth)
 
 TEST_F(DriveChoice, TowardsAWallItIsSlowedOnTheSameArcAndThenTurnsOnly)
 {
-    orders.operator_wish = {3000000, 1500000, kNow + 1};
+    orders.operator_request = {3000000, 1500000, kNow + 1};
     const ale_set_point_t slow = choose();
     EXPECT_GT(slow.v_um_s, 0);
     EXPECT_LT(slow.v_um_s, 2000000);
     EXPECT_NEAR(slow.w_urad_s, slow.v_um_s / 2, 1);
     room::fill(*scan, room::kHalfLength - 0.22, 0, kNow - 100000);
-    orders.operator_wish = {300000, 150000, kNow + 1};
+    orders.operator_request = {300000, 150000, kNow + 1};
     EXPECT_EQ(choose().v_um_s, 0);
     EXPECT_EQ(choose().w_urad_s, 150000);
 }
 
 TEST_F(DriveChoice, WithoutAFreshScanNothingMoves)
 {
-    orders.operator_wish = {200000, 100000, kNow + 10000000};
+    orders.operator_request = {200000, 100000, kNow + 10000000};
     EXPECT_GT(choose(scan->stamp_us + 500000).v_um_s, 0);
     EXPECT_EQ(choose(scan->stamp_us + 500001).v_um_s, 0);
     EXPECT_EQ(choose(scan->stamp_us + 500001).w_urad_s, 0);
@@ -176,9 +176,9 @@ class DriveThread : public surroundings::WithExchange
             ASSERT_LT(k, 1000) << "of all that came, nothing was it";
         }
     }
-    /* The robot drives by a wish of the dead man's time; one that was over before the thread's turn came is
-     * given anew. The moment at which it ends. */
-    int64_t drive_by_a_wish()
+    /* The robot drives by a request of the dead man's time; one that was over before the thread's turn came
+     * is given anew. The moment at which it ends. */
+    int64_t drive_by_a_request()
     {
         int64_t given_us = -ALE_DEAD_MAN_US;
         hear_until([&] {
@@ -209,9 +209,9 @@ TEST_F(DriveThread, TellsTheMotorsAgainAndAgainAlsoToStandStill)
     EXPECT_GE(span_us, 10 * ALE_DRIVE_PERIOD_US * 9 / 10);
 }
 
-TEST_F(DriveThread, AWishEndsOnTheMicrosecondClockWithoutAnybodysHelp)
+TEST_F(DriveThread, ARequestEndsOnTheMicrosecondClockWithoutAnybodysHelp)
 {
-    const int64_t until_us = drive_by_a_wish();
+    const int64_t until_us = drive_by_a_request();
     hear_until([&] { return heard.back().v == 0; });
     EXPECT_GE(heard.back().utime, ale_clock_to_utime(&exchange.clock, until_us));
     EXPECT_LT(heard[heard.size() - 2].utime, ale_clock_to_utime(&exchange.clock, until_us));
@@ -219,7 +219,7 @@ TEST_F(DriveThread, AWishEndsOnTheMicrosecondClockWithoutAnybodysHelp)
 
 TEST_F(DriveThread, EndsWithStandingStill)
 {
-    drive_by_a_wish();
+    drive_by_a_request();
     ale_drive_stop(drive);
     drive = nullptr;
     hear_until([&] { return heard.back().v == 0; });

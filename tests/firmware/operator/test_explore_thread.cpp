@@ -43,14 +43,15 @@ class ExploreThread : public surroundings::WithExchange
         room::fill(*scan, 0, 0, estimate.stamp_us);
         ale_explore_take(explore, scan.get(), &estimate);
     }
-    ale_wish_t wish()
+    ale_velocity_request_t request()
     {
         bool fresh = false;
-        return *static_cast<const ale_wish_t *>(ale_snapshot_newest(exchange.exploration, &fresh));
+        return *static_cast<const ale_velocity_request_t *>(
+            ale_snapshot_newest(exchange.exploration, &fresh));
     }
-    bool wishes_to_move()
+    bool asks_to_move()
     {
-        const ale_wish_t newest = wish();
+        const ale_velocity_request_t newest = request();
         return newest.v_um_s != 0 || newest.w_urad_s != 0;
     }
     std::string words()
@@ -87,45 +88,46 @@ class ExploreThread : public surroundings::WithExchange
     ale_explore_t *explore = nullptr;
 };
 
-TEST_F(ExploreThread, DoesNothingUntilAskedThenWishesToMoveForThreeScansAtATime)
+TEST_F(ExploreThread, DoesNothingUntilAskedThenAsksToMoveForThreeScansAtATime)
 {
     give_scan();
     EXPECT_FALSE(ale_explore_is_on(explore));
     EXPECT_EQ(words(), "");
-    EXPECT_FALSE(wishes_to_move());
+    EXPECT_FALSE(asks_to_move());
     ale_explore_request(explore, true);
     EXPECT_TRUE(ale_explore_is_on(explore)) << "at once, for those who report it";
     const int64_t before_us = ale_clock_now_us(&exchange.clock);
-    ASSERT_TRUE(comes([&] { return wishes_to_move(); }));
-    EXPECT_GT(wish().valid_until_us, before_us);
-    EXPECT_LE(wish().valid_until_us, ale_clock_now_us(&exchange.clock) + ALE_EXPLORE_WISH_LIFE_US);
+    ASSERT_TRUE(comes([&] { return asks_to_move(); }));
+    EXPECT_GT(request().valid_until_us, before_us);
+    EXPECT_LE(request().valid_until_us, ale_clock_now_us(&exchange.clock) + ALE_EXPLORE_REQUEST_LIFE_US);
     EXPECT_TRUE(comes([&] { return words().find("explores: ") == 0; })) << words();
 }
 
-TEST_F(ExploreThread, OffTakesTheWishBack)
+TEST_F(ExploreThread, OffTakesTheRequestBack)
 {
     ale_explore_request(explore, true);
-    ASSERT_TRUE(comes([&] { return wishes_to_move(); }));
+    ASSERT_TRUE(comes([&] { return asks_to_move(); }));
     ale_explore_request(explore, false);
     EXPECT_FALSE(ale_explore_is_on(explore));
-    EXPECT_TRUE(comes([&] { return !wishes_to_move() && words().empty(); }));
-    EXPECT_EQ(wish().valid_until_us, 0);
+    EXPECT_TRUE(comes([&] { return !asks_to_move() && words().empty(); }));
+    EXPECT_EQ(request().valid_until_us, 0);
 }
 
 TEST_F(ExploreThread, SaysThatThePoseIsLostAndStandsAtFirst)
 {
     ale_explore_request(explore, true);
     ASSERT_TRUE(comes([&] { return words() == "looks for its place: the pose is lost"; }, ALE_STATE_LOST));
-    EXPECT_FALSE(wishes_to_move());
+    EXPECT_FALSE(asks_to_move());
 }
 
 TEST_F(ExploreThread, ACorrectionIsTakenWithTheFirstPoseThatKnowsIt)
 {
     ale_explore_request(explore, true);
-    ASSERT_TRUE(comes([&] { return wishes_to_move(); }));
+    ASSERT_TRUE(comes([&] { return asks_to_move(); }));
     hand_out_correction(1);
     const int64_t before_us = ale_clock_now_us(&exchange.clock);
-    ASSERT_TRUE(comes([&] { return wish().valid_until_us > before_us + 2 * ALE_EXPLORE_WISH_LIFE_US; }));
+    ASSERT_TRUE(
+        comes([&] { return request().valid_until_us > before_us + 2 * ALE_EXPLORE_REQUEST_LIFE_US; }));
     EXPECT_EQ(ale_ring_ready(exchange.grid_corrections), 1U) << "poses go by that do not know it";
     corrections = 1;
     EXPECT_TRUE(comes([&] { return ale_ring_ready(exchange.grid_corrections) == 0; }));
@@ -141,10 +143,10 @@ TEST_F(ExploreThread, WhileItIsOffCorrectionsDoNotPileUp)
 TEST_F(ExploreThread, AskedTwiceItGoesOn)
 {
     ale_explore_request(explore, true);
-    ASSERT_TRUE(comes([&] { return wishes_to_move(); }));
+    ASSERT_TRUE(comes([&] { return asks_to_move(); }));
     ale_explore_request(explore, true);
     EXPECT_TRUE(ale_explore_is_on(explore));
-    EXPECT_TRUE(comes([&] { return wishes_to_move(); }));
+    EXPECT_TRUE(comes([&] { return asks_to_move(); }));
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// firmware/speaker: words for people, whatever they are written on.
+// firmware/system/async_logger: lines for people, whatever they are written on.
 #include <gtest/gtest.h>
 
 #include <fcntl.h>
@@ -15,7 +15,7 @@ extern "C" {
 namespace
 {
 
-class Speaker : public surroundings::WithPort
+class AsyncLogger : public surroundings::WithPort
 {
   protected:
     void SetUp() override
@@ -25,8 +25,8 @@ class Speaker : public surroundings::WithPort
         reading = ends[0];
         out = fdopen(ends[1], "w");
         ASSERT_NE(out, nullptr);
-        speaker = ale_speaker_start(out);
-        ASSERT_NE(speaker, nullptr);
+        logger = ale_logger_start(out);
+        ASSERT_NE(logger, nullptr);
     }
     void TearDown() override
     {
@@ -58,62 +58,62 @@ class Speaker : public surroundings::WithPort
 
     int reading = -1;
     FILE *out = nullptr;
-    ale_speaker_t *speaker = nullptr;
+    ale_logger_t *logger = nullptr;
 };
 
-TEST_F(Speaker, WhatIsSaidComesOutLineByLineAfterTheProgramsName)
+TEST_F(AsyncLogger, MessagesComeOutLineByLineAfterTheProgramsName)
 {
-    ale_speaker_say(speaker, "one");
-    ale_speaker_say(speaker, "two");
+    ale_logger_log(logger, "one");
+    ale_logger_log(logger, "two");
     EXPECT_EQ(read_line(), "ale-slamd: one");
     EXPECT_EQ(read_line(), "ale-slamd: two");
-    ale_speaker_stop(speaker);
+    ale_logger_stop(logger);
     fclose(out);
 }
 
-TEST_F(Speaker, AReaderThatHoldsUpTheWriterDoesNotHoldUpWhoSpeaks)
+TEST_F(AsyncLogger, AReaderThatHoldsUpTheWriterDoesNotHoldUpWhoLogs)
 {
     const size_t before = fill_the_pipe();
     for (int k = 0; k < 100; k++) {
-        ale_speaker_say(speaker, "said while nobody reads"); // returns, or this test never ends
+        ale_logger_log(logger, "said while nobody reads"); // returns, or this test never ends
     }
     for (size_t k = 0; k < before; k++) {
         char c = 0;
         ASSERT_EQ(read(reading, &c, 1), 1);
     }
     EXPECT_EQ(read_line(), "ale-slamd: said while nobody reads");
-    ale_speaker_stop(speaker);
+    ale_logger_stop(logger);
     fclose(out);
 }
 
-TEST_F(Speaker, WhatWasLeftOutIsCountedAndToldOnceThereIsRoomAgain)
+TEST_F(AsyncLogger, DroppedLinesAreCountedAndToldOnceThereIsRoomAgain)
 {
     const size_t before = fill_the_pipe();
-    EXPECT_EQ(ale_speaker_left_out(speaker), 0U);
+    EXPECT_EQ(ale_logger_dropped(logger), 0U);
     for (int k = 0; k < 100; k++) {
-        ale_speaker_say(speaker, "held up");
+        ale_logger_log(logger, "held up");
     }
-    const uint32_t left_out = ale_speaker_left_out(speaker);
-    EXPECT_EQ(left_out, 100U - 16U); /* the one that is being written waits, too */
+    const uint32_t dropped = ale_logger_dropped(logger);
+    EXPECT_EQ(dropped, 100U - 16U); /* the one that is being written waits, too */
     for (size_t k = 0; k < before; k++) {
         char c = 0;
         ASSERT_EQ(read(reading, &c, 1), 1);
     }
-    for (uint32_t k = left_out; k < 100; k++) {
+    for (uint32_t k = dropped; k < 100; k++) {
         EXPECT_EQ(read_line(), "ale-slamd: held up");
     }
     EXPECT_EQ(read_line(), "ale-slamd: 84 lines left out here: nobody took them in time");
-    ale_speaker_say(speaker, "free again");
+    ale_logger_log(logger, "free again");
     EXPECT_EQ(read_line(), "ale-slamd: free again");
-    ale_speaker_stop(speaker);
+    ale_logger_stop(logger);
     fclose(out);
 }
 
-TEST_F(Speaker, AStopWritesWhatWasSaid)
+TEST_F(AsyncLogger, AStopWritesWhatWasLogged)
 {
-    ale_speaker_say(speaker, std::string(1000, 'a').c_str());
-    ale_speaker_stop(speaker);
-    EXPECT_EQ(read_line(), "ale-slamd: " + std::string(ALE_SPEAKER_LINE - 1, 'a'));
+    ale_logger_log(logger, std::string(1000, 'a').c_str());
+    ale_logger_stop(logger);
+    EXPECT_EQ(read_line(), "ale-slamd: " + std::string(ALE_LOGGER_LINE - 1, 'a'));
     fclose(out);
 }
 
