@@ -52,6 +52,52 @@ def test_the_fit_is_a_noise_section_on_standard_output(log):
     assert at_two_metres == pytest.approx(4000, rel=0.1)
 
 
+def test_the_subject_may_be_named(log):
+    assert run("ale-calibrate", "noise", log).stdout == run("ale-calibrate", log).stdout
+
+
+def test_any_name_of_a_log_gives_a_configuration(log, tmp_path):
+    named, config = tmp_path / ("at\nrest in a long room" * 10 + ".log"), tmp_path / "noise.ini"
+    named.symlink_to(log)
+    assert run("ale-calibrate", "noise", named, "--out", config).returncode == 0
+    assert "fine" in run("ale-slamd", "--config", config, "--check-config").stdout
+
+
+def with_noise(path, sigma_m, turn_rad_s=0):
+    """As the log at rest, with another noise, and turning."""
+    draw = random.Random(3)
+    with path.open("w") as out:
+        for scan in range(40):
+            ranges = " ".join(f"{max(0, room((k - 340) * STEP + turn_rad_s * scan / 10) + draw.gauss(0, sigma_m)):.3f}" for k in range(682))
+            out.write(f"ROBOTLASER1 2 {-340 * STEP:.9f} {681 * STEP:.9f} {STEP:.9f} 4.094 0.01 0 682 {ranges}"
+                      f" 0 0 0 0 0 0 0 0 0 0 0 0 {scan / 10} test {scan / 10}\n")
+    return path
+
+
+def test_noise_that_ale_slamd_would_refuse_is_not_printed(tmp_path):
+    done = run("ale-calibrate", "noise", with_noise(tmp_path / "wild.log", 0.25))
+    assert (done.returncode, done.stdout) == (1, "")
+    assert "wild.log: ale-slamd would refuse what was found: noise.own_" in done.stderr and done.stderr.count("\n") == 1
+
+
+def test_without_any_noise_the_configuration_is_accepted(tmp_path):
+    config = tmp_path / "noise.ini"
+    assert run("ale-calibrate", "noise", with_noise(tmp_path / "still.log", 0), "--out", config).returncode == 0
+    assert "fine" in run("ale-slamd", "--config", config, "--check-config").stdout
+
+
+@pytest.mark.parametrize("turn_rad_s", [0.002, 0.3])
+def test_a_moving_scanner_is_refused_with_how_much_and_when(tmp_path, turn_rad_s):
+    done = run("ale-calibrate", "noise", with_noise(tmp_path / "turns.log", 0.004, turn_rad_s))
+    assert (done.returncode, done.stdout) == (1, "")
+    assert re.search(r"turns.log: the scanner moves: .*after [0-9.]+ s .*; a recording at rest is needed\n$", done.stderr), done.stderr
+
+
+def test_a_recorded_drive_is_no_recording_at_rest():
+    done = run("ale-calibrate", "noise", shared("data/urg04lx/exp1.dat"))
+    assert done.returncode == 1 and "the scanner moves" in done.stderr
+
+
 def test_the_fit_and_its_plot_go_to_files(log, tmp_path):
     done = run("ale-calibrate", log, "--out", tmp_path / "noise.ini", "--plot", tmp_path / "fit.svg")
     assert done.returncode == 0 and done.stdout == ""
@@ -79,7 +125,8 @@ def test_a_configuration_changes_what_is_decided(log, tmp_path):
 
 
 @pytest.mark.parametrize("words", [["ale-calibrate"], ["ale-calibrate", "a", "b"], ["ale-calibrate", "--colour"],
-                                   ["ale-calibrate", "a", "--out"], ["ale-inspect", "a"], ["ale-inspect", "a", "x"],
+                                   ["ale-calibrate", "a", "--out"], ["ale-calibrate", "noise"], ["ale-calibrate", "noise", "a", "--config", "b"],
+                                   ["ale-calibrate", "colour", "a"], ["ale-inspect", "a"], ["ale-inspect", "a", "x"],
                                    ["ale-inspect", "a", "-1"], ["ale-inspect", "a", "1", "--out", "a.png"], ["ale-calibrate", "a", "--plot", "a.png"],
                                    ["ale-inspect", "a", "1", "2"]])
 def test_wrong_use_exits_2_with_one_line(words):

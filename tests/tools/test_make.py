@@ -5,7 +5,7 @@ import subprocess
 
 from at_hand import ROOT
 
-OBJECT = "obj/lib/graph/block_cholesky.cpp.o"
+OBJECT = "obj/lib/graph/optimise/block_cholesky.cpp.o"
 
 
 def make(tmp_path, target, *words):

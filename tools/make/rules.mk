@@ -169,8 +169,15 @@ endef
 TOOL_FOLDERS = $(patsubst %/,%,$(sort $(dir $(wildcard tools/*/*/main.c tools/*/*/main.cpp))))
 PROGRAMS = $(addprefix $(BUILD)/bin/ale-,$(if $(wildcard firmware/main.c),slamd) $(notdir $(TOOL_FOLDERS)))
 
+# Names of the release before, as links: ale-screen for ale-watch --screen, ale-mounting for ale-calibrate.
+OLDER_NAMES = $(addprefix $(BUILD)/bin/,ale-screen ale-mounting)
+$(BUILD)/bin/ale-screen: $(BUILD)/bin/ale-watch
+$(BUILD)/bin/ale-mounting: $(BUILD)/bin/ale-calibrate
+$(OLDER_NAMES):
+	$(Q)ln -sf $(notdir $<) $@
+
 .PHONY: programs
-programs: $(PROGRAMS)
+programs: $(PROGRAMS) $(OLDER_NAMES)
 
 $(BUILD)/bin/ale-slamd: $(OBJ)/firmware/main.c.o $(FIRMWARE_ARCHIVES)
 	$(call link)

@@ -53,6 +53,8 @@ def install(layer):
     layer.run("dpkg", "--install", "/package.deb")
     assert "ale-slamd 0" in layer.run("ale-slamd", "--version")
     layer.run("ale-slamd", "--check-config", "--config", CONFIG)
+    for older, now in (("ale-screen", "ale-watch"), ("ale-mounting", "ale-calibrate")):
+        assert os.readlink(layer.root / "usr/bin" / older) == now, f"{older} is no link to {now}"
     assert layer.run("id", "-nG", "ale-slam").split() == ["ale-slam"]
     complaints = layer.run("systemd-analyze", "verify", UNIT)
     assert "ale-slamd" not in complaints, complaints

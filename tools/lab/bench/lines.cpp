@@ -12,7 +12,7 @@
 #include "lab/bench/repeatability.hpp"
 #include "lab/bench/score.hpp"
 #include "lab/bench/suite.hpp"
-#include "lab/replay/log_reader.h"
+#include "common/log/log_reader.h"
 
 namespace
 {

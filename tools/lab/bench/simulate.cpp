@@ -169,9 +169,12 @@ Hit cast(const World &world, double bearing)
     return nearest;
 }
 
-SimulatedScan simulate(const World &world, const Noise &noise, Random &random)
+namespace
 {
-    SimulatedScan out{empty_urg_scan(), std::vector<Hit>(urg_beams), std::vector<bool>(urg_beams)};
+
+// Ranges with the noise of beams and surfaces; 0 where nothing is met.
+std::vector<double> noisy_ranges(const World &world, const Noise &noise, Random &random, SimulatedScan &out)
+{
     std::vector<double> bias(world.walls.size() + world.arcs.size());
     for (double &b : bias) {
         b = noise.surface * random.normal();
@@ -188,6 +191,11 @@ SimulatedScan simulate(const World &world, const Noise &noise, Random &random)
         range[k] =
             met.surface < 0 ? 0 : met.range + own + noise.shared_sigma(met.range) * shared[k] + of_surface;
     }
+    return range;
+}
+
+void mix_pixels(const Noise &noise, Random &random, std::vector<double> &range, SimulatedScan &out)
+{
     for (std::size_t k = 0; k + 1 < urg_beams; k++) {
         if (at_depth_edge(out.hits[k], out.hits[k + 1]) && random.chance(noise.mixed)) {
             const std::size_t mixed = k + (random.chance(0.5) ? 1 : 0);
@@ -195,6 +203,10 @@ SimulatedScan simulate(const World &world, const Noise &noise, Random &random)
             out.clean[mixed] = false;
         }
     }
+}
+
+void spoil_ranges(const Noise &noise, Random &random, std::vector<double> &range, SimulatedScan &out)
+{
     for (std::size_t k = 0; k < urg_beams; k++) {
         if (random.chance(noise.gross)) {
             range[k] = random.uniform(0.1, urg_reach);
@@ -203,6 +215,18 @@ SimulatedScan simulate(const World &world, const Noise &noise, Random &random)
         if (random.chance(noise.dropout)) {
             range[k] = 0;
         }
+    }
+}
+
+} // namespace
+
+SimulatedScan simulate(const World &world, const Noise &noise, Random &random)
+{
+    SimulatedScan out{empty_urg_scan(), std::vector<Hit>(urg_beams), std::vector<bool>(urg_beams)};
+    std::vector<double> range = noisy_ranges(world, noise, random, out);
+    mix_pixels(noise, random, range, out);
+    spoil_ranges(noise, random, range, out);
+    for (std::size_t k = 0; k < urg_beams; k++) {
         ale_scan_set_range(out.scan.get(), static_cast<std::uint16_t>(k),
                            static_cast<std::int32_t>(std::lround(range[k] * 1e3)) * 1000);
         out.clean[k] = out.clean[k] && out.scan->flag[k] == ALE_BEAM_VALID;

@@ -21,7 +21,7 @@
 #include "lab/bench/random.hpp"
 #include "lab/bench/wcet_bound.hpp"
 #include "lab/bench/wcet_scans.hpp"
-#include "lab/replay/log_reader.h"
+#include "common/log/log_reader.h"
 
 namespace
 {

@@ -13,9 +13,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "lab/replay/core_object.h"
-#include "lab/replay/log_reader.h"
-#include "lab/replay/robot_config.h"
+#include "common/log/core_object.h"
+#include "common/log/log_reader.h"
+#include "common/log/robot_config.h"
 
 extern "C" {
 #include "map/map_exchange.h"
@@ -147,45 +147,85 @@ json as_json(const std::vector<ale_observation_t> &views)
     return lines;
 }
 
+/* Tracks a log, and from a scan on seeks each scan in the map of that moment. */
+class Chooser
+{
+  public:
+    Chooser(const ale_config_t &config, long reference)
+        : config_(config), reference_(reference),
+          pipeline_(ale::core_object<ale_pipeline_t>(ale_pipeline_size()))
+    {
+        ale_pipeline_init(pipeline_.get(), &config.pipeline);
+    }
+
+    void take(const ale_log_event_t &event)
+    {
+        if (event.kind == ALE_LOG_ODOMETRY) {
+            ale_pipeline_odometry(pipeline_.get(), &event.odometry);
+        } else if (event.kind == ALE_LOG_SCAN) {
+            take_scan(event.scan);
+        }
+    }
+
+    long scans() const
+    {
+        return scans_;
+    }
+    /* The most instructive scan; null: none. */
+    const json &chosen() const
+    {
+        return chosen_;
+    }
+
+  private:
+    void take_scan(const ale_scan_t &scan)
+    {
+        ale_estimate_t estimate;
+        ale_pipeline_scan(pipeline_.get(), &scan, &estimate);
+        if (++scans_ == reference_) {
+            ale_pipeline_copy_map(pipeline_.get(), map_.get());
+            finder_.emplace(config_, *map_);
+        }
+        if (const auto found = finder_ ? finder_->places(scan) : std::nullopt) {
+            compare(*found, estimate);
+        }
+    }
+
+    void compare(const Places &found, const ale_estimate_t &estimate)
+    {
+        const double so_far = chosen_.is_null() ? 0 : chosen_["second"]["part"].get<double>();
+        if (part(found.best) > nearly_all && !is_other_place(found.best.pose, estimate.map) &&
+            part(found.second) > so_far) {
+            chosen_ = {{"scan", scans_ - 1},
+                       {"map", as_json(*map_)},
+                       {"lines", as_json(found.views)},
+                       {"best", as_json(found.best)},
+                       {"second", as_json(found.second)}};
+        }
+    }
+
+    const ale_config_t &config_;
+    long reference_;
+    ale::CoreObject<ale_pipeline_t> pipeline_;
+    std::unique_ptr<ale_map_t> map_ = std::make_unique<ale_map_t>();
+    std::optional<Finder> finder_;
+    long scans_ = 0;
+    json chosen_;
+};
+
 json instructive(const std::string &path, long reference, long last)
 {
     ale::LogReader log(path);
-    const ale_config_t config = ale::robot_config(ale::ReplayOptions(), log.info(), nullptr);
-    const auto pipeline = ale::core_object<ale_pipeline_t>(ale_pipeline_size());
-    ale_pipeline_init(pipeline.get(), &config.pipeline);
+    const ale_config_t config = ale::robot_config({}, log.info(), nullptr);
+    Chooser chooser(config, reference);
     const auto event = std::make_unique<ale_log_event_t>();
-    const auto map = std::make_unique<ale_map_t>();
-    std::optional<Finder> finder;
-    json chosen;
-    for (long scans = 0; scans <= last && log.next(*event);) {
-        if (event->kind == ALE_LOG_ODOMETRY) {
-            ale_pipeline_odometry(pipeline.get(), &event->odometry);
-            continue;
-        }
-        if (event->kind != ALE_LOG_SCAN) {
-            continue;
-        }
-        ale_estimate_t estimate;
-        ale_pipeline_scan(pipeline.get(), &event->scan, &estimate);
-        if (++scans == reference) {
-            ale_pipeline_copy_map(pipeline.get(), map.get());
-            finder.emplace(config, *map);
-        }
-        const auto found = finder ? finder->places(event->scan) : std::nullopt;
-        const double so_far = chosen.is_null() ? 0 : chosen["second"]["part"].get<double>();
-        if (found && part(found->best) > nearly_all && !is_other_place(found->best.pose, estimate.map) &&
-            part(found->second) > so_far) {
-            chosen = {{"scan", scans - 1},
-                      {"map", as_json(*map)},
-                      {"lines", as_json(found->views)},
-                      {"best", as_json(found->best)},
-                      {"second", as_json(found->second)}};
-        }
+    while (chooser.scans() <= last && log.next(*event)) {
+        chooser.take(*event);
     }
-    if (chosen.is_null()) {
+    if (chooser.chosen().is_null()) {
         throw std::runtime_error(path + ": no scan with two candidates");
     }
-    return chosen;
+    return chooser.chosen();
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 $(BUILD)/figures/figure_data: $(call objects,tools/lab/figures/figure_data.cpp tools/lab/figures/growth.c tools/lab/inspect/trace.c $(BENCH_PARTS)) $(BUILD)/libale.a
 	$(call link)
 
-$(BUILD)/figures/corner_data: $(call objects,tools/lab/figures/corner_data.cpp tools/lab/replay/robot_config.cpp) $(ARCHIVES)
+$(BUILD)/figures/corner_data: $(call objects,tools/lab/figures/corner_data.cpp) $(ARCHIVES)
 	$(call link)
 
 # A recording for the figures 8 and 10, where one is at hand.

@@ -7,7 +7,7 @@
 #include "common/command_line/files.h"
 #include "common/command_line/robot_files.h"
 #include "lab/inspect/picture.h"
-#include "lab/replay/log_reader.h"
+#include "common/log/log_reader.h"
 
 namespace
 {

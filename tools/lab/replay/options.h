@@ -3,20 +3,16 @@
 #define ALE_LAB_REPLAY_OPTIONS_H
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
-extern "C" {
-#include "base/pose.h"
-}
+#include "common/log/robot_config.h"
 
 namespace ale
 {
 
-struct ReplayOptions {
+struct ReplayOptions : RobotOptions {
     std::string log;
-    std::string config;
     std::string features;
     std::string poses;
     std::string trajectory;
@@ -25,10 +21,8 @@ struct ReplayOptions {
     std::string timing;
     std::string load_map;
     std::string save_map;
-    std::optional<ale_pose_t> sensor;
     bool laser_frame = false;
     bool close_loops = true;
-    bool use_odometry = true;
     bool lines_only = false;
     bool points = false;
 };

@@ -6,12 +6,12 @@
 #include "common/command_line/wrong_use.h"
 #include "common/export/map_image.h"
 #include "common/export/scan_cloud.h"
+#include "common/log/core_object.h"
+#include "common/log/robot_config.h"
 #include "graph/walls/map_redraw.h"
-#include "lab/replay/core_object.h"
 #include "lab/replay/features_file.h"
 #include "lab/replay/loops.h"
 #include "lab/replay/poses_file.h"
-#include "lab/replay/robot_config.h"
 #include "lab/replay/summary.h"
 #include "lab/replay/timing.h"
 
@@ -41,6 +41,8 @@ class Replay
   private:
     void begin(const char *recorded_config);
     void take(const ale_log_event_t &event);
+    void take_scan(const ale_scan_t &recorded);
+    void take_odometry(const ale_odometry_t &sample);
     void extract(const ale_scan_t &scan);
     void track(const ale_scan_t &scan);
     void lose(int64_t stamp_us);
@@ -216,24 +218,33 @@ void Replay::put_estimate(const ale_estimate_t &estimate)
     }
 }
 
+void Replay::take_scan(const ale_scan_t &recorded)
+{
+    const ale_scan_t scan = mounted(recorded, config_.reversed && log_.info().raw_device);
+    options_.lines_only ? extract(scan) : track(scan);
+}
+
+void Replay::take_odometry(const ale_odometry_t &sample)
+{
+    if (pipeline_ && config_.pipeline.use_odometry) {
+        ale_pipeline_odometry(pipeline_.get(), &sample);
+    }
+}
+
 void Replay::take(const ale_log_event_t &event)
 {
     if (!begun_ && event.kind != ALE_LOG_COMMAND) {
         begin(event.kind == ALE_LOG_CONFIG ? event.text : nullptr);
     }
     switch (event.kind) {
-    case ALE_LOG_SCAN: {
-        const ale_scan_t scan = mounted(event.scan, config_.reversed && log_.info().raw_device);
-        options_.lines_only ? extract(scan) : track(scan);
+    case ALE_LOG_SCAN:
+        take_scan(event.scan);
         break;
-    }
     case ALE_LOG_SCAN_LOST:
         lose(event.stamp_us);
         break;
     case ALE_LOG_ODOMETRY:
-        if (pipeline_ && config_.pipeline.use_odometry) {
-            ale_pipeline_odometry(pipeline_.get(), &event.odometry);
-        }
+        take_odometry(event.odometry);
         break;
     case ALE_LOG_COMMAND:
     case ALE_LOG_CONFIG:

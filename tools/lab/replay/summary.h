@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cstdint>
 
-#include "lab/replay/log_reader.h"
+#include "common/log/log_reader.h"
 
 extern "C" {
 #include "graph/mapper.h"

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "lab/replay/log_reader.h"
+#include "common/log/log_reader.h"
 #include "lab/sim/source.h"
 
 namespace sim

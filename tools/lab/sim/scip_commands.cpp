@@ -5,8 +5,6 @@
 #include <cstdio>
 #include <iterator>
 
-#include "lab/sim/scip_reply.h"
-
 namespace sim
 {
 
@@ -75,8 +73,9 @@ Reply ScipDevice::condition(const std::string &echo) const
         .reply();
 }
 
-Reply ScipDevice::set_baud(const std::string &echo, const std::string &digits)
+Reply ScipDevice::set_baud(const std::string &echo)
 {
+    const std::string digits = scip_parameter(echo);
     if (digits.size() < rate_digits) {
         return short_reply(echo, "0C");
     }
@@ -92,9 +91,17 @@ Reply ScipDevice::set_baud(const std::string &echo, const std::string &digits)
     return short_reply(echo, already ? "03" : "00");
 }
 
-/* The simulated motor has one speed. */
-Reply ScipDevice::motor_speed(const std::string &echo, const std::string &digits) const
+/* The simulated receiver has one sensitivity. */
+Reply ScipDevice::sensitivity(const std::string &echo) const
 {
+    const std::string parameter = scip_parameter(echo);
+    return short_reply(echo, parameter == "0" || parameter == "1" ? "03" : "01");
+}
+
+/* The simulated motor has one speed. */
+Reply ScipDevice::motor_speed(const std::string &echo) const
+{
+    const std::string digits = scip_parameter(echo);
     if (digits.size() < 2) {
         return short_reply(echo, "0C");
     }

@@ -1,8 +1,8 @@
 #include "lab/sim/scip_device.h"
 
 #include <algorithm>
-
-#include "lab/sim/scip_reply.h"
+#include <functional>
+#include <map>
 
 namespace sim
 {
@@ -15,11 +15,6 @@ constexpr size_t longest_string = 16;
 constexpr uint32_t clock_mask = 0xffffff;
 constexpr int64_t clock_span_us = 16777216000;
 constexpr int32_t factory_baud = 19200;
-
-std::string head(const std::string &echo)
-{
-    return echo.substr(0, echo.find(';'));
-}
 
 bool all_of_string_allowed(const std::string &text)
 {
@@ -205,47 +200,25 @@ Reply ScipDevice::execute(const std::string &line)
 
 Reply ScipDevice::execute_scip2(const std::string &line)
 {
-    const std::string command = head(line);
+    const std::string command = scip_command(line);
     const std::string symbol = command.substr(0, 2);
-    const std::string parameter = command.size() > 2 ? command.substr(2) : "";
     if (time_mode_ && symbol != "TM") {
         return short_reply(line, "0E");
     }
-    if (symbol == "TM") {
-        return time_mode(line, parameter);
+    using Answer = std::function<Reply(ScipDevice &, const std::string &echo)>;
+    static const std::map<std::string, Answer> with_parameter = {
+        {"TM", &ScipDevice::time_mode},   {"SS", &ScipDevice::set_baud}, {"CR", &ScipDevice::motor_speed},
+        {"HS", &ScipDevice::sensitivity}, {"MD", &ScipDevice::measure},  {"MS", &ScipDevice::measure},
+        {"GD", &ScipDevice::measure},     {"GS", &ScipDevice::measure}};
+    static const std::map<std::string, Answer> alone = {
+        {"VV", &ScipDevice::identity}, {"PP", &ScipDevice::parameters}, {"II", &ScipDevice::condition},
+        {"BM", &ScipDevice::laser_on}, {"QT", &ScipDevice::laser_off},  {"RS", &ScipDevice::reset},
+        {"RT", &ScipDevice::reset}};
+    if (const auto known = with_parameter.find(symbol); known != with_parameter.end()) {
+        return known->second(*this, line);
     }
-    if (symbol == "SS") {
-        return set_baud(line, parameter);
-    }
-    if (symbol == "CR") {
-        return motor_speed(line, parameter);
-    }
-    if (symbol == "HS") {
-        return short_reply(line, parameter == "0" || parameter == "1" ? "03" : "01");
-    }
-    if (symbol == "MD" || symbol == "MS" || symbol == "GD" || symbol == "GS") {
-        return measure(line, command);
-    }
-    if (!parameter.empty()) {
-        return short_reply(line, "0E");
-    }
-    if (symbol == "VV") {
-        return identity(line);
-    }
-    if (symbol == "PP") {
-        return parameters(line);
-    }
-    if (symbol == "II") {
-        return condition(line);
-    }
-    if (symbol == "BM") {
-        return laser_on(line);
-    }
-    if (symbol == "QT") {
-        return laser_off(line);
-    }
-    if (symbol == "RS" || symbol == "RT") {
-        return reset(line);
+    if (const auto known = alone.find(command); known != alone.end()) {
+        return known->second(*this, line);
     }
     return short_reply(line, "0E");
 }
@@ -270,12 +243,13 @@ Reply ScipDevice::reset(const std::string &echo)
     const std::deque<std::string> later = commands_;
     boot(ALE_SCIP_2, now_us_);
     commands_ = later;
-    baud_ = head(echo) == "RT" ? baud : baud_;
+    baud_ = scip_command(echo) == "RT" ? baud : baud_;
     return short_reply(echo, "00");
 }
 
-Reply ScipDevice::time_mode(const std::string &echo, const std::string &parameter)
+Reply ScipDevice::time_mode(const std::string &echo)
 {
+    const std::string parameter = scip_parameter(echo);
     if (parameter == "0") {
         const bool was_in = time_mode_;
         time_mode_ = true;
@@ -295,8 +269,9 @@ Reply ScipDevice::time_mode(const std::string &echo, const std::string &paramete
     return short_reply(echo, parameter.empty() ? "0C" : "01");
 }
 
-Reply ScipDevice::measure(const std::string &echo, const std::string &command)
+Reply ScipDevice::measure(const std::string &echo)
 {
+    const std::string command = scip_command(echo);
     const std::string error = range_error(command);
     if (!error.empty()) {
         return short_reply(echo, error);

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "lab/sim/scanner.h"
+#include "lab/sim/scip_reply.h"
 
 extern "C" {
 #include "scanner/urg/scip_request.h"
@@ -29,11 +30,6 @@ enum class Protocol {
     scip1,      /* powers up in SCIP 1.1, can be switched to 2.0 */
     scip1_only, /* firmware before 3.0: knows nothing else */
     scip2       /* powers up in 2.0 */
-};
-
-struct Reply {
-    std::string bytes;
-    std::optional<int64_t> turn_start_us; /* of the ranges in it, microseconds of play; nothing: none */
 };
 
 class ScipDevice
@@ -100,10 +96,11 @@ class ScipDevice
     Reply laser_on(const std::string &echo);
     Reply laser_off(const std::string &echo);
     Reply reset(const std::string &echo);
-    Reply time_mode(const std::string &echo, const std::string &parameter);
-    Reply set_baud(const std::string &echo, const std::string &digits);
-    Reply motor_speed(const std::string &echo, const std::string &digits) const;
-    Reply measure(const std::string &echo, const std::string &command);
+    Reply time_mode(const std::string &echo);
+    Reply set_baud(const std::string &echo);
+    Reply motor_speed(const std::string &echo) const;
+    Reply sensitivity(const std::string &echo) const;
+    Reply measure(const std::string &echo);
     std::string range_error(const std::string &command) const;
     Reply last_ranges(const ale_scip_request_t &request, const std::string &echo);
     Reply ranges(const ale_scip_request_t &request, const std::string &echo, const char *status) const;

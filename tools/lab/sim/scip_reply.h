@@ -8,14 +8,29 @@
 #include <string>
 #include <vector>
 
-#include "lab/sim/scip_device.h"
-
 extern "C" {
 #include "scanner/urg/scip_encode.h"
 }
 
 namespace sim
 {
+
+struct Reply {
+    std::string bytes;
+    std::optional<int64_t> turn_start_us; /* of the ranges in it, microseconds of play; nothing: none */
+};
+
+/* A line without the ";string" that only asks to be echoed, and what follows the symbol of a command of
+ * SCIP 2.0. */
+inline std::string scip_command(const std::string &line)
+{
+    return line.substr(0, line.find(';'));
+}
+
+inline std::string scip_parameter(const std::string &line)
+{
+    return scip_command(line).substr(2);
+}
 
 class ReplyWriter
 {

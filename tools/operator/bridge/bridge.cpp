@@ -10,7 +10,7 @@
 
 #include "common/command_line/wrong_use.h"
 #include "operator/bridge/frame.h"
-#include "operator/console/lcm_feed.h"
+#include "common/feed/lcm_feed.h"
 
 namespace bridge
 {
@@ -32,7 +32,7 @@ int64_t now_us()
 } // namespace
 
 Bridge::Bridge(const std::string &lcm_url, UdpLink link, const Selection &send, const Selection &accept)
-    : lcm_(console::join_lcm(lcm_url)), link_(std::move(link)), send_(send), accept_(accept),
+    : lcm_(feed::join_lcm(lcm_url)), link_(std::move(link)), send_(send), accept_(accept),
       session_(std::random_device{}())
 {
     for (const std::string &channel : send_.names()) {

@@ -32,15 +32,28 @@ bool is_port(const std::string &text)
     return error == std::errc() && stop == end;
 }
 
-/* "HOST:PORT" or, to listen on all addresses, "PORT"; IPv6 in brackets. */
-AddressList resolve(const std::string &address, bool listen)
+struct HostAndPort {
+    std::string host; /* empty: all addresses of this machine */
+    std::string port;
+};
+
+/* "HOST:PORT" or "PORT"; IPv6 in brackets. */
+HostAndPort split(const std::string &address)
 {
     const size_t colon = address.rfind(':');
-    std::string host = colon == std::string::npos ? "" : address.substr(0, colon);
-    const std::string port = address.substr(colon == std::string::npos ? 0 : colon + 1);
+    if (colon == std::string::npos) {
+        return {"", address};
+    }
+    std::string host = address.substr(0, colon);
     if (host.size() > 2 && host.front() == '[' && host.back() == ']') {
         host = host.substr(1, host.size() - 2);
     }
+    return {host, address.substr(colon + 1)};
+}
+
+AddressList resolve(const std::string &address, bool listen)
+{
+    const auto [host, port] = split(address);
     addrinfo hints{};
     hints.ai_socktype = SOCK_DGRAM;
     hints.ai_flags = AI_NUMERICSERV | (listen ? AI_PASSIVE : 0);

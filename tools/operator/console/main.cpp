@@ -17,7 +17,7 @@
 #include "operator/console/board.h"
 #include "operator/console/commander.h"
 #include "operator/console/http_address.h"
-#include "operator/console/lcm_feed.h"
+#include "common/feed/lcm_feed.h"
 #include "operator/console/robot_watch.h"
 #include "operator/console/web_server.h"
 
@@ -75,7 +75,7 @@ bool is_token(const std::string &text)
            std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) != 0; });
 }
 
-void follow_robot(console::LcmFeed &feed, console::Board &board, const std::atomic<bool> &stopping)
+void follow_robot(feed::LcmFeed &feed, console::Board &board, const std::atomic<bool> &stopping)
 {
     while (!stopping) {
         feed.wait(100);
@@ -108,7 +108,7 @@ void run(const Options &options, const sigset_t &endings)
 {
     const console::HttpAddress address = console::parse_http_address(options.http);
     console::Board board;
-    console::LcmFeed feed(options.lcm_url);
+    feed::LcmFeed feed(options.lcm_url);
     console::Commander commander(options.lcm_url, options.keys);
     console::RobotWatch watch(board, commander);
     watch.subscribe(feed);

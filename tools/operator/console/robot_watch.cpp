@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "operator/console/checks.h"
+#include "common/feed/checks.h"
 #include "operator/console/messages.h"
 
 namespace console
@@ -22,7 +22,7 @@ constexpr int32_t largest_gap = 100000;
 
 } // namespace
 
-void RobotWatch::subscribe(LcmFeed &feed)
+void RobotWatch::subscribe(feed::LcmFeed &feed)
 {
     feed.on<ale::pose_t>("ALE_POSE", [this](const ale::pose_t &message) { pose(message); });
     feed.on<ale::features_t>("ALE_FEATURES", [this](const ale::features_t &message) { features(message); });
@@ -34,7 +34,7 @@ void RobotWatch::subscribe(LcmFeed &feed)
 void RobotWatch::restarted()
 {
     board_.clear();
-    map_parts_ = MapParts();
+    map_parts_ = feed::MapParts();
     window_ = WindowWatch();
     last_pose_.reset();
     restart_known_ = true;
@@ -42,7 +42,7 @@ void RobotWatch::restarted()
 
 void RobotWatch::pose(const ale::pose_t &pose)
 {
-    check(pose);
+    feed::check(pose);
     if (last_pose_ && pose.scan <= last_pose_->scan) {
         if (pose.scan > last_pose_->scan - overtaken_scans) {
             return;
@@ -50,7 +50,7 @@ void RobotWatch::pose(const ale::pose_t &pose)
         restarted();
     }
     const int64_t gap = last_pose_ ? static_cast<int64_t>(pose.scan) - last_pose_->scan - 1 : 0;
-    require(gap <= largest_gap, "scan number out of all proportion");
+    feed::require(gap <= largest_gap, "scan number out of all proportion");
     extend_trail(pose);
     board_.note_pose(Board::Clock::now(), static_cast<uint64_t>(gap));
     board_.pin(Topic::pose, pose_message(pose));
@@ -66,13 +66,13 @@ void RobotWatch::extend_trail(const ale::pose_t &pose)
 
 void RobotWatch::features(const ale::features_t &features)
 {
-    check(features);
+    feed::check(features);
     board_.pin(Topic::features, features_message(features));
 }
 
 void RobotWatch::scan(const ale::scan_t &scan)
 {
-    check(scan);
+    feed::check(scan);
     if (last_pose_) {
         window_.scan(scan, static_cast<double>(last_pose_->theta));
     }
@@ -81,7 +81,7 @@ void RobotWatch::scan(const ale::scan_t &scan)
 
 void RobotWatch::map(const ale::map_t &part)
 {
-    check(part);
+    feed::check(part);
     if (map_parts_.add(part)) {
         board_.pin(Topic::map, map_message(map_parts_.whole()));
     }

@@ -12,8 +12,8 @@
 #include "ale/status_t.hpp"
 #include "operator/console/board.h"
 #include "operator/console/commander.h"
-#include "operator/console/lcm_feed.h"
-#include "operator/console/map_parts.h"
+#include "common/feed/lcm_feed.h"
+#include "common/feed/map_parts.h"
 #include "operator/console/window_watch.h"
 
 namespace console
@@ -26,7 +26,7 @@ class RobotWatch
     {
     }
 
-    void subscribe(LcmFeed &feed);
+    void subscribe(feed::LcmFeed &feed);
 
     /* Each throws std::runtime_error for a message that makes no sense; it is counted as malformed. */
     void pose(const ale::pose_t &pose);
@@ -41,7 +41,7 @@ class RobotWatch
 
     Board &board_;
     Commander &commander_;
-    MapParts map_parts_;
+    feed::MapParts map_parts_;
     WindowWatch window_;
     std::optional<ale::pose_t> last_pose_;
     std::optional<int64_t> boot_;

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "ale/status_t.hpp"
-#include "operator/console/lcm_feed.h"
+#include "common/feed/lcm_feed.h"
 
 extern "C" {
 #include "command/operator.h"
@@ -46,7 +46,7 @@ class RobotLink
     std::string robot_;
     ale_operator_t operator_{};
     std::optional<ale::status_t> status_;
-    console::LcmFeed feed_;
+    feed::LcmFeed feed_;
     std::unique_ptr<ale_bus_t, decltype(&ale_bus_close)> bus_{nullptr, ale_bus_close};
 };
 

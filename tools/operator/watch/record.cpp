@@ -2,92 +2,77 @@
 
 #include <algorithm>
 
-#include "operator/console/checks.h"
 #include "operator/watch/core_types.h"
 
 namespace watch
 {
 
-void Record::subscribe(console::LcmFeed &feed)
+void Record::subscribe(feed::LcmFeed &feed)
 {
-    feed.on<ale::pose_t>("ALE_POSE", [this](const ale::pose_t &message) { pose(message); });
-    feed.on<ale::features_t>("ALE_FEATURES", [this](const ale::features_t &message) { features(message); });
-    feed.on<ale::scan_t>("ALE_SCAN", [this](const ale::scan_t &message) { scan(message); });
-    feed.on<ale::map_t>("ALE_MAP", [this](const ale::map_t &message) { map(message); });
-    feed.on<ale::status_t>("ALE_STATUS", [this](const ale::status_t &message) { status(message); });
+    feed.on<ale::pose_t>("ALE_POSE", [this](const ale::pose_t &message) { take(message); });
+    feed.on<ale::features_t>("ALE_FEATURES", [this](const ale::features_t &message) { take(message); });
+    feed.on<ale::map_t>("ALE_MAP", [this](const ale::map_t &message) { newest_.take(message); });
+    feed.on<ale::status_t>("ALE_STATUS", [this](const ale::status_t &message) { newest_.take(message); });
+    feed.on<ale::scan_t>("ALE_SCAN", [this](const ale::scan_t &message) { take(message); });
 }
 
-void Record::pose(const ale::pose_t &pose)
+void Record::take(const ale::pose_t &pose)
 {
-    console::check(pose);
-    if (!poses_.empty()) {
-        missing_ += std::max<int64_t>(0, static_cast<int64_t>(pose.scan) - poses_.back().pose.scan - 1);
+    const std::optional<ale::pose_t> before = newest_.pose;
+    newest_.take(pose);
+    counts_.received++;
+    if (before) {
+        counts_.missing += std::max<int64_t>(0, static_cast<int64_t>(pose.scan) - before->scan - 1);
     }
-    predicted_ += pose.predicted != 0 ? 1 : 0;
-    states_[static_cast<unsigned char>(pose.state)]++;
+    counts_.predicted += pose.predicted != 0 ? 1 : 0;
+    counts_.in_state[static_cast<unsigned char>(pose.state)]++;
     for (size_t k = 0; k < stage_count; k++) {
-        worst_stage_ns_[k] = std::max(worst_stage_ns_[k], pose.stage_ns[k]);
+        counts_.worst_stage_ns[k] = std::max(counts_.worst_stage_ns[k], pose.stage_ns[k]);
     }
-    poses_.push_back({pose, lines_, corners_});
-    lay_out_scan();
+    if (with_history_) {
+        const auto &seen = newest_.features;
+        history_.push_back({pose, seen ? seen->num_lines : 0, seen ? seen->num_corners : 0});
+        add_scan_to_cloud();
+    }
 }
 
-void Record::features(const ale::features_t &features)
+void Record::take(const ale::features_t &features)
 {
-    console::check(features);
-    lines_ = features.num_lines;
-    corners_ = features.num_corners;
+    newest_.take(features);
     /* Features follow the pose of their scan: its row gets its own. */
-    if (!poses_.empty() && poses_.back().pose.scan == features.scan) {
-        poses_.back().lines = lines_;
-        poses_.back().corners = corners_;
+    if (!history_.empty() && history_.back().pose.scan == features.scan) {
+        history_.back().lines = features.num_lines;
+        history_.back().corners = features.num_corners;
     }
 }
 
-void Record::scan(const ale::scan_t &scan)
+void Record::take(const ale::scan_t &scan)
 {
-    console::check(scan);
-    scan_ = scan;
-    lay_out_scan();
+    feed::check(scan);
+    if (with_history_) {
+        scan_ = scan;
+        add_scan_to_cloud();
+    }
 }
 
-void Record::lay_out_scan()
+void Record::add_scan_to_cloud()
 {
-    if (!scan_ || poses_.empty() || poses_.back().pose.scan != scan_->scan) {
+    if (!scan_ || !newest_.pose || newest_.pose->scan != scan_->scan) {
         return;
     }
-    const ale::pose_t &pose = poses_.back().pose;
-    cloud_.add(*core_scan(*scan_), core_scan_pose(pose),
+    cloud_.add(*core_scan(*scan_), core_scan_pose(*newest_.pose),
                core_pose(scan_->sensor_x, scan_->sensor_y, scan_->sensor_theta));
     scan_.reset();
-}
-
-void Record::map(const ale::map_t &part)
-{
-    console::check(part);
-    if (map_parts_.add(part)) {
-        map_ = map_parts_.whole();
-    }
-}
-
-void Record::status(const ale::status_t &status)
-{
-    status_ = status;
 }
 
 ale::Trajectory Record::trajectory() const
 {
     ale::Trajectory poses;
-    for (const PoseRow &row : poses_) {
+    for (const PoseRow &row : history_) {
         const ale::pose_t &pose = row.pose;
         poses.push_back({pose.utime, core_pose(pose.map_x, pose.map_y, pose.map_theta)});
     }
     return poses;
-}
-
-int64_t Record::in_state(int state) const
-{
-    return states_[static_cast<size_t>(state)];
 }
 
 } // namespace watch

@@ -7,8 +7,10 @@
 #include <cstdio>
 
 #include "common/export/formatted.h"
+#include "common/export/map_image.h"
 #include "common/export/text_file.h"
 #include "common/export/trajectory.h"
+#include "operator/watch/core_types.h"
 
 namespace watch
 {
@@ -20,59 +22,73 @@ constexpr double degrees_per_radian = 57.29577951308232;
 constexpr std::array<const char *, stage_count> stage_names = {"deskew", "smooth", "extract", "match", "map"};
 constexpr std::array<const char *, 3> state_names = {"LOST", "weak", "good"};
 
-std::string seen(const Record &record)
+std::string seen(const RobotState &robot)
 {
-    const auto walls = record.map() ? record.map()->lines.size() : 0;
-    return ale::formatted("lines %2d corners %2d  map %3zu", record.lines(), record.corners(), walls);
+    const int lines = robot.features ? robot.features->num_lines : 0;
+    const int corners = robot.features ? robot.features->num_corners : 0;
+    return ale::formatted("lines %2d corners %2d  map %3zu", lines, corners, robot.map.lines.size());
 }
 
-std::string worst_stage(const Record &record)
+std::string worst_stage(const PoseCounts &counts)
 {
-    const auto &worst = record.worst_stage_ns();
+    const auto &worst = counts.worst_stage_ns;
     const auto largest = std::max_element(worst.begin(), worst.end());
     return ale::formatted("worst %s %.2f ms", stage_names[static_cast<size_t>(largest - worst.begin())],
                           *largest / 1e6);
 }
 
-std::string latency(const Record &record)
+std::string latency(const RobotState &robot)
 {
-    return record.status() ? ale::formatted("latency %.2f ms", record.status()->latency_p50_us / 1e3)
-                           : "latency -";
+    return robot.status ? ale::formatted("latency %.2f ms", robot.status->latency_p50_us / 1e3) : "latency -";
 }
 
-/* What the robot does by itself, in its own words. */
-std::string by_itself(const Record &record)
+/* In the robot's own words. */
+std::string exploration(const RobotState &robot)
 {
-    const bool says = record.status() && !record.status()->exploration.empty();
-    return says ? "  " + record.status()->exploration : "";
+    const bool explores = robot.status && !robot.status->exploration.empty();
+    return explores ? "  " + robot.status->exploration : "";
 }
 
 } // namespace
 
 std::string status_line(const Record &record, double elapsed_s, double silent_s)
 {
-    if (record.poses().empty()) {
+    const RobotState &robot = record.newest();
+    const PoseCounts &counts = record.counts();
+    if (!robot.pose) {
         return ale::formatted("%5.0f s  poses %5d  none yet", elapsed_s, 0);
     }
-    const ale::pose_t &pose = record.poses().back().pose;
+    const ale::pose_t &pose = *robot.pose;
     const double heading_deg =
         std::remainder(static_cast<double>(pose.map_theta) * degrees_per_radian, 360.0);
-    return ale::formatted("%5.0f s  poses %5zu  %s  ", elapsed_s, record.poses().size(),
+    return ale::formatted("%5.0f s  poses %5" PRId64 "  %s  ", elapsed_s, counts.received,
                           state_names[static_cast<unsigned char>(pose.state)]) +
            ale::formatted("x %7.3f y %7.3f heading %6.1f  ", static_cast<double>(pose.map_x),
                           static_cast<double>(pose.map_y), heading_deg) +
-           seen(record) + "  " + worst_stage(record) + "  " +
-           ale::formatted("dropped %" PRId64 "  ", record.predicted() + record.missing()) + latency(record) +
-           by_itself(record) + (silent_s >= 1 ? ale::formatted("  SILENT for %.0f s", silent_s) : "");
+           seen(robot) + "  " + worst_stage(counts) + "  " +
+           ale::formatted("dropped %" PRId64 "  ", counts.predicted + counts.missing) + latency(robot) +
+           exploration(robot) + (silent_s >= 1 ? ale::formatted("  SILENT for %.0f s", silent_s) : "");
 }
 
-std::string summary_line(const Record &record, uint64_t malformed)
+std::string summary_line(const Record &record)
 {
-    return ale::formatted("%zu poses, %" PRId64 " missing, %" PRId64 " predicted; ", record.poses().size(),
-                          record.missing(), record.predicted()) +
-           ale::formatted("good %" PRId64 ", weak %" PRId64 ", lost %" PRId64 "; ", record.in_state(2),
-                          record.in_state(1), record.in_state(0)) +
-           ale::formatted("%" PRIu64 " malformed messages", malformed);
+    const PoseCounts &counts = record.counts();
+    return ale::formatted("%" PRId64 " poses, %" PRId64 " missing, %" PRId64 " predicted; ", counts.received,
+                          counts.missing, counts.predicted) +
+           ale::formatted("good %" PRId64 ", weak %" PRId64 ", lost %" PRId64 "; ", counts.in_state[2],
+                          counts.in_state[1], counts.in_state[0]) +
+           ale::formatted("%" PRIu64 " malformed messages", record.newest().malformed);
+}
+
+void write_picture(const Record &record, const std::string &path)
+{
+    const auto map = core_map(record.newest().map);
+    ale::MapScene scene;
+    scene.map = map.get();
+    scene.trajectory = record.trajectory();
+    scene.cloud = &record.cloud();
+    scene.draw_points = true;
+    write_map_image(path, scene);
 }
 
 void write_trajectory(const Record &record, const std::string &path)
@@ -90,7 +106,7 @@ void write_csv(const Record &record, const std::string &path)
     file.put("utime,scan,state,predicted,x,y,theta,map_x,map_y,map_theta,lines,corners,age_us,latency_us,"
              "deskew_ns,"
              "smooth_ns,extract_ns,match_ns,map_ns\n");
-    for (const PoseRow &row : record.poses()) {
+    for (const PoseRow &row : record.history()) {
         const ale::pose_t &pose = row.pose;
         file.put_integer(pose.utime).put(",").put_integer(pose.scan);
         file.put(",").put_integer(pose.state).put(",").put_integer(pose.predicted != 0 ? 1 : 0);

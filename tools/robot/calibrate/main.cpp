@@ -1,52 +1,136 @@
-/* ale-calibrate: fits the noise model to a recording of a scanner at rest. */
+/* ale-calibrate: noise, mounting and wheels of a robot from recordings, as configuration for ale-slamd. */
+#include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include "common/command_line/command_line.h"
 #include "common/command_line/files.h"
 #include "common/command_line/robot_files.h"
 #include "common/export/text_file.h"
-#include "robot/calibrate/calibration.h"
+#include "robot/calibrate/configuration.h"
+#include "robot/calibrate/mounting_report.h"
+#include "robot/calibrate/noise_plot.h"
 
 namespace
 {
 
 constexpr char usage[] =
-    "usage: ale-calibrate LOG [--out FILE] [--plot F.svg]\n"
-    "Fits the sensor's noise model to a recording of a scanner at rest: at a flat wall, or anywhere with "
-    "walls at\n"
-    "several distances and angles. LOG: any format that ale-replay reads; 300 scans (half a minute) are "
-    "plenty.\n"
-    "  --out FILE     where the [noise] section for the configuration goes (default: standard output)\n"
-    "  --plot F.svg   the fit as a plot\n"
+    "usage: ale-calibrate [noise] LOG [--out FILE] [--plot F.svg]\n"
+    "       ale-calibrate mounting LOG [--out FILE] [--config FILE]\n"
+    "       ale-calibrate wheels LOG [--out FILE] [--config FILE]\n"
+    "Finds what a robot's configuration needs from a recording in any format that ale-replay reads.\n"
+    "  noise     [noise]: noise model of the scanner. Half a minute at rest, at a flat wall or anywhere "
+    "with\n"
+    "            walls at several distances and angles; a recording in which the scanner moves is refused\n"
+    "  mounting  [sensor]: where the scanner sits. A minute's drive among walls with odometry: straight ways "
+    "of\n"
+    "            a few metres, turns in both directions, also on the spot\n"
+    "  wheels    [odometry]: systematic errors of the wheels and their lag. The same drive\n"
+    "  --out FILE     where the section goes (default: standard output)\n"
+    "  --plot F.svg   noise: the fit as a plot\n"
+    "  --config FILE  mounting, wheels: configuration, as for ale-slamd: noise of the scanner, blind "
+    "sectors,\n"
+    "                 upside down\n"
     "  --help, --version\n"
     "Exit 0 fine, 1 failed, 2 wrong use.\n";
 
+constexpr char mounting_usage[] =
+    "usage: ale-mounting LOG [--out FILE] [--config FILE]\n"
+    "The older name of \"ale-calibrate mounting\" and \"ale-calibrate wheels\": writes what both find.\n"
+    "  --out FILE     where the [sensor] and [odometry] sections go (default: standard output)\n"
+    "  --config FILE  configuration, as for ale-slamd: noise of the scanner, blind sectors, upside down\n"
+    "  --help, --version\n"
+    "Exit 0 fine, 1 failed, 2 wrong use.\n";
+
+enum class Subject { noise, mounting, wheels, mounting_and_wheels };
+
 struct Options {
+    Subject subject = Subject::noise;
     std::string log;
     std::string out = "-";
     std::string plot;
+    std::string config;
 };
 
-void check_files(const Options &options)
+/* What fails names the log. */
+template <class Work> auto of_log(const Options &options, Work work)
 {
+    try {
+        return work();
+    } catch (const std::runtime_error &error) {
+        throw std::runtime_error(options.log + ": " + error.what());
+    }
+}
+
+void write(const Options &options, const std::string &configuration)
+{
+    ale::TextFile file(options.out);
+    file.put(configuration);
+    file.close();
+}
+
+void calibrate_noise(const Options &options)
+{
+    const calibrate::Recording recording = calibrate::read_recording(options.log);
+    const std::string source = calibrate::name_of_log(options.log);
+    const calibrate::Calibration found = of_log(options, [&] { return calibrate::calibrate(recording); });
+    write(options,
+          of_log(options, [&] { return calibrate::accepted(calibrate::configuration(found, source)); }));
+    if (!options.plot.empty()) {
+        calibrate::plot(found, source, options.plot);
+    }
+}
+
+mounting::Part part_of(Subject subject)
+{
+    switch (subject) {
+    case Subject::mounting:
+        return mounting::Part::mounting;
+    case Subject::wheels:
+        return mounting::Part::wheels;
+    default:
+        return mounting::Part::both;
+    }
+}
+
+void calibrate_mounting(const Options &options)
+{
+    const mounting::Drive drive = mounting::read_drive(options.log, options.config);
+    const std::string source = calibrate::name_of_log(options.log);
+    write(options, of_log(options, [&] {
+              return calibrate::accepted(
+                  mounting::configuration(mounting::fit(drive), source, part_of(options.subject)));
+          }));
+}
+
+void check(const Options &options)
+{
+    const bool noise = options.subject == Subject::noise;
+    if (noise ? !options.config.empty() : !options.plot.empty()) {
+        throw cli::WrongUse(noise ? "--config is for mounting and wheels" : "--plot is for noise");
+    }
     cli::Files files;
     files.reads("LOG", options.log);
+    files.reads("--config", options.config);
     files.writes("--out", options.out);
     files.writes("--plot", options.plot);
 }
 
-void run(const Options &options)
+/* "[SUBJECT] LOG" */
+void take_words(const std::string &first, const std::string &second, Options &options)
 {
-    const calibrate::Recording recording = calibrate::read_recording(options.log);
-    const calibrate::Calibration calibration = calibrate::calibrate(recording);
-    const std::string source = std::filesystem::path(options.log).filename().string();
-    ale::TextFile file(options.out);
-    file.put(calibrate::ini_fragment(calibration, source));
-    file.close();
-    if (!options.plot.empty()) {
-        calibrate::plot(calibration, source, options.plot);
+    const cli::Choices<Subject> subjects = {
+        {"noise", Subject::noise}, {"mounting", Subject::mounting}, {"wheels", Subject::wheels}};
+    const bool named =
+        std::any_of(subjects.begin(), subjects.end(), [&](const auto &s) { return s.first == first; });
+    if (named && second.empty()) {
+        throw cli::WrongUse("LOG is missing");
     }
+    if (!second.empty()) {
+        options.subject = cli::choice_of("SUBJECT", first, subjects);
+    }
+    options.log = second.empty() ? first : second;
 }
 
 } // namespace
@@ -54,12 +138,25 @@ void run(const Options &options)
 int main(int argc, char **argv)
 {
     Options options;
-    cli::CommandLine line("ale-calibrate", usage);
-    line.argument("LOG", options.log);
+    std::string first;
+    std::string second;
+    const bool older = std::filesystem::path(argv[0]).filename() == "ale-mounting";
+    cli::CommandLine line(older ? "ale-mounting" : "ale-calibrate", older ? mounting_usage : usage);
+    line.argument("LOG", first);
+    if (!older) {
+        line.possible_argument("LOG", second);
+        cli::drawing(line, "plot", options.plot);
+    }
     line.text("out", options.out);
-    cli::drawing(line, "plot", options.plot);
+    line.text("config", options.config);
     return line.run(argc, argv, [&] {
-        check_files(options);
-        run(options);
+        if (older) {
+            options.subject = Subject::mounting_and_wheels;
+            options.log = first;
+        } else {
+            take_words(first, second, options);
+        }
+        check(options);
+        options.subject == Subject::noise ? calibrate_noise(options) : calibrate_mounting(options);
     });
 }

@@ -5,8 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "lab/replay/log_reader.h"
-#include "robot/calibrate/statistics.h"
+#include "common/log/log_reader.h"
 
 namespace calibrate
 {
@@ -33,25 +32,6 @@ std::vector<double> ranges_of(const ale_scan_t &scan)
     return ranges;
 }
 
-/* Beams whose median differs between the first and the last third of the recording by more than noise. */
-double share_of_moved_beams(const Eigen::MatrixXd &range)
-{
-    constexpr double noticeable = 0.03;
-    const Eigen::Index third = range.rows() / 3;
-    int compared = 0;
-    int moved = 0;
-    for (Eigen::Index beam = 0; beam < range.cols(); beam++) {
-        const Spread before = robust_spread(range.col(beam).head(third));
-        const Spread after = robust_spread(range.col(beam).tail(third));
-        if (before.count < third / 2 || after.count < third / 2) {
-            continue;
-        }
-        compared++;
-        moved += std::abs(before.median - after.median) > std::max(noticeable, 4 * before.sigma);
-    }
-    return compared > 0 ? static_cast<double>(moved) / compared : 0;
-}
-
 } // namespace
 
 Recording read_recording(const std::string &path)
@@ -70,6 +50,7 @@ Recording read_recording(const std::string &path)
             throw std::runtime_error(path + ": scans of different geometry");
         }
         rows.push_back(ranges_of(event->scan));
+        recording.time_s.push_back(static_cast<double>(event->scan.stamp_us) * 1e-6);
     }
     if (rows.size() < least_scans) {
         throw std::runtime_error(path + ": " + std::to_string(rows.size()) + " scans, at least " +
@@ -82,9 +63,6 @@ Recording read_recording(const std::string &path)
     }
     recording.first_bearing = static_cast<int32_t>(recording.geometry->first_bearing_bam) * radians_per_bam;
     recording.step = recording.geometry->step_bam * radians_per_bam;
-    if (share_of_moved_beams(recording.range) > 0.2) {
-        throw std::runtime_error(path + ": the scanner moves; a recording at rest is needed");
-    }
     return recording;
 }
 

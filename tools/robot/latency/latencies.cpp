@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "operator/console/checks.h"
+#include "common/feed/checks.h"
 
 namespace latency
 {
@@ -21,14 +21,14 @@ bool plausible(int64_t span_us)
 
 void check_times(const ale::pose_t &pose)
 {
-    console::check(pose);
-    console::require(pose.utime > 0 && pose.utime < INT64_MAX / 2, "no time of measurement");
-    console::require(plausible(pose.arrival_utime - pose.first_beam_utime),
+    feed::check(pose);
+    feed::require(pose.utime > 0 && pose.utime < INT64_MAX / 2, "no time of measurement");
+    feed::require(plausible(pose.arrival_utime - pose.first_beam_utime),
                      "a scan that arrived before it began");
-    console::require(plausible(pose.utime + pose.age_us - pose.arrival_utime),
+    feed::require(plausible(pose.utime + pose.age_us - pose.arrival_utime),
                      "a pose that was sent before its scan arrived");
     for (size_t k = 0; k < stages; k++) {
-        console::require(pose.stage_ns[k] >= 0 && pose.stage_start_ns[k] >= 0 &&
+        feed::require(pose.stage_ns[k] >= 0 && pose.stage_start_ns[k] >= 0 &&
                              pose.stage_end_ns[k] >= pose.stage_start_ns[k],
                          "a stage that ended before it began");
     }

@@ -12,7 +12,7 @@
 
 #include "common/command_line/command_line.h"
 #include "common/command_line/interrupt.h"
-#include "operator/console/lcm_feed.h"
+#include "common/feed/lcm_feed.h"
 #include "robot/latency/latencies.h"
 #include "robot/latency/report.h"
 
@@ -51,7 +51,7 @@ void check(const Options &options)
 /* Returns how many messages made no sense. */
 uint64_t listen(const Options &options, latency::Latencies &latencies)
 {
-    console::LcmFeed feed(options.lcm_url);
+    feed::LcmFeed feed(options.lcm_url);
     feed.on<ale::pose_t>(channel, [&](const ale::pose_t &pose) { latencies.add(pose); });
     std::fputs("ale-latency: listening\n", stderr);
     const std::time_t end = std::time(nullptr) + options.seconds;

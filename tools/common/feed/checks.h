@@ -1,0 +1,80 @@
+/* What a message must keep to before anything is done with it: anybody on the network may send.
+ * Each throws std::runtime_error naming what makes no sense. */
+#ifndef ALE_COMMON_FEED_CHECKS_H
+#define ALE_COMMON_FEED_CHECKS_H
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <stdexcept>
+
+#include "ale/features_t.hpp"
+#include "ale/map_t.hpp"
+#include "ale/pose_t.hpp"
+#include "ale/scan_t.hpp"
+#include "base/limits.h"
+
+namespace feed
+{
+
+inline void require(bool sense, const char *what)
+{
+    if (!sense) {
+        throw std::runtime_error(what);
+    }
+}
+
+/* Numbers of a robot's world: finite, and none beyond a million metres, radians or microseconds. */
+inline bool sane(std::initializer_list<float> values)
+{
+    return std::all_of(values.begin(), values.end(), [](float v) { return std::fabs(v) < 1e6F; });
+}
+
+inline void check(const ale::corner_t &corner)
+{
+    require(sane({corner.x, corner.y, corner.angle}), "corner out of this world");
+}
+
+inline void check(const ale::pose_t &pose)
+{
+    require(sane({pose.x, pose.y, pose.theta, pose.map_x, pose.map_y, pose.map_theta}),
+            "pose out of this world");
+    require(sane({pose.vx, pose.vy, pose.omega}), "velocity out of this world");
+    require(pose.state >= 0 && pose.state <= 2, "unknown state");
+    require(pose.scan >= 0, "negative number of a scan");
+}
+
+inline void check(const ale::features_t &features)
+{
+    require(sane({features.sensor_x, features.sensor_y, features.sensor_theta}),
+            "mounting out of this world");
+    for (const auto &line : features.lines) {
+        require(sane({line.x1, line.y1, line.x2, line.y2}), "line out of this world");
+    }
+    for (const auto &corner : features.corners) {
+        check(corner);
+    }
+}
+
+inline void check(const ale::scan_t &scan)
+{
+    require(sane({scan.beam_time_us, scan.first_bearing, scan.step, scan.range_min, scan.range_max,
+                  scan.sensor_x, scan.sensor_y, scan.sensor_theta}),
+            "geometry out of this world");
+    require(scan.num_ranges <= ALE_MAX_BEAMS && scan.num_codes == scan.num_ranges, "wrong number of beams");
+    require(scan.range_unit_mm >= 0, "negative unit");
+}
+
+inline void check(const ale::map_t &map)
+{
+    for (const auto &line : map.lines) {
+        require(sane({line.x1, line.y1, line.x2, line.y2}), "wall out of this world");
+    }
+    for (const auto &corner : map.corners) {
+        check(corner);
+    }
+}
+
+} // namespace feed
+
+#endif

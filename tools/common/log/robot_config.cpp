@@ -1,0 +1,67 @@
+#include "common/log/robot_config.h"
+
+#include "common/command_line/robot_files.h"
+
+namespace ale
+{
+
+namespace
+{
+
+/* SICK LMS 2xx and the like, by their data sheet: 5 mm (one sigma) and steps of 10 mm of each beam's own,
+ * up to 15 mm of systematic error. */
+ale_noise_t noise_of_large_scanners()
+{
+    ale_noise_t noise = ale_noise_default();
+    noise.own_um = 6000;
+    noise.own_ppm = 0;
+    noise.shared_um = 5000;
+    noise.shared_ppm = 0;
+    noise.surface_um = 8000;
+    return noise;
+}
+
+void load(ale_config_t &config, const RobotOptions &options, const char *recorded)
+{
+    ale_config_error_t error;
+    if (!options.config.empty()) {
+        cli::load_config(options.config, config);
+    } else if (recorded &&
+               ale_config_parse(recorded, "configuration in the recording", &config, &error) < 0) {
+        throw cli::WrongUse(error.message);
+    }
+}
+
+} // namespace
+
+ale_config_t robot_config(const RobotOptions &options, const ale_log_info_t &info, const char *recorded)
+{
+    ale_config_t config = ale_config_default();
+    if (!info.urg_noise) {
+        config.pipeline.extract.noise = noise_of_large_scanners();
+    }
+    if (info.has_sensor) {
+        config.pipeline.sensor = info.sensor;
+    }
+    if (info.lag_prior_us != 0) {
+        config.pipeline.odometry_lag_us = info.lag_prior_us;
+    }
+    load(config, options, recorded);
+    if (options.sensor) {
+        config.pipeline.sensor = *options.sensor;
+    }
+    config.pipeline.use_odometry = config.pipeline.use_odometry && options.use_odometry && info.has_odometry;
+    return config;
+}
+
+ale_scan_t mounted(const ale_scan_t &scan, bool upside_down)
+{
+    ale_scan_t turned = scan;
+    if (upside_down) {
+        turned.first_bearing_bam = 0U - scan.first_bearing_bam;
+        turned.step_bam = -scan.step_bam;
+    }
+    return turned;
+}
+
+} // namespace ale

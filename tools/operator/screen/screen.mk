@@ -1,1 +1,0 @@
-$(BUILD)/bin/ale-screen: LIBRARIES += -lncursesw -ltinfo

@@ -1,0 +1,1 @@
+$(BUILD)/bin/ale-watch: LIBRARIES += -lncursesw -ltinfo
