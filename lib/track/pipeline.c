@@ -4,57 +4,30 @@
 #include <string.h>
 
 #include "base/fixed.h"
-#include "base/trig.h"
 #include "map/map_exchange.h"
 #include "match/uncertainty.h"
-#include "track/pipeline_steps.h"
+#include "track/pipeline_state.h"
+#include "track/step_filter.h"
+#include "track/step_observe.h"
+#include "track/step_predict.h"
+#include "track/step_search.h"
+#include "track/step_track.h"
 
 enum {
     START_SPEED_MM_S = 300,
     START_TURN_MRAD_S = 500,
-    CLAIM_SCANS = 30,          /* that may still show that the robot is where it is said to be */
-    SCAN_SET_BACK_US = 1000000 /* a stamp older than the last by less is a wrong stamp */
+    CLAIM_SCANS = 30 /* that may still show that the robot is where it is said to be */
 };
-
-ale_pipeline_config_t ale_pipeline_default_config(void)
-{
-    return (ale_pipeline_config_t){
-        .extract = ale_extract_default_config(),
-        .use_odometry = true,
-        .odometry_distance_factor_ppm = ALE_WHEEL_FACTOR_ONE,
-        .odometry_turn_factor_ppm = ALE_WHEEL_FACTOR_ONE,
-        .odometry_scale_ppm = 50000,
-        .odometry_turn_urad_m = 35000,
-        .odometry_turn_ppm = 20000,
-        .max_speed_mm_s = 3000,
-        .max_turn_mrad_s = 6000,
-    };
-}
 
 uint32_t ale_pipeline_size(void)
 {
     return (uint32_t)sizeof(ale_pipeline_t);
 }
 
-static bool is_factor(int32_t ppm)
-{
-    return ppm >= ALE_WHEEL_FACTOR_ONE / 2 && ppm <= 2 * ALE_WHEEL_FACTOR_ONE;
-}
-
-static bool is_valid(const ale_pipeline_config_t *c)
-{
-    return is_factor(c->odometry_distance_factor_ppm) && is_factor(c->odometry_turn_factor_ppm) &&
-           ale_abs64(c->odometry_turn_bias_urad_m) <= 1000000 && c->odometry_scale_ppm >= 0 &&
-           c->odometry_scale_ppm <= 500000 && c->odometry_turn_urad_m >= 0 &&
-           c->odometry_turn_urad_m <= 1000000 && c->odometry_turn_ppm >= 0 &&
-           c->odometry_turn_ppm <= 500000 && c->odometry_lag_us >= -100000 && c->odometry_lag_us <= 300000 &&
-           c->max_speed_mm_s > 0 && c->max_speed_mm_s <= 50000 && c->max_turn_mrad_s > 0 &&
-           c->max_turn_mrad_s <= 50000 && c->blind_count <= ALE_MAX_BLIND_SECTORS;
-}
-
 int ale_pipeline_init(ale_pipeline_t *pipeline, const ale_pipeline_config_t *config)
 {
-    if (!is_valid(config) || ale_extractor_init(&pipeline->extractor, &config->extract) < 0) {
+    if (!ale_pipeline_config_is_valid(config) ||
+        ale_extractor_init(&pipeline->extractor, &config->extract) < 0) {
         return -1;
     }
     /* the extractor found its configuration good: all is zeroed now, so that no result hangs on what the
@@ -72,49 +45,61 @@ void ale_pipeline_set_hook(ale_pipeline_t *pipeline, const ale_stage_hook_t *hoo
     ale_extractor_set_hook(&pipeline->extractor, hook);
 }
 
-void ale_pipeline_reset(ale_pipeline_t *pipeline)
+/* Forgets what wheels, stamps and scans have told of the motion. */
+static void reset_motion(ale_pipeline_t *p)
 {
-    const ale_pipeline_config_t *c = &pipeline->config;
+    const ale_pipeline_config_t *c = &p->config;
     const ale_wheel_noise_t noise = {c->odometry_scale_ppm, c->odometry_turn_urad_m, c->odometry_turn_ppm};
-    ale_wheels_init(&pipeline->wheels, c->max_speed_mm_s, c->max_turn_mrad_s);
-    ale_wheel_factors_init(&pipeline->factors, c->odometry_distance_factor_ppm, c->odometry_turn_factor_ppm,
+    ale_wheels_init(&p->wheels, c->max_speed_mm_s, c->max_turn_mrad_s);
+    ale_wheel_factors_init(&p->factors, c->odometry_distance_factor_ppm, c->odometry_turn_factor_ppm,
                            c->odometry_turn_bias_urad_m);
-    ale_lag_init(&pipeline->lag, c->odometry_lag_us);
-    ale_wheel_scale_init(&pipeline->scale, &noise);
-    ale_process_noise_init(&pipeline->process_noise[0]);
-    ale_process_noise_init(&pipeline->process_noise[1]);
-    ale_timestamp_filter_init(&pipeline->timestamp_filter);
-    ale_tracking_init(&pipeline->monitor);
-    ale_local_map_clear(&pipeline->map);
-    ale_motion_init(&pipeline->motion, 0, (ale_pose_t){0, 0, 0}, START_SPEED_MM_S, START_TURN_MRAD_S);
-    ale_smooth_init(&pipeline->smooth, (ale_pose_t){0, 0, 0});
-    pipeline->scans = 0;
-    pipeline->map_uncertainty = (ale_map_uncertainty_t){0};
-    pipeline->scale_error = (ale_scale_error_t){0, 0};
-    pipeline->drifted_um = 0;
-    pipeline->determined = true;
-    pipeline->speed_known = false;
-    pipeline->map_decay.next = 0;
-    ale_relocation_clear(&pipeline->relocation);
-    ale_witness_clear(&pipeline->witness);
-    ale_overview_clear(&pipeline->overview);
-    ale_carried_clear(&pipeline->carried);
-    ale_elders_clear(&pipeline->elders);
-    ale_zero_motion_clear(&pipeline->zero_motion);
-    pipeline->started = false;
-    pipeline->looked = false;
-    pipeline->loaded = 0;
-    pipeline->epoch++;
-    pipeline->corrections = 0;
-    pipeline->keyframes = 0;
-    pipeline->keyframe_scan = 0;
-    pipeline->broken = false;
-    pipeline->moved = false;
-    pipeline->claims = 0;
-    pipeline->slips = false;
-    pipeline->observation_count = 0;
-    memset(&pipeline->features, 0, sizeof pipeline->features);
-    memset(&pipeline->fit, 0, sizeof pipeline->fit);
+    ale_lag_init(&p->lag, c->odometry_lag_us);
+    ale_wheel_scale_init(&p->scale, &noise);
+    ale_process_noise_init(&p->process_noise[0]);
+    ale_process_noise_init(&p->process_noise[1]);
+    ale_timestamp_filter_init(&p->timestamp_filter);
+    p->scale_error = (ale_scale_error_t){0, 0};
+    p->slips = false;
+    p->speed_known = false;
+}
+
+static void place(ale_pipeline_t *p, ale_pose_t pose)
+{
+    ale_motion_init(&p->motion, 0, pose, START_SPEED_MM_S, START_TURN_MRAD_S);
+    ale_smooth_init(&p->smooth, pose);
+}
+
+static void reset_map(ale_pipeline_t *p)
+{
+    ale_local_map_clear(&p->map);
+    p->decay.next = 0;
+    p->map_uncertainty = (ale_map_uncertainty_t){0};
+    p->drifted_um = 0;
+    p->loaded = 0;
+    p->epoch++;
+    p->corrections = 0;
+    p->keyframes = 0;
+    p->keyframe_scan = 0;
+    p->broken = false;
+    p->moved = false;
+}
+
+void ale_pipeline_reset(ale_pipeline_t *p)
+{
+    reset_motion(p);
+    reset_map(p);
+    place(p, (ale_pose_t){0, 0, 0});
+    ale_tracking_init(&p->monitor);
+    ale_filter_clear(p);
+    ale_relocation_clear(&p->relocation);
+    p->claims = 0;
+    p->scans = 0;
+    p->determined = true;
+    p->started = false;
+    p->looked = false;
+    p->observed.count = 0;
+    memset(&p->observed.features, 0, sizeof p->observed.features);
+    memset(&p->fit, 0, sizeof p->fit);
 }
 
 void ale_pipeline_odometry(ale_pipeline_t *pipeline, const ale_odometry_t *sample)
@@ -126,101 +111,88 @@ void ale_pipeline_odometry(ale_pipeline_t *pipeline, const ale_odometry_t *sampl
     }
 }
 
-void ale_pipeline_predict_motion(const ale_pipeline_t *p, ale_motion_t *motion, int64_t stamp_us,
-                                 const ale_wheel_motion_t *wheels)
+/* Whether the robot can go this displacement in this time. */
+static bool is_possible(const ale_pipeline_t *p, ale_pose_t displacement, int64_t dt_us)
 {
-    const ale_process_noise_t *l = &p->process_noise[wheels != NULL];
-    if (ale_timestamp_filter_accepts(&p->timestamp_filter, stamp_us - motion->stamp_us)) {
-        ale_motion_predict(motion, stamp_us, wheels, l);
-    } else {
-        ale_motion_jump(motion, stamp_us, wheels, l);
-    }
-}
-
-/* The way from the last scan to this instant, by wheels where there are some. */
-static bool predict(ale_pipeline_t *p, int64_t stamp_us, ale_wheel_motion_t *wheels)
-{
-    const bool known = ale_wheel_motion(&p->wheels, &p->lag, &p->scale, p->motion.stamp_us, stamp_us, wheels);
-    ale_pipeline_predict_motion(p, &p->motion, stamp_us, known ? wheels : NULL);
-    return known;
-}
-
-/* When a scan was taken: scans come in their order, whatever their stamps say of it. A clock that was set
- * back is followed. */
-static int64_t instant_of(ale_pipeline_t *p, int64_t stamp_us)
-{
-    const int64_t instant_us = ale_timestamp_filter_instant(&p->timestamp_filter, stamp_us);
-    const int64_t last_us = p->motion.stamp_us;
-    return instant_us <= last_us && instant_us > last_us - SCAN_SET_BACK_US ? last_us + 1 : instant_us;
-}
-
-/* The smooth pose goes the way the map pose went, unless the robot could not have gone it. */
-static void advance_smooth(ale_pipeline_t *p, ale_pose_t from, ale_pose_t predicted, int64_t dt_us)
-{
-    const ale_pose_t way = ale_pose_between(from, p->motion.pose);
     const int64_t dt_ms = ale_clamp64(dt_us / 1000, 0, ALE_SCAN_PERIOD_MAX_US / 1000);
     const int64_t sigma_um =
         3 * (int64_t)ale_isqrt((uint64_t)(p->motion.cov.m[0][0] + p->motion.cov.m[1][1]));
     const int64_t sigma_urad = 3 * (int64_t)ale_isqrt((uint64_t)p->motion.cov.m[2][2]);
     const int64_t reach_um = dt_ms * p->config.max_speed_mm_s + sigma_um;
     const int64_t reach_urad = dt_ms * p->config.max_turn_mrad_s + sigma_urad;
-    const int64_t turn_urad = ale_abs64(ale_bam_to_nrad((int32_t)way.theta_bam)) / 1000;
-    const bool possible =
-        ale_abs64(way.x_um) <= reach_um && ale_abs64(way.y_um) <= reach_um &&
-        (int64_t)way.x_um * way.x_um + (int64_t)way.y_um * way.y_um <= reach_um * reach_um &&
-        turn_urad <= reach_urad;
-    const bool along = possible && !p->moved;
-    p->broken = p->broken || !possible;
-    p->moved = false;
-    if (along) {
+    const int64_t x = displacement.x_um;
+    const int64_t y = displacement.y_um;
+    return ale_abs64(x) <= reach_um && ale_abs64(y) <= reach_um && x * x + y * y <= reach_um * reach_um &&
+           ale_abs64(ale_bam_to_nrad((int32_t)displacement.theta_bam)) / 1000 <= reach_urad;
+}
+
+/* The smooth pose goes the displacement of the map pose, unless the robot could not have gone it. */
+static void advance_smooth(ale_pipeline_t *p, const ale_prediction_t *prediction)
+{
+    const ale_pose_t before = prediction->before.pose;
+    const bool possible = is_possible(p, ale_pose_between(before, p->motion.pose), prediction->dt_us);
+    if (possible && !p->moved) {
         ale_smooth_follow(&p->smooth, p->motion.pose);
     } else {
-        ale_smooth_step(&p->smooth, ale_pose_between(from, predicted), p->motion.pose);
+        ale_smooth_step(&p->smooth, ale_pose_between(before, prediction->ways.believed.pose), p->motion.pose);
     }
+    p->broken = p->broken || !possible;
+    p->moved = false;
+}
+
+static void conclude(ale_pipeline_t *p, const ale_tracked_t *tracked)
+{
+    p->motion = tracked->fit.motion;
+    p->fit = tracked->fit;
+    p->matched_corners = tracked->matched_corners;
+    p->determined = tracked->determined;
+    p->speed_known = tracked->speed_known;
+    p->slips = tracked->slips;
+    p->kept = tracked->kept;
+}
+
+static void observe(ale_pipeline_t *p, const ale_scan_t *scan, const int32_t velocity[ALE_AXES])
+{
+    ale_step_observe(p, scan, velocity);
+    ale_filter_begin(p);
+    p->looked = true;
 }
 
 static void begin(ale_pipeline_t *p, const ale_scan_t *scan)
 {
     ale_motion_init(&p->motion, ale_timestamp_filter_instant(&p->timestamp_filter, scan->stamp_us),
                     p->motion.pose, START_SPEED_MM_S, START_TURN_MRAD_S);
-    ale_pipeline_preprocess(p, scan, p->motion.velocity);
-    ale_pipeline_first(p);
+    observe(p, scan, p->motion.velocity);
+    const ale_tracked_t tracked = ale_step_track_first(p);
+    conclude(p, &tracked);
+    p->started = p->observed.count > 0;
 }
 
-/* Believes the wheels, or, as long as they slip, that the robot goes on as before. */
-static void choose_way(ale_pipeline_t *p, const ale_motion_t *before, bool counted)
+static void search(ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
-    if (!counted) {
-        p->ways = (ale_ways_t){.believed = p->motion, .rival = p->motion};
-        return;
-    }
-    ale_motion_t as_before = *before;
-    ale_pipeline_predict_motion(p, &as_before, p->motion.stamp_us, NULL);
-    p->ways = ale_ways_of(&p->motion, &as_before, p->slips && p->monitor.state != ALE_STATE_LOST);
-    p->motion = p->ways.believed;
+    ale_fit_t fit = p->fit;
+    const bool found = ale_step_search(p, prediction, &fit);
+    p->motion = found ? fit.motion : prediction->ways.believed;
+    p->fit = fit;
+    p->speed_known = false;
+    p->broken = true;
 }
 
 static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
 {
-    const ale_motion_t before = p->motion;
-    const int64_t instant_us = instant_of(p, scan->stamp_us);
-    ale_wheel_motion_t wheels;
-    const bool counted = predict(p, instant_us, &wheels);
-    choose_way(p, &before, counted);
-    const ale_motion_t predicted = p->motion;
-    ale_pipeline_preprocess(p, scan, predicted.velocity);
+    const ale_prediction_t prediction = ale_step_predict(p, scan->stamp_us);
+    observe(p, scan, prediction.ways.believed.velocity);
     if (p->monitor.state == ALE_STATE_LOST) {
-        p->speed_known = false;
-        ale_pipeline_search(p, ale_pose_between(before.pose, predicted.pose), p->ways.counted);
+        search(p, &prediction);
     } else {
-        ale_pipeline_track(p, &before, &wheels);
+        const ale_tracked_t tracked = ale_step_track(p, &prediction);
+        conclude(p, &tracked);
     }
-    const int64_t dt_us = instant_us - before.stamp_us;
-    /* a time that cannot be believed forbids no way */
-    advance_smooth(p, before.pose, predicted.pose,
-                   ale_timestamp_filter_accepts(&p->timestamp_filter, dt_us) ? dt_us
-                                                                             : p->timestamp_filter.usual_us);
-    ale_pipeline_set_record_pose(p);
+    advance_smooth(p, &prediction);
+    if (p->kept) {
+        /* seen from there, however the map pose settles after a correction */
+        ale_filter_set_pose(p, p->motion.stamp_us, p->smooth.pose);
+    }
     ale_stage_end(&p->hook, ALE_STAGE_MAP);
 }
 
@@ -271,7 +243,7 @@ void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estima
     pipeline->looked = false;
     if (pipeline->started) {
         const ale_pose_t before = pipeline->motion.pose;
-        if (predict(pipeline, stamp_us, &wheels)) {
+        if (ale_pipeline_predict_by_wheels(pipeline, &pipeline->motion, stamp_us, &wheels)) {
             ale_scale_error_predict(&pipeline->scale_error, before, pipeline->motion.pose,
                                     ale_wheel_scale_error_ppm(&pipeline->scale));
         }
@@ -283,9 +255,30 @@ void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estima
     answer(pipeline, stamp_us, true, pipeline->map.version, out);
 }
 
+/* Whether the scan at hand was taken where the pose says: not while lost, nor while scans are denied by one
+ * that was taken beside them, which is called weak until it is called lost. */
+static bool is_placed(const ale_pipeline_t *p)
+{
+    return p->monitor.state != ALE_STATE_LOST && !(p->monitor.jumped && p->monitor.beside);
+}
+
+bool ale_pipeline_seen(const ale_pipeline_t *p, ale_seen_t *out)
+{
+    if (!p->looked || !is_placed(p)) {
+        return false;
+    }
+    *out = (ale_seen_t){.scan = &p->still.scan,
+                        .bearing_bam = ale_observed_bearings(&p->observed),
+                        .robot = p->motion.pose,
+                        .sensor = ale_pose_compose(p->motion.pose, p->config.sensor),
+                        .observation = p->still.observation,
+                        .observation_count = p->still.count};
+    return true;
+}
+
 const ale_features_t *ale_pipeline_features(const ale_pipeline_t *pipeline)
 {
-    return &pipeline->features;
+    return &pipeline->observed.features;
 }
 
 void ale_pipeline_copy_map(const ale_pipeline_t *pipeline, ale_map_t *out)
@@ -299,8 +292,7 @@ void ale_pipeline_load_map(ale_pipeline_t *pipeline, const ale_map_t *map, uint3
     ale_pipeline_reset(pipeline);
     ale_map_import(&pipeline->map, map);
     pipeline->loaded = number;
-    ale_motion_init(&pipeline->motion, 0, pose, START_SPEED_MM_S, START_TURN_MRAD_S);
-    ale_smooth_init(&pipeline->smooth, pose);
+    place(pipeline, pose);
     pipeline->monitor.state = ALE_STATE_LOST;
     pipeline->claims = known ? CLAIM_SCANS : 0;
     pipeline->started = pipeline->map.count > 0;

@@ -21,49 +21,9 @@
 #include "map/line_map.h"
 #include "motion/odometry_sample.h"
 #include "observe/seen.h"
+#include "track/estimate.h"
+#include "track/pipeline_config.h"
 
-typedef struct {
-    ale_extract_config_t extract;
-    ale_pose_t sensor; /* mounting: pose of the laser in the robot's frame */
-    bool use_odometry;
-    int32_t odometry_scale_ppm;           /* one sigma of the distance's scale error */
-    int32_t odometry_turn_urad_m;         /* one sigma of the heading error for a metre driven */
-    int32_t odometry_turn_ppm;            /* one sigma of the heading error in parts of the turn */
-    int32_t odometry_distance_factor_ppm; /* systematic errors, see wheel_factors.h; 1000000: none */
-    int32_t odometry_turn_factor_ppm;
-    int32_t odometry_turn_bias_urad_m;
-    int32_t odometry_lag_us; /* prior: odometry younger than scans by this much; refined on line */
-    int32_t max_speed_mm_s;  /* what the robot can do: no step of the smooth pose exceeds it */
-    int32_t max_turn_mrad_s;
-    uint32_t blind_count;
-    ale_sector_t blind[ALE_MAX_BLIND_SECTORS];
-} ale_pipeline_config_t;
-
-ale_pipeline_config_t ale_pipeline_default_config(void);
-
-typedef enum { ALE_STATE_LOST = 0, ALE_STATE_WEAK = 1, ALE_STATE_GOOD = 2 } ale_state_t;
-
-/* What is published for every scan, also for a dropped one. Robot's frame of reference at stamp_us. */
-typedef struct {
-    int64_t stamp_us;
-    uint32_t scan;           /* number of the scan, from 0, dropped ones counted */
-    uint32_t epoch;          /* of the map: grows when it is begun anew */
-    uint32_t corrections;    /* taken in by the map since then */
-    ale_pose_t smooth;       /* continuous: no step exceeds what the robot can do */
-    ale_pose_t map;          /* takes corrections and relocations */
-    int64_t cov[9];          /* of the map pose, row by row: um^2, um*nrad, nrad^2 */
-    int64_t information[6];  /* what the scan alone determines, robot frame: xx xy xt yy yt tt; 1/mm^2, 1/(mm
-                                mrad),  1/mrad^2, all times 2^20 */
-    int32_t velocity_x_um_s; /* robot's frame */
-    int32_t velocity_y_um_s;
-    int32_t velocity_theta_urad_s;
-    int32_t lag_us; /* odometry lag as estimated so far */
-    uint16_t matched_lines;
-    uint16_t matched_corners;
-    uint8_t state;  /* ale_state_t */
-    bool predicted; /* no scan stood behind this pose */
-    bool map_changed;
-} ale_estimate_t;
 
 typedef struct ale_pipeline ale_pipeline_t;
 typedef struct ale_keyframe ale_keyframe_t;

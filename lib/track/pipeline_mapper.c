@@ -9,6 +9,7 @@
 #include "track/pipeline.h"
 #include "track/pipeline_state.h"
 #include "track/scan_observation.h"
+#include "track/step_update.h"
 
 enum {
     LOOP_SIGMA_UM = 30000, /* how well a corrected pose lies to the walls that it comes back to */
@@ -40,16 +41,16 @@ bool ale_pipeline_keyframe(ale_pipeline_t *p, ale_keyframe_t *out)
     out->loaded = p->loaded;
     out->corrections = p->corrections;
     out->scan = p->scans - 1;
-    out->stamp_us = p->scan.stamp_us;
+    out->stamp_us = p->still.scan.stamp_us;
     out->smooth = p->smooth.pose;
     out->map = p->motion.pose;
     out->broken = p->broken;
     out->weak = p->monitor.state != ALE_STATE_GOOD;
     out->sensor = p->config.sensor;
-    out->taken = p->scan;
-    out->straightened = p->straightened;
-    memcpy(out->bearing_bam, p->bearing_bam, sizeof out->bearing_bam);
-    out->features = p->features;
+    out->taken = p->still.scan;
+    out->straightened = p->observed.straightened;
+    memcpy(out->bearing_bam, p->observed.bearing_bam, sizeof out->bearing_bam);
+    out->features = p->observed.features;
     p->keyframe_smooth = p->smooth.pose;
     p->keyframe_scan = out->scan;
     p->keyframes++;
@@ -78,11 +79,11 @@ bool ale_pipeline_scan_observation(const ale_pipeline_t *p, ale_scan_observation
     out->loaded = p->loaded;
     out->scan = p->scans - 1;
     out->keyframe = p->keyframe_scan;
-    out->stamp_us = p->scan.stamp_us;
+    out->stamp_us = p->still.scan.stamp_us;
     out->smooth = p->smooth.pose;
     copy_lines(&seen, out);
-    out->corner_count = (uint32_t)ale_min64(p->features.corner_count, ALE_CORNERS_PER_SCAN);
-    memcpy(out->corner, p->features.corner, out->corner_count * sizeof out->corner[0]);
+    out->corner_count = (uint32_t)ale_min64(p->observed.features.corner_count, ALE_CORNERS_PER_SCAN);
+    memcpy(out->corner, p->observed.features.corner, out->corner_count * sizeof out->corner[0]);
     ale_seen_copy(&out->seen, &seen);
     return true;
 }
@@ -122,7 +123,7 @@ void ale_pipeline_relocate(ale_pipeline_t *p, ale_pose_t pose)
     ale_motion_widen(&p->motion, SHOWN_SIGMA_UM, SHOWN_SIGMA_URAD);
     ale_tracking_found(&p->monitor);
     p->map.near_radius_um = 0;
-    p->scale_error = (ale_scale_error_t){0, 0};
+    ale_update_restart(p);
     p->moved = true;
     p->broken = true;
 }

@@ -14,7 +14,7 @@
 
 #include "map/map_decay.h"
 #include "match/scan_to_map.h"
-#include "track/pipeline.h"
+#include "track/estimate.h"
 #include "track/witness.h"
 
 typedef struct {

@@ -1,0 +1,186 @@
+#include "track/step_associate.h"
+
+#include "base/fixed.h"
+#include "track/step_filter.h"
+#include "track/step_observe.h"
+
+enum {
+    ACQUIRE_OFFSET_UM = 600000, /* how far a wall may lie from where the prediction puts it */
+    ACQUIRE_ANGLE_URAD = 300000,
+    ACQUIRE_SIGMAS = 4,
+    ACQUIRE_SEGMENT_UM = 100000,
+    REGISTER_UM = 100000, /* how far wheels may be off beyond what they promise */
+    REGISTER_URAD = 60000,
+    REGISTER_MOST_UM = 1000000,
+    REGISTER_MOST_URAD = 450000,
+    STRAIGHT_URAD = 100000, /* that hypotheses part by, and a scan is not bent by the wrong one */
+    SLACK_UM = 60000,
+    PREFER_PARTS = 5, /* of what two scans show of each other, by which one pose is preferred */
+    CHANCE_PARTS = 10 /* less than this part of what is shown, found in the map, may be found by chance */
+};
+
+static const ale_gate_t acquire_gate = {ACQUIRE_OFFSET_UM, ACQUIRE_ANGLE_URAD, ACQUIRE_SIGMAS,
+                                        ACQUIRE_SEGMENT_UM};
+static const ale_gate_t narrow_gate = {60000, 200000, 4, 50000};
+static const ale_gate_t register_gate = {250000, 200000, 6, 100000};
+
+void ale_pipeline_approach(ale_pipeline_t *p, ale_pose_t pose, int32_t reach_um)
+{
+    ale_local_map_approach(&p->map, (ale_point_t){pose.x_um, pose.y_um}, reach_um);
+}
+
+void ale_pipeline_fit(ale_pipeline_t *p, const ale_motion_t *predicted, int32_t reach_um, ale_fit_t *fit)
+{
+    const ale_scene_t scene = ale_observed_scene(p);
+    ale_pipeline_approach(p, predicted->pose, reach_um);
+    ale_register_scan(predicted, &scene, &acquire_gate, fit);
+}
+
+/* Where an earlier scan says that this one was taken, and how exactly. */
+typedef struct {
+    bool found;
+    ale_pose_t pose;
+    int64_t sigma_um;
+    int64_t sigma_urad;
+} ale_registered_t;
+
+/* An earlier scan: its observations, and where its robot stood in the smooth frame. */
+typedef struct {
+    ale_observations_t observations;
+    ale_pose_t robot;
+} ale_reference_scan_t;
+
+/* The last scan, or a better one shortly before it unless the scans may be bent differently. */
+static ale_reference_scan_t reference_scan(const ale_pipeline_t *p, const ale_apart_t *apart)
+{
+    const ale_witness_t *last = &p->witness;
+    const ale_overview_t *rich = &p->overview;
+    if (apart->turn_urad < STRAIGHT_URAD &&
+        ale_overview_is_richer(rich, last->observation, last->observation_count)) {
+        return (ale_reference_scan_t){{rich->observation, rich->observation_count}, rich->robot};
+    }
+    return (ale_reference_scan_t){{last->observation, last->observation_count}, last->seen.robot};
+}
+
+/* Where an earlier scan says that the robot is, to be fitted from there; where it says nothing, the
+ * prediction.
+ */
+static ale_registered_t register_to_scan(ale_pipeline_t *p, const ale_prediction_t *prediction)
+{
+    const ale_ways_t *ways = &prediction->ways;
+    const ale_motion_t *predicted = &ways->believed;
+    const ale_pose_t before = prediction->before.pose;
+    const ale_apart_t apart = ways->part ? ale_apart(predicted->pose, ways->rival.pose) : (ale_apart_t){0, 0};
+    const int64_t sigma_um =
+        ale_max64(ale_matrix_sigma(&predicted->cov, 0), ale_matrix_sigma(&predicted->cov, 1));
+    const int64_t sigma_urad = ale_matrix_sigma(&predicted->cov, 2);
+    const int64_t reach_um = ale_min64(REGISTER_UM + ale_max64(5 * sigma_um, apart.way_um), REGISTER_MOST_UM);
+    const int64_t reach_urad =
+        ale_min64(REGISTER_URAD + ale_max64(5 * sigma_urad, apart.turn_urad), REGISTER_MOST_URAD);
+    const ale_reference_scan_t reference = reference_scan(p, &apart);
+    const ale_observations_t now = {p->observed.observation, p->observed.count};
+    ale_pose_t displacement =
+        ale_pose_between(reference.robot, ale_pipeline_smooth_pose(p, before, predicted->pose));
+    if (!ale_match_scans(&p->scan_match, reference.observations, now, (int32_t)reach_um, (int32_t)reach_urad,
+                         &displacement)) {
+        return (ale_registered_t){.pose = predicted->pose};
+    }
+    const ale_pose_t smooth = ale_pose_compose(reference.robot, displacement);
+    return (ale_registered_t){
+        .found = true,
+        .pose = ale_pose_compose(before, ale_pose_between(p->smooth.pose, smooth)),
+        .sigma_um = ale_max64(sigma_um, ale_scan_match_cell_um(reach_um)),
+        .sigma_urad = ale_max64(sigma_urad, ale_scan_match_step_urad(reach_urad)),
+    };
+}
+
+/* Length of what the last scan confirms of this one at a pose, less what it denies; of how much in all. */
+static int64_t balance_um(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t pose, int64_t *shown_um)
+{
+    const ale_slack_t slack = {SLACK_UM, 0, false};
+    const ale_seen_t seen = ale_pipeline_seen_from(p, before, pose);
+    const ale_testimony_t testimony = ale_witness_hear(&p->witness, &seen, slack);
+    *shown_um = testimony.shown_um;
+    return testimony.confirmed_um - testimony.denied_um;
+}
+
+/* Whether the last scan confirms so much more of this one at the registered pose than where the map puts it
+ * that what the map says was found by chance. */
+static bool is_preferred(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t registered, ale_pose_t fitted)
+{
+    int64_t shown_um;
+    int64_t fitted_shown_um;
+    const int64_t there_um = balance_um(p, before, registered, &shown_um);
+    return PREFER_PARTS * (there_um - balance_um(p, before, fitted, &fitted_shown_um)) > shown_um;
+}
+
+/* What the earlier scan says instead of the prediction. */
+static ale_motion_t registered_motion(const ale_motion_t *predicted, const ale_registered_t *registered)
+{
+    ale_motion_t motion = *predicted;
+    motion.pose = registered->pose;
+    ale_motion_widen(&motion, registered->sigma_um, registered->sigma_urad);
+    return motion;
+}
+
+/* From where, with which prediction, a scan is fitted a second time. */
+typedef enum { FROM_SELECTED, FROM_ALTERNATIVE, FROM_LAST_SCAN } second_start_t;
+
+static second_start_t second_start(const ale_pipeline_t *p, const ale_prediction_t *prediction,
+                                   const ale_registered_t *registered, const ale_fit_t *fit)
+{
+    const ale_ways_t *ways = &prediction->ways;
+    if (ways->part && (!registered->found || ale_ways_rival_is_nearer(ways, registered->pose))) {
+        return FROM_ALTERNATIVE;
+    }
+    const bool preferred = registered->found && ale_tracking_is_strange(&p->monitor, fit) &&
+                           is_preferred(p, prediction->before.pose, registered->pose, fit->motion.pose);
+    return preferred ? FROM_LAST_SCAN : FROM_SELECTED;
+}
+
+/* Fits once more: from where an earlier scan says that the robot is or, since wide gates may have caught the
+ * wrong walls, with narrow ones. If wheels may have slipped, the earlier scan decides which hypothesis is
+ * selected; when it says nothing, the map does. */
+static void associate_again(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_ways_t *ways,
+                            ale_fit_t *fit)
+{
+    const ale_scene_t scene = ale_observed_scene(p);
+    const ale_registered_t registered = register_to_scan(p, prediction);
+    const second_start_t start = second_start(p, prediction, &registered, fit);
+    const int64_t found_um = fit->matched_um;
+    if (start == FROM_LAST_SCAN) {
+        ways->believed = registered_motion(&ways->believed, &registered);
+        fit->matched_um = 0; /* found by chance: the next fit takes its place, whatever it finds */
+    }
+    const bool turns = start == FROM_ALTERNATIVE;
+    const ale_motion_t *prior = turns ? &ways->rival : &ways->believed;
+    const ale_gate_t *unguided = turns ? &acquire_gate : &narrow_gate;
+    const int32_t most_work = ALE_SCAN_WORK - ALE_BEAM_WORK * p->observed.scan.beams;
+    ale_register_again(prior, start != FROM_SELECTED, registered.found ? registered.pose : prior->pose,
+                       &scene, registered.found ? &register_gate : unguided, most_work, &p->other, fit);
+    if (turns && fit->matched_um > found_um) {
+        ale_ways_swap(ways);
+    }
+}
+
+ale_ways_t ale_step_associate(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_fit_t *fit)
+{
+    const ale_scene_t scene = ale_observed_scene(p);
+    ale_ways_t ways = prediction->ways;
+    ale_pipeline_approach(p, ways.believed.pose, p->observed.scan.range_max_um);
+    ale_register_pose(&ways.believed, &scene, &acquire_gate, fit);
+    ale_register_associate(&scene, fit);
+    if (ale_tracking_doubts(fit)) {
+        associate_again(p, prediction, &ways, fit);
+        if (fit->matched_um * CHANCE_PARTS < fit->shown_um) {
+            ale_register_reject(&ways.believed, &scene, fit);
+        }
+    }
+    return ways;
+}
+
+void ale_step_solve(ale_pipeline_t *p, ale_fit_t *fit)
+{
+    const ale_scene_t scene = ale_observed_scene(p);
+    ale_register_weigh(&scene, fit);
+}

@@ -1,0 +1,43 @@
+#include "track/step_monitor.h"
+
+#include <stddef.h>
+
+#include "base/fixed.h"
+#include "track/step_filter.h"
+
+enum {
+    SLACK_UM = 60000,
+    SLACK_URAD = 30000,
+    SLACK_MOST_UM = 200000, /* a displacement that may be off by more says nothing of what was seen where */
+    SLACK_MOST_URAD = 100000
+};
+
+/* How far the pose may be off when the last scan is compared: two sigmas more than is always allowed for. */
+static ale_slack_t slack_of(const ale_matrix_t *cov, bool counted)
+{
+    const int64_t offset_um = SLACK_UM + 2 * ale_max64(ale_matrix_sigma(cov, 0), ale_matrix_sigma(cov, 1));
+    return (ale_slack_t){
+        (int32_t)ale_min64(offset_um, counted ? SLACK_MOST_UM : 2 * SLACK_UM),
+        (int32_t)ale_min64(2 * ale_matrix_sigma(cov, 2), counted ? SLACK_MOST_URAD : SLACK_URAD), false};
+}
+
+ale_scene_verdict_t ale_step_monitor(ale_pipeline_t *p, const ale_prediction_t *prediction, bool counted,
+                                     const ale_fit_t *fit)
+{
+    const bool strange = ale_tracking_is_strange(&p->monitor, fit);
+    ale_testimony_t testimony = {0};
+    if (strange) {
+        const ale_seen_t now = ale_pipeline_seen_from(p, prediction->before.pose, fit->motion.pose);
+        testimony = ale_witness_hear(&p->witness, &now, slack_of(&fit->motion.cov, counted));
+    }
+    ale_tracking_notice(&p->monitor, strange ? &testimony : NULL, counted, p->map.count > 0);
+    if (p->monitor.jumped) {
+        return ALE_SCENE_CHANGED;
+    }
+    return strange ? ALE_SCENE_STRANGE : ALE_SCENE_KNOWN;
+}
+
+void ale_monitor_judge(ale_pipeline_t *p, const ale_fit_t *fit, const ale_visibility_counts_t *counts)
+{
+    ale_tracking_judge(&p->monitor, fit, counts);
+}

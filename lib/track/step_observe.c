@@ -1,0 +1,57 @@
+#include "track/step_observe.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#include "base/fixed.h"
+#include "motion/deskew.h"
+#include "observe/short_segment.h"
+#include "track/step_filter.h"
+
+/* The noise model with the beams' own noise as the extractor found it in this scan. */
+static ale_noise_t measured_noise(const ale_pipeline_t *p)
+{
+    ale_noise_t noise = p->config.extract.noise;
+    const ale_scan_noise_t *found = &p->extractor.noise;
+    noise.own_um = (int32_t)ale_isqrt((uint64_t)ale_mul_shift(found->own_mm2_q36, 1000000, 36));
+    noise.own_ppm = (int32_t)ale_isqrt((uint64_t)ale_mul_shift(found->own_relative_q36, 1000000000000, 36));
+    return noise;
+}
+
+const uint32_t *ale_observed_bearings(const ale_observed_t *observed)
+{
+    return observed->straightened ? observed->bearing_bam : NULL;
+}
+
+ale_scene_t ale_observed_scene(ale_pipeline_t *p)
+{
+    const ale_observed_t *o = &p->observed;
+    return (ale_scene_t){&p->map, o->observation, o->count, o->velocity};
+}
+
+static void straighten(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t velocity[ALE_AXES])
+{
+    ale_observed_t *o = &p->observed;
+    int32_t sensor_velocity[ALE_AXES];
+    o->scan = *raw;
+    memcpy(o->velocity, velocity, sizeof o->velocity);
+    ale_scan_mask(&o->scan, p->config.blind, p->config.blind_count);
+    ale_filter_mask(p, &o->scan);
+    ale_sensor_velocity(velocity, p->config.sensor, sensor_velocity);
+    o->straightened = ale_deskew(&o->scan, sensor_velocity, o->bearing_bam);
+}
+
+void ale_step_observe(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t velocity[ALE_AXES])
+{
+    ale_observed_t *o = &p->observed;
+    straighten(p, raw, velocity);
+    const uint32_t *bearing_bam = ale_observed_bearings(o);
+    ale_stage_end(&p->hook, ALE_STAGE_DESKEW);
+    ale_extract_scan(&p->extractor, &o->scan, bearing_bam, &o->features);
+    const ale_noise_t noise = measured_noise(p);
+    o->count =
+        ale_observe_lines(&o->features, &o->scan, p->config.sensor, noise.surface_um / 2, o->observation);
+    o->count +=
+        ale_observe_segments(&o->features, &o->scan, bearing_bam, p->config.sensor, &noise, &p->segments,
+                             ALE_MAX_OBSERVATIONS - o->count, &o->observation[o->count]);
+}

@@ -1,0 +1,55 @@
+#include "track/step_predict.h"
+
+#include <stddef.h>
+
+enum { SCAN_SET_BACK_US = 1000000 /* a stamp older than the last by less is a wrong stamp */ };
+
+void ale_pipeline_predict_motion(const ale_pipeline_t *p, ale_motion_t *motion, int64_t stamp_us,
+                                 const ale_wheel_motion_t *wheels)
+{
+    const ale_process_noise_t *noise = &p->process_noise[wheels != NULL];
+    if (ale_timestamp_filter_accepts(&p->timestamp_filter, stamp_us - motion->stamp_us)) {
+        ale_motion_predict(motion, stamp_us, wheels, noise);
+    } else {
+        ale_motion_jump(motion, stamp_us, wheels, noise);
+    }
+}
+
+bool ale_pipeline_predict_by_wheels(const ale_pipeline_t *p, ale_motion_t *motion, int64_t stamp_us,
+                                    ale_wheel_motion_t *wheels)
+{
+    const bool known = ale_wheel_motion(&p->wheels, &p->lag, &p->scale, motion->stamp_us, stamp_us, wheels);
+    ale_pipeline_predict_motion(p, motion, stamp_us, known ? wheels : NULL);
+    return known;
+}
+
+/* When a scan was taken: scans come in their order, whatever their stamps say of it. A clock that was set
+ * back is followed. */
+static int64_t instant_of(ale_pipeline_t *p, int64_t stamp_us)
+{
+    const int64_t instant_us = ale_timestamp_filter_instant(&p->timestamp_filter, stamp_us);
+    const int64_t last_us = p->motion.stamp_us;
+    return instant_us <= last_us && instant_us > last_us - SCAN_SET_BACK_US ? last_us + 1 : instant_us;
+}
+
+/* The wheels and constant velocity; as long as the wheels slip, constant velocity is selected. */
+static ale_ways_t hypotheses(const ale_pipeline_t *p, const ale_motion_t *by_wheels)
+{
+    ale_motion_t constant_velocity = p->motion;
+    ale_pipeline_predict_motion(p, &constant_velocity, by_wheels->stamp_us, NULL);
+    return ale_ways_of(by_wheels, &constant_velocity, p->slips && p->monitor.state != ALE_STATE_LOST);
+}
+
+ale_prediction_t ale_step_predict(ale_pipeline_t *p, int64_t stamp_us)
+{
+    ale_prediction_t prediction = {.before = p->motion};
+    const int64_t instant_us = instant_of(p, stamp_us);
+    const int64_t dt_us = instant_us - p->motion.stamp_us;
+    ale_motion_t predicted = p->motion;
+    const bool counted = ale_pipeline_predict_by_wheels(p, &predicted, instant_us, &prediction.wheels);
+    prediction.ways =
+        counted ? hypotheses(p, &predicted) : (ale_ways_t){.believed = predicted, .rival = predicted};
+    prediction.dt_us =
+        ale_timestamp_filter_accepts(&p->timestamp_filter, dt_us) ? dt_us : p->timestamp_filter.usual_us;
+    return prediction;
+}

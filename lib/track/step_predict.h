@@ -1,0 +1,31 @@
+/* Step 1 of a scan: where wheels and time alone put the robot. */
+#ifndef ALE_TRACK_STEP_PREDICT_H
+#define ALE_TRACK_STEP_PREDICT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "track/pipeline_state.h"
+
+enum { ALE_SCAN_PERIOD_MAX_US = 2000000 }; /* scans farther apart say nothing of speed */
+
+typedef struct {
+    ale_motion_t before;       /* where the last scan has left the robot */
+    ale_ways_t ways;           /* motion hypotheses for the scan at hand */
+    ale_wheel_motion_t wheels; /* what they say, where ways.counted */
+    int64_t dt_us;             /* since the last scan; the usual period where the stamps are not credible */
+} ale_prediction_t;
+
+/* Writes the timestamp filter alone. Constant time. */
+ale_prediction_t ale_step_predict(ale_pipeline_t *p, int64_t stamp_us);
+
+/* Moves a motion on to stamp_us; wheels NULL: by its velocity alone. */
+void ale_pipeline_predict_motion(const ale_pipeline_t *p, ale_motion_t *motion, int64_t stamp_us,
+                                 const ale_wheel_motion_t *wheels);
+
+/* The same with what the wheels say of the displacement since then. False: they say nothing of it, and the
+ * velocity was used. */
+bool ale_pipeline_predict_by_wheels(const ale_pipeline_t *p, ale_motion_t *motion, int64_t stamp_us,
+                                    ale_wheel_motion_t *wheels);
+
+#endif

@@ -1,0 +1,79 @@
+#include "track/step_track.h"
+
+#include "match/observability.h"
+#include "track/step_associate.h"
+#include "track/step_filter.h"
+#include "track/step_monitor.h"
+#include "track/step_observe.h"
+#include "track/step_update.h"
+
+enum { EVEN_US = 250000 /* a scan that comes later says nothing of a speed */ };
+
+/* A scan that contradicts the last one leaves the prediction as it is; else what goes along with the robot is
+ * left out, and the scan is the one that the next is compared with. True: it is. */
+static bool filter(ale_pipeline_t *p, ale_scene_verdict_t verdict, const ale_prediction_t *prediction,
+                   const ale_motion_t *predicted, ale_fit_t *fit)
+{
+    if (verdict == ALE_SCENE_CHANGED) {
+        const ale_scene_t scene = ale_observed_scene(p);
+        ale_register_reject(predicted, &scene, fit);
+        return false;
+    }
+    if (verdict == ALE_SCENE_KNOWN) {
+        ale_filter_attached(p, prediction->before.pose, fit);
+    }
+    return ale_filter_keep(p, prediction->before.pose, &fit->motion);
+}
+
+static bool is_speed_known(const ale_pipeline_t *p, const ale_prediction_t *prediction,
+                           const ale_observability_t *observability)
+{
+    const int64_t dt_us = prediction->ways.believed.stamp_us - prediction->before.stamp_us;
+    const bool even =
+        dt_us <= EVEN_US && ale_timestamp_filter_accepts(&p->timestamp_filter, dt_us) && !p->monitor.jumped;
+    return observability->determined || (p->speed_known && even);
+}
+
+ale_tracked_t ale_step_track(ale_pipeline_t *p, const ale_prediction_t *prediction)
+{
+    ale_tracked_t tracked = {.slips = p->slips};
+    ale_fit_t *fit = &tracked.fit;
+    const ale_ways_t ways = ale_step_associate(p, prediction, fit);
+    ale_step_solve(p, fit);
+    const ale_scene_verdict_t verdict = ale_step_monitor(p, prediction, ways.counted, fit);
+    tracked.kept = filter(p, verdict, prediction, &ways.believed, fit);
+
+    const ale_scale_error_t scale_error = p->scale_error;
+    const ale_observability_t observability =
+        ale_observability_of(&p->map, p->still.observation, p->still.count, fit);
+    ale_update_uncertainty(p, prediction, &ways, &observability, fit);
+    tracked.determined = observability.determined;
+    tracked.speed_known = is_speed_known(p, prediction, &observability);
+    if (observability.degenerate && tracked.speed_known && !ways.counted) {
+        /* chance matches go along with the robot and would stop it; wheels outvote them */
+        ale_motion_keep_along(&fit->motion, &ways.believed, observability.along_bam);
+    }
+    if (verdict != ALE_SCENE_CHANGED) {
+        ale_update_learn(p, prediction, &ways, &scale_error, fit);
+        tracked.slips = ways.part ? ale_ways_slip(&ways, fit->motion.pose, p->slips) : p->slips;
+    }
+    ale_stage_end(&p->hook, ALE_STAGE_MATCH);
+
+    ale_update_reanchor(p, fit);
+    const bool good = p->monitor.state == ALE_STATE_GOOD && verdict != ALE_SCENE_CHANGED;
+    ale_filter_newcomers(p, prediction->before.pose, good, fit);
+    tracked.matched_corners = ale_update_map(p, fit, ale_tracking_may_map(&p->monitor, fit));
+    const ale_visibility_counts_t counts = ale_update_decay(p, fit->motion.pose);
+    ale_monitor_judge(p, fit, &counts);
+    return tracked;
+}
+
+ale_tracked_t ale_step_track_first(ale_pipeline_t *p)
+{
+    ale_tracked_t tracked = {.determined = p->determined, .speed_known = p->speed_known};
+    ale_pipeline_fit(p, &p->motion, p->observed.scan.range_max_um, &tracked.fit);
+    tracked.fit.motion = p->motion;
+    ale_stage_end(&p->hook, ALE_STAGE_MATCH);
+    tracked.matched_corners = ale_update_map(p, &tracked.fit, true);
+    return tracked;
+}
