@@ -24,7 +24,6 @@
 #include "track/estimate.h"
 #include "track/pipeline_config.h"
 
-
 typedef struct ale_pipeline ale_pipeline_t;
 typedef struct ale_keyframe ale_keyframe_t;
 typedef struct ale_correction ale_correction_t;

@@ -5,6 +5,10 @@
 #ifndef ALE_TRACK_PIPELINE_STATE_H
 #define ALE_TRACK_PIPELINE_STATE_H
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
 #include "base/stage.h"
 #include "extract/workspace.h"
 #include "map/local_map.h"
@@ -42,6 +46,12 @@ typedef struct {
     ale_observation_t observation[ALE_MAX_OBSERVATIONS];
     uint32_t count;
 } ale_observed_t;
+
+/* Bearings of the scan, NULL when they are regular. */
+static inline const uint32_t *ale_observed_bearings(const ale_observed_t *observed)
+{
+    return observed->straightened ? observed->bearing_bam : NULL;
+}
 
 /* What of it stands still, as far as is known: that goes into the map and to the mapper. */
 typedef struct {

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "base/fixed.h"
-#include "track/step_observe.h"
 
 enum {
     KNOWN_UM = 60000, /* two sigmas of the pose up to which an earlier scan tells what has come */

@@ -1,6 +1,5 @@
 #include "track/step_observe.h"
 
-#include <stddef.h>
 #include <string.h>
 
 #include "base/fixed.h"
@@ -16,11 +15,6 @@ static ale_noise_t measured_noise(const ale_pipeline_t *p)
     noise.own_um = (int32_t)ale_isqrt((uint64_t)ale_mul_shift(found->own_mm2_q36, 1000000, 36));
     noise.own_ppm = (int32_t)ale_isqrt((uint64_t)ale_mul_shift(found->own_relative_q36, 1000000000000, 36));
     return noise;
-}
-
-const uint32_t *ale_observed_bearings(const ale_observed_t *observed)
-{
-    return observed->straightened ? observed->bearing_bam : NULL;
 }
 
 ale_scene_t ale_observed_scene(ale_pipeline_t *p)

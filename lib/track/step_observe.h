@@ -10,9 +10,6 @@
  * p->observed. O(beams). */
 void ale_step_observe(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t velocity[ALE_AXES]);
 
-/* Bearings of a scan, NULL when they are regular. */
-const uint32_t *ale_observed_bearings(const ale_observed_t *observed);
-
 /* What the scan at hand shows, to be held against the map. */
 ale_scene_t ale_observed_scene(ale_pipeline_t *p);
 
