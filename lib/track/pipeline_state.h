@@ -27,14 +27,14 @@
 #include "observe/observation.h"
 #include "observe/short_segment.h"
 #include "relocate/relocation.h"
-#include "track/carried.h"
-#include "track/elders.h"
-#include "track/overview.h"
+#include "track/evidence/carried.h"
+#include "track/evidence/elders.h"
+#include "track/evidence/overview.h"
 #include "track/pipeline_config.h"
-#include "track/slip.h"
+#include "track/evidence/slip.h"
 #include "track/tracking_monitor.h"
-#include "track/witness.h"
-#include "track/zero_motion.h"
+#include "track/evidence/witness.h"
+#include "track/evidence/zero_motion.h"
 
 /* What the scan at hand shows. */
 typedef struct {

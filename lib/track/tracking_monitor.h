@@ -15,7 +15,7 @@
 #include "map/map_decay.h"
 #include "match/scan_to_map.h"
 #include "track/estimate.h"
-#include "track/witness.h"
+#include "track/evidence/witness.h"
 
 typedef struct {
     ale_state_t state;

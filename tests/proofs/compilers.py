@@ -6,7 +6,7 @@ import subprocess
 from at_hand import BUILD, ROOT
 
 PLANTED = ROOT / "tests" / "planted"
-LIB = sorted(ROOT.glob("lib/*/*.c"))
+LIB = sorted(ROOT.glob("lib/*/**/*.c"))
 FIRMWARE = [path for path in sorted(ROOT.glob("firmware/**/*.c"))
             if path.name != "main.c" and (not path.name.startswith("rt_") or path.name == "rt_posix.c")]
 C = ["-std=c11", "-D_GNU_SOURCE", "-O2"]

@@ -117,7 +117,7 @@ def strangers(graph):
 
 
 def test_lib_has_one_kind_of_pointer_to_a_function():
-    pointers = [(path.name, found) for path in ROOT.glob("lib/*/*.[ch]")
+    pointers = [(path.name, found) for path in ROOT.glob("lib/*/**/*.[ch]")
                 for found in re.findall(r"\(\s*\*\s*(\w+)\s*\)\s*\(", path.read_text(encoding="utf-8"))]
     assert pointers == [("stage.h", "end_of")]
 

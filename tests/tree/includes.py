@@ -17,6 +17,7 @@ ORDER = {
     "": ("lib", "drivers", "firmware", "tools"),
     "lib": ("base", "extract", "motion", "observe", "map", "match", "relocate", "track", "graph", "plan", "messages"),
     "lib/graph": ("optimise", "walls", "loops"),
+    "lib/track": ("evidence",),
     "drivers": ("file", "serial", "log", "store", "command", "lcm", "scanner"),
     "drivers/scanner": ("urg",),
     "firmware": ("realtime", "system", "config", "exchange", "recorder", "acquire", "estimate", "mapping", "operator", "telemetry",

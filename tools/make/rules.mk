@@ -1,6 +1,6 @@
 # How sources become programs.
 #
-#   lib/*/*.c            -> libale.a            the real-time core, integers only
+#   lib/**/*.c           -> libale.a            the real-time core, integers only
 #   lib/graph/**/*.cpp   -> libale_graph.a      the mapper
 #   drivers/**/*.c       -> libale_drivers.a    with the generated LCM types
 #   firmware/**/*.c      -> libale_firmware.a   all but main.c; main.c -> ale-slamd; one realtime/rt_$(RT).c (rtai.mk)
@@ -84,7 +84,7 @@ lcm-types: $(LCM_JAR) ## the LCM types for lcm-spy (build/ale-lcmtypes.jar) and 
 include tools/make/rtai.mk
 
 # Floors of the house: each sees itself and what lies below.
-LIB_SOURCES = $(wildcard lib/*/*.c)
+LIB_SOURCES = $(wildcard lib/*/*.c lib/*/*/*.c)
 GRAPH_SOURCES = $(wildcard lib/graph/*.cpp lib/graph/*/*.cpp)
 DRIVER_SOURCES = $(wildcard drivers/*/*.c drivers/*/*/*.c)
 FIRMWARE_SOURCES = $(filter-out firmware/main.c firmware/realtime/rt_%.c,$(wildcard firmware/*.c firmware/*/*.c)) firmware/realtime/rt_$(RT).c

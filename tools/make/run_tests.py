@@ -77,13 +77,9 @@ def run_gtest(program):
 
 
 def run_unit_program(program):
-    """One GoogleTest program: its name, passed, names of what failed, skipped, seconds, and what it printed. An expectation that is not met is tried once
-    more, as those of the real programs are, and told; what a sanitizer finds is not."""
+    """One GoogleTest program: its name, passed, names of what failed, skipped, seconds, and what it printed."""
     started = time.monotonic()
     code, (passed, failed, skipped), output = run_gtest(program)
-    if code == 1 and failed:
-        print(output, f"\n  RERUN {program}", flush=True)
-        code, (passed, failed, skipped), output = run_gtest(program)
     if code != 0 and not failed:
         failed = [f"{program} ended with {code}"]
     return program, passed, failed, skipped, time.monotonic() - started, output

@@ -7,7 +7,7 @@
 
 extern "C" {
 #include "extract/extract.h"
-#include "track/witness.h"
+#include "track/evidence/witness.h"
 }
 
 namespace room

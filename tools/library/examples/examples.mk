@@ -1,6 +1,6 @@
 # libale for those who link it alone: a shared library (for ctypes), one header, a pkg-config file.
 SHARED_LIBRARY = $(BUILD)/libale.so
-$(SHARED_LIBRARY): $(LIB_SOURCES) $(wildcard lib/*.h lib/*/*.h)
+$(SHARED_LIBRARY): $(LIB_SOURCES) $(wildcard lib/*.h lib/*/*.h lib/*/*/*.h)
 	$(call say,link,$@)
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 -D_GNU_SOURCE $(OPT) -fPIC -shared -Ilib $(LIB_SOURCES) -o $@

@@ -1,8 +1,8 @@
-// lib/track/slip: which of two tales of the way is believed.
+// lib/track/evidence/slip: which of two tales of the way is believed.
 #include <gtest/gtest.h>
 
 extern "C" {
-#include "track/slip.h"
+#include "track/evidence/slip.h"
 }
 
 namespace

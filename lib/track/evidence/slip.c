@@ -1,4 +1,4 @@
-#include "track/slip.h"
+#include "track/evidence/slip.h"
 
 #include "base/fixed.h"
 #include "base/trig.h"

@@ -1,10 +1,10 @@
-// lib/track/zero_motion: scans from the same place are not so many independent ones.
+// lib/track/evidence/zero_motion: scans from the same place are not so many independent ones.
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 extern "C" {
-#include "track/zero_motion.h"
+#include "track/evidence/zero_motion.h"
 }
 
 namespace

@@ -1,11 +1,11 @@
-// lib/track/elders: what has come while the robot stood.
+// lib/track/evidence/elders: what has come while the robot stood.
 #include <memory>
 
 #include <gtest/gtest.h>
 
 extern "C" {
 #include "base/trig.h"
-#include "track/elders.h"
+#include "track/evidence/elders.h"
 }
 
 namespace

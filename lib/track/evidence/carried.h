@@ -7,8 +7,8 @@
  * they show about the same range, as they do while it goes along. Something that stands in the room comes to
  * another range as the robot moves; it is mapped 10 s after the robot moves on, at the most. Bounded:
  * O(beams), and three looks at the last scan for each view that was not matched. */
-#ifndef ALE_TRACK_CARRIED_H
-#define ALE_TRACK_CARRIED_H
+#ifndef ALE_TRACK_EVIDENCE_CARRIED_H
+#define ALE_TRACK_EVIDENCE_CARRIED_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,5 +1,5 @@
-// lib/track/witness.c: what one scan says of the next.
-#include "look.h"
+// lib/track/evidence/witness.c: what one scan says of the next.
+#include "lib/track/look.h"
 
 using room::Look;
 

@@ -1,4 +1,4 @@
-#include "track/carried.h"
+#include "track/evidence/carried.h"
 
 #include <string.h>
 

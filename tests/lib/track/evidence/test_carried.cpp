@@ -1,12 +1,12 @@
-// lib/track/carried.c: what has come before the scanner and goes along with the robot.
+// lib/track/evidence/carried.c: what has come before the scanner and goes along with the robot.
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "room.h"
+#include "lib/track/room.h"
 
 extern "C" {
-#include "track/carried.h"
+#include "track/evidence/carried.h"
 }
 
 namespace

@@ -6,8 +6,8 @@
  * were nearer again. Wheels that part from the other tale are believed less along the line between the two:
  * wheels that slip by little, but by many of their sigmas, would hold the scan off its walls and make new
  * ones. Pure functions, constant time. */
-#ifndef ALE_TRACK_SLIP_H
-#define ALE_TRACK_SLIP_H
+#ifndef ALE_TRACK_EVIDENCE_SLIP_H
+#define ALE_TRACK_EVIDENCE_SLIP_H
 
 #include <stdbool.h>
 

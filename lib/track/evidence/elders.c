@@ -1,10 +1,10 @@
-#include "track/elders.h"
+#include "track/evidence/elders.h"
 
 #include "base/fixed.h"
 #include "base/trig.h"
 #include "map/visibility.h"
 #include "map/wall.h"
-#include "track/zero_motion.h"
+#include "track/evidence/zero_motion.h"
 
 enum {
     EVERY_US = 5000000,

@@ -1,4 +1,4 @@
-#include "track/overview.h"
+#include "track/evidence/overview.h"
 
 #include <string.h>
 

@@ -7,8 +7,8 @@
  * but not where it saw through. A scene that has changed all at once does not pass: the robot was
  * carried away, tilted, or its pose is wrong. At most 32 surfaces of either scan are asked, three points
  * each. */
-#ifndef ALE_TRACK_WITNESS_H
-#define ALE_TRACK_WITNESS_H
+#ifndef ALE_TRACK_EVIDENCE_WITNESS_H
+#define ALE_TRACK_EVIDENCE_WITNESS_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,4 +1,4 @@
-#include "track/zero_motion.h"
+#include "track/evidence/zero_motion.h"
 
 #include "observe/seen.h"
 

@@ -1,8 +1,8 @@
-// lib/track/overview.c: which scan is kept.
-#include "look.h"
+// lib/track/evidence/overview.c: which scan is kept.
+#include "lib/track/look.h"
 
 extern "C" {
-#include "track/overview.h"
+#include "track/evidence/overview.h"
 }
 
 namespace

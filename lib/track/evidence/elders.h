@@ -5,8 +5,8 @@
  * no wall while the robot stays. Once the robot has gone on, what still stands is mapped as all else. The
  * elders' ages are 5, 10, 20 .. 640 s, at most twice that: who stops for minutes does not become a wall, and
  * who stood there when the robot came is known by those that were taken while he was away. */
-#ifndef ALE_TRACK_ELDERS_H
-#define ALE_TRACK_ELDERS_H
+#ifndef ALE_TRACK_EVIDENCE_ELDERS_H
+#define ALE_TRACK_EVIDENCE_ELDERS_H
 
 #include <stdbool.h>
 #include <stdint.h>

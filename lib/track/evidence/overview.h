@@ -3,8 +3,8 @@
  * A scanner that is covered for a moment, or comes close to something, shows next to nothing, and the last
  * such scan says little of the first good one after it. The better one before is kept for two seconds, as
  * long as the robot has not gone half a metre or turned half a radian. One owner. */
-#ifndef ALE_TRACK_OVERVIEW_H
-#define ALE_TRACK_OVERVIEW_H
+#ifndef ALE_TRACK_EVIDENCE_OVERVIEW_H
+#define ALE_TRACK_EVIDENCE_OVERVIEW_H
 
 #include <stdbool.h>
 #include <stdint.h>

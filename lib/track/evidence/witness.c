@@ -1,4 +1,4 @@
-#include "track/witness.h"
+#include "track/evidence/witness.h"
 
 #include <string.h>
 

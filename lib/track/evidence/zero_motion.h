@@ -6,8 +6,8 @@
  * ALE_ZERO_MOTION_WHOLE scans from a place count whole, the n-th after that like the part
  * ALE_ZERO_MOTION_WHOLE / n of one: an hour at 10 Hz is 140 scans, and nothing changes for a robot that
  * moves. Constant time. */
-#ifndef ALE_TRACK_ZERO_MOTION_H
-#define ALE_TRACK_ZERO_MOTION_H
+#ifndef ALE_TRACK_EVIDENCE_ZERO_MOTION_H
+#define ALE_TRACK_EVIDENCE_ZERO_MOTION_H
 
 #include <stdbool.h>
 #include <stdint.h>
