@@ -1,8 +1,8 @@
 /* What the mapper has found out about the past: where the map must move so that loops close.
  *
- * The robot's way, as it was tracked, is bent piece by piece: what was first seen in scan s moves by the
- * shift of the last keyframe at or before s. A shift maps points of the map as it was to the map as it is
- * now, p' = R p + t; the robot itself, and what it has seen since, moves by the last one. What was loaded
+ * The robot's path, as it was tracked, is bent from keyframe to keyframe: what was first seen in scan s moves
+ * by the shift of the last keyframe at or before s. A shift maps points of the map as it was to the map as it
+ * is now, p' = R p + t; the robot itself, and what it has seen since, moves by the last one. What was loaded
  * stays where it is: the drive is laid on that. */
 #ifndef ALE_TRACK_CORRECTION_H
 #define ALE_TRACK_CORRECTION_H

@@ -15,15 +15,15 @@ enum {
     REPLACED = 4             /* new walls a scan that may take the place of old ones in a full map */
 };
 
-/* Variance of a look as one among independent ones. */
+/* Variance of an observation as one among independent ones. */
 static int64_t diluted(int64_t var, const ale_map_update_context_t *context)
 {
     return ale_min64(var, INT64_MAX / context->dilution) * context->dilution;
 }
 
 /* What the wheels have made of the robot's place goes into the wall with the same gain as what it sees. */
-static void drift_along(ale_wall_t *wall, const ale_map_update_context_t *context, int64_t t_um,
-                        int64_t var_um2)
+static void inherit_scale_error(ale_wall_t *wall, const ale_map_update_context_t *context, int64_t t_um,
+                                int64_t var_um2)
 {
     const int64_t own_um2 = ale_wall_offset_var(wall, t_um);
     const int64_t more_um =
@@ -38,7 +38,7 @@ static void sharpen(ale_wall_t *wall, const ale_observation_t *observation, cons
     const int64_t var_offset =
         observation->var_offset_um2 + ale_observation_offset_var(observation, &fit->motion.cov);
     const int64_t var_angle = observation->var_angle_urad2 + ale_observation_angle_var(&fit->motion.cov);
-    drift_along(wall, context, association->error.t_um, diluted(var_offset, context));
+    inherit_scale_error(wall, context, association->error.t_um, diluted(var_offset, context));
     ale_wall_observe(wall, &association->error, diluted(var_offset, context), diluted(var_angle, context));
     const int64_t from_um = association->error.t_um + observation->start_um;
     const int64_t to_um = association->error.t_um + observation->end_um;

@@ -259,7 +259,7 @@ void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estima
  * that was taken beside them, which is called weak until it is called lost. */
 static bool is_placed(const ale_pipeline_t *p)
 {
-    return p->monitor.state != ALE_STATE_LOST && !(p->monitor.jumped && p->monitor.beside);
+    return p->monitor.state != ALE_STATE_LOST && !(p->monitor.contradicted && p->monitor.contradicted_nearby);
 }
 
 bool ale_pipeline_seen(const ale_pipeline_t *p, ale_seen_t *out)

@@ -46,9 +46,10 @@ void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estima
  * sizeof(ale_keyframe_t). False: it is not, and *out is untouched. */
 bool ale_pipeline_keyframe(ale_pipeline_t *pipeline, ale_keyframe_t *out);
 
-/* For those who draw the map anew: what the scan last handed over has shown (see scan_observation.h). Copies
- * at most sizeof(ale_scan_observation_t). False, and *out is untouched: there was no scan, the robot is lost
- * or may be, no keyframe was taken since it was put elsewhere, or the map is frozen. */
+/* For the mapper, which draws the map anew: what the scan last handed over has shown (see
+ * scan_observation.h). Copies at most sizeof(ale_scan_observation_t). False, and *out is untouched: there was
+ * no scan, the robot is lost or may be, no keyframe was taken since it was put elsewhere, or the map is
+ * frozen. */
 bool ale_pipeline_scan_observation(const ale_pipeline_t *pipeline, ale_scan_observation_t *out);
 
 /* From the mapper, between two scans: map and map pose move as loops have shown; the smooth pose does not.

@@ -30,11 +30,11 @@
 #include "track/evidence/carried.h"
 #include "track/evidence/elders.h"
 #include "track/evidence/overview.h"
-#include "track/pipeline_config.h"
 #include "track/evidence/slip.h"
-#include "track/tracking_monitor.h"
 #include "track/evidence/witness.h"
 #include "track/evidence/zero_motion.h"
+#include "track/pipeline_config.h"
+#include "track/tracking_monitor.h"
 
 /* What the scan at hand shows. */
 typedef struct {

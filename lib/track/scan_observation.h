@@ -1,7 +1,8 @@
-/* What one scan has shown, by value: handed from the estimate task to those who draw the map anew.
+/* What one scan has shown, by value: handed from the estimate task to the part of the mapper that draws the
+ * map anew.
  *
  * It says where its scan was taken by the smooth pose, relative to the keyframe that it belongs to: when that
- * is corrected, the sighting moves with it. */
+ * is corrected, it moves with it. */
 #ifndef ALE_TRACK_SCAN_OBSERVATION_H
 #define ALE_TRACK_SCAN_OBSERVATION_H
 

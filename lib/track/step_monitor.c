@@ -31,7 +31,7 @@ ale_scene_verdict_t ale_step_monitor(ale_pipeline_t *p, const ale_prediction_t *
         testimony = ale_witness_hear(&p->witness, &now, slack_of(&fit->motion.cov, counted));
     }
     ale_tracking_notice(&p->monitor, strange ? &testimony : NULL, counted, p->map.count > 0);
-    if (p->monitor.jumped) {
+    if (p->monitor.contradicted) {
         return ALE_SCENE_CHANGED;
     }
     return strange ? ALE_SCENE_STRANGE : ALE_SCENE_KNOWN;

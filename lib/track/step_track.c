@@ -29,8 +29,8 @@ static bool is_speed_known(const ale_pipeline_t *p, const ale_prediction_t *pred
                            const ale_observability_t *observability)
 {
     const int64_t dt_us = prediction->ways.believed.stamp_us - prediction->before.stamp_us;
-    const bool even =
-        dt_us <= EVEN_US && ale_timestamp_filter_accepts(&p->timestamp_filter, dt_us) && !p->monitor.jumped;
+    const bool even = dt_us <= EVEN_US && ale_timestamp_filter_accepts(&p->timestamp_filter, dt_us) &&
+                      !p->monitor.contradicted;
     return observability->determined || (p->speed_known && even);
 }
 

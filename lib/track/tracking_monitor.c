@@ -14,7 +14,7 @@ enum {
     UNWATCHED_PERCENT = 10,    /* or this one where nothing was seen of the way between them */
     CONFIRM_PERCENT = 20,      /* two scans confirm this much of each other at the least, */
     CLOSE_PERCENT = 45,  /* this much when taken side by side, or nothing was seen of the way between, */
-    UNSEEING_LEAST = 2,  /* as in so many scans that showed nothing, */
+    EMPTY_LEAST = 2,     /* as in so many scans that showed nothing, */
     MISFIT_PERCENT = 10, /* and this much more if there was doubt before */
     BELIEVE_SHOWN_UM = 2500000,
     BELIEVE_WALLS = 4,
@@ -67,43 +67,44 @@ bool ale_tracking_is_strange(const ale_tracking_monitor_t *monitor, const ale_fi
     return fit->matched_um * 100 < fit->shown_um * percent;
 }
 
-/* What the robot did since the last scan that showed anything was not seen: the wheels alone tell it. */
+/* What the robot did since the last scan that showed anything was not seen: only the wheels measured it. */
 static bool is_unwatched(const ale_tracking_monitor_t *monitor)
 {
-    return monitor->unseeing >= UNSEEING_LEAST;
+    return monitor->empty_scans >= EMPTY_LEAST;
 }
 
 /* Once a scan did not fit, the next must be confirmed, not only not denied. */
-static bool is_confirmed(const ale_tracking_monitor_t *monitor, const ale_testimony_t *heard)
+static bool is_confirmed(const ale_tracking_monitor_t *monitor, const ale_testimony_t *testimony)
 {
-    const bool much = heard->close || is_unwatched(monitor);
+    const bool much = testimony->close || is_unwatched(monitor);
     const int64_t percent =
         (much ? CLOSE_PERCENT : CONFIRM_PERCENT) + (monitor->misfits > 0 ? MISFIT_PERCENT : 0);
-    return heard->confirmed_um * 100 >= heard->shown_um * percent;
+    return testimony->confirmed_um * 100 >= testimony->shown_um * percent;
 }
 
-/* Without wheels nobody knows where the robot went while a scan did not fit: only the map can tell. */
+/* Without wheels nobody knows where the robot went while a scan did not fit: only the map can say. */
 static bool is_adrift(const ale_tracking_monitor_t *monitor, bool counted)
 {
     return monitor->misfits > 0 && !counted;
 }
 
-void ale_tracking_notice(ale_tracking_monitor_t *monitor, const ale_testimony_t *heard, bool counted,
+void ale_tracking_notice(ale_tracking_monitor_t *monitor, const ale_testimony_t *testimony, bool counted,
                          bool mapped)
 {
-    const int64_t told_um = heard ? heard->denied_um + heard->confirmed_um : 0;
+    const int64_t compared_um = testimony ? testimony->denied_um + testimony->confirmed_um : 0;
     const int64_t percent = is_unwatched(monitor) ? UNWATCHED_PERCENT : DENIED_PERCENT;
-    const bool denied =
-        heard && heard->denied_um > DENIED_LEAST_UM && heard->denied_um * 100 > told_um * percent;
+    const bool denied = testimony && testimony->denied_um > DENIED_LEAST_UM &&
+                        testimony->denied_um * 100 > compared_um * percent;
     monitor->in_reach = counted || !mapped;
-    monitor->beside = monitor->misfits > 0 ? monitor->beside : heard && heard->close;
-    monitor->jumped = heard && heard->shown_um > SHOWN_LEAST_UM &&
-                      (denied || !is_confirmed(monitor, heard) || is_adrift(monitor, counted));
+    monitor->contradicted_nearby =
+        monitor->misfits > 0 ? monitor->contradicted_nearby : testimony && testimony->close;
+    monitor->contradicted = testimony && testimony->shown_um > SHOWN_LEAST_UM &&
+                            (denied || !is_confirmed(monitor, testimony) || is_adrift(monitor, counted));
 }
 
 static bool is_undisturbed(const ale_tracking_monitor_t *monitor)
 {
-    return monitor->state != ALE_STATE_LOST && monitor->misfits == 0 && !monitor->jumped;
+    return monitor->state != ALE_STATE_LOST && monitor->misfits == 0 && !monitor->contradicted;
 }
 
 static bool is_well_known(const ale_motion_t *m)
@@ -120,12 +121,12 @@ static bool is_out_of_reach(const ale_tracking_monitor_t *monitor, const ale_fit
 }
 
 /* Scans that showed nothing count until one is believed to be where the pose says. */
-static void count_unseeing(ale_tracking_monitor_t *monitor, const ale_fit_t *fit)
+static void count_empty_scans(ale_tracking_monitor_t *monitor, const ale_fit_t *fit)
 {
     if (fit->shown_um == 0) {
-        monitor->unseeing = (uint16_t)ale_min64(monitor->unseeing + 1, UNSEEING_LEAST);
-    } else if (!monitor->jumped) {
-        monitor->unseeing = 0;
+        monitor->empty_scans = (uint16_t)ale_min64(monitor->empty_scans + 1, EMPTY_LEAST);
+    } else if (!monitor->contradicted) {
+        monitor->empty_scans = 0;
     }
 }
 
@@ -133,8 +134,8 @@ ale_state_t ale_tracking_judge(ale_tracking_monitor_t *monitor, const ale_fit_t 
                                const ale_visibility_counts_t *visibility)
 {
     const bool out_of_reach = is_out_of_reach(monitor, fit);
-    count_unseeing(monitor, fit);
-    if (monitor->jumped || contradicts(fit, visibility)) {
+    count_empty_scans(monitor, fit);
+    if (monitor->contradicted || contradicts(fit, visibility)) {
         monitor->misfits++;
     } else if (monitor->misfits > 0) {
         monitor->misfits--;
@@ -166,8 +167,8 @@ void ale_tracking_found(ale_tracking_monitor_t *monitor)
 {
     monitor->state = ALE_STATE_WEAK;
     monitor->misfits = MISFITS_UNTIL_LOST / 2; /* on probation */
-    monitor->jumped = false;
-    monitor->unseeing = 0;
+    monitor->contradicted = false;
+    monitor->empty_scans = 0;
 }
 
 ale_state_t ale_tracking_skip(ale_tracking_monitor_t *monitor, const ale_motion_t *predicted)

@@ -1,11 +1,10 @@
-/* Good, weak or lost: how far the pose can be trusted, from what the last scans showed.
+/* Tracking monitor: good, weak or lost, from what the last scans showed.
  *
  * Good: the scan fits the map and, with the prediction, determines every direction. Weak: part of the pose
- * rests on the prediction (a corridor, a hall out of reach). Lost: scan after scan looks through walls that
- * should be there, or all at once shows nothing of the map any more, or nothing has held the pose for so long
- * that it may be anywhere. A new place comes into view little by little: that is not a reason. A scan that is
- * good here is called weak to others when it leaves a direction open (observability.h). Constant time.
- */
+ * rests on the prediction (a corridor, a hall out of reach). Lost: scan after scan violates the free space of
+ * walls or contradicts the last scan, or nothing has determined the pose for so long that it may be anywhere.
+ * A new place comes into view little by little: that is no reason. What is good here is published as weak
+ * where the scan leaves a direction open (observability.h). Constant time. */
 #ifndef ALE_TRACK_TRACKING_MONITOR_H
 #define ALE_TRACK_TRACKING_MONITOR_H
 
@@ -19,32 +18,33 @@
 
 typedef struct {
     ale_state_t state;
-    uint16_t misfits;  /* scans in a row that showed walls, but not those of the map */
-    uint16_t unseeing; /* scans in a row that showed nothing, up to as many as matter */
-    bool jumped;       /* in this scan */
-    bool beside;       /* the first of those scans was denied by one that was taken beside it */
-    bool in_reach;     /* what is not found in the map is not there: wheels told the way, or it is empty */
+    uint16_t misfits;         /* scans in a row that showed walls, but not those of the map */
+    uint16_t empty_scans;     /* scans in a row that showed nothing, up to as many as matter */
+    bool contradicted;        /* by the last scan, in this one */
+    bool contradicted_nearby; /* the first of those misfits, by a scan that was taken close to it */
+    bool in_reach; /* what is not found in the map is not there: wheels measured the motion, or the map is
+                      empty */
 } ale_tracking_monitor_t;
 
 void ale_tracking_init(ale_tracking_monitor_t *monitor);
 
-/* Whether so little of what a scan shows is found in the map that another pose should be tried, */
+/* Whether so little of what a scan shows is found in the map that another pose should be tried. */
 bool ale_tracking_doubts(const ale_fit_t *fit);
-/* and that the last scan should be heard: more is asked for once a scan did not fit. */
+
+/* Whether so little is found that the last scan must be asked; more is needed once a scan did not fit. */
 bool ale_tracking_is_strange(const ale_tracking_monitor_t *monitor, const ale_fit_t *fit);
 
-/* Notices whether the scene has changed all at once; before the scan goes into the map. heard: what the last
- * scan says of this one, NULL when it was not strange. counted: wheels told the way between the two. mapped:
+/* Decides whether the last scan contradicts this one, before it goes into the map. testimony: what the last
+ * scan says of it, NULL where it was not asked. counted: wheels measured the motion between the two. mapped:
  * the map holds walls. */
-void ale_tracking_notice(ale_tracking_monitor_t *monitor, const ale_testimony_t *heard, bool counted,
+void ale_tracking_notice(ale_tracking_monitor_t *monitor, const ale_testimony_t *testimony, bool counted,
                          bool mapped);
 
 /* Judges a fitted scan and what it says of the walls that were not matched; returns the new state. */
 ale_state_t ale_tracking_judge(ale_tracking_monitor_t *monitor, const ale_fit_t *fit,
                                const ale_visibility_counts_t *visibility);
 
-/* Whether a fit found while lost may be believed: most of what is shown lies on walls, and enough is shown.
- */
+/* Whether a fit found while lost is accepted: most of what is shown lies on walls, and enough is shown. */
 bool ale_tracking_accepts(const ale_fit_t *fit);
 
 /* Whether a fit confirms that the robot is where it is said to be: nearly all that is shown lies on walls,
@@ -54,11 +54,11 @@ bool ale_tracking_confirms(const ale_fit_t *fit);
 /* The robot was found again, or put somewhere: weak until the next scans agree. */
 void ale_tracking_found(ale_tracking_monitor_t *monitor);
 
-/* A scan that was dropped, or showed nothing. */
+/* A scan that was dropped: the state by the predicted variance. Lost stays lost. */
 ale_state_t ale_tracking_skip(ale_tracking_monitor_t *monitor, const ale_motion_t *predicted);
 
-/* Whether the map should go on from this scan: it shows enough to be followed from, nothing speaks against
- * the pose, but the map does not hold it well enough to be added to. Not so without wheels when the heading
+/* Whether the map should go on from this scan: it shows enough to be followed from, nothing contradicts the
+ * pose, but the map does not determine it well enough to be added to. Not so without wheels when the heading
  * is so uncertain that nothing would have been found in the map: that is judged lost. */
 bool ale_tracking_may_reanchor(const ale_tracking_monitor_t *monitor, const ale_fit_t *fit);
 

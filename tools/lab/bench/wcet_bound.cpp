@@ -25,7 +25,7 @@ extern "C" {
 #include "observe/short_segment.h"
 #include "track/map_update.h"
 #include "track/pipeline_state.h"
-#include "track/pipeline_steps.h"
+#include "track/step_predict.h"
 }
 
 namespace bench

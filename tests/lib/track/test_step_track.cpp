@@ -1,4 +1,4 @@
-// lib/track/pipeline_track.c: a robot that stands among people who walk, one whose wheels slip, and one
+// lib/track/step_track.c: a robot that stands among people who walk, one whose wheels slip, and one
 // between bare walls.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// lib/track/pipeline_search.c: carried away, or started in a loaded map.
+// lib/track/step_search.c: carried away, or started in a loaded map.
 #include <gtest/gtest.h>
 
 #include "room.h"
