@@ -19,24 +19,23 @@ static bool has_faded(const ale_wall_t *wall)
 
 /* An end that is seen through was never there: noise and things beside a wall lengthen it, this shortens it.
  */
-static void trim(ale_wall_t *wall, const ale_scan_t *taken, const uint32_t *bearing_bam, ale_pose_t sensor)
+static void trim(ale_wall_t *wall, const ale_posed_scan_t *from)
 {
     if (wall->end_um - wall->start_um < TRIM_LENGTH_UM) {
         return;
     }
     const int64_t start_um = wall->start_um + TRIM_INSIDE_UM;
     const int64_t end_um = wall->end_um - TRIM_INSIDE_UM;
-    if (ale_wall_point_visibility(wall, start_um, taken, bearing_bam, sensor) == ALE_VISIBILITY_VIOLATED) {
+    if (ale_wall_point_visibility(wall, start_um, from) == ALE_VISIBILITY_VIOLATED) {
         wall->start_um += TRIM_UM;
     }
-    if (ale_wall_point_visibility(wall, end_um, taken, bearing_bam, sensor) == ALE_VISIBILITY_VIOLATED) {
+    if (ale_wall_point_visibility(wall, end_um, from) == ALE_VISIBILITY_VIOLATED) {
         wall->end_um -= TRIM_UM;
     }
 }
 
-ale_visibility_counts_t ale_map_decay(ale_map_decay_t *decay, ale_local_map_t *map, const ale_scan_t *taken,
-                                      const uint32_t *bearing_bam, ale_pose_t sensor, uint32_t scan,
-                                      bool forget)
+ale_visibility_counts_t ale_map_decay(ale_map_decay_t *decay, ale_local_map_t *map,
+                                      const ale_posed_scan_t *from, uint32_t scan, bool forget)
 {
     ale_visibility_counts_t counts = {0, 0};
     const uint32_t count = map->near_first[ALE_MAP_DIRECTIONS];
@@ -46,12 +45,12 @@ ale_visibility_counts_t ale_map_decay(ale_map_decay_t *decay, ale_local_map_t *m
         const uint16_t index = map->near[decay->next];
         ale_wall_t *wall = &map->wall[index];
         if (forget) {
-            trim(wall, taken, bearing_bam, sensor);
+            trim(wall, from);
         }
         if (wall->last_scan == scan) {
             continue;
         }
-        const ale_visibility_t visibility = ale_wall_visibility(wall, taken, bearing_bam, sensor);
+        const ale_visibility_t visibility = ale_wall_visibility(wall, from);
         counts.supported = (uint16_t)(counts.supported + (visibility == ALE_VISIBILITY_SUPPORTED));
         counts.violated = (uint16_t)(counts.violated + (visibility == ALE_VISIBILITY_VIOLATED));
         if (forget && visibility != ALE_VISIBILITY_NONE) {

@@ -6,8 +6,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base/scan.h"
 #include "map/local_map.h"
+#include "observe/posed_scan.h"
 
 enum { ALE_DECAY_WALLS = 24 };
 
@@ -23,8 +23,7 @@ typedef struct {
 
 /* Asks the next near walls whose last_scan is not `scan`. forget: count misses, remove what has faded, and
  * shorten walls whose ends are seen through. */
-ale_visibility_counts_t ale_map_decay(ale_map_decay_t *decay, ale_local_map_t *map, const ale_scan_t *taken,
-                                      const uint32_t *bearing_bam, ale_pose_t sensor, uint32_t scan,
-                                      bool forget);
+ale_visibility_counts_t ale_map_decay(ale_map_decay_t *decay, ale_local_map_t *map,
+                                      const ale_posed_scan_t *from, uint32_t scan, bool forget);
 
 #endif

@@ -16,8 +16,9 @@ enum {
 
 /* The beam that points in a direction of the sensor's frame. Straightening moves beams by a few steps:
  * the regular place is corrected twice. */
-static int32_t beam_towards(const ale_scan_t *scan, const uint32_t *bearing_bam, uint32_t direction_bam)
+static int32_t beam_towards(const ale_posed_scan_t *from, uint32_t direction_bam)
 {
+    const ale_scan_t *scan = from->scan;
     const bool reversed = scan->step_bam < 0;
     const uint32_t step = reversed ? 0u - (uint32_t)scan->step_bam : (uint32_t)scan->step_bam;
     const uint32_t from_first =
@@ -26,8 +27,8 @@ static int32_t beam_towards(const ale_scan_t *scan, const uint32_t *bearing_bam,
         return NOT_IN_VIEW;
     }
     int32_t beam = (int32_t)(from_first / step);
-    for (int i = 0; bearing_bam && i < 2; i++) {
-        const int32_t error = ale_bam_diff(direction_bam, bearing_bam[beam]);
+    for (int i = 0; from->bearing_bam && i < 2; i++) {
+        const int32_t error = ale_bam_diff(direction_bam, from->bearing_bam[beam]);
         const int64_t next = beam + ale_round_div(reversed ? -(int64_t)error : error, step);
         if (next < 0 || next >= scan->beams) {
             return NOT_IN_VIEW;
@@ -37,8 +38,8 @@ static int32_t beam_towards(const ale_scan_t *scan, const uint32_t *bearing_bam,
     return beam;
 }
 
-static ale_visibility_t beam_sight(const ale_scan_t *scan, int32_t beam, int64_t range_um,
-                                   int64_t tolerance_um, bool same_place)
+static ale_visibility_t beam_visibility(const ale_scan_t *scan, int32_t beam, int64_t range_um,
+                                        int64_t tolerance_um, bool same_place)
 {
     if (beam < 0 || beam >= scan->beams) {
         return ALE_VISIBILITY_NONE;
@@ -62,18 +63,20 @@ static int32_t beams_aside(const ale_scan_t *scan, int64_t range_um, int64_t sla
 }
 
 /* Supported by any beam that may be meant, seen through by all of them. */
-static ale_visibility_t point_sight(const ale_wall_t *wall, ale_point_t p, const ale_scan_t *scan,
-                                    const uint32_t *bearing_bam, ale_pose_t sensor, ale_slack_t slack)
+static ale_visibility_t point_visibility(const ale_wall_t *wall, int64_t t_um, const ale_posed_scan_t *from,
+                                         ale_slack_t slack)
 {
-    const int64_t x = (int64_t)sensor.x_um - p.x_um;
-    const int64_t y = (int64_t)sensor.y_um - p.y_um;
+    const ale_scan_t *scan = from->scan;
+    const ale_point_t p = ale_wall_point(wall, t_um);
+    const int64_t x = (int64_t)from->sensor.x_um - p.x_um;
+    const int64_t y = (int64_t)from->sensor.y_um - p.y_um;
     const int64_t range_um = ale_isqrt((uint64_t)(x * x + y * y));
     const int64_t height_um = ale_round_shift(x * wall->normal_x_q30 + y * wall->normal_y_q30, 30);
     if (height_um < ale_mul_shift(range_um, GRAZING_Q30, 30) || range_um <= scan->range_min_um ||
         range_um > scan->range_max_um) {
         return ALE_VISIBILITY_NONE;
     }
-    const int32_t middle = beam_towards(scan, bearing_bam, ale_atan2_bam(-y, -x) - sensor.theta_bam);
+    const int32_t middle = beam_towards(from, ale_atan2_bam(-y, -x) - from->sensor.theta_bam);
     if (middle == NOT_IN_VIEW) {
         return ALE_VISIBILITY_NONE;
     }
@@ -84,7 +87,8 @@ static ale_visibility_t point_sight(const ale_wall_t *wall, ale_point_t p, const
     const int32_t aside = beams_aside(scan, range_um, slack_um);
     ale_visibility_t sum = ALE_VISIBILITY_VIOLATED;
     for (int32_t beam = middle - aside; beam <= middle + aside; beam++) {
-        const ale_visibility_t visibility = beam_sight(scan, beam, range_um, tolerance_um, slack.same_place);
+        const ale_visibility_t visibility =
+            beam_visibility(scan, beam, range_um, tolerance_um, slack.same_place);
         if (visibility == ALE_VISIBILITY_SUPPORTED) {
             return visibility;
         }
@@ -93,36 +97,30 @@ static ale_visibility_t point_sight(const ale_wall_t *wall, ale_point_t p, const
     return sum;
 }
 
-ale_points_visibility_t ale_wall_points_visibility(const ale_wall_t *wall, const ale_scan_t *scan,
-                                                   const uint32_t *bearing_bam, ale_pose_t sensor,
+ale_points_visibility_t ale_wall_points_visibility(const ale_wall_t *wall, const ale_posed_scan_t *from,
                                                    ale_slack_t slack)
 {
     ale_points_visibility_t sum = {0, 0};
     for (int32_t k = 1; k < 2 * ALE_VISIBILITY_POINTS; k += 2) {
         const int64_t length_um = (int64_t)wall->end_um - wall->start_um;
         const int64_t t_um = wall->start_um + length_um * k / ((int64_t)2 * ALE_VISIBILITY_POINTS);
-        const ale_visibility_t visibility =
-            point_sight(wall, ale_wall_point(wall, t_um), scan, bearing_bam, sensor, slack);
+        const ale_visibility_t visibility = point_visibility(wall, t_um, from, slack);
         sum.supported = (uint8_t)(sum.supported + (visibility == ALE_VISIBILITY_SUPPORTED));
         sum.violated = (uint8_t)(sum.violated + (visibility == ALE_VISIBILITY_VIOLATED));
     }
     return sum;
 }
 
-ale_visibility_t ale_wall_visibility(const ale_wall_t *wall, const ale_scan_t *scan,
-                                     const uint32_t *bearing_bam, ale_pose_t sensor)
+ale_visibility_t ale_wall_visibility(const ale_wall_t *wall, const ale_posed_scan_t *from)
 {
-    const ale_points_visibility_t sum =
-        ale_wall_points_visibility(wall, scan, bearing_bam, sensor, (ale_slack_t){0, 0, false});
+    const ale_points_visibility_t sum = ale_wall_points_visibility(wall, from, (ale_slack_t){0, 0, false});
     if (sum.supported > 0) {
         return ALE_VISIBILITY_SUPPORTED;
     }
     return sum.violated >= 2 ? ALE_VISIBILITY_VIOLATED : ALE_VISIBILITY_NONE;
 }
 
-ale_visibility_t ale_wall_point_visibility(const ale_wall_t *wall, int64_t t_um, const ale_scan_t *scan,
-                                           const uint32_t *bearing_bam, ale_pose_t sensor)
+ale_visibility_t ale_wall_point_visibility(const ale_wall_t *wall, int64_t t_um, const ale_posed_scan_t *from)
 {
-    return point_sight(wall, ale_wall_point(wall, t_um), scan, bearing_bam, sensor,
-                       (ale_slack_t){0, 0, false});
+    return point_visibility(wall, t_um, from, (ale_slack_t){0, 0, false});
 }

@@ -8,8 +8,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base/scan.h"
 #include "map/wall.h"
+#include "observe/posed_scan.h"
 
 typedef enum {
     ALE_VISIBILITY_NONE,      /* out of view, too grazing, hidden, or no value in the beams */
@@ -33,17 +33,15 @@ typedef struct {
     bool same_place;
 } ale_slack_t;
 
-ale_points_visibility_t ale_wall_points_visibility(const ale_wall_t *wall, const ale_scan_t *scan,
-                                                   const uint32_t *bearing_bam, ale_pose_t sensor,
+ale_points_visibility_t ale_wall_points_visibility(const ale_wall_t *wall, const ale_posed_scan_t *from,
                                                    ale_slack_t slack);
 
 /* What a straightened scan, taken by a sensor at a pose of the map, says of a wall. bearing_bam as for
  * ale_extract_scan. Three points of the wall are asked; two must be seen through. */
-ale_visibility_t ale_wall_visibility(const ale_wall_t *wall, const ale_scan_t *scan,
-                                     const uint32_t *bearing_bam, ale_pose_t sensor);
+ale_visibility_t ale_wall_visibility(const ale_wall_t *wall, const ale_posed_scan_t *from);
 
 /* The same of the point t_um along the wall's tangent alone. */
-ale_visibility_t ale_wall_point_visibility(const ale_wall_t *wall, int64_t t_um, const ale_scan_t *scan,
-                                           const uint32_t *bearing_bam, ale_pose_t sensor);
+ale_visibility_t ale_wall_point_visibility(const ale_wall_t *wall, int64_t t_um,
+                                           const ale_posed_scan_t *from);
 
 #endif

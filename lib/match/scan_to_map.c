@@ -347,18 +347,18 @@ void ale_register_scan(const ale_motion_t *predicted, const ale_scene_t *scene, 
     ale_register_weigh(scene, out);
 }
 
-void ale_register_again(const ale_motion_t *predicted, bool anew, ale_pose_t from, const ale_scene_t *scene,
-                        const ale_gate_t *gate, int32_t most_work, ale_fit_t *other, ale_fit_t *fit)
+void ale_register_again(const ale_scene_t *scene, const ale_second_fit_t *second, ale_fit_t *other,
+                        ale_fit_t *fit)
 {
-    const ale_gate_t *const gates[ALE_REGISTER_ITERATIONS] = {gate, &later, &later};
-    start(predicted, scene, other);
-    other->motion.pose = from;
-    if (anew) {
-        set_prior(predicted, other);
+    const ale_gate_t *const gates[ALE_REGISTER_ITERATIONS] = {second->gate, &later, &later};
+    start(second->predicted, scene, other);
+    other->motion.pose = second->start;
+    if (second->is_new_prior) {
+        set_prior(second->predicted, other);
     } else {
         other->prior = fit->prior;
     }
-    fit_from(predicted, scene, gates, most_work - fit->work, other);
+    fit_from(second->predicted, scene, gates, second->most_work - fit->work, other);
     ale_register_associate(scene, other);
     if (other->matched_um >= fit->matched_um) {
         *fit = *other;

@@ -64,11 +64,19 @@ void ale_register_pose(const ale_motion_t *predicted, const ale_scene_t *scene, 
 void ale_register_associate(const ale_scene_t *scene, ale_fit_t *fit);
 void ale_register_weigh(const ale_scene_t *scene, ale_fit_t *fit);
 
-/* Fits once more, from another pose, with another gate to begin with and, if anew, another prediction than
- * that of fit, and keeps what explains more. fit was looked at and not yet weighed, and is so again. Where
- * both would look at more than most_looks, this one takes one step and a look. other: working memory. */
-void ale_register_again(const ale_motion_t *predicted, bool anew, ale_pose_t from, const ale_scene_t *scene,
-                        const ale_gate_t *gate, int32_t most_work, ale_fit_t *other, ale_fit_t *fit);
+/* A second fit of the same scan. */
+typedef struct {
+    const ale_motion_t *predicted;
+    bool is_new_prior;      /* predicted is not that of the first fit */
+    ale_pose_t start;       /* where the iterations begin */
+    const ale_gate_t *gate; /* of the first iteration */
+    int32_t most_work; /* of both fits together; where two more passes would exceed it, one step is made */
+} ale_second_fit_t;
+
+/* Fits once more and keeps the fit that explains more, the second of two equals. fit: associated and not yet
+ * weighed, on return again. other: working memory. */
+void ale_register_again(const ale_scene_t *scene, const ale_second_fit_t *second, ale_fit_t *other,
+                        ale_fit_t *fit);
 
 /* Makes a fit of a scan that is not to be believed: the prediction stands, nothing is matched. */
 void ale_register_reject(const ale_motion_t *predicted, const ale_scene_t *scene, ale_fit_t *fit);

@@ -7,18 +7,19 @@
 
 void ale_seen_copy(ale_seen_copy_t *copy, const ale_seen_t *seen)
 {
-    copy->scan = *seen->scan;
-    copy->straightened = seen->bearing_bam != NULL;
+    const ale_posed_scan_t *from = &seen->posed;
+    copy->scan = *from->scan;
+    copy->straightened = from->bearing_bam != NULL;
     if (copy->straightened) {
-        memcpy(copy->bearing_bam, seen->bearing_bam, seen->scan->beams * sizeof copy->bearing_bam[0]);
+        memcpy(copy->bearing_bam, from->bearing_bam, from->scan->beams * sizeof copy->bearing_bam[0]);
     }
     copy->robot = seen->robot;
-    copy->sensor = seen->sensor;
+    copy->sensor = from->sensor;
 }
 
-const uint32_t *ale_seen_bearings(const ale_seen_copy_t *copy)
+ale_posed_scan_t ale_seen_copy_posed(const ale_seen_copy_t *copy)
 {
-    return copy->straightened ? copy->bearing_bam : NULL;
+    return (ale_posed_scan_t){&copy->scan, copy->straightened ? copy->bearing_bam : NULL, copy->sensor};
 }
 
 bool ale_are_near(ale_pose_t a, ale_pose_t b, int32_t within_um, int32_t within_bam)

@@ -8,13 +8,12 @@
 
 #include "base/scan.h"
 #include "observe/observation.h"
+#include "observe/posed_scan.h"
 
-/* A straightened scan, where it was taken from, and what it shows. bearing_bam NULL: regular. */
+/* A deskewed scan, where it was taken from, and what it shows. */
 typedef struct {
-    const ale_scan_t *scan;
-    const uint32_t *bearing_bam;
-    ale_pose_t robot; /* in any frame that both scans are given in */
-    ale_pose_t sensor;
+    ale_posed_scan_t posed;               /* in any frame that both scans are given in */
+    ale_pose_t robot;                     /* in the same frame */
     const ale_observation_t *observation; /* robot's frame */
     uint32_t observation_count;           /* ALE_MAX_OBSERVATIONS at most */
 } ale_seen_t;
@@ -31,8 +30,8 @@ typedef struct {
 /* O(beams). */
 void ale_seen_copy(ale_seen_copy_t *copy, const ale_seen_t *seen);
 
-/* Bearings of the copied scan, NULL when they are regular. */
-const uint32_t *ale_seen_bearings(const ale_seen_copy_t *copy);
+/* The copied scan, borrowed from the copy. */
+ale_posed_scan_t ale_seen_copy_posed(const ale_seen_copy_t *copy);
 
 /* Whether two poses differ by less along x, along y and in the heading. */
 bool ale_are_near(ale_pose_t a, ale_pose_t b, int32_t within_um, int32_t within_bam);

@@ -1,10 +1,11 @@
-/* What a scan shows besides lines: short segments of surfaces and small things that stand alone.
+/* Short segments and point features: what a scan shows besides lines.
  *
- * Beams that made no line are taken in runs along the surface and cut into short segments of a few beams. A
- * piece has a centre, a normal (from its own direction where it has one, else towards the sensor), and hardly
- * an angle. A short run with nothing but distance on either side is a point feature: its place is known
- * across the beams too. Single beams are left out: they are stray points as often as not. Of more short
- * segments than there is room for an even choice is taken. O(beams). */
+ * Beams in no line are grouped into runs along a surface, and each run is cut into segments of six beams at
+ * most. A short segment has a centre, a normal (its own where its points have a clear direction, else towards
+ * the sensor) and a standard deviation of the angle of 0.15 or 0.6 rad. A run of at most 150 mm whose
+ * neighbours on both sides are farther away is a point feature: its position is known across the beams too.
+ * Single beams are left out, they are outliers as often as not. Where there is no room for all an even choice
+ * is made. O(beams). */
 #ifndef ALE_OBSERVE_SHORT_SEGMENT_H
 #define ALE_OBSERVE_SHORT_SEGMENT_H
 
@@ -13,25 +14,27 @@
 
 #include "base/noise.h"
 #include "observe/observation.h"
+#include "observe/posed_scan.h"
 
-/* Neighbouring beams along a surface. */
+/* Neighbouring beams of one surface. */
 typedef struct {
     uint16_t first;
     uint16_t last;
-    uint16_t parts; /* 0: a point feature */
+    uint16_t parts; /* segments that it is cut into; 0: it is a point feature */
 } ale_surface_run_t;
 
-/* Working memory. */
+/* Working memory, nothing in it lasts. */
 typedef struct {
-    ale_point_t point[ALE_MAX_BEAMS]; /* of the beams that were asked for it, sensor frame */
+    ale_point_t point[ALE_MAX_BEAMS]; /* sensor frame; computed where known */
     bool known[ALE_MAX_BEAMS];
     ale_surface_run_t surface_run[ALE_MAX_BEAMS / 2];
 } ale_segment_workspace_t;
 
-/* Pieces of a straightened scan (bearing_bam as for ale_extract_scan) in the robot's frame. Returns their
- * number, `room` at most. */
-uint32_t ale_observe_segments(const ale_features_t *features, const ale_scan_t *scan,
-                              const uint32_t *bearing_bam, ale_pose_t sensor, const ale_noise_t *noise,
-                              ale_segment_workspace_t *memory, uint32_t room, ale_observation_t out[]);
+/* Short segments and point features of the beams of a deskewed scan that are in none of its lines, in the
+ * frame of the sensor's pose (the robot's). noise: that of one beam. Returns their number, `room` at most.
+ * O(beams). */
+uint32_t ale_observe_segments(const ale_features_t *features, const ale_posed_scan_t *from,
+                              const ale_noise_t *noise, ale_segment_workspace_t *memory, uint32_t room,
+                              ale_observation_t out[]);
 
 #endif

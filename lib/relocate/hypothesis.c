@@ -7,13 +7,13 @@
 #include "match/association.h"
 
 enum {
-    PAIR_ANGLE_BAM = 4 * ALE_BAM_PER_DEGREE, /* how well the enclosed angles must agree */
+    PAIR_ANGLE_BAM = 4 * ALE_BAM_PER_DEGREE, /* by which the enclosed angles may differ */
     LEAST_ENCLOSED_BAM = 30 * ALE_BAM_PER_DEGREE,
     SCORE_OFFSET_UM = 120000,
     SCORE_ANGLE_URAD = 120000,
     SCORE_SIGMAS = 1000,
-    SHARED_PERCENT = 70, /* of either view of the pair must lie on its wall */
-    SECOND_PART = 2      /* the second pair must be half as long as the best */
+    SHARED_PERCENT = 70, /* of either observation of the pair must lie on its wall */
+    SECOND_PART = 2      /* the second pair must be at least half as long as the best */
 };
 
 static int32_t enclosed(uint32_t a_bam, uint32_t b_bam)
@@ -84,8 +84,8 @@ bool ale_pose_of_pair(const ale_observation_t *a, const ale_observation_t *b, co
                       const ale_wall_t *wall_b, ale_pose_t *out)
 {
     const uint32_t turn_a = wall_a->normal_bam - a->normal_bam;
-    const int32_t zero_motion = ale_bam_diff(wall_b->normal_bam - b->normal_bam, turn_a);
-    const uint32_t theta = turn_a + (uint32_t)(zero_motion / 2);
+    const int32_t apart_bam = ale_bam_diff(wall_b->normal_bam - b->normal_bam, turn_a);
+    const uint32_t theta = turn_a + (uint32_t)(apart_bam / 2);
     const ale_point_t pa = ale_minus(wall_a->anchor, ale_rotate(a->centre, theta));
     const ale_point_t pb = ale_minus(wall_b->anchor, ale_rotate(b->centre, theta));
     const int64_t ra = ale_round_shift(
@@ -156,30 +156,46 @@ static void next_pair(ale_search_t *s, uint16_t count)
     }
 }
 
-/* The next pair of the map that encloses the angle of the observations and is long enough for them, in at
+/* The two observations of a round, and the map on whose walls they are placed. */
+typedef struct {
+    const ale_local_map_t *map;
+    const ale_observation_t *a;
+    const ale_observation_t *b;
+} query_t;
+
+/* The next pair of walls that encloses the angle of the two observations and is long enough for them, in at
  * most *pairs steps; false: none up to the end of the round. */
-static bool next_candidate(ale_search_t *s, uint32_t round, const ale_local_map_t *map,
-                           const ale_observation_t *a, const ale_observation_t *b, int32_t *pairs,
+static bool next_candidate(ale_search_t *s, const query_t *q, uint32_t round, int32_t *pairs,
                            uint16_t wall[2])
 {
-    const int32_t angle_bam = enclosed(a->normal_bam, b->normal_bam);
+    const uint16_t count = q->map->count;
+    const int32_t angle_bam = enclosed(q->a->normal_bam, q->b->normal_bam);
     for (; *pairs > 0 && s->rounds == round; --*pairs) {
-        const ale_wall_t *wall_a = &map->wall[s->first];
-        const ale_wall_t *wall_b = &map->wall[s->second];
-        if (is_too_short(wall_a, a)) {
-            next_first(s, map->count);
+        const ale_wall_t *wall_a = &q->map->wall[s->first];
+        const ale_wall_t *wall_b = &q->map->wall[s->second];
+        if (is_too_short(wall_a, q->a)) {
+            next_first(s, count);
             continue;
         }
         wall[0] = s->first;
         wall[1] = s->second;
-        next_pair(s, map->count);
+        next_pair(s, count);
         const int32_t in_map_bam = enclosed(wall_a->normal_bam, wall_b->normal_bam);
         if (ale_abs64(ale_bam_diff((uint32_t)in_map_bam, (uint32_t)angle_bam)) < PAIR_ANGLE_BAM &&
-            !is_too_short(wall_b, b)) {
+            !is_too_short(wall_b, q->b)) {
             return true;
         }
     }
     return false;
+}
+
+/* The pose that lays the two observations on two walls; false: there is none. */
+static bool place(const query_t *q, const uint16_t wall[2], ale_pose_t *pose)
+{
+    const ale_wall_t *wall_a = &q->map->wall[wall[0]];
+    const ale_wall_t *wall_b = &q->map->wall[wall[1]];
+    return ale_pose_of_pair(q->a, q->b, wall_a, wall_b, pose) && lies_on(wall_a, q->a, *pose) &&
+           lies_on(wall_b, q->b, *pose);
 }
 
 uint32_t ale_search(ale_search_t *search, ale_local_map_t *map, const ale_observation_t observation[],
@@ -190,8 +206,7 @@ uint32_t ale_search(ale_search_t *search, ale_local_map_t *map, const ale_observ
     if (map->count < 2 || pair.shorter_um == 0) {
         return 0;
     }
-    const ale_observation_t *a = &observation[pair.first];
-    const ale_observation_t *b = &observation[pair.second];
+    const query_t query = {map, &observation[pair.first], &observation[pair.second]};
     search->first = search->first < map->count ? search->first : 0;
     search->second = search->second < map->count ? search->second : 0;
     ale_local_map_focus(map, (ale_point_t){0, 0}, INT32_MAX);
@@ -203,16 +218,15 @@ uint32_t ale_search(ale_search_t *search, ale_local_map_t *map, const ale_observ
         const ale_search_t before = *search;
         uint16_t wall[2];
         ale_pose_t pose;
-        if (!next_candidate(search, round, map, a, b, &pairs, wall)) {
+        if (!next_candidate(search, &query, round, &pairs, wall)) {
             break;
         }
-        if (!ale_pose_of_pair(a, b, &map->wall[wall[0]], &map->wall[wall[1]], &pose) ||
-            !lies_on(&map->wall[wall[0]], a, pose) || !lies_on(&map->wall[wall[1]], b, pose)) {
+        if (!place(&query, wall, &pose)) {
             continue;
         }
         out[scored] = ale_hypothesis_at(map, observation, count, pose, &gate, &work);
         if (work <= 0 && scored > 0) {
-            *search = before; /* what was scored in part only comes again */
+            *search = before; /* it was scored in part only: the next scan repeats it */
             break;
         }
         scored++;

@@ -8,9 +8,9 @@
 #include "relocate/hypothesis.h"
 
 enum {
-    APART_UM = 500000, /* scans that are kept, */
+    APART_UM = 500000, /* distance of the scans that are kept */
     APART_BAM = 500 * ALE_BAM_PER_MRAD,
-    OFFSET_UM = 250000, /* a line lies on a wall when it is no farther from it: wheels stray */
+    OFFSET_UM = 250000, /* gate of a line that lies on a wall: odometry drifts */
     ANGLE_URAD = 200000,
     SIGMAS = 1000
 };
@@ -23,10 +23,10 @@ void ale_trail_clear(ale_trail_t *trail)
     trail->newest = 0;
 }
 
-void ale_trail_follow(ale_trail_t *trail, ale_pose_t way)
+void ale_trail_follow(ale_trail_t *trail, ale_pose_t displacement)
 {
     for (uint32_t i = 0; i < trail->count; i++) {
-        trail->scan[i].from = ale_pose_between(way, trail->scan[i].from);
+        trail->scan[i].from = ale_pose_between(displacement, trail->scan[i].from);
     }
 }
 

@@ -267,10 +267,9 @@ bool ale_pipeline_seen(const ale_pipeline_t *p, ale_seen_t *out)
     if (!p->looked || !is_placed(p)) {
         return false;
     }
-    *out = (ale_seen_t){.scan = &p->still.scan,
-                        .bearing_bam = ale_observed_bearings(&p->observed),
+    *out = (ale_seen_t){.posed = {&p->still.scan, ale_observed_bearings(&p->observed),
+                                  ale_pose_compose(p->motion.pose, p->config.sensor)},
                         .robot = p->motion.pose,
-                        .sensor = ale_pose_compose(p->motion.pose, p->config.sensor),
                         .observation = p->still.observation,
                         .observation_count = p->still.count};
     return true;

@@ -156,8 +156,12 @@ static void associate_again(ale_pipeline_t *p, const ale_prediction_t *predictio
     const ale_motion_t *prior = turns ? &ways->rival : &ways->believed;
     const ale_gate_t *unguided = turns ? &acquire_gate : &narrow_gate;
     const int32_t most_work = ALE_SCAN_WORK - ALE_BEAM_WORK * p->observed.scan.beams;
-    ale_register_again(prior, start != FROM_SELECTED, registered.found ? registered.pose : prior->pose,
-                       &scene, registered.found ? &register_gate : unguided, most_work, &p->other, fit);
+    const ale_second_fit_t second = {.predicted = prior,
+                                     .is_new_prior = start != FROM_SELECTED,
+                                     .start = registered.found ? registered.pose : prior->pose,
+                                     .gate = registered.found ? &register_gate : unguided,
+                                     .most_work = most_work};
+    ale_register_again(&scene, &second, &p->other, fit);
     if (turns && fit->matched_um > found_um) {
         ale_ways_swap(ways);
     }

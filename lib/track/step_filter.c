@@ -17,10 +17,9 @@ ale_pose_t ale_pipeline_smooth_pose(const ale_pipeline_t *p, ale_pose_t before, 
 ale_seen_t ale_pipeline_seen_from(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t pose)
 {
     const ale_pose_t robot = ale_pipeline_smooth_pose(p, before, pose);
-    return (ale_seen_t){.scan = &p->still.scan,
-                        .bearing_bam = ale_observed_bearings(&p->observed),
+    return (ale_seen_t){.posed = {&p->still.scan, ale_observed_bearings(&p->observed),
+                                  ale_pose_compose(robot, p->config.sensor)},
                         .robot = robot,
-                        .sensor = ale_pose_compose(robot, p->config.sensor),
                         .observation = p->still.observation,
                         .observation_count = p->still.count};
 }

@@ -39,13 +39,12 @@ void ale_step_observe(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t ve
 {
     ale_observed_t *o = &p->observed;
     straighten(p, raw, velocity);
-    const uint32_t *bearing_bam = ale_observed_bearings(o);
+    const ale_posed_scan_t from = {&o->scan, ale_observed_bearings(o), p->config.sensor};
     ale_stage_end(&p->hook, ALE_STAGE_DESKEW);
-    ale_extract_scan(&p->extractor, &o->scan, bearing_bam, &o->features);
+    ale_extract_scan(&p->extractor, &o->scan, from.bearing_bam, &o->features);
     const ale_noise_t noise = measured_noise(p);
     o->count =
         ale_observe_lines(&o->features, &o->scan, p->config.sensor, noise.surface_um / 2, o->observation);
-    o->count +=
-        ale_observe_segments(&o->features, &o->scan, bearing_bam, p->config.sensor, &noise, &p->segments,
-                             ALE_MAX_OBSERVATIONS - o->count, &o->observation[o->count]);
+    o->count += ale_observe_segments(&o->features, &from, &noise, &p->segments,
+                                     ALE_MAX_OBSERVATIONS - o->count, &o->observation[o->count]);
 }

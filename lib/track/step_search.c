@@ -30,8 +30,8 @@ static bool is_found(ale_pipeline_t *p, const ale_motion_t *predicted, ale_fit_t
     const ale_point_t anywhere = {0, 0};
     ale_local_map_approach(&p->map, anywhere, WHOLE_MAP_UM);
     const ale_scene_t scene = ale_observed_scene(p);
-    const ale_mounted_scan_t mounted = {&p->observed.scan, ale_observed_bearings(&p->observed),
-                                        p->config.sensor};
+    const ale_posed_scan_t mounted = {&p->observed.scan, ale_observed_bearings(&p->observed),
+                                      p->config.sensor};
     return ale_relocate(&p->relocation, &scene, &mounted, predicted, fit) && ale_tracking_accepts(fit);
 }
 

@@ -83,10 +83,11 @@ uint16_t ale_update_map(ale_pipeline_t *p, const ale_fit_t *fit, bool grow)
 
 ale_visibility_counts_t ale_update_decay(ale_pipeline_t *p, ale_pose_t robot)
 {
-    const ale_pose_t sensor = ale_pose_compose(robot, p->config.sensor);
+    const ale_posed_scan_t from = {&p->still.scan, ale_observed_bearings(&p->observed),
+                                   ale_pose_compose(robot, p->config.sensor)};
     ale_pipeline_approach(p, robot, p->still.scan.range_max_um);
-    return ale_map_decay(&p->decay, &p->map, &p->still.scan, ale_observed_bearings(&p->observed), sensor,
-                         p->scans, p->monitor.state == ALE_STATE_GOOD && !p->frozen);
+    return ale_map_decay(&p->decay, &p->map, &from, p->scans,
+                         p->monitor.state == ALE_STATE_GOOD && !p->frozen);
 }
 
 void ale_update_restart(ale_pipeline_t *p)

@@ -161,12 +161,13 @@ std::vector<WallSight> walls_of(const ale_features_t &features, const Pose &sens
 std::vector<SurfacePoint> surface_of(const ale_seen_t &seen, const ale_features_t &features)
 {
     std::vector<SurfacePoint> points;
-    const Pose sensor = from_core(ale_pose_between(seen.robot, seen.sensor));
-    each_point({*seen.scan, seen.bearing_bam, features, sensor}, [&points](const SurfacePoint &point, bool) {
-        if (!point.normal.isZero()) {
-            points.push_back(point);
-        }
-    });
+    const Pose sensor = from_core(ale_pose_between(seen.robot, seen.posed.sensor));
+    each_point({*seen.posed.scan, seen.posed.bearing_bam, features, sensor},
+               [&points](const SurfacePoint &point, bool) {
+                   if (!point.normal.isZero()) {
+                       points.push_back(point);
+                   }
+               });
     return points;
 }
 

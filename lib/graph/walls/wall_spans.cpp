@@ -65,10 +65,10 @@ class Cells
 
     void look(const PlacedLook &from)
     {
-        const uint32_t *bearing_bam = ale_seen_bearings(from.seen);
+        ale_posed_scan_t posed = ale_seen_copy_posed(from.seen);
+        posed.sensor = from.sensor;
         for (size_t k = 0; k < cells_.size(); k++) {
-            const ale_visibility_t sight =
-                ale_wall_point_visibility(&wall_, middle_um(k), &from.seen->scan, bearing_bam, from.sensor);
+            const ale_visibility_t sight = ale_wall_point_visibility(&wall_, middle_um(k), &posed);
             cells_[k].there += sight == ALE_VISIBILITY_SUPPORTED;
             cells_[k].through += sight == ALE_VISIBILITY_VIOLATED;
         }

@@ -151,8 +151,8 @@ static bool was_looked_through(const ale_seen_t *before, const ale_viewpoint_t *
     const ale_observation_t placed = ale_observation_from(observation, viewpoint);
     ale_wall_t surface;
     ale_wall_from_observation(&surface, &placed);
-    const ale_points_visibility_t visibility = ale_wall_points_visibility(
-        &surface, before->scan, before->bearing_bam, before->sensor, (ale_slack_t){0, 0, false});
+    const ale_points_visibility_t visibility =
+        ale_wall_points_visibility(&surface, &before->posed, (ale_slack_t){0, 0, false});
     return visibility.supported == 0 && visibility.violated >= VIOLATED_LEAST;
 }
 
@@ -176,7 +176,7 @@ static void find(const ale_carried_t *carried, const ale_seen_t *before, const a
                  const ale_association_t association[], come_t *come)
 {
     const ale_viewpoint_t viewpoint = ale_viewpoint(now->robot);
-    const bool to_and_fro = moves(carried, now->scan);
+    const bool to_and_fro = moves(carried, now->posed.scan);
     for (uint32_t i = 0; i < now->observation_count; i++) {
         const ale_observation_t *observation = &now->observation[i];
         if (!is_matched(&association[i]) && !is_out(come, observation) &&
@@ -234,8 +234,8 @@ static uint32_t without(const come_t *come, uint32_t count, ale_observation_t ob
 
 static bool is_comparable(const ale_seen_t *before, const ale_seen_t *now)
 {
-    return before->scan->beams == now->scan->beams && now->scan->step_bam != 0 &&
-           ale_abs64(now->scan->stamp_us - before->scan->stamp_us) < SOON_US &&
+    return before->posed.scan->beams == now->posed.scan->beams && now->posed.scan->step_bam != 0 &&
+           ale_abs64(now->posed.scan->stamp_us - before->posed.scan->stamp_us) < SOON_US &&
            ale_are_near(before->robot, now->robot, NEAR_UM, NEAR_BAM);
 }
 
@@ -247,9 +247,9 @@ uint32_t ale_carried_notice(ale_carried_t *carried, const ale_seen_t *before, co
     if (!is_comparable(before, now)) {
         return now->observation_count;
     }
-    come_t come = {.before = before->scan,
-                   .now = now->scan,
-                   .turned = (int32_t)ale_round_div((int32_t)turned_bam, now->scan->step_bam)};
+    come_t come = {.before = before->posed.scan,
+                   .now = now->posed.scan,
+                   .turned = (int32_t)ale_round_div((int32_t)turned_bam, now->posed.scan->step_bam)};
     find(carried, before, now, association, &come);
     const bool much = come.shorter * LEAST_PART >= scan->beams;
     if ((!much && !moves(carried, scan)) || !is_explained(&come, now, association)) {

@@ -36,11 +36,11 @@ static uint32_t place_of(uint32_t n)
 
 void ale_elders_keep(ale_elders_t *elders, const ale_seen_t *seen)
 {
-    if (elders->kept > 0 && ale_abs64(seen->scan->stamp_us - elders->kept_us) < EVERY_US) {
+    if (elders->kept > 0 && ale_abs64(seen->posed.scan->stamp_us - elders->kept_us) < EVERY_US) {
         return;
     }
     ale_elder_t *elder = &elders->elder[place_of(elders->kept++)];
-    elders->kept_us = seen->scan->stamp_us;
+    elders->kept_us = seen->posed.scan->stamp_us;
     elder->taken = true;
     ale_seen_copy(&elder->seen, seen);
 }
@@ -55,8 +55,8 @@ static bool looked_through(const ale_elder_t *elder, const ale_wall_t *surface, 
     }
     const ale_slack_t slack = {
         0, 0, rests && ale_are_near(then->robot, robot, ALE_ZERO_MOTION_UM, ALE_ZERO_MOTION_BAM)};
-    const ale_points_visibility_t visibility =
-        ale_wall_points_visibility(surface, &then->scan, ale_seen_bearings(then), then->sensor, slack);
+    const ale_posed_scan_t from = ale_seen_copy_posed(then);
+    const ale_points_visibility_t visibility = ale_wall_points_visibility(surface, &from, slack);
     return slack.same_place ? visibility.violated > visibility.supported
                             : visibility.violated >= DENIED_LEAST;
 }

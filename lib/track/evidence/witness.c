@@ -32,9 +32,8 @@ void ale_witness_stand(ale_witness_t *witness, ale_pose_t robot, ale_pose_t sens
 
 ale_seen_t ale_witness_seen(const ale_witness_t *witness)
 {
-    const ale_seen_copy_t *then = &witness->seen;
-    return (ale_seen_t){&then->scan,  ale_seen_bearings(then), then->robot,
-                        then->sensor, witness->observation,    witness->observation_count};
+    return (ale_seen_t){ale_seen_copy_posed(&witness->seen), witness->seen.robot, witness->observation,
+                        witness->observation_count};
 }
 
 /* What a scan says of the surfaces of another one. Spots have no side from which they are seen. */
@@ -50,8 +49,7 @@ static void ask(const ale_seen_t *of, const ale_seen_t *asked, ale_slack_t slack
         const int64_t length_um = ale_observation_length_um(&moved);
         ale_wall_t surface;
         ale_wall_from_observation(&surface, &moved);
-        const ale_points_visibility_t visibility =
-            ale_wall_points_visibility(&surface, asked->scan, asked->bearing_bam, asked->sensor, slack);
+        const ale_points_visibility_t visibility = ale_wall_points_visibility(&surface, &asked->posed, slack);
         sum->shown_um += length_um;
         sum->confirmed_um += length_um * visibility.supported / ALE_VISIBILITY_POINTS;
         sum->denied_um += length_um * visibility.violated / ALE_VISIBILITY_POINTS;

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "lib/track/room.h"
+#include "lib/motion/room.h"
 
 namespace drawn_walls
 {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "lib/track/room.h"
+#include "lib/motion/room.h"
 #include "ring_corridor.hpp"
 
 extern "C" {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "lib/track/room.h"
+#include "lib/track/room_pipeline.h"
 
 extern "C" {
 #include "graph/mapper.h"

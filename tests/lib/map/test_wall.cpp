@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/track/walls.h"
+#include "walls.h"
 
 namespace
 {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/track/convert.h"
+#include "lib/motion/convert.h"
 #include "reference/wall_match.h"
 
 extern "C" {

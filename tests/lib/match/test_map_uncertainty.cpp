@@ -6,8 +6,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "lib/track/convert.h"
-#include "lib/track/walls.h"
+#include "lib/motion/convert.h"
+#include "lib/map/walls.h"
 
 extern "C" {
 #include "match/map_uncertainty.h"

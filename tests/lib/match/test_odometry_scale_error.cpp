@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "lib/track/convert.h"
+#include "lib/motion/convert.h"
 
 extern "C" {
 #include "match/odometry_scale_error.h"

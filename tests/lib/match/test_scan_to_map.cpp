@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/track/convert.h"
-#include "lib/track/walls.h"
+#include "lib/motion/convert.h"
+#include "lib/map/walls.h"
 
 extern "C" {
 #include "match/scan_to_map.h"
@@ -207,7 +207,8 @@ TEST(Refine, ASecondFitLooksAtNoMoreThanIsLeftUnlessItTakesOneStep)
     for (int32_t most_work = 0; most_work < 4 * first.work; most_work += 50) {
         ale_fit_t fit = first;
         ale_fit_t other;
-        ale_register_again(&predicted, false, predicted.pose, &scene, &gate, most_work, &other, &fit);
+        const ale_second_fit_t second = {&predicted, false, predicted.pose, &gate, most_work};
+        ale_register_again(&scene, &second, &other, &fit);
         const double off_m =
             (convert::pose(fit.motion.pose) - reference::Pose(0.4, 0.3, -1.2)).head<2>().norm();
         EXPECT_EQ(fit.matched, 5);

@@ -1,5 +1,5 @@
 // lib/match/scan_to_scan.c: where the last scan says that this one was taken.
-#include "lib/track/look.h"
+#include "lib/observe/look.h"
 
 extern "C" {
 #include "match/scan_to_scan.h"

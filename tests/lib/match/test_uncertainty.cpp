@@ -1,7 +1,7 @@
 // lib/match/uncertainty.c: the covariance that is said.
 #include <gtest/gtest.h>
 
-#include "lib/track/convert.h"
+#include "lib/motion/convert.h"
 
 extern "C" {
 #include "match/uncertainty.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/track/room.h"
+#include "room.h"
 
 extern "C" {
 #include "motion/deskew.h"

@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "lib/track/convert.h"
+#include "convert.h"
 
 extern "C" {
 #include "motion/motion.h"

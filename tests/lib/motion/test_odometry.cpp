@@ -1,7 +1,7 @@
 // lib/motion/odometry.c: the buffer of the wheels.
 #include <gtest/gtest.h>
 
-#include "lib/track/convert.h"
+#include "convert.h"
 
 extern "C" {
 #include "motion/odometry.h"

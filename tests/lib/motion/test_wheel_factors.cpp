@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <random>
 
-#include "lib/track/convert.h"
+#include "convert.h"
 
 extern "C" {
 #include "motion/wheel_factors.h"

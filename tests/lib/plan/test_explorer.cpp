@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/track/room.h"
+#include "lib/motion/room.h"
 
 extern "C" {
 #include "plan/explorer.h"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/track/convert.h"
+#include "lib/motion/convert.h"
 #include "maze.h"
 
 extern "C" {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/track/convert.h"
+#include "lib/motion/convert.h"
 
 extern "C" {
 #include "plan/safe_speed.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/track/room.h"
+#include "lib/motion/room.h"
 
 extern "C" {
 #include "plan/wander.h"

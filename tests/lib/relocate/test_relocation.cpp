@@ -1,7 +1,7 @@
 // lib/relocate/relocation: lost in a known map.
 #include <gtest/gtest.h>
 
-#include "lib/track/room.h"
+#include "lib/track/room_pipeline.h"
 
 extern "C" {
 #include "track/pipeline_state.h"

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/track/convert.h"
-#include "lib/track/walls.h"
+#include "lib/motion/convert.h"
+#include "lib/map/walls.h"
 
 extern "C" {
 #include "match/association.h"

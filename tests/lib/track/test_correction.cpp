@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "room.h"
+#include "room_pipeline.h"
 
 extern "C" {
 #include "map/local_map.h"

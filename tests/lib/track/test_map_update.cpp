@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/track/convert.h"
+#include "lib/motion/convert.h"
 
 extern "C" {
 #include "track/map_update.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "room.h"
+#include "room_pipeline.h"
 
 extern "C" {
 #include "track/keyframe.h"

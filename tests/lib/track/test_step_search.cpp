@@ -1,7 +1,7 @@
 // lib/track/step_search.c: carried away, or started in a loaded map.
 #include <gtest/gtest.h>
 
-#include "room.h"
+#include "room_pipeline.h"
 
 extern "C" {
 #include "track/keyframe.h"

@@ -2,7 +2,7 @@
 // between bare walls.
 #include <gtest/gtest.h>
 
-#include "room.h"
+#include "room_pipeline.h"
 
 extern "C" {
 #include "track/pipeline_state.h"

@@ -218,4 +218,79 @@ TEST(TrackingMonitor, WithoutWheelsAHeadingBeyondReachIsLostNotReanchored)
     EXPECT_EQ(monitor.judge(*fit), ALE_STATE_LOST);
 }
 
+TEST(TrackingMonitor, GoesFromGoodToWeakToLostAndBackByWhatScansShow)
+{
+    ale_tracking_monitor_t t;
+    ale_tracking_init(&t);
+    ale_fit_t fit = {};
+    ale_motion_init(&fit.motion, 0, {0, 0, 0}, 1, 1);
+    const ale_visibility_counts_t fine = {3, 0};
+    for (int i = 0; i < 3; i++) {
+        fit.information.matrix.m[i][i] = int64_t{1} << 50;
+    }
+    fit.matched = 5;
+    fit.shown_um = 4000000;
+    fit.matched_um = 3800000;
+    EXPECT_FALSE(ale_tracking_doubts(&fit));
+    ale_tracking_notice(&t, nullptr, true, true);
+    EXPECT_EQ(ale_tracking_judge(&t, &fit, &fine), ALE_STATE_GOOD);
+    EXPECT_TRUE(ale_tracking_may_map(&t, &fit));
+    fit.information.matrix.m[0][0] = 0;
+    EXPECT_EQ(ale_tracking_judge(&t, &fit, &fine), ALE_STATE_WEAK);
+    const ale_visibility_counts_t violated = {0, 12};
+    fit.matched = 0;
+    for (int k = 0; k < 7; k++) {
+        EXPECT_EQ(ale_tracking_judge(&t, &fit, &violated), ALE_STATE_WEAK);
+        EXPECT_FALSE(ale_tracking_may_map(&t, &fit));
+    }
+    EXPECT_EQ(ale_tracking_judge(&t, &fit, &violated), ALE_STATE_LOST);
+    EXPECT_EQ(ale_tracking_skip(&t, &fit.motion), ALE_STATE_LOST);
+    ale_tracking_found(&t);
+    EXPECT_EQ(t.state, ALE_STATE_WEAK);
+}
+
+TEST(TrackingMonitor, APoseThatTheMapDoesNotHoldIsWhereTheMapGoesOnUnlessTheLastScanDeniesIt)
+{
+    ale_tracking_monitor_t t;
+    ale_tracking_init(&t);
+    ale_fit_t fit = {};
+    ale_motion_init(&fit.motion, 0, {0, 0, 0}, 1, 1);
+    fit.motion.cov.m[0][0] = int64_t{80000} * 80000;
+    fit.shown_um = 5000000;
+    EXPECT_TRUE(ale_tracking_doubts(&fit));
+    const ale_testimony_t agreed = {8000000, 5000000, 800000, true};
+    ale_tracking_notice(&t, &agreed, true, true);
+    EXPECT_FALSE(ale_tracking_may_map(&t, &fit));
+    EXPECT_TRUE(ale_tracking_may_reanchor(&t, &fit));
+    const ale_testimony_t denied = {8000000, 800000, 3000000, true};
+    ale_tracking_notice(&t, &denied, true, true);
+    EXPECT_TRUE(t.jumped);
+    EXPECT_FALSE(ale_tracking_may_reanchor(&t, &fit));
+}
+
+TEST(TrackingMonitor, WhatIsNotWhereAPoseOfLittleCertaintyPutsItIsNoNewPlaceButLostUnlessWheelsToldOrNothingIsMapped)
+{
+    struct {
+        bool counted;
+        bool mapped;
+        int64_t shown_um;
+        bool lost;
+    } const cases[] = {
+        {false, true, 5000000, true},  {true, true, 5000000, false}, {false, false, 5000000, false},
+        {false, true, 1000000, false}, {true, true, 1000000, false},
+    };
+    ale_fit_t fit = {};
+    ale_motion_init(&fit.motion, 0, {0, 0, 0}, 1, 1);
+    fit.motion.cov.m[2][2] = int64_t{200000} * 200000;
+    const ale_visibility_counts_t none = {0, 0};
+    for (const auto &c : cases) {
+        ale_tracking_monitor_t t;
+        ale_tracking_init(&t);
+        fit.shown_um = c.shown_um;
+        ale_tracking_notice(&t, nullptr, c.counted, c.mapped);
+        EXPECT_EQ(ale_tracking_may_reanchor(&t, &fit), c.shown_um > 2000000 && !c.lost);
+        EXPECT_EQ(ale_tracking_judge(&t, &fit, &none), c.lost ? ALE_STATE_LOST : ALE_STATE_WEAK);
+    }
+}
+
 } // namespace

@@ -149,8 +149,9 @@ void looking(Parts &parts)
         });
         features->line_count = 0;
         parts.measure("views of pieces", 1, [&] {
-            ale_observe_segments(features.get(), &scan, bearing.data(), {0, 0, 0}, &noise, pieces.get(),
-                                 ALE_MAX_OBSERVATIONS, views.data());
+            const ale_posed_scan_t from = {&scan, bearing.data(), {0, 0, 0}};
+            ale_observe_segments(features.get(), &from, &noise, pieces.get(), ALE_MAX_OBSERVATIONS,
+                                 views.data());
         });
     }
 }
@@ -180,8 +181,8 @@ std::unique_ptr<ale_fit_t> fits(Parts &parts, const ale_motion_t &predicted, Cro
         parts.measure("two fits", 1, [&] {
             ale_register_pose(&predicted, &some, &first_gate, fit.get());
             ale_register_associate(&some, fit.get());
-            ale_register_again(&predicted, true, predicted.pose, &some, &second_gate, most_looks, other.get(),
-                               fit.get());
+            const ale_second_fit_t second = {&predicted, true, predicted.pose, &second_gate, most_looks};
+            ale_register_again(&some, &second, other.get(), fit.get());
             ale_register_weigh(&some, fit.get());
         });
     }
@@ -269,8 +270,8 @@ void notice(Parts &parts, const std::string &name, const ale_scan_t &before, con
     carried->beams = scan.beams;
     carried->came_us = before.stamp_us;
     const auto count = static_cast<uint32_t>(views.size());
-    const ale_seen_t then = {&before, bearing_bam, {0, 0, 0}, {0, 0, 0}, views.data(), count};
-    const ale_seen_t now = {&scan, bearing_bam, {0, 0, 0}, {0, 0, 0}, views.data(), count};
+    const ale_seen_t then = {{&before, bearing_bam, {0, 0, 0}}, {0, 0, 0}, views.data(), count};
+    const ale_seen_t now = {{&scan, bearing_bam, {0, 0, 0}}, {0, 0, 0}, views.data(), count};
     parts.measure(name, 1,
                   [&] { ale_carried_notice(carried.get(), &then, &now, &scan, views.data(), match.data()); });
 }
@@ -282,8 +283,10 @@ void witnesses(Parts &parts, Random &random, Crowd &crowd)
     ale_scan_t scan = far_scan(random); /* nothing to confirm, every beam is asked */
     const int32_t velocity[ALE_AXES] = {40000, 20000, 60000};
     ale_deskew(&scan, velocity, bearing.data());
-    const ale_seen_t seen = {&scan,     bearing.data(),     {0, 0, 0},
-                             {0, 0, 0}, crowd.views.data(), static_cast<uint32_t>(crowd.views.size())};
+    const ale_seen_t seen = {{&scan, bearing.data(), {0, 0, 0}},
+                             {0, 0, 0},
+                             crowd.views.data(),
+                             static_cast<uint32_t>(crowd.views.size())};
     parts.measure("last scan kept", 1, [&] { ale_witness_keep(&pipeline->witness, &seen); });
     parts.measure("last scan heard of two poses", 2, [&] {
         ale_witness_hear(&pipeline->witness, &seen, {200000, 100000, false});
@@ -320,7 +323,8 @@ void witnesses(Parts &parts, Random &random, Crowd &crowd)
     ale_map_decay_t fade = {0};
     ale_local_map_approach(crowd.map.get(), {0, 0}, 30000000);
     parts.measure("fading", 1, [&] {
-        ale_map_decay(&fade, crowd.map.get(), &scan, bearing.data(), {0, 0, 0}, 1000000, true);
+        const ale_posed_scan_t from = {&scan, bearing.data(), {0, 0, 0}};
+        ale_map_decay(&fade, crowd.map.get(), &from, 1000000, true);
     });
 }
 
@@ -329,7 +333,7 @@ void witnesses(Parts &parts, Random &random, Crowd &crowd)
 void relocation(Parts &parts, Random &random, Crowd &crowd)
 {
     const ale_scan_t scan = far_scan(random);
-    const ale_mounted_scan_t eye = {&scan, nullptr, {0, 0, 0}};
+    const ale_posed_scan_t eye = {&scan, nullptr, {0, 0, 0}};
     auto memory = std::make_unique<ale_relocation_t>();
     auto fit = std::make_unique<ale_fit_t>();
     ale_relocation_clear(memory.get());

@@ -73,7 +73,7 @@ void Loops::after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate)
     seen_.push_back(sees ? surface_of(seen, *features) : std::vector<SurfacePoint>());
     if (!ale_pipeline_keyframe(pipeline, keyframe_.get())) {
         if (sees) {
-            const ale_pose_t sensor = ale_pose_between(seen.robot, seen.sensor);
+            const ale_pose_t sensor = ale_pose_between(seen.robot, seen.posed.sensor);
             ale_mapper_see_walls(mapper_.get(), &estimate.smooth, &sensor, features);
         }
         return;

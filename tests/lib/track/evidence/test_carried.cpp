@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "lib/track/room.h"
+#include "lib/track/room_pipeline.h"
 
 extern "C" {
 #include "track/evidence/carried.h"

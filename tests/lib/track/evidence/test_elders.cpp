@@ -52,7 +52,7 @@ class Elders : public testing::Test
     }
     ale_seen_t seen(const ale_scan_t &scan) const
     {
-        return {&scan, nullptr, robot, robot, observation, observations};
+        return {{&scan, nullptr, robot}, robot, observation, observations};
     }
     void keep(double range_m, double from_s, double to_s)
     {

@@ -1,5 +1,5 @@
 // lib/track/evidence/overview.c: which scan is kept.
-#include "lib/track/look.h"
+#include "lib/observe/look.h"
 
 extern "C" {
 #include "track/evidence/overview.h"

@@ -1,5 +1,9 @@
 // lib/track/evidence/witness.c: what one scan says of the next.
-#include "lib/track/look.h"
+#include "lib/observe/look.h"
+
+extern "C" {
+#include "track/evidence/witness.h"
+}
 
 using room::Look;
 

@@ -1,13 +1,16 @@
-// What a scanner shows in a made world, as the stages after extraction get it.
+// The line observations of a scan of a made world.
 #pragma once
+
+#include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
-#include "room.h"
+#include "lib/motion/room.h"
 
 extern "C" {
 #include "extract/extract.h"
-#include "track/evidence/witness.h"
+#include "observe/seen.h"
 }
 
 namespace room
@@ -36,7 +39,7 @@ struct Look {
         const ale_pose_t pose = convert::pose(believed);
         const uint32_t count =
             ale_observe_lines(features.get(), scan.get(), {0, 0, 0}, 0, observations.data());
-        seen = {scan.get(), nullptr, pose, pose, observations.data(), count};
+        seen = {{scan.get(), nullptr, pose}, pose, observations.data(), count};
     }
 };
 } // namespace room

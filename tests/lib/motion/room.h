@@ -1,15 +1,14 @@
-// A made world for tests: walls, a scanner that sweeps while it moves, wheels. No noise unless asked for.
+// A made world for tests: walls, and a scanner that sweeps while it moves. No noise unless asked for.
 #pragma once
 
 #include <cmath>
-#include <memory>
 #include <random>
 #include <vector>
 
 #include "convert.h"
 
 extern "C" {
-#include "track/pipeline.h"
+#include "base/scan.h"
 }
 
 namespace room
@@ -88,25 +87,11 @@ ale_scan_t scan_at(const std::vector<Wall> &walls, const Sensor &s, Path path_of
     return scan;
 }
 
-struct FreePipeline {
-    void operator()(ale_pipeline_t *p) const
-    {
-        ::operator delete(p);
-    }
-};
-using Pipeline = std::unique_ptr<ale_pipeline_t, FreePipeline>;
-
-// A bend that ends where the robot stops, after so many seconds.
+// A bend at 0.4 m/s and 0.8 rad/s; the robot stops after drives_s.
 inline reference::Pose bend(double t, double drives_s)
 {
     const double driven_s = std::min(t, drives_s);
     return {0.4 * driven_s, 0, 0.8 * driven_s};
-}
-
-inline Pipeline make(const ale_pipeline_config_t &config)
-{
-    Pipeline p(static_cast<ale_pipeline_t *>(::operator new(ale_pipeline_size())));
-    return ale_pipeline_init(p.get(), &config) == 0 ? std::move(p) : nullptr;
 }
 
 // The pose in the frame of the robot's first pose.

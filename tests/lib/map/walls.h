@@ -1,7 +1,7 @@
 // Walls of a map for tests: straight, known to 2 mm and 2 mrad.
 #pragma once
 
-#include "convert.h"
+#include "lib/motion/convert.h"
 
 extern "C" {
 #include "map/wall.h"

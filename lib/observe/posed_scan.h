@@ -1,0 +1,19 @@
+/* A scan, the bearings of its beams, and the pose of the sensor that took it: what a question about a place
+ * asks. */
+#ifndef ALE_OBSERVE_POSED_SCAN_H
+#define ALE_OBSERVE_POSED_SCAN_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/pose.h"
+#include "base/scan.h"
+
+/* Borrowed: both arrays must outlive it. */
+typedef struct {
+    const ale_scan_t *scan;
+    const uint32_t *bearing_bam; /* of every beam of a deskewed scan, sensor frame; NULL: evenly spaced */
+    ale_pose_t sensor;           /* in the frame that whoever takes it names */
+} ale_posed_scan_t;
+
+#endif
