@@ -146,6 +146,10 @@ lint-cppcheck:
 lint-tidy: $(LCM_STAMP)
 	@$(PYTHON) tools/make/run_tests.py command clang-tidy tools/make/tidy.sh $(BUILD) $(LIB_SOURCES) $(DRIVER_SOURCES) $(FIRMWARE_SOURCES) $(wildcard firmware/main.c)
 
+.PHONY: docs-check
+docs-check: programs ## what the READMEs name is there, and their figures are what their commands print (ALL=1: the long ones, too)
+	@$(PYTHON) tools/make/docs_check.py --build $(BUILD) $(if $(ALL),--all)
+
 # The whole of it, as continuous integration runs it. Each part counts its tests; the sum is the last line.
 SHORT_FUZZ = --seconds 5 --inputs 50000
 export ALE_RESULTS ?= $(ALE_BUILD)/test-results.txt
@@ -187,6 +191,8 @@ test-computing:
 	@$(PHASE) "fuzzers"
 	@$(SUB) -j2 fuzz-programs
 	-@$(PYTHON) tools/make/run_tests.py fuzz $(SHORT_FUZZ) $(FUZZ_PROGRAMS)
+	@$(PHASE) "the documents"
+	-@$(PYTHON) tools/make/run_tests.py command "documents" $(SUB) docs-check
 	@$(PHASE) "the same bytes from another compiler and level, with sanitizers"
 	@$(CHECKED) -j2 $(BUILD)/asan/bin/ale-replay
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes" $(SUB) same-bytes SAME_BYTES_HOW=--quick SAME_BYTES_BUILDS=$(BUILD)/asan/bin/ale-replay

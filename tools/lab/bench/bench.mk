@@ -20,11 +20,12 @@ bench-lines: deps-test
 
 # Localisation and mapping: drives through the worlds of the tree, and what lies in $(ALE_SHARED).
 BENCH_SLAM_SEEDS ?= 1,2,3
+ONLY ?=
 .PHONY: bench-slam
-bench-slam: ## localisation and mapping as tables, beside the best of other systems: minutes (BENCH_SLAM_SEEDS=1,2,3)
-	@tools/make/deps.sh tools/make/packages-build.txt tools/make/packages-bench.txt
+bench-slam: ## localisation and mapping as tables, beside the best of other systems: minutes (BENCH_SLAM_SEEDS=1,2,3; ONLY=home: seconds)
+	@tools/make/deps.sh tools/make/packages-build.txt $(if $(ONLY),tools/make/packages-test.txt,tools/make/packages-bench.txt)
 	@$(MAKE) --no-print-directory -s programs
-	@/usr/bin/python3 tools/lab/bench/slam_table.py --build $(BUILD) --seeds $(BENCH_SLAM_SEEDS)
+	@$(PYTHON) tools/lab/bench/slam_table.py --build $(BUILD) --seeds $(BENCH_SLAM_SEEDS) $(addprefix --only ,$(ONLY))
 
 # Instructions of one scan's way through the estimate task: recorded ones, and the most expensive that a search finds.
 WCET_TRIES ?= 100

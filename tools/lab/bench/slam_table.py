@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The benchmark of localisation and mapping as Markdown tables on stdout.
 
-    slam_table.py --build build [--shared FOLDER] [--seeds 1,2,3]
+    slam_table.py --build build [--shared FOLDER] [--seeds 1,2,3] [--only NAME]
 
 Drives through the worlds of the tree, with the simulator's truth, always; with the project's shared data at hand (ALE_SHARED) also
 its development runs, and the recordings, scored by its own scripts. Beside each figure stands the best that another system reached
@@ -115,11 +115,16 @@ class Bench:
         return log, truth
 
 
-def worlds_table(bench, seeds):
-    print(f"Worlds of the tree, with the sensor's own noise and bent scans; ATE in mm, final / live, mean of seeds {seeds} (worst final); "
-          "mean normalised squared error of the live poses with odometry, without:\n")
+def titled_table(title, head, rows):
+    progress("")
+    if rows:
+        print(f"{title}\n")
+        table(head, rows)
+
+
+def worlds_table(bench, seeds, chosen):
     rows = []
-    for world in WORLDS:
+    for world in filter(chosen, WORLDS):
         cells = []
         honest = []
         for odometry in ("on", "off"):
@@ -135,16 +140,15 @@ def worlds_table(bench, seeds):
             cells.append(f"{mean[0]:.1f} / {mean[1]:.1f} ({max(final for final, _ in errors):.1f})")
             honest.append(f"{np.mean(normalised):.1f}")
         rows.append([world, *cells, ", ".join(honest)])
-    progress("")
-    table(["world", "with odometry", "without", "normalised"], rows)
+    titled_table(f"Worlds of the tree, with the sensor's own noise and bent scans; ATE in mm, final / live, mean of seeds {seeds} (worst final); "
+                 "mean normalised squared error of the live poses with odometry, without:",
+                 ["world", "with odometry", "without", "normalised"], rows)
 
 
-def runs_table(bench, runs):
-    print("Development runs; ATE in mm, final / live, beside the best other system; relative error over 1 s, final, with odometry; "
-          "mean normalised squared error of the live poses with odometry, without:\n")
+def runs_table(bench, runs, chosen):
     rows = []
     for name, peers in PEERS_MM.items():
-        if not (runs / name).is_dir():
+        if not chosen(name) or not (runs / name).is_dir():
             continue
         row = [name]
         honest = []
@@ -157,8 +161,9 @@ def runs_table(bench, runs):
             if odometry == "on":
                 relative, time_on = f"{way:.1f} mm, {turn:.2f}°", time_ms
         rows.append([*row, relative, ", ".join(honest), time_on])
-    progress("")
-    table(["run", "with odometry", "best other", "without", "best other", "over 1 s", "normalised", "ms a scan: mean, longest"], rows)
+    titled_table("Development runs; ATE in mm, final / live, beside the best other system; relative error over 1 s, final, with odometry; "
+                 "mean normalised squared error of the live poses with odometry, without:",
+                 ["run", "with odometry", "best other", "without", "best other", "over 1 s", "normalised", "ms a scan: mean, longest"], rows)
 
 
 def score(script, *words):
@@ -195,10 +200,9 @@ def with_made_odometry(path, carmen):
             log.write(f"FLASER {len(ranges)} {' '.join(ranges)} {pose} {pose} {stamp} - {stamp}\n")
 
 
-def recordings_table(bench, scorers, recordings):
-    print("Rover recordings, no truth: entropy of the map, wall angle in degrees (root mean square), loop in m (median):\n")
+def recordings_table(bench, scorers, recordings, chosen):
     rows = []
-    for name in RECORDINGS:
+    for name in filter(chosen, RECORDINGS):
         log = recordings / f"{name}.dat"
         if not log.exists():
             continue
@@ -211,15 +215,14 @@ def recordings_table(bench, scorers, recordings):
                                     for script, measure in (("crisp", "mme"), ("rightangle", "rms_deg"), ("revisit", "m_median")))
             seen_again = "-" if math.isnan(loop) else f"{loop:.3f}"
             rows.append([f"{name}, odometry {odometry}", f"{entropy:.3f}", f"{angle:.2f}", seen_again, PEERS_CRISP[name]])
-    progress("")
-    table(["recording", "entropy", "wall angle", "loop", "best others, each in one"], rows)
+    titled_table("Rover recordings, no truth: entropy of the map, wall angle in degrees (root mean square), loop in m (median):",
+                 ["recording", "entropy", "wall angle", "loop", "best others, each in one"], rows)
 
 
-def buildings_table(bench, scorers, data):
-    print("Buildings: mean translation error of known relations, or ATE against gmapping's poses, m:\n")
+def buildings_table(bench, scorers, data, chosen):
     rows = []
     for log, (relations, peer) in RELATIONS.items():
-        if (data / log).exists():
+        if chosen(pathlib.Path(log).name.split(".")[0]) and (data / log).exists():
             progress(f"{log} ...")
             carmen = data / log
             if log.endswith(".g2o.gz"):
@@ -229,13 +232,13 @@ def buildings_table(bench, scorers, data):
             error = score(scorers / "score.py", final, data / relations)["trans_mean"]
             rows.append([pathlib.Path(log).name, f"{error:.4f} (relations)", peer, time_ms])
     for name in POSES:
-        if (data / f"{name}.clf.gz").exists():
+        if chosen(pathlib.Path(name).name) and (data / f"{name}.clf.gz").exists():
             progress(f"{name} ...")
             _, final, time_ms = bench.replay(data / f"{name}.clf.gz", "--frame", "laser")
             error = score(scorers / "score.py", final, data / f"{name}.ref")["ate_rmse"]
             rows.append([f"{pathlib.Path(name).name}.clf.gz", f"{error:.3f} (gmapping's poses)", "-", time_ms])
-    progress("")
-    table(["recording", "error", "best other", "ms a scan: mean, longest"], rows)
+    titled_table("Buildings: mean translation error of known relations, or ATE against gmapping's poses, m:",
+                 ["recording", "error", "best other", "ms a scan: mean, longest"], rows)
 
 
 def main():
@@ -243,20 +246,24 @@ def main():
     parser.add_argument("--build", default="build")
     parser.add_argument("--shared", default=os.environ.get("ALE_SHARED", ""))
     parser.add_argument("--seeds", default="1,2,3", help="of the drives through the worlds of the tree")
+    parser.add_argument("--only", default="", metavar="NAME", help="the rows of this world, run or recording alone")
     options = parser.parse_args()
     if not re.fullmatch(r"\d+(,\d+)*", options.seeds):
         parser.error(f"--seeds {options.seeds}: not numbers with commas between them")
     if not (pathlib.Path(options.build) / "bin/ale-replay").exists():
         sys.exit(f"slam_table.py: no programs in {options.build}/bin (make builds them)")
+    def chosen(name):
+        return options.only in ("", name)
+
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(options.build, folder)
-        worlds_table(bench, options.seeds)
+        worlds_table(bench, options.seeds, chosen)
         scorers = pathlib.Path(options.shared or "/nonexistent") / "bench" / "slam"
         if scorers.is_dir():
             data = pathlib.Path(options.shared) / "data"
-            runs_table(bench, scorers)
-            recordings_table(bench, scorers, data / "urg04lx")
-            buildings_table(bench, scorers, data)
+            runs_table(bench, scorers, chosen)
+            recordings_table(bench, scorers, data / "urg04lx", chosen)
+            buildings_table(bench, scorers, data, chosen)
         else:
             print("No development runs and recordings here: ALE_SHARED names no folder with bench/slam.\n")
         print(f"Longest correction of the mapper: {bench.correction_ms:.0f} ms.")
