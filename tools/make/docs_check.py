@@ -117,7 +117,7 @@ def check_paths(text, readme, tree):
             continue
         first = words.split("/")[0]
         if first in TOP and "/" in words:
-            there = tree.holds(tree.root / words)
+            there = tree.holds(tree.root / words) or tree.holds(readme.parent / words)
         elif "/" in words and (readme.parent / first).is_dir():
             there = tree.holds(readme.parent / words)
         elif re.fullmatch(r"[a-z][\w-]+\.(c|h|cpp|hpp|mk|sh|world|lcm)", words):
@@ -130,7 +130,7 @@ def check_paths(text, readme, tree):
 
 def check_file_table(text, readme, _tree):
     """The first column of a table of files names files beside the page."""
-    for table in re.findall(r"^\| ?files? \|.*\n\|[-| :]+\n((?:\|.*\n)*)", visible(text), re.MULTILINE):
+    for table in re.findall(r"^\| ?(?:files?|in reading order) \|.*\n\|[-| :]+\n((?:\|.*\n)*)", visible(text), re.MULTILINE):
         for row in table.splitlines():
             for word in re.findall(r"`([\w.*/-]+)`", row.split("|")[1]):
                 if not any(any(readme.parent.rglob(word.rstrip("/") + ending)) for ending in SOURCES):
@@ -178,8 +178,7 @@ class Figures:
         self.readme, self.text = readme, text
         self.long, self.command = bool(found[1]), found[2].strip()
         self.lines = [line.strip() for line in found[3].splitlines() if line.strip()]
-        before = re.sub(r"(\s*<!--.*?-->)+\s*$", "", text[:found.start()], flags=re.DOTALL).rstrip()
-        self.block = re.split(r"\n[ \t]*\n", visible(before))[-1]
+        self.block = re.split(r"\n[ \t]*\n", visible(text[:found.start()]).rstrip())[-1]
 
     def not_told(self):
         """Figures that the block above does not show."""
@@ -191,10 +190,9 @@ class Figures:
                 yield f"{self.command}: {value} does not stand in the block above its check"
         if not any(FIGURE.search(line) for line in self.lines):
             yield f"{self.command}: no figure is checked"
-        program = re.sub(r"^\w+=\S+ ", "", self.command).split()
-        name = " ".join(program[:2]) if program[0] == "make" else pathlib.Path(program[0]).name
-        if name not in " ".join(visible(self.text).split()):
-            yield f"{name}: gives figures and is not named on the page"
+        programs = re.findall(r"make [\w-]+(?![\w/-])|ale-\w+|[\w-]+\.py|build/[\w/]+", self.command)
+        if not any(name in " ".join(visible(self.text).split()) for name in programs):
+            yield f"{self.command}: gives figures and is not named on the page"
 
     def wrong(self, output):
         printed = [" ".join(line.split()) for line in output.splitlines()]
