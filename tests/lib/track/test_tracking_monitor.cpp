@@ -264,7 +264,7 @@ TEST(TrackingMonitor, APoseThatTheMapDoesNotHoldIsWhereTheMapGoesOnUnlessTheLast
     EXPECT_TRUE(ale_tracking_may_reanchor(&t, &fit));
     const ale_testimony_t denied = {8000000, 800000, 3000000, true};
     ale_tracking_notice(&t, &denied, true, true);
-    EXPECT_TRUE(t.jumped);
+    EXPECT_TRUE(t.contradicted);
     EXPECT_FALSE(ale_tracking_may_reanchor(&t, &fit));
 }
 
