@@ -100,11 +100,11 @@ static void take_reply_event(scip_t *scip, const ale_scip_event_t *event)
 static bool hand_out(scip_t *scip, ale_log_record_t *record)
 {
     ale_log_event_t *event = &record->event;
-    const ale_urg_event_t kind = ale_urg_stream_next(&scip->stream, &event->scan);
-    if (kind != ALE_URG_SCAN && kind != ALE_URG_SCAN_LOST) {
+    const ale_scanner_event_t kind = ale_urg_stream_next(&scip->stream, &event->scan);
+    if (kind != ALE_SCANNER_SCAN && kind != ALE_SCANNER_SCAN_LOST) {
         return false;
     }
-    event->kind = kind == ALE_URG_SCAN ? ALE_LOG_SCAN : ALE_LOG_SCAN_LOST;
+    event->kind = kind == ALE_SCANNER_SCAN ? ALE_LOG_SCAN : ALE_LOG_SCAN_LOST;
     event->stamp_us = event->scan.stamp_us;
     return true;
 }

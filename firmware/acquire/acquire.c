@@ -5,11 +5,11 @@
 
 #include "exchange/wake.h"
 #include "recorder/recorder.h"
-#include "scanner/urg/urg_device.h"
+#include "scanner/scanner.h"
 
 struct ale_acquire {
     ale_exchange_t *exchange;
-    ale_urg_t *urg;
+    ale_scanner_t *scanner;
     ale_rt_task_t *task;
     ale_scan_t scan;
 };
@@ -24,10 +24,10 @@ static void record_bytes(void *user, bool sent, const uint8_t *bytes, uint32_t c
     ale_recorder_bytes(user, sent, bytes, count, now_us);
 }
 
-static ale_urg_config_t device_config(const ale_config_t *config, const ale_exchange_t *exchange)
+static ale_scanner_config_t scanner_config(const ale_config_t *config, const ale_exchange_t *exchange)
 {
     const ale_clock_t *clock = &exchange->clock;
-    return (ale_urg_config_t){
+    return (ale_scanner_config_t){
         .path = config->port[0] ? config->port : NULL,
         .serial = config->serial[0] ? config->serial : NULL,
         .baud = config->baud,
@@ -55,7 +55,7 @@ static void hand_over(ale_acquire_t *acquire, bool lost)
         record->scan.stamp_us = acquire->scan.stamp_us;
         record->scan.beams = 0;
     } else {
-        record->arrival_us = ale_urg_health(acquire->urg)->arrival_us;
+        record->arrival_us = ale_scanner_health(acquire->scanner)->arrival_us;
         record->scan = acquire->scan;
     }
     ale_ring_commit(exchange->scans);
@@ -65,8 +65,8 @@ static void hand_over(ale_acquire_t *acquire, bool lost)
 
 static void tell_health(ale_acquire_t *acquire)
 {
-    memcpy(ale_snapshot_back(acquire->exchange->health), ale_urg_health(acquire->urg),
-           sizeof(ale_urg_health_t));
+    memcpy(ale_snapshot_back(acquire->exchange->health), ale_scanner_health(acquire->scanner),
+           sizeof(ale_scanner_health_t));
     ale_snapshot_publish(acquire->exchange->health);
     ale_wake_post(acquire->exchange->under_way);
 }
@@ -75,12 +75,12 @@ static void run(ale_rt_task_t *self, void *user)
 {
     ale_acquire_t *acquire = user;
     while (!ale_rt_task_stopping(self)) {
-        const ale_urg_event_t event = ale_urg_step(acquire->urg, &acquire->scan);
-        if (event == ALE_URG_IDLE) {
+        const ale_scanner_event_t event = ale_scanner_step(acquire->scanner, &acquire->scan);
+        if (event == ALE_SCANNER_IDLE) {
             continue;
         }
-        if (event != ALE_URG_CHANGED) {
-            hand_over(acquire, event == ALE_URG_SCAN_LOST);
+        if (event != ALE_SCANNER_CHANGED) {
+            hand_over(acquire, event == ALE_SCANNER_SCAN_LOST);
         }
         tell_health(acquire);
     }
@@ -92,10 +92,10 @@ ale_acquire_t *ale_acquire_start(const ale_config_t *config, ale_exchange_t *exc
     if (!acquire) {
         return NULL;
     }
-    const ale_urg_config_t device = device_config(config, exchange);
+    const ale_scanner_config_t scanner = scanner_config(config, exchange);
     acquire->exchange = exchange;
-    acquire->urg = ale_urg_create(&device);
-    if (acquire->urg) {
+    acquire->scanner = ale_scanner_open(&scanner);
+    if (acquire->scanner) {
         acquire->task = ale_rt_task_start(&(ale_rt_task_config_t){
             .name = "ale-acquire", .kind = ALE_RT_SOFT, .body = run, .user = acquire});
     }
@@ -115,8 +115,6 @@ void ale_acquire_stop(ale_acquire_t *acquire)
         ale_rt_task_stop(acquire->task);
     }
     ale_rt_task_join(acquire->task);
-    if (acquire->urg) {
-        ale_urg_destroy(acquire->urg);
-    }
+    ale_scanner_close(acquire->scanner);
     free(acquire);
 }

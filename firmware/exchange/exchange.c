@@ -6,7 +6,7 @@
 #include "exchange/wake.h"
 #include "graph/mapper.h"
 #include "operator/drive.h"
-#include "scanner/urg/urg_device.h"
+#include "scanner/scanner.h"
 
 #define LOOK_NS 250000
 
@@ -24,7 +24,7 @@ int ale_exchange_open(ale_exchange_t *exchange, ale_clock_t clock)
         .keyframe_poses = ale_snapshot_create(sizeof(ale_mapper_poses_t)),
         .drawn_map = ale_snapshot_create(sizeof(ale_drawn_map_t)),
         .map = ale_snapshot_create(sizeof(ale_map_t)),
-        .health = ale_snapshot_create(sizeof(ale_urg_health_t)),
+        .health = ale_snapshot_create(sizeof(ale_scanner_health_t)),
         .requests = ale_ring_create(sizeof(ale_request_t), ALE_REQUEST_SLOTS),
         .loaded_map = ale_snapshot_create(sizeof(ale_loaded_map_t)),
         .known_to_mapper = ale_snapshot_create(sizeof(ale_loaded_map_t)),

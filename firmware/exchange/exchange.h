@@ -108,7 +108,7 @@ typedef struct {
     ale_snapshot_t *keyframe_poses;      /* ale_mapper_poses_t: mapper to drawer */
     ale_snapshot_t *drawn_map;           /* ale_drawn_map_t: drawer to telemetry */
     ale_snapshot_t *map;                 /* ale_map_t, the tracker's: estimate to telemetry */
-    ale_snapshot_t *health;              /* ale_urg_health_t: acquire to telemetry */
+    ale_snapshot_t *health;              /* ale_scanner_health_t: acquire to telemetry */
     ale_ring_t *requests;                /* ale_request_t: telemetry to estimate */
     ale_snapshot_t *loaded_map;          /* ale_loaded_map_t: map storage to estimate */
     ale_snapshot_t *known_to_mapper;     /* ale_loaded_map_t, the one that is or will be driven in: */

@@ -39,7 +39,7 @@ static void count(ale_status_report_t *report, const char *name, uint64_t value)
     report->counters++;
 }
 
-void ale_statistics_counters(const ale_statistics_t *statistics, const ale_urg_health_t *health,
+void ale_statistics_counters(const ale_statistics_t *statistics, const ale_scanner_health_t *health,
                              const ale_exchange_t *exchange, uint64_t bus_refused, uint64_t bus_unsent,
                              ale_status_report_t *report)
 {

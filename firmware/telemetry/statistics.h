@@ -4,7 +4,7 @@
 
 #include "exchange/exchange.h"
 #include "lcm/report.h"
-#include "scanner/urg/urg_device.h"
+#include "scanner/scanner.h"
 #include "telemetry/durations.h"
 
 typedef struct {
@@ -24,7 +24,7 @@ void ale_statistics_report(const ale_statistics_t *statistics, ale_status_report
 
 /* Fills the report's counters: what the line, the driver, the rings and the bus lost, and why.
  * bus_refused: messages that came in and were not what they should be; bus_unsent: that could not go out. */
-void ale_statistics_counters(const ale_statistics_t *statistics, const ale_urg_health_t *health,
+void ale_statistics_counters(const ale_statistics_t *statistics, const ale_scanner_health_t *health,
                              const ale_exchange_t *exchange, uint64_t bus_refused, uint64_t bus_unsent,
                              ale_status_report_t *report);
 

@@ -4,26 +4,26 @@
 
 #define SILENT_US 1000000
 
-static const char *words_for(ale_urg_state_t state)
+static const char *words_for(ale_scanner_state_t state)
 {
     static const char *const words[] = {
-        [ALE_URG_CLOSED] = "no scanner",           [ALE_URG_DETECTING] = "asking who is there",
-        [ALE_URG_STARTING] = "starting",           [ALE_URG_STREAMING] = "streaming",
-        [ALE_URG_POLLING] = "asking scan by scan",
+        [ALE_SCANNER_CLOSED] = "no scanner",           [ALE_SCANNER_DETECTING] = "asking who is there",
+        [ALE_SCANNER_STARTING] = "starting",           [ALE_SCANNER_STREAMING] = "streaming",
+        [ALE_SCANNER_POLLING] = "asking scan by scan",
     };
     return words[state];
 }
 
-static ale_link_t link_of(const ale_urg_health_t *health, ale_link_t before)
+static ale_link_t link_of(const ale_scanner_health_t *health, ale_link_t before)
 {
     switch (health->state) {
-    case ALE_URG_STREAMING:
-    case ALE_URG_POLLING:
+    case ALE_SCANNER_STREAMING:
+    case ALE_SCANNER_POLLING:
         return health->scans > 0 ? ALE_LINK_STREAMING : before;
-    case ALE_URG_CLOSED:
+    case ALE_SCANNER_CLOSED:
         return health->status[0] ? ALE_LINK_ABSENT : before;
-    case ALE_URG_DETECTING:
-    case ALE_URG_STARTING:
+    case ALE_SCANNER_DETECTING:
+    case ALE_SCANNER_STARTING:
         break;
     }
     return before;
@@ -34,7 +34,7 @@ static const char *or_unknown(const char *text)
     return text[0] ? text : "?";
 }
 
-bool ale_supervisor_watch(ale_supervisor_t *supervisor, const ale_urg_health_t *health,
+bool ale_supervisor_watch(ale_supervisor_t *supervisor, const ale_scanner_health_t *health,
                           char line[ALE_SUPERVISOR_LINE])
 {
     const ale_link_t before = supervisor->link;
@@ -44,7 +44,8 @@ bool ale_supervisor_watch(ale_supervisor_t *supervisor, const ale_urg_health_t *
     }
     if (supervisor->link == ALE_LINK_STREAMING) {
         snprintf(line, ALE_SUPERVISOR_LINE, "scanner %s, serial number %s, at %s: streaming",
-                 or_unknown(health->model), or_unknown(health->serial), or_unknown(health->port));
+                 or_unknown(health->identity.model), or_unknown(health->identity.serial),
+                 or_unknown(health->port));
     } else {
         snprintf(line, ALE_SUPERVISOR_LINE, "%s: %s; trying again until it is there",
                  before == ALE_LINK_STREAMING ? "scanner lost" : "no scanner", health->status);
@@ -52,14 +53,14 @@ bool ale_supervisor_watch(ale_supervisor_t *supervisor, const ale_urg_health_t *
     return true;
 }
 
-void ale_supervisor_report(const ale_urg_health_t *health, int64_t now_us, ale_status_report_t *report)
+void ale_supervisor_report(const ale_scanner_health_t *health, int64_t now_us, ale_status_report_t *report)
 {
-    const bool running = health->state == ALE_URG_STREAMING || health->state == ALE_URG_POLLING;
+    const bool running = health->state == ALE_SCANNER_STREAMING || health->state == ALE_SCANNER_POLLING;
     const bool silent = running && health->scans > 0 && now_us - health->last_scan_us > SILENT_US;
     const char *words = silent ? "silent" : words_for(health->state);
     snprintf(report->driver_state, sizeof report->driver_state, "%s%s%s", words,
              running && !silent ? "" : ": ", running && !silent ? "" : health->status);
-    snprintf(report->device, sizeof report->device, "%s %s", health->model, health->serial);
+    snprintf(report->device, sizeof report->device, "%s %s", health->identity.model, health->identity.serial);
     report->scans = (uint32_t)(health->scans + health->scans_lost);
     report->scan_period_us = running && !silent ? health->scan_period_us : 0;
 }

@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #include "lcm/report.h"
-#include "scanner/urg/urg_device.h"
+#include "scanner/scanner.h"
 
 typedef enum {
     ALE_LINK_UNKNOWN, /* just started */
@@ -22,10 +22,10 @@ typedef struct {
 enum { ALE_SUPERVISOR_LINE = 320 };
 
 /* True when there is something to say: `line` then is one line for people. Said once per change. */
-bool ale_supervisor_watch(ale_supervisor_t *supervisor, const ale_urg_health_t *health,
+bool ale_supervisor_watch(ale_supervisor_t *supervisor, const ale_scanner_health_t *health,
                           char line[ALE_SUPERVISOR_LINE]);
 
 /* Fills driver_state, device, scans and scan_period_us of the report. now_us: clock of the health. */
-void ale_supervisor_report(const ale_urg_health_t *health, int64_t now_us, ale_status_report_t *report);
+void ale_supervisor_report(const ale_scanner_health_t *health, int64_t now_us, ale_status_report_t *report);
 
 #endif

@@ -36,7 +36,7 @@ struct ale_telemetry {
     ale_commands_t *commands;
     ale_supervisor_t supervisor;
     ale_statistics_t statistics;
-    const ale_urg_health_t *health;
+    const ale_scanner_health_t *health;
     ale_map_publisher_t map;
     int64_t next_status_ns;
     int64_t last_status_ns;

@@ -116,7 +116,7 @@ class Reader
         }
         ale_urg_stream_take(&stream_, &event);
         static ale_scan_t scan;
-        for (int k = 0; ale_urg_stream_next(&stream_, &scan) != ALE_URG_IDLE; k++) {
+        for (int k = 0; ale_urg_stream_next(&stream_, &scan) != ALE_SCANNER_IDLE; k++) {
             require(k < 64 && scan.beams <= ALE_MAX_BEAMS);
         }
     }

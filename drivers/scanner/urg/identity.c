@@ -97,13 +97,13 @@ void ale_urg_identity_line(ale_urg_identity_t *identity, const char *text, bool 
             identity->warnings++;
         }
     } else if (strncmp(text, "MODL", KEY) == 0 ||
-               (strncmp(text, "PROD", KEY) == 0 && identity->model[0] == '\0')) {
-        snprintf(identity->model, sizeof identity->model, "%s", value);
+               (strncmp(text, "PROD", KEY) == 0 && identity->device.model[0] == '\0')) {
+        snprintf(identity->device.model, sizeof identity->device.model, "%s", value);
     } else if (strncmp(text, "FIRM", KEY) == 0) {
-        snprintf(identity->firmware, sizeof identity->firmware, "%s", value);
+        snprintf(identity->device.firmware, sizeof identity->device.firmware, "%s", value);
         read_firmware_geometry(&identity->geometry, value);
     } else if (strncmp(text, "SERI", KEY) == 0) {
-        snprintf(identity->serial, sizeof identity->serial, "%s", value);
+        snprintf(identity->device.serial, sizeof identity->device.serial, "%s", value);
     } else if (strncmp(text, "STAT", KEY) == 0) {
         snprintf(identity->status, sizeof identity->status, "%s", value);
     }

@@ -6,6 +6,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "scanner/scanner_types.h"
+
 typedef struct {
     int32_t range_min_mm;   /* DMIN */
     int32_t range_max_mm;   /* DMAX */
@@ -17,10 +19,8 @@ typedef struct {
 } ale_urg_geometry_t;
 
 typedef struct {
-    char model[64];    /* MODL, or PROD until that is known */
-    char firmware[64]; /* FIRM */
-    char serial[32];   /* SERI */
-    char status[128];  /* STAT */
+    ale_scanner_identity_t device; /* MODL, or PROD until that is known; FIRM; SERI */
+    char status[128];              /* STAT */
     ale_urg_geometry_t geometry;
     uint32_t warnings; /* lines with a wrong sum or an unreadable value */
 } ale_urg_identity_t;

@@ -1,372 +1,440 @@
+#include "scanner/urg/urg_dialogue.h"
+
 #include <stdio.h>
 #include <string.h>
 
 #include "base/fixed.h"
+#include "base/limits.h"
 #include "scanner/urg/baud.h"
-#include "scanner/urg/scip_request.h"
-#include "scanner/urg/urg_internal.h"
 
 enum {
     REPLY_MS = 400, /* the real firmware answers once a turn of 100 ms */
     PROVED_TRIES = 6,
     BAUD_SETTLES_MS = 150,
-    SPEED_ATTEMPTS = 3
+    SPEED_ATTEMPTS = 3,
+    MOST_CLUSTER = 99
 };
 
-int64_t ale_urg_deadline(const ale_urg_t *urg, int32_t ms)
+/* What is still to be asked before the stream starts. */
+enum { DUE_RESET = 1, DUE_PARAMETERS = 2, DUE_VERSION = 4, DUE_STATUS = 8 };
+
+void ale_urg_dialogue_init(ale_urg_dialogue_t *d, const ale_scanner_config_t *config)
 {
-    return ale_urg_now_us(urg) + ale_urg_timeout_us(urg, ms);
+    memset(d, 0, sizeof *d);
+    d->config = config;
+    ale_urg_identity_init(&d->identity);
+}
+
+/* The rate that has worked, else the configured one; 0: none. */
+static int32_t preferred_baud(const ale_urg_dialogue_t *d)
+{
+    return d->good_baud > 0 ? d->good_baud : d->config->baud;
+}
+
+int32_t ale_urg_dialogue_first_baud(const ale_urg_dialogue_t *d)
+{
+    return ale_baud_candidate(preferred_baud(d), 0);
+}
+
+void ale_urg_dialogue_close(ale_urg_dialogue_t *d)
+{
+    d->phase = ALE_PHASE_CLOSED;
+}
+
+bool ale_urg_dialogue_streams(const ale_urg_dialogue_t *d)
+{
+    return d->phase == ALE_PHASE_WARM_UP || d->phase == ALE_PHASE_STREAM;
+}
+
+ale_scanner_state_t ale_urg_dialogue_state(const ale_urg_dialogue_t *d)
+{
+    switch (d->phase) {
+    case ALE_PHASE_CLOSED:
+        return ALE_SCANNER_CLOSED;
+    case ALE_PHASE_PROBE:
+    case ALE_PHASE_LEAVE_TM:
+    case ALE_PHASE_SWITCH:
+    case ALE_PHASE_VERSION_1:
+        return ALE_SCANNER_DETECTING;
+    case ALE_PHASE_STREAM:
+        return ALE_SCANNER_STREAMING;
+    case ALE_PHASE_POLL:
+        return ALE_SCANNER_POLLING;
+    default:
+        return ALE_SCANNER_STARTING;
+    }
+}
+
+static ale_urg_action_t act(ale_urg_deed_t deed, const char *reason)
+{
+    return (ale_urg_action_t){.deed = deed, .reason = reason};
 }
 
 /* Time-out of a reply: on a slow line a frame may have to pass first. */
-static int64_t reply_deadline(const ale_urg_t *urg)
+static int32_t reply_ms(const ale_urg_dialogue_t *d)
 {
-    int32_t ms = REPLY_MS;
-    if (ale_port_has_baud(urg->port)) {
-        const ale_scip_request_t full = {.last_step = 768, .characters = 3, .stream = true, .protocol = 2};
-        ms += (int32_t)(ale_baud_time_us(urg->health.baud, ale_scip_request_frame_bytes(&full)) / 1000);
+    if (!d->has_baud) {
+        return REPLY_MS;
     }
-    return ale_urg_deadline(urg, ms);
+    const ale_scip_request_t full = {.last_step = 768, .characters = 3, .stream = true, .protocol = 2};
+    return REPLY_MS + (int32_t)(ale_baud_time_us(d->baud, ale_scip_request_frame_bytes(&full)) / 1000);
 }
 
-static void send_command(ale_urg_t *urg)
+/* Sends the present command, for the first time or again. */
+static ale_urg_action_t ask(const ale_urg_dialogue_t *d)
 {
-    char line[ALE_URG_COMMAND + 3];
+    ale_urg_action_t action = {.deed = ALE_URG_SEND, .wait_ms = reply_ms(d)};
     /* A line end before the probe closes whatever half command the device may have received. */
-    snprintf(line, sizeof line, "%s%s\n", urg->phase == ALE_PHASE_PROBE ? "\n" : "", urg->command);
-    urg->deadline_us = reply_deadline(urg);
-    ale_urg_send(urg, line);
+    snprintf(action.line, sizeof action.line, "%s%s\n", d->phase == ALE_PHASE_PROBE ? "\n" : "", d->command);
+    return action;
 }
 
-static void enter(ale_urg_t *urg, ale_urg_phase_t phase, const char *command)
+static ale_urg_action_t enter(ale_urg_dialogue_t *d, ale_urg_phase_t phase, const char *command)
 {
-    urg->phase = phase;
-    urg->tries = 1;
-    snprintf(urg->command, sizeof urg->command, "%s", command);
-    send_command(urg);
+    d->phase = phase;
+    d->tries = 1;
+    snprintf(d->command, sizeof d->command, "%s", command);
+    return ask(d);
 }
 
-void ale_urg_probe(ale_urg_t *urg)
+static ale_urg_action_t probe(ale_urg_dialogue_t *d)
 {
-    ale_urg_set_state(urg, ALE_URG_DETECTING);
-    ale_urg_stream_interrupt(&urg->stream);
-    enter(urg, ALE_PHASE_PROBE, "QT");
+    ale_urg_action_t action = enter(d, ALE_PHASE_PROBE, "QT");
+    action.stream = ALE_URG_STREAM_INTERRUPT;
+    return action;
 }
 
-void ale_urg_dialogue_begin(ale_urg_t *urg)
+ale_urg_action_t ale_urg_dialogue_restart(ale_urg_dialogue_t *d, bool reset)
 {
-    ale_scip_parser_reset(&urg->parser);
-    urg->port_proved = false;
-    urg->due |= ALE_DUE_PARAMETERS;
-    if (!urg->identified) {
+    d->due |= reset ? DUE_RESET | DUE_PARAMETERS : 0U;
+    return probe(d);
+}
+
+ale_urg_action_t ale_urg_dialogue_open(ale_urg_dialogue_t *d, int32_t baud, bool has_baud)
+{
+    d->baud = baud;
+    d->has_baud = has_baud;
+    d->baud_attempt = 0;
+    d->port_proved = false;
+    d->due |= DUE_PARAMETERS;
+    if (!d->identified) {
         /* RS would set the rate of a real line back to what nobody knows: there it is for emergencies. */
-        urg->due |= ALE_DUE_VERSION | ALE_DUE_STATUS | (ale_port_has_baud(urg->port) ? 0 : ALE_DUE_RESET);
+        d->due |= DUE_VERSION | DUE_STATUS | (has_baud ? 0U : DUE_RESET);
     }
-    if (urg->config.serial != NULL) {
-        urg->due |= ALE_DUE_VERSION;
+    if (d->config->serial != NULL) {
+        d->due |= DUE_VERSION;
     }
-    ale_urg_probe(urg);
+    return probe(d);
 }
 
-/* The stream that the configuration wishes for, within what the sensor and the line can do. */
-static ale_scip_request_t stream_request(const ale_urg_t *urg, uint8_t protocol)
+/* The configured window, within what the sensor measures. */
+static void set_window(const ale_urg_dialogue_t *d, ale_scip_request_t *request)
 {
-    const ale_urg_geometry_t *g = &urg->identity.geometry;
-    const ale_urg_config_t *c = &urg->config;
+    const ale_urg_geometry_t *g = &d->identity.geometry;
+    const ale_scanner_config_t *c = d->config;
     const bool window = c->first_step != 0 || c->last_step != 0;
-    ale_scip_request_t request = {.protocol = protocol, .stream = protocol == 2, .cluster = c->cluster};
-    request.first_step = (uint16_t)(window ? ale_max64(c->first_step, 0) : g->first_step);
-    request.last_step = (uint16_t)(window ? ale_min64(c->last_step, g->last_step) : g->last_step);
-    request.skip = protocol == 2 ? c->skip : 0;
-    request.characters = protocol == 2 && !c->two_character ? 3 : 2;
-    while (ale_scip_request_values(&request) > ALE_MAX_BEAMS && request.cluster < 99) {
-        request.cluster = (uint8_t)(request.cluster < 1 ? 2 : request.cluster + 1);
+    request->first_step = (uint16_t)(window ? c->first_step : g->first_step);
+    request->last_step = (uint16_t)(window ? ale_min64(c->last_step, g->last_step) : g->last_step);
+}
+
+/* Merges beams until a scan can hold them. */
+static void set_cluster(const ale_urg_dialogue_t *d, ale_scip_request_t *request)
+{
+    request->cluster = d->config->cluster;
+    while (ale_scip_request_values(request) > ALE_MAX_BEAMS && request->cluster < MOST_CLUSTER) {
+        request->cluster = (uint8_t)(request->cluster < 1 ? 2 : request->cluster + 1);
     }
-    if (protocol == 2 && ale_port_has_baud(urg->port)) {
-        ale_baud_fit(&request, urg->health.baud, ale_urg_period_us(g));
+}
+
+/* The scans that the configuration wishes for, within what the sensor and the line can do. */
+static void set_request(ale_urg_dialogue_t *d, uint8_t protocol)
+{
+    ale_scip_request_t *request = &d->request;
+    *request = (ale_scip_request_t){
+        .protocol = protocol, .stream = protocol == 2, .characters = protocol == 2 ? 3 : 2};
+    set_window(d, request);
+    set_cluster(d, request);
+    if (request->stream && d->has_baud) {
+        ale_baud_fit(request, d->baud, ale_urg_period_us(&d->identity.geometry));
     }
-    request.cluster = request.cluster < 1 ? 1 : request.cluster;
-    return request;
+    request->cluster = request->cluster < 1 ? 1 : request->cluster;
+}
+
+/* Asks for the scans of the request: MD, or the first G. */
+static ale_urg_action_t ask_for_scans(ale_urg_dialogue_t *d, ale_urg_phase_t phase, uint8_t protocol)
+{
+    char text[ALE_SCIP_REQUEST_TEXT];
+    set_request(d, protocol);
+    ale_scip_request_format(&d->request, text);
+    ale_urg_action_t action = enter(d, phase, text);
+    action.stream = ALE_URG_STREAM_BEGIN;
+    return action;
 }
 
 /* The rate that the line should run at: the one wished for, else at least the usual one. */
-static int32_t wished_baud(const ale_urg_t *urg)
+static int32_t wished_baud(const ale_urg_dialogue_t *d)
 {
-    if (urg->config.baud > 0) {
-        return urg->config.baud;
+    if (d->config->baud > 0) {
+        return d->config->baud;
     }
-    return urg->health.baud < ALE_BAUD_USUAL ? ALE_BAUD_USUAL : urg->health.baud;
+    return d->baud < ALE_BAUD_USUAL ? ALE_BAUD_USUAL : d->baud;
 }
 
-static bool speed_due(const ale_urg_t *urg)
+static bool speed_due(const ale_urg_dialogue_t *d)
 {
-    return ale_port_has_baud(urg->port) && urg->speed_attempts < SPEED_ATTEMPTS &&
-           urg->health.baud != wished_baud(urg);
+    return d->has_baud && d->speed_attempts < SPEED_ATTEMPTS && d->baud != wished_baud(d);
 }
 
-static void start_stream(ale_urg_t *urg)
+static ale_urg_action_t ask_for_speed(ale_urg_dialogue_t *d)
 {
-    ale_scip_request_t request = stream_request(urg, 2);
-    char text[ALE_SCIP_REQUEST_TEXT];
-    ale_scip_request_format(&request, text);
-    ale_urg_stream_begin(&urg->stream, &request);
-    urg->bad_frames = 0;
-    urg->frozen = 0;
-    ale_urg_set_state(urg, ALE_URG_STARTING);
-    enter(urg, ALE_PHASE_START, text);
-}
-
-static void start_polling(ale_urg_t *urg)
-{
-    ale_scip_request_t request = stream_request(urg, 1);
-    char text[ALE_SCIP_REQUEST_TEXT];
-    ale_scip_request_format(&request, text);
-    ale_urg_stream_describe(&urg->stream, &urg->identity.geometry);
-    ale_urg_stream_begin(&urg->stream, &request);
-    ale_urg_set_state(urg, ALE_URG_POLLING);
-    urg->poll_at_us = 0;
-    enter(urg, ALE_PHASE_POLL, text);
+    char text[ALE_URG_COMMAND];
+    snprintf(text, sizeof text, "SS%06d", (int)wished_baud(d));
+    d->speed_attempts++;
+    return enter(d, ALE_PHASE_SPEED, text);
 }
 
 /* The next question that is due, and the stream when there is none. */
-static void advance(ale_urg_t *urg)
+static ale_urg_action_t advance(ale_urg_dialogue_t *d)
 {
-    ale_urg_set_state(urg, ALE_URG_STARTING);
-    if ((urg->due & ALE_DUE_RESET) != 0) {
-        enter(urg, ALE_PHASE_RESET, "RS");
-    } else if (speed_due(urg)) {
-        char text[ALE_URG_COMMAND];
-        snprintf(text, sizeof text, "SS%06d", (int)wished_baud(urg));
-        urg->speed_attempts++;
-        enter(urg, ALE_PHASE_SPEED, text);
-    } else if ((urg->due & ALE_DUE_PARAMETERS) != 0) {
-        urg->identity.warnings = 0;
-        enter(urg, ALE_PHASE_PARAMETERS, "PP");
-    } else if ((urg->due & ALE_DUE_VERSION) != 0) {
-        urg->identity.serial[0] = '\0';
-        enter(urg, ALE_PHASE_VERSION, "VV");
-    } else if ((urg->due & ALE_DUE_STATUS) != 0) {
-        enter(urg, ALE_PHASE_STATUS, "II");
-    } else {
-        start_stream(urg);
+    if ((d->due & DUE_RESET) != 0) {
+        return enter(d, ALE_PHASE_RESET, "RS");
     }
+    if (speed_due(d)) {
+        return ask_for_speed(d);
+    }
+    if ((d->due & DUE_PARAMETERS) != 0) {
+        d->identity.warnings = 0;
+        return enter(d, ALE_PHASE_PARAMETERS, "PP");
+    }
+    if ((d->due & DUE_VERSION) != 0) {
+        d->identity.device.serial[0] = '\0';
+        return enter(d, ALE_PHASE_VERSION, "VV");
+    }
+    if ((d->due & DUE_STATUS) != 0) {
+        return enter(d, ALE_PHASE_STATUS, "II");
+    }
+    return ask_for_scans(d, ALE_PHASE_START, 2);
 }
 
-static void done(ale_urg_t *urg, uint32_t what)
+static ale_urg_action_t done(ale_urg_dialogue_t *d, uint32_t what)
 {
-    urg->due &= ~what;
-    advance(urg);
+    d->due &= ~what;
+    return advance(d);
 }
 
 /* A reply to QT tells the protocol. */
-static void on_probe(ale_urg_t *urg, const ale_scip_event_t *reply)
+static ale_urg_action_t on_probe(ale_urg_dialogue_t *d, const ale_scip_event_t *reply)
 {
-    urg->health.protocol = reply->protocol;
-    urg->good_baud = urg->health.baud;
+    d->protocol = reply->protocol;
+    d->good_baud = d->baud;
     if (reply->protocol == 1) {
-        ale_urg_stream_forget_clock(&urg->stream);
-        enter(urg, ALE_PHASE_SWITCH, "SCIP2.0");
-    } else if (strcmp(reply->status, "00") == 0) {
-        urg->led_out = false;
-        advance(urg);
-    } else if (!urg->led_out) {
-        urg->led_out = true;
-        enter(urg, ALE_PHASE_LEAVE_TM, "TM2");
-    } else {
-        urg->led_out = false;
-        ale_urg_fail(urg, "the sensor refuses to stop measuring");
+        ale_urg_action_t action = enter(d, ALE_PHASE_SWITCH, "SCIP2.0");
+        action.stream = ALE_URG_STREAM_FORGET_CLOCK;
+        return action;
     }
+    const bool stopped = strcmp(reply->status, "00") == 0;
+    const bool lead_out = !stopped && !d->led_out;
+    d->led_out = lead_out;
+    if (stopped) {
+        return advance(d);
+    }
+    return lead_out ? enter(d, ALE_PHASE_LEAVE_TM, "TM2")
+                    : act(ALE_URG_FAIL, "the sensor refuses to stop measuring");
 }
 
-static void on_switch(ale_urg_t *urg, const ale_scip_event_t *reply)
+static ale_urg_action_t on_switch(ale_urg_dialogue_t *d, const ale_scip_event_t *reply)
 {
     const bool switched = strcmp(reply->status, "0") == 0;
-    if (switched || reply->protocol == 2) {
-        urg->health.protocol = 2;
-        advance(urg);
-    } else {
-        enter(urg, ALE_PHASE_VERSION_1, "V");
+    if (!switched && reply->protocol != 2) {
+        return enter(d, ALE_PHASE_VERSION_1, "V");
     }
+    d->protocol = 2;
+    return advance(d);
 }
 
-static void on_reset(ale_urg_t *urg)
+static ale_urg_action_t on_reset(ale_urg_dialogue_t *d)
 {
-    urg->health.resets++;
-    urg->due &= ~(uint32_t)ALE_DUE_RESET;
-    ale_urg_stream_forget_clock(&urg->stream);
-    if (ale_port_has_baud(urg->port)) {
-        ale_urg_probe(urg);
-    } else {
-        advance(urg);
-    }
+    d->resets++;
+    d->due &= ~(uint32_t)DUE_RESET;
+    ale_urg_action_t action = d->has_baud ? probe(d) : advance(d);
+    action.stream |= ALE_URG_STREAM_FORGET_CLOCK;
+    return action;
 }
 
-static void on_speed(ale_urg_t *urg, const ale_scip_event_t *reply)
+static ale_urg_action_t on_refused_speed(ale_urg_dialogue_t *d)
 {
-    const int32_t baud = wished_baud(urg);
-    if (strcmp(reply->status, "00") != 0 || ale_port_set_baud(urg->port, baud) != ALE_PORT_OK) {
-        urg->speed_attempts = SPEED_ATTEMPTS;
-        advance(urg);
-        return;
+    d->speed_attempts = SPEED_ATTEMPTS;
+    return advance(d);
+}
+
+static ale_urg_action_t on_speed(ale_urg_dialogue_t *d, const ale_scip_event_t *reply)
+{
+    if (strcmp(reply->status, "00") != 0) {
+        return on_refused_speed(d);
     }
-    urg->health.baud = baud;
+    return (ale_urg_action_t){.deed = ALE_URG_SET_BAUD, .baud = wished_baud(d)};
+}
+
+ale_urg_action_t ale_urg_dialogue_baud_set(ale_urg_dialogue_t *d, int32_t baud, bool set)
+{
+    d->baud = set ? baud : d->baud;
+    if (d->phase == ALE_PHASE_PROBE) {
+        return probe(d);
+    }
+    if (!set) {
+        return on_refused_speed(d);
+    }
     /* The device needs a moment: the next question is asked when this phase is over. */
-    urg->deadline_us = ale_urg_deadline(urg, BAUD_SETTLES_MS);
-    urg->command[0] = '\0';
+    d->command[0] = '\0';
+    return (ale_urg_action_t){.wait_ms = BAUD_SETTLES_MS};
 }
 
-static void adopt_identity(ale_urg_t *urg)
+/* What was read of the identity is complete. */
+static void adopt_identity(ale_urg_dialogue_t *d)
 {
-    ale_urg_health_t *h = &urg->health;
-    snprintf(h->model, sizeof h->model, "%s", urg->identity.model);
-    snprintf(h->firmware, sizeof h->firmware, "%s", urg->identity.firmware);
-    snprintf(h->serial, sizeof h->serial, "%s", urg->identity.serial);
-    h->identity_warnings += urg->identity.warnings;
-    urg->identity.warnings = 0;
-    urg->changed = true;
+    d->known = d->identity.device;
+    d->identity_warnings += d->identity.warnings;
+    d->identity.warnings = 0;
 }
 
-static void on_parameters(ale_urg_t *urg)
+static ale_urg_action_t on_version_1(ale_urg_dialogue_t *d)
 {
-    if (!ale_urg_geometry_valid(&urg->identity.geometry)) {
+    adopt_identity(d);
+    d->poll_due = false;
+    ale_urg_action_t action = ask_for_scans(d, ALE_PHASE_POLL, 1);
+    action.stream |= ALE_URG_STREAM_DESCRIBE;
+    action.identified = true;
+    return action;
+}
+
+static ale_urg_action_t on_parameters(ale_urg_dialogue_t *d)
+{
+    const char *reason = NULL;
+    if (!ale_urg_geometry_valid(&d->identity.geometry)) {
         ale_urg_identity_t standard;
         ale_urg_identity_init(&standard);
-        urg->identity.geometry = standard.geometry;
-        urg->health.identity_warnings++;
-        ale_urg_say(urg, "the sensor's parameters make no sense: those of the data sheet are used");
+        d->identity.geometry = standard.geometry;
+        d->identity_warnings++;
+        reason = "the sensor's parameters make no sense: those of the data sheet are used";
     }
-    ale_urg_stream_describe(&urg->stream, &urg->identity.geometry);
-    adopt_identity(urg);
-    done(urg, ALE_DUE_PARAMETERS);
+    adopt_identity(d);
+    ale_urg_action_t action = done(d, DUE_PARAMETERS);
+    action.stream |= ALE_URG_STREAM_DESCRIBE;
+    action.identified = true;
+    action.reason = reason;
+    return action;
 }
 
-static void on_version(ale_urg_t *urg)
+static ale_urg_action_t on_version(ale_urg_dialogue_t *d)
 {
-    adopt_identity(urg);
-    if (urg->config.serial != NULL && strcmp(urg->config.serial, urg->identity.serial) != 0) {
-        ale_urg_reopen(urg, "this is another sensor: its serial number differs from the one wished for");
-        return;
-    }
-    urg->identified = true;
-    done(urg, ALE_DUE_VERSION);
+    adopt_identity(d);
+    const char *wished = d->config->serial;
+    const bool other = wished != NULL && strcmp(wished, d->identity.device.serial) != 0;
+    d->identified = d->identified || !other;
+    ale_urg_action_t action =
+        other
+            ? act(ALE_URG_REOPEN, "this is another sensor: its serial number differs from the one wished for")
+            : done(d, DUE_VERSION);
+    action.identified = true;
+    return action;
 }
 
-static void on_start(ale_urg_t *urg, const ale_scip_event_t *reply)
+static ale_urg_action_t on_status(ale_urg_dialogue_t *d)
+{
+    d->hardware_faults += strncmp(d->identity.status, "Trouble", strlen("Trouble")) == 0;
+    adopt_identity(d);
+    ale_urg_action_t action = done(d, DUE_STATUS);
+    action.identified = true;
+    action.reason = d->identity.status;
+    return action;
+}
+
+static ale_urg_action_t on_start(ale_urg_dialogue_t *d, const ale_scip_event_t *reply)
 {
     if (strcmp(reply->status, "00") == 0) {
-        urg->phase = ALE_PHASE_STREAM;
-        urg->deadline_us = ale_urg_deadline(urg, ALE_URG_FIRST_SCAN_MS);
-        return;
+        d->phase = ALE_PHASE_WARM_UP;
+        return (ale_urg_action_t){.wait_ms = ALE_URG_FIRST_SCAN_MS};
     }
-    char reason[64];
-    snprintf(reason, sizeof reason, "the sensor refuses to measure: status %s", reply->status);
-    ale_urg_fail(urg, reason);
+    snprintf(d->reason, sizeof d->reason, "the sensor refuses to measure: status %s", reply->status);
+    return act(ALE_URG_FAIL, d->reason);
 }
 
-static void on_reply(ale_urg_t *urg, const ale_scip_event_t *reply)
+static ale_urg_action_t on_reply(ale_urg_dialogue_t *d, const ale_scip_event_t *reply)
 {
-    switch (urg->phase) {
+    switch (d->phase) {
     case ALE_PHASE_PROBE:
-        on_probe(urg, reply);
-        break;
+        return on_probe(d, reply);
     case ALE_PHASE_LEAVE_TM:
-        ale_urg_probe(urg);
-        break;
+        return probe(d);
     case ALE_PHASE_SWITCH:
-        on_switch(urg, reply);
-        break;
+        return on_switch(d, reply);
     case ALE_PHASE_VERSION_1:
-        adopt_identity(urg);
-        start_polling(urg);
-        break;
+        return on_version_1(d);
     case ALE_PHASE_RESET:
-        on_reset(urg);
-        break;
+        return on_reset(d);
     case ALE_PHASE_SPEED:
-        on_speed(urg, reply);
-        break;
+        return on_speed(d, reply);
     case ALE_PHASE_PARAMETERS:
-        on_parameters(urg);
-        break;
+        return on_parameters(d);
     case ALE_PHASE_VERSION:
-        on_version(urg);
-        break;
+        return on_version(d);
     case ALE_PHASE_STATUS:
-        urg->health.hardware_faults += strncmp(urg->identity.status, "Trouble", strlen("Trouble")) == 0;
-        ale_urg_say(urg, urg->identity.status);
-        adopt_identity(urg);
-        done(urg, ALE_DUE_STATUS);
-        break;
+        return on_status(d);
     case ALE_PHASE_START:
-        on_start(urg, reply);
-        break;
+        return on_start(d, reply);
     default:
-        ale_urg_fail(urg, "the sensor stopped measuring");
-        break;
+        return act(ALE_URG_FAIL, "the sensor stopped measuring");
     }
 }
 
-void ale_urg_dialogue_event(ale_urg_t *urg, const ale_scip_event_t *event)
+ale_urg_action_t ale_urg_dialogue_hear(ale_urg_dialogue_t *d, const ale_scip_event_t *event)
 {
-    const bool ours = strcmp(event->echo, urg->command) == 0;
-    switch (event->kind) {
-    case ALE_SCIP_LINE_READ:
-        if (ours) {
-            ale_urg_identity_line(&urg->identity, event->text, event->sum_right);
-        }
-        break;
-    case ALE_SCIP_REPLY:
-        if (urg->phase == ALE_PHASE_STREAM && event->has_request && event->request.stream) {
-            ale_urg_stream_status(urg, event);
-        } else if (ours) {
-            on_reply(urg, event);
-        }
-        break;
-    case ALE_SCIP_SCAN:
-    case ALE_SCIP_LOST:
-        ale_urg_frame(urg, event);
-        break;
-    default:
-        break;
+    if (strcmp(event->echo, d->command) != 0) {
+        return (ale_urg_action_t){0};
     }
+    if (event->kind == ALE_SCIP_REPLY) {
+        return on_reply(d, event);
+    }
+    ale_urg_identity_line(&d->identity, event->text, event->sum_right);
+    return (ale_urg_action_t){0};
 }
 
-int64_t ale_urg_dialogue_deadline(const ale_urg_t *urg)
+/* No answer to QT: other rates, then the port from the beginning. */
+static ale_urg_action_t on_silent_probe(ale_urg_dialogue_t *d)
 {
-    return urg->poll_at_us > 0 && urg->phase == ALE_PHASE_POLL ? urg->poll_at_us : urg->deadline_us;
+    if (!d->has_baud) {
+        return act(ALE_URG_REOPEN, "no answer from the sensor");
+    }
+    const int32_t preferred = preferred_baud(d);
+    if (++d->baud_attempt >= ALE_BAUD_RATES) {
+        d->good_baud = 0;
+        return act(ALE_URG_REOPEN, "no answer from the sensor at any baud rate");
+    }
+    return (ale_urg_action_t){.deed = ALE_URG_SET_BAUD,
+                              .baud = ale_baud_candidate(preferred, d->baud_attempt)};
 }
 
-/* No answer to QT: try again, then other rates, then the port from the beginning. */
-static void on_silent_probe(ale_urg_t *urg)
+static ale_urg_action_t on_silent_version(ale_urg_dialogue_t *d)
 {
-    if (!ale_port_has_baud(urg->port)) {
-        ale_urg_reopen(urg, "no answer from the sensor");
-        return;
+    if (d->config->serial != NULL) {
+        return act(ALE_URG_REOPEN, "the sensor does not tell its serial number");
     }
-    const int32_t preferred = urg->good_baud > 0 ? urg->good_baud : urg->config.baud;
-    if (++urg->baud_attempt >= ALE_BAUD_RATES) {
-        urg->good_baud = 0;
-        ale_urg_reopen(urg, "no answer from the sensor at any baud rate");
-        return;
-    }
-    const int32_t baud = ale_baud_candidate(preferred, urg->baud_attempt);
-    if (ale_port_set_baud(urg->port, baud) == ALE_PORT_OK) {
-        urg->health.baud = baud;
-    }
-    ale_scip_parser_reset(&urg->parser);
-    ale_urg_probe(urg);
+    d->identified = true;
+    d->identity_warnings++;
+    return done(d, DUE_VERSION);
 }
 
-static uint32_t most_tries(const ale_urg_t *urg)
+static uint32_t most_tries(const ale_urg_dialogue_t *d)
 {
-    switch (urg->phase) {
+    switch (d->phase) {
     case ALE_PHASE_PROBE:
         /* What measured a moment ago on this very port may begin again: scans sent meanwhile would be lost
          * on a closed port. */
-        return urg->port_proved && !ale_port_has_baud(urg->port) ? PROVED_TRIES : 2;
+        return d->port_proved && !d->has_baud ? PROVED_TRIES : 2;
     case ALE_PHASE_VERSION: /* asked again, some units fall silent */
     case ALE_PHASE_STATUS:
     case ALE_PHASE_SPEED:
+    case ALE_PHASE_WARM_UP:
     case ALE_PHASE_STREAM:
         return 1;
     default:
@@ -374,51 +442,59 @@ static uint32_t most_tries(const ale_urg_t *urg)
     }
 }
 
-static void on_silence(ale_urg_t *urg)
+static ale_urg_action_t on_silence(ale_urg_dialogue_t *d)
 {
-    switch (urg->phase) {
+    switch (d->phase) {
     case ALE_PHASE_PROBE:
-        on_silent_probe(urg);
-        break;
+        return on_silent_probe(d);
     case ALE_PHASE_SPEED:
-        advance(urg);
-        break;
+        return advance(d);
     case ALE_PHASE_VERSION:
-        if (urg->config.serial != NULL) {
-            ale_urg_reopen(urg, "the sensor does not tell its serial number");
-        } else {
-            urg->identified = true;
-            urg->health.identity_warnings++;
-            done(urg, ALE_DUE_VERSION);
-        }
-        break;
+        return on_silent_version(d);
     case ALE_PHASE_STATUS:
-        urg->health.identity_warnings++;
-        done(urg, ALE_DUE_STATUS);
-        break;
+        d->identity_warnings++;
+        return done(d, DUE_STATUS);
+    case ALE_PHASE_WARM_UP:
     case ALE_PHASE_STREAM:
-        ale_urg_fail(urg, "the sensor fell silent");
-        break;
+        return act(ALE_URG_FAIL, "the sensor fell silent");
     default:
-        ale_urg_fail(urg, "the sensor does not answer");
-        break;
+        return act(ALE_URG_FAIL, "the sensor does not answer");
     }
 }
 
-void ale_urg_dialogue_time(ale_urg_t *urg)
+ale_urg_action_t ale_urg_dialogue_time_out(ale_urg_dialogue_t *d)
 {
-    const int64_t now_us = ale_urg_now_us(urg);
-    if (now_us < ale_urg_dialogue_deadline(urg)) {
-        return;
+    if (d->phase == ALE_PHASE_POLL && d->poll_due) {
+        d->poll_due = false;
+        d->tries = 1;
+        return ask(d);
     }
-    if (urg->phase == ALE_PHASE_POLL && urg->poll_at_us > 0) {
-        urg->poll_at_us = 0;
-        urg->tries = 1;
-        send_command(urg);
-    } else if (urg->tries < most_tries(urg)) {
-        urg->tries++;
-        send_command(urg);
-    } else {
-        on_silence(urg);
+    if (d->tries < most_tries(d)) {
+        d->tries++;
+        return ask(d);
     }
+    return on_silence(d);
+}
+
+bool ale_urg_dialogue_scan(ale_urg_dialogue_t *d)
+{
+    d->port_proved = true;
+    /* A scan says as much as the acknowledgement that may have been lost. */
+    if (d->phase == ALE_PHASE_START || d->phase == ALE_PHASE_WARM_UP) {
+        d->phase = ALE_PHASE_STREAM;
+    }
+    return d->phase == ALE_PHASE_STREAM;
+}
+
+void ale_urg_dialogue_proved(ale_urg_dialogue_t *d)
+{
+    d->speed_attempts = 0;
+}
+
+bool ale_urg_dialogue_polled(ale_urg_dialogue_t *d)
+{
+    const bool polls = d->phase == ALE_PHASE_POLL;
+    d->poll_due = polls;
+    d->tries = polls ? 0 : d->tries;
+    return polls;
 }

@@ -151,14 +151,14 @@ ale_frame_t ale_urg_stream_take(ale_urg_stream_t *stream, const ale_scip_event_t
     return ALE_FRAME_SCAN;
 }
 
-static ale_urg_event_t yield_loss(ale_scan_t *scan, int64_t stamp_us)
+static ale_scanner_event_t yield_loss(ale_scan_t *scan, int64_t stamp_us)
 {
     memset(scan, 0, sizeof *scan);
     scan->stamp_us = stamp_us;
-    return ALE_URG_SCAN_LOST;
+    return ALE_SCANNER_SCAN_LOST;
 }
 
-ale_urg_event_t ale_urg_stream_next(ale_urg_stream_t *stream, ale_scan_t *scan)
+ale_scanner_event_t ale_urg_stream_next(ale_urg_stream_t *stream, ale_scan_t *scan)
 {
     if (stream->loss_waits) {
         stream->loss_waits = false;
@@ -172,7 +172,7 @@ ale_urg_event_t ale_urg_stream_next(ale_urg_stream_t *stream, ale_scan_t *scan)
     if (stream->scan_waits) {
         stream->scan_waits = false;
         *scan = stream->scan;
-        return ALE_URG_SCAN;
+        return ALE_SCANNER_SCAN;
     }
-    return ALE_URG_IDLE;
+    return ALE_SCANNER_IDLE;
 }

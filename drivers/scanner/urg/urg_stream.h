@@ -6,7 +6,7 @@
  *   ale_urg_stream_describe(&stream, &identity.geometry);
  *   ale_urg_stream_begin(&stream, &request);                     when the stream is (re)started
  *   ale_urg_stream_take(&stream, &event);                        for each SCAN or LOST of the parser
- *   while ((kind = ale_urg_stream_next(&stream, &scan)) != ALE_URG_IDLE) ...
+ *   while ((kind = ale_urg_stream_next(&stream, &scan)) != ALE_SCANNER_IDLE) ...
  */
 #ifndef ALE_SCANNER_URG_URG_STREAM_H
 #define ALE_SCANNER_URG_URG_STREAM_H
@@ -15,10 +15,10 @@
 #include <stdint.h>
 
 #include "base/scan.h"
+#include "scanner/scanner_types.h"
 #include "scanner/urg/identity.h"
 #include "scanner/urg/scip_parse.h"
 #include "scanner/urg/sensor_clock.h"
-#include "scanner/urg/urg_device.h"
 
 /* What became of a frame. */
 typedef enum {
@@ -65,8 +65,9 @@ void ale_urg_stream_forget_clock(ale_urg_stream_t *stream);
 /* Takes a SCAN or LOST event. What it yields must be fetched before the next one. */
 ale_frame_t ale_urg_stream_take(ale_urg_stream_t *stream, const ale_scip_event_t *event);
 
-/* ALE_URG_SCAN_LOST (scan->stamp_us only; 0 beams), ALE_URG_SCAN, or ALE_URG_IDLE when all is fetched. */
-ale_urg_event_t ale_urg_stream_next(ale_urg_stream_t *stream, ale_scan_t *scan);
+/* ALE_SCANNER_SCAN_LOST (scan->stamp_us only; 0 beams), ALE_SCANNER_SCAN, or ALE_SCANNER_IDLE when all is
+ * fetched. */
+ale_scanner_event_t ale_urg_stream_next(ale_urg_stream_t *stream, ale_scan_t *scan);
 
 /* Time between two scans of the stream. */
 int64_t ale_urg_stream_turn_us(const ale_urg_stream_t *stream);

@@ -11,13 +11,13 @@
 
 extern "C" {
 #include "acquire/acquire.h"
-#include "scanner/urg/urg_device.h"
+#include "scanner/scanner.h"
 }
 
 /* A driver that does what the test says, in place of the one that speaks to a port. */
-struct ale_urg {
-    ale_urg_config_t config;
-    ale_urg_health_t health;
+struct ale_scanner {
+    ale_scanner_config_t config;
+    ale_scanner_health_t health;
 };
 
 namespace
@@ -25,56 +25,56 @@ namespace
 
 struct Script {
     std::mutex lock;
-    std::deque<ale_urg_event_t> events;
+    std::deque<ale_scanner_event_t> events;
     int64_t next_stamp_us = 1000;
-    ale_urg_config_t config{};
+    ale_scanner_config_t config{};
     std::atomic<int> destroyed{0};
     std::atomic<bool> refuse{false};
 } script;
 
 } // namespace
 
-extern "C" ale_urg_t *ale_urg_create(const ale_urg_config_t *config)
+extern "C" ale_scanner_t *ale_scanner_open(const ale_scanner_config_t *config)
 {
     if (script.refuse) {
         return nullptr;
     }
     script.config = *config;
-    auto *urg = new ale_urg{};
-    urg->config = *config;
-    return urg;
+    auto *scanner = new ale_scanner{};
+    scanner->config = *config;
+    return scanner;
 }
 
-extern "C" ale_urg_event_t ale_urg_step(ale_urg_t *urg, ale_scan_t *scan)
+extern "C" ale_scanner_event_t ale_scanner_step(ale_scanner_t *scanner, ale_scan_t *scan)
 {
     const std::lock_guard<std::mutex> guard(script.lock);
     if (script.events.empty()) {
         std::this_thread::yield();
-        return ALE_URG_IDLE;
+        return ALE_SCANNER_IDLE;
     }
-    const ale_urg_event_t event = script.events.front();
+    const ale_scanner_event_t event = script.events.front();
     script.events.pop_front();
-    if (event == ALE_URG_SCAN || event == ALE_URG_SCAN_LOST) {
+    if (event == ALE_SCANNER_SCAN || event == ALE_SCANNER_SCAN_LOST) {
         scan->stamp_us = script.next_stamp_us++;
         scan->beams = 682;
-        urg->health.scans += event == ALE_URG_SCAN;
-        urg->health.scans_lost += event == ALE_URG_SCAN_LOST;
-        urg->health.arrival_us = urg->config.now_us(urg->config.now_user);
+        scanner->health.scans += event == ALE_SCANNER_SCAN;
+        scanner->health.scans_lost += event == ALE_SCANNER_SCAN_LOST;
+        scanner->health.arrival_us = scanner->config.now_us(scanner->config.now_user);
     } else {
-        urg->health.state = ALE_URG_STREAMING;
+        scanner->health.state = ALE_SCANNER_STREAMING;
     }
     return event;
 }
 
-extern "C" const ale_urg_health_t *ale_urg_health(const ale_urg_t *urg)
+extern "C" const ale_scanner_health_t *ale_scanner_health(const ale_scanner_t *scanner)
 {
-    return &urg->health;
+    return &scanner->health;
 }
 
-extern "C" void ale_urg_destroy(ale_urg_t *urg)
+extern "C" void ale_scanner_close(ale_scanner_t *scanner)
 {
     script.destroyed++;
-    delete urg;
+    delete scanner;
 }
 
 namespace
@@ -96,7 +96,7 @@ class Acquire : public testing::Test
     {
         ale_exchange_close(&exchange);
     }
-    void play(std::initializer_list<ale_urg_event_t> events)
+    void play(std::initializer_list<ale_scanner_event_t> events)
     {
         const std::lock_guard<std::mutex> guard(script.lock);
         script.events.insert(script.events.end(), events);
@@ -113,7 +113,7 @@ TEST_F(Acquire, EveryScanAndEveryLostScanIsHandedOverInOrder)
 {
     ale_acquire_t *acquire = ale_acquire_start(&config, &exchange);
     ASSERT_NE(acquire, nullptr);
-    play({ALE_URG_CHANGED, ALE_URG_SCAN, ALE_URG_SCAN_LOST, ALE_URG_SCAN});
+    play({ALE_SCANNER_CHANGED, ALE_SCANNER_SCAN, ALE_SCANNER_SCAN_LOST, ALE_SCANNER_SCAN});
     ASSERT_TRUE(comes_true([&] { return ale_ring_ready(exchange.scans) == 3; }));
     EXPECT_EQ(record(0).scan.stamp_us, 1000);
     EXPECT_EQ(record(0).scan.beams, 682);
@@ -128,21 +128,22 @@ TEST_F(Acquire, EveryScanAndEveryLostScanIsHandedOverInOrder)
     ale_acquire_stop(acquire);
     EXPECT_EQ(script.destroyed, 1);
     bool fresh = false;
-    const auto *health = static_cast<const ale_urg_health_t *>(ale_snapshot_newest(exchange.health, &fresh));
+    const auto *health =
+        static_cast<const ale_scanner_health_t *>(ale_snapshot_newest(exchange.health, &fresh));
     EXPECT_EQ(health->scans, 2u);
     EXPECT_EQ(health->scans_lost, 1u);
-    EXPECT_EQ(health->state, ALE_URG_STREAMING);
+    EXPECT_EQ(health->state, ALE_SCANNER_STREAMING);
 }
 
 TEST_F(Acquire, AFullRingIsCountedAndTheThreadGoesOn)
 {
     ale_acquire_t *acquire = ale_acquire_start(&config, &exchange);
     for (int k = 0; k < ALE_SCAN_SLOTS + 3; k++) {
-        play({ALE_URG_SCAN});
+        play({ALE_SCANNER_SCAN});
     }
     ASSERT_TRUE(comes_true([&] { return ale_ring_refused(exchange.scans) == 3; }));
     ale_ring_release(exchange.scans);
-    play({ALE_URG_SCAN});
+    play({ALE_SCANNER_SCAN});
     ASSERT_TRUE(comes_true([&] { return ale_ring_committed(exchange.scans) == ALE_SCAN_SLOTS + 1; }));
     ale_acquire_stop(acquire);
 }

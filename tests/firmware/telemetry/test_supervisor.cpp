@@ -11,20 +11,20 @@ extern "C" {
 namespace
 {
 
-ale_urg_health_t health_in(ale_urg_state_t state, const char *status = "", uint64_t scans = 0)
+ale_scanner_health_t health_in(ale_scanner_state_t state, const char *status = "", uint64_t scans = 0)
 {
-    ale_urg_health_t health{};
+    ale_scanner_health_t health{};
     health.state = state;
     health.scans = scans;
     std::strcpy(health.status, status);
     std::strcpy(health.port, "/dev/ttyACM0");
-    std::strcpy(health.model, "URG-04LX");
-    std::strcpy(health.serial, "H0508486");
+    std::strcpy(health.identity.model, "URG-04LX");
+    std::strcpy(health.identity.serial, "H0508486");
     return health;
 }
 
 /* What is said when the scanner's health is this; empty: nothing. */
-std::string said(ale_supervisor_t &supervisor, const ale_urg_health_t &health)
+std::string said(ale_supervisor_t &supervisor, const ale_scanner_health_t &health)
 {
     char line[ALE_SUPERVISOR_LINE] = "";
     return ale_supervisor_watch(&supervisor, &health, line) ? line : "";
@@ -33,35 +33,35 @@ std::string said(ale_supervisor_t &supervisor, const ale_urg_health_t &health)
 TEST(Supervisor, AMissingScannerIsSaidOnceInPlainWords)
 {
     ale_supervisor_t supervisor{};
-    const ale_urg_health_t absent = health_in(ALE_URG_CLOSED, "/dev/ttyACM0: no such device");
+    const ale_scanner_health_t absent = health_in(ALE_SCANNER_CLOSED, "/dev/ttyACM0: no such device");
     EXPECT_EQ(said(supervisor, absent),
               "no scanner: /dev/ttyACM0: no such device; trying again until it is there");
     EXPECT_EQ(said(supervisor, absent), "");
-    EXPECT_EQ(said(supervisor, health_in(ALE_URG_DETECTING)), "");
+    EXPECT_EQ(said(supervisor, health_in(ALE_SCANNER_DETECTING)), "");
     EXPECT_EQ(said(supervisor, absent), "");
 }
 
 TEST(Supervisor, ComingAndGoingAreSaid)
 {
     ale_supervisor_t supervisor{};
-    EXPECT_EQ(said(supervisor, health_in(ALE_URG_STARTING)), "");
-    EXPECT_EQ(said(supervisor, health_in(ALE_URG_STREAMING)), "")
+    EXPECT_EQ(said(supervisor, health_in(ALE_SCANNER_STARTING)), "");
+    EXPECT_EQ(said(supervisor, health_in(ALE_SCANNER_STREAMING)), "")
         << "streaming is believed with the first scan";
-    EXPECT_EQ(said(supervisor, health_in(ALE_URG_STREAMING, "", 1)),
+    EXPECT_EQ(said(supervisor, health_in(ALE_SCANNER_STREAMING, "", 1)),
               "scanner URG-04LX, serial number H0508486, at /dev/ttyACM0: streaming");
-    EXPECT_EQ(said(supervisor, health_in(ALE_URG_STREAMING, "", 2)), "");
-    EXPECT_EQ(said(supervisor, health_in(ALE_URG_STARTING, "restart", 2)), "")
+    EXPECT_EQ(said(supervisor, health_in(ALE_SCANNER_STREAMING, "", 2)), "");
+    EXPECT_EQ(said(supervisor, health_in(ALE_SCANNER_STARTING, "restart", 2)), "")
         << "a short fault is only counted";
-    EXPECT_EQ(said(supervisor, health_in(ALE_URG_CLOSED, "unplugged", 2)),
+    EXPECT_EQ(said(supervisor, health_in(ALE_SCANNER_CLOSED, "unplugged", 2)),
               "scanner lost: unplugged; trying again until it is there");
-    EXPECT_EQ(said(supervisor, health_in(ALE_URG_STREAMING, "", 3)),
+    EXPECT_EQ(said(supervisor, health_in(ALE_SCANNER_STREAMING, "", 3)),
               "scanner URG-04LX, serial number H0508486, at /dev/ttyACM0: streaming");
 }
 
 TEST(Supervisor, TheStatusSaysWhatTheDriverDoes)
 {
     auto report = std::make_unique<ale_status_report_t>();
-    ale_urg_health_t health = health_in(ALE_URG_STREAMING, "", 100);
+    ale_scanner_health_t health = health_in(ALE_SCANNER_STREAMING, "", 100);
     health.scans_lost = 3;
     health.scan_period_us = 100000;
     health.last_scan_us = 5000000;
@@ -74,7 +74,7 @@ TEST(Supervisor, TheStatusSaysWhatTheDriverDoes)
     EXPECT_EQ(std::string(report->driver_state).rfind("silent", 0), 0u)
         << "streaming, but no scan for over a second";
     EXPECT_EQ(report->scan_period_us, 0);
-    const ale_urg_health_t absent = health_in(ALE_URG_CLOSED, "/dev/ttyACM0: permission denied");
+    const ale_scanner_health_t absent = health_in(ALE_SCANNER_CLOSED, "/dev/ttyACM0: permission denied");
     ale_supervisor_report(&absent, 0, report.get());
     EXPECT_STREQ(report->driver_state, "no scanner: /dev/ttyACM0: permission denied");
 }
@@ -83,10 +83,10 @@ TEST(Supervisor, OverlongTextsAreCutNotOverrun)
 {
     auto report = std::make_unique<ale_status_report_t>();
     ale_supervisor_t supervisor{};
-    ale_urg_health_t health{};
+    ale_scanner_health_t health{};
     std::memset(health.status, 's', sizeof health.status - 1);
-    std::memset(health.model, 'm', sizeof health.model - 1);
-    std::memset(health.serial, 'n', sizeof health.serial - 1);
+    std::memset(health.identity.model, 'm', sizeof health.identity.model - 1);
+    std::memset(health.identity.serial, 'n', sizeof health.identity.serial - 1);
     std::memset(health.port, 'p', sizeof health.port - 1);
     ale_supervisor_report(&health, 0, report.get());
     EXPECT_LT(std::strlen(report->driver_state), sizeof report->driver_state);

@@ -24,7 +24,7 @@
 #include "firmware/surroundings.hpp"
 
 extern "C" {
-#include "scanner/urg/urg_device.h"
+#include "scanner/scanner.h"
 #include "telemetry/telemetry.h"
 }
 
@@ -193,8 +193,8 @@ TEST_F(Telemetry, WhatStillWaitsIsSentBeforeItEnds)
 
 TEST_F(Telemetry, TheStatusComesOnceASecondAndCountsWhatWasLostAndWhy)
 {
-    auto *health = static_cast<ale_urg_health_t *>(ale_snapshot_back(exchange.health));
-    health->state = ALE_URG_CLOSED;
+    auto *health = static_cast<ale_scanner_health_t *>(ale_snapshot_back(exchange.health));
+    health->state = ALE_SCANNER_CLOSED;
     health->bad_checksum = 3;
     health->scans = 7;
     health->scans_lost = 2;

@@ -52,7 +52,7 @@ Recorder::Recorder(const Options &options)
 
 Recorder::~Recorder()
 {
-    urg_.reset();
+    scanner_.reset();
     if (recording_open_) {
         ale_recording_close(&recording_);
     }
@@ -72,7 +72,7 @@ void Recorder::join_lcm()
 
 void Recorder::open_line()
 {
-    ale_urg_config_t config = {};
+    ale_scanner_config_t config = {};
     config.path = or_null(options_.port);
     config.serial = or_null(options_.serial);
     config.baud = options_.baud;
@@ -82,8 +82,8 @@ void Recorder::open_line()
     config.tap_user = this;
     config.now_us = clock_now;
     config.now_user = &clock_;
-    urg_.reset(ale_urg_create(&config));
-    if (!urg_) {
+    scanner_.reset(ale_scanner_open(&config));
+    if (!scanner_) {
         throw std::runtime_error("no memory for the scanner's driver");
     }
 }
@@ -116,7 +116,7 @@ void Recorder::on_odometry(void *user, const ale_odometry_t *sample)
 /* What the driver says, when it is news; numbers once a second where somebody watches. */
 void Recorder::tell()
 {
-    const ale_urg_health_t *health = ale_urg_health(urg_.get());
+    const ale_scanner_health_t *health = ale_scanner_health(scanner_.get());
     const int64_t now_us = real_now_us();
     const bool watched = isatty(STDERR_FILENO) != 0;
     if (status_ != health->status) {
@@ -145,7 +145,7 @@ void Recorder::run(bool (*stop)())
     const auto scan = std::make_unique<ale_scan_t>();
     begin_us_ = real_now_us();
     while (!stop() && !over()) {
-        ale_urg_step(urg_.get(), scan.get());
+        ale_scanner_step(scanner_.get(), scan.get());
         if (bus_) {
             ale_bus_receive(bus_.get(), 0);
         }
@@ -158,8 +158,8 @@ void Recorder::run(bool (*stop)())
 
 void Recorder::finish()
 {
-    const ale_urg_health_t health = *ale_urg_health(urg_.get());
-    urg_.reset();
+    const ale_scanner_health_t health = *ale_scanner_health(scanner_.get());
+    scanner_.reset();
     note_write(ale_recording_close(&recording_));
     recording_open_ = false;
     if (write_error_ != 0) {

@@ -8,7 +8,7 @@
 
 extern "C" {
 #include "lcm/bus.h"
-#include "scanner/urg/urg_device.h"
+#include "scanner/scanner.h"
 #include "store/recording.h"
 #include "system/clock.h"
 }
@@ -60,9 +60,9 @@ class Recorder
         }
     };
     struct CloseLine {
-        void operator()(ale_urg_t *urg) const
+        void operator()(ale_scanner_t *scanner) const
         {
-            ale_urg_destroy(urg);
+            ale_scanner_close(scanner);
         }
     };
 
@@ -71,8 +71,9 @@ class Recorder
     std::unique_ptr<ale_bus_t, CloseBus> bus_; /* nullptr without LCM */
     ale_recording_t recording_{};
     bool recording_open_ = false;
-    std::unique_ptr<ale_urg_t, CloseLine> urg_; /* before the recording, which hears of its last bytes */
-    int write_error_ = 0;                       /* errno of the first write that failed */
+    std::unique_ptr<ale_scanner_t, CloseLine>
+        scanner_;         /* before the recording, which hears of its last bytes */
+    int write_error_ = 0; /* errno of the first write that failed */
     uint64_t bytes_in_ = 0;
     uint64_t odometry_ = 0;
     int64_t begin_us_ = 0; /* real time */

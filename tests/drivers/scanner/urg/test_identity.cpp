@@ -34,8 +34,8 @@ TEST_F(Identity, lines_are_taken_by_key_in_any_order)
     lines({"SERI:H0706400", "unknown", "XXXX:what", "FIRM:3.1.04(02/Aug./2007)",
            "PROD:SOKUIKI Sensor URG-04LX", "SCAN:300", "AFRT:360", "AMAX:720", "AMIN:0", "ARES:720",
            "DMAX:30000", "DMIN:60", "MODL:URG-04LX(Hokuyo Automatic Co.,Ltd.)", "STAT:Sensor works well."});
-    EXPECT_STREQ(identity.serial, "H0706400");
-    EXPECT_STREQ(identity.model, "URG-04LX(Hokuyo Automatic Co.,Ltd.)");
+    EXPECT_STREQ(identity.device.serial, "H0706400");
+    EXPECT_STREQ(identity.device.model, "URG-04LX(Hokuyo Automatic Co.,Ltd.)");
     EXPECT_STREQ(identity.status, "Sensor works well.");
     EXPECT_EQ(identity.geometry.steps_per_turn, 720);
     EXPECT_EQ(identity.geometry.range_max_mm, 30000);
@@ -48,7 +48,7 @@ TEST_F(Identity, numbers_under_a_wrong_sum_are_not_believed_texts_are_shown)
 {
     lines({"DMAX:9600", "SERI:H1234567"}, false);
     EXPECT_EQ(identity.geometry.range_max_mm, 5600);
-    EXPECT_STREQ(identity.serial, "H1234567");
+    EXPECT_STREQ(identity.device.serial, "H1234567");
     EXPECT_EQ(identity.warnings, 2U);
 }
 
@@ -79,7 +79,7 @@ TEST_F(Identity, endless_text_is_cut)
 {
     const std::string line = "SERI:" + std::string(150, 'x');
     lines({line.c_str()});
-    EXPECT_EQ(strlen(identity.serial), sizeof identity.serial - 1);
+    EXPECT_EQ(strlen(identity.device.serial), sizeof identity.device.serial - 1);
 }
 
 TEST(Baud, every_rate_is_tried_once_and_the_preferred_one_first)

@@ -1,4 +1,4 @@
-// drivers/urg: from power-up to scans, whatever state the sensor was left in.
+// drivers/scanner/urg: from power-up to scans, whatever state the sensor was left in.
 #include <random>
 
 #include "drivers/scanner/urg/urg_on_line.hpp"
@@ -13,10 +13,10 @@ using ale_test::UrgDevice;
 TEST_F(UrgDevice, classic_sensor_is_switched_to_scip_2_and_streams)
 {
     run_for(5);
-    EXPECT_EQ(health().state, ALE_URG_STREAMING);
+    EXPECT_EQ(health().state, ALE_SCANNER_STREAMING);
     EXPECT_EQ(health().protocol, 2);
-    EXPECT_STREQ(health().serial, "H0706400");
-    EXPECT_STREQ(health().firmware, "3.1.04(02/Aug./2007)");
+    EXPECT_STREQ(health().identity.serial, "H0706400");
+    EXPECT_STREQ(health().identity.firmware, "3.1.04(02/Aug./2007)");
     EXPECT_STREQ(health().status, "Sensor works well.");
     EXPECT_GT(answers.size(), 40U);
     EXPECT_EQ(lost(), 0);
@@ -60,7 +60,7 @@ TEST_F(UrgDevice, firmware_without_scip_2_is_polled)
 {
     sensor.can_switch = false;
     run_for(5);
-    EXPECT_EQ(health().state, ALE_URG_POLLING);
+    EXPECT_EQ(health().state, ALE_SCANNER_POLLING);
     EXPECT_EQ(health().protocol, 1);
     EXPECT_GT(answers.size(), 35U);
     EXPECT_LT(answers.size(), 51U) << "never more often than it turns";
@@ -73,7 +73,7 @@ TEST_F(UrgDevice, wrong_lines_of_identity_are_tolerated_and_counted)
 {
     sensor.wrong_lines = "ODD:line;?\nNothing at all\n";
     run_for(4);
-    EXPECT_EQ(health().state, ALE_URG_STREAMING);
+    EXPECT_EQ(health().state, ALE_SCANNER_STREAMING);
     EXPECT_EQ(health().identity_warnings, 2U);
 }
 
@@ -133,7 +133,7 @@ TEST_F(UrgDevice, sensor_that_is_not_there_is_waited_for)
     sensor.absent_from_us = 0;
     sensor.absent_to_us = sensor.now_us + 20 * second_us;
     run_until(sensor.absent_to_us);
-    EXPECT_EQ(health().state, ALE_URG_CLOSED);
+    EXPECT_EQ(health().state, ALE_SCANNER_CLOSED);
     EXPECT_STREQ(health().status, "fake: absent");
     EXPECT_LT(seconds_to_scan(5), 2.0);
 }
@@ -142,7 +142,7 @@ TEST_F(UrgDevice, another_serial_number_is_refused)
 {
     config.serial = "H9999999";
     run_for(5);
-    EXPECT_NE(health().state, ALE_URG_STREAMING);
+    EXPECT_NE(health().state, ALE_SCANNER_STREAMING);
     EXPECT_TRUE(answers.empty());
     EXPECT_NE(std::string(health().status).find("serial"), std::string::npos);
 }

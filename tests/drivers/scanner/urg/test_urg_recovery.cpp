@@ -1,4 +1,4 @@
-// drivers/urg: damage on the line, silence, resets, and what they cost.
+// drivers/scanner/urg: damage on the line, silence, resets, and what they cost.
 #include <random>
 
 #include "drivers/scanner/urg/urg_on_line.hpp"
@@ -125,7 +125,7 @@ TEST_F(UrgRecovery, clock_that_stands_still_restarts_the_stream)
     };
     run_for(10);
     EXPECT_GE(health().stream_restarts, 1U);
-    EXPECT_EQ(health().state, ALE_URG_STREAMING);
+    EXPECT_EQ(health().state, ALE_SCANNER_STREAMING);
 }
 
 TEST_F(UrgRecovery, scans_come_again_within_a_second_of_two_seconds_of_silence)
@@ -152,7 +152,7 @@ TEST_F(UrgRecovery, unplugged_sensor_streams_again_within_three_seconds_of_its_r
         sensor.absent_from_us = sensor.now_us;
         sensor.absent_to_us = sensor.now_us + 2 * second_us;
         run_until(sensor.absent_to_us);
-        EXPECT_EQ(health().state, ALE_URG_CLOSED);
+        EXPECT_EQ(health().state, ALE_SCANNER_CLOSED);
         EXPECT_LT(seconds_to_scan(6), 2.0);
         EXPECT_GE(sensor.opened, 2);
     }
@@ -237,7 +237,7 @@ TEST_F(UrgRecovery, hardware_fault_is_counted_and_followed_by_one_reset)
     run_for(3);
     EXPECT_EQ(health().hardware_faults, 1U);
     EXPECT_EQ(health().resets, 2U);
-    EXPECT_EQ(health().state, ALE_URG_STREAMING);
+    EXPECT_EQ(health().state, ALE_SCANNER_STREAMING);
 }
 
 } // namespace

@@ -10,7 +10,7 @@
 #include "drivers/scanner/urg/fake_sensor.hpp"
 
 extern "C" {
-#include "scanner/urg/urg_device.h"
+#include "scanner/scanner.h"
 }
 
 namespace ale_test
@@ -34,10 +34,10 @@ class UrgDevice : public testing::Test
         ale_scan_t scan;
     };
     FakeSensor sensor;
-    ale_urg_config_t config{};
+    ale_scanner_config_t config{};
     std::vector<Answer> answers;
     std::string received, transmitted;
-    std::unique_ptr<ale_urg_t, decltype(&ale_urg_destroy)> urg{nullptr, ale_urg_destroy};
+    std::unique_ptr<ale_scanner_t, decltype(&ale_scanner_close)> urg{nullptr, ale_scanner_close};
 
     void SetUp() override
     {
@@ -50,26 +50,26 @@ class UrgDevice : public testing::Test
             (out ? self->transmitted : self->received).append(bytes, bytes + count);
         };
     }
-    const ale_urg_health_t &health() const
+    const ale_scanner_health_t &health() const
     {
-        return *ale_urg_health(urg.get());
+        return *ale_scanner_health(urg.get());
     }
     void run_until(int64_t until_us)
     {
         if (!urg) {
-            urg.reset(ale_urg_create(&config));
+            urg.reset(ale_scanner_open(&config));
         }
         auto scan = std::make_unique<ale_scan_t>();
         while (sensor.now_us < until_us) {
             const int64_t before_us = sensor.now_us;
-            const ale_urg_event_t event = ale_urg_step(urg.get(), scan.get());
+            const ale_scanner_event_t event = ale_scanner_step(urg.get(), scan.get());
             ASSERT_LE(sensor.now_us - before_us, 51000) << "a step blocks no longer than 50 ms";
-            if (event == ALE_URG_SCAN) {
+            if (event == ALE_SCANNER_SCAN) {
                 const int64_t step_0_us =
                     scan->stamp_us + int64_t{44 + scan->stamp_beam} * scan->beam_time_ns / 1000;
                 answers.push_back(
                     {scan->range_um[0] / 1000 - sensor.value_base, sensor.now_us, step_0_us, *scan});
-            } else if (event == ALE_URG_SCAN_LOST) {
+            } else if (event == ALE_SCANNER_SCAN_LOST) {
                 answers.push_back({-1, sensor.now_us, scan->stamp_us, *scan});
             }
         }

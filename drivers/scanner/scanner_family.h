@@ -1,0 +1,26 @@
+/* What a family of scanners provides: one table of functions; for drivers/scanner only. */
+#ifndef ALE_SCANNER_SCANNER_FAMILY_H
+#define ALE_SCANNER_SCANNER_FAMILY_H
+
+#include "base/scan.h"
+#include "scanner/scanner_types.h"
+
+typedef struct ale_scanner ale_scanner_t;
+
+/* The functions keep what scanner.h promises of their namesakes. */
+typedef struct {
+    const char *name;
+    ale_scanner_t *(*open)(const ale_scanner_config_t *config);
+    ale_scanner_event_t (*step)(ale_scanner_t *scanner, ale_scan_t *scan);
+    const ale_scanner_health_t *(*health)(const ale_scanner_t *scanner);
+    void (*close)(ale_scanner_t *scanner);
+} ale_scanner_family_t;
+
+/* First member of the structure that a family's open returns. */
+struct ale_scanner {
+    const ale_scanner_family_t *family;
+};
+
+extern const ale_scanner_family_t ale_scanner_urg; /* scanner/urg */
+
+#endif
