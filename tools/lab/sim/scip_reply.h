@@ -1,4 +1,4 @@
-/* Replies of a SCIP device as strings, put together by the writer of drivers/urg. */
+/* Replies of a SCIP device as strings, put together by the writer of drivers/scanner/urg. */
 #ifndef ALE_LAB_SIM_SCIP_REPLY_H
 #define ALE_LAB_SIM_SCIP_REPLY_H
 
