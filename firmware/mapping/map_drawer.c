@@ -29,7 +29,7 @@ static bool knows_map_of(ale_map_drawer_t *drawer, const ale_scan_observation_t 
     bool fresh = false;
     const ale_loaded_map_t *known = ale_snapshot_newest(drawer->exchange->known_to_drawer, &fresh);
     if (known->number != sighting->loaded ||
-        ale_live_map_know(drawer->live, sighting->epoch, &known->map) < 0) {
+        ale_live_map_set_prior_map(drawer->live, sighting->epoch, &known->map) < 0) {
         return false;
     }
     drawer->known_epoch = sighting->epoch;
@@ -41,7 +41,7 @@ static bool knows_map_of(ale_map_drawer_t *drawer, const ale_scan_observation_t 
 static void add(ale_map_drawer_t *drawer, const ale_scan_observation_t *sighting)
 {
     if (knows_map_of(drawer, sighting)) {
-        ale_live_map_take(drawer->live, sighting);
+        ale_live_map_add(drawer->live, sighting);
     }
 }
 
@@ -65,7 +65,7 @@ static void draw(ale_map_drawer_t *drawer)
     }
     const int64_t start_ns = ale_rt_now_ns();
     ale_drawn_map_t *drawn = ale_snapshot_back(exchange->drawn_map);
-    if (ale_live_map_draw(drawer->live, poses, &drawn->map)) {
+    if (ale_live_map_build(drawer->live, poses, &drawn->map)) {
         drawn->epoch = poses->epoch;
         ale_snapshot_publish(exchange->drawn_map);
     }

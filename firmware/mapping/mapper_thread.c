@@ -59,7 +59,7 @@ static bool knows_map_of(ale_mapper_thread_t *thread, const ale_keyframe_t *keyf
     bool fresh = false;
     const ale_loaded_map_t *known = ale_snapshot_newest(thread->exchange->known_to_mapper, &fresh);
     if (known->number != keyframe->loaded ||
-        ale_mapper_know(thread->mapper, keyframe->epoch, &known->map) < 0) {
+        ale_mapper_set_prior_map(thread->mapper, keyframe->epoch, &known->map) < 0) {
         return false;
     }
     thread->known_epoch = keyframe->epoch;

@@ -15,20 +15,20 @@ namespace
 
 using ale::Pose;
 
-// Moves smaller than this are not worth a correction of the map.
-constexpr double worth_m = 0.005;
-constexpr double worth_rad = 0.001;
+// Smaller moves cause no correction of the map.
+constexpr double least_move_m = 0.005;
+constexpr double least_move_rad = 0.001;
 
-// The transform that takes points placed by `before` to where `after` puts them.
+// The transform from points placed by `before` to the same points placed by `after`.
 Pose shift_of(const Pose &before, const Pose &after)
 {
     return ale::compose(after, ale::inverse(before));
 }
 
-bool is_worth_it(const Pose &before, const Pose &after)
+bool has_moved(const Pose &before, const Pose &after)
 {
-    return ale::length(after.x - before.x, after.y - before.y) > worth_m ||
-           std::abs(ale::wrapped(after.theta - before.theta)) > worth_rad;
+    return ale::length(after.x - before.x, after.y - before.y) > least_move_m ||
+           std::abs(ale::wrapped(after.theta - before.theta)) > least_move_rad;
 }
 
 } // namespace
@@ -40,45 +40,45 @@ struct ale_mapper {
 
     uint32_t epoch = 0;
     ale::LoopCloser closer;
-    uint32_t heard = 0;          // corrections that the tracker had taken in with the last keyframe
-    std::deque<Pose> last_shift; // of each correction handed out since
+    uint32_t applied = 0;            // corrections that the tracker had applied by the last keyframe
+    std::deque<Pose> pending_shifts; // last shift of each correction handed out since
     uint32_t refused = 0;
 };
 
 namespace
 {
 
-// Where the tracker sees the keyframe, moved by the corrections that it had not heard of.
-Pose where_it_is(ale_mapper &mapper, const ale_keyframe_t &keyframe)
+// The tracker's pose of the keyframe, moved by the corrections that it had not applied yet.
+Pose corrected_pose(ale_mapper &mapper, const ale_keyframe_t &keyframe)
 {
-    for (; mapper.heard < keyframe.corrections; mapper.heard++) {
-        if (!mapper.last_shift.empty()) {
-            mapper.last_shift.pop_front();
+    for (; mapper.applied < keyframe.corrections; mapper.applied++) {
+        if (!mapper.pending_shifts.empty()) {
+            mapper.pending_shifts.pop_front();
         }
     }
     Pose pose = ale::from_core(keyframe.map);
-    for (const Pose &shift : mapper.last_shift) {
+    for (const Pose &shift : mapper.pending_shifts) {
         pose = ale::compose(shift, pose);
     }
     return pose;
 }
 
-void begin_anew(ale_mapper &mapper)
+void reset(ale_mapper &mapper)
 {
-    mapper.closer.begin_anew();
+    mapper.closer.reset();
     mapper.epoch = 0;
-    mapper.heard = 0;
-    mapper.last_shift.clear();
+    mapper.applied = 0;
+    mapper.pending_shifts.clear();
 }
 
 void add(ale_mapper &mapper, const ale_keyframe_t &keyframe)
 {
     if (keyframe.epoch != mapper.epoch) {
-        begin_anew(mapper);
+        reset(mapper);
         mapper.epoch = keyframe.epoch;
     }
     ale::Node node = ale::node_of(keyframe);
-    node.tracked = where_it_is(mapper, keyframe);
+    node.tracked = corrected_pose(mapper, keyframe);
     Pose motion = node.tracked;
     if (!mapper.closer.nodes().empty()) {
         const ale::Node &before = mapper.closer.nodes().back();
@@ -110,31 +110,31 @@ int ale_mapper_add(ale_mapper_t *mapper, const ale_keyframe_t *keyframe)
         add(*mapper, *keyframe);
         return 0;
     } catch (const std::bad_alloc &) {
-        begin_anew(*mapper); // half of what was under way is in it
+        reset(*mapper); // the graph may hold half of the keyframe
         mapper->refused++;
         return -1;
     }
 }
 
-int ale_mapper_know(ale_mapper_t *mapper, uint32_t epoch, const ale_map_t *map)
+int ale_mapper_set_prior_map(ale_mapper_t *mapper, uint32_t epoch, const ale_map_t *map)
 {
-    begin_anew(*mapper);
+    reset(*mapper);
     mapper->epoch = epoch;
     try {
-        mapper->closer.know(*map);
+        mapper->closer.set_prior_map(*map);
         return 0;
     } catch (const std::bad_alloc &) {
         return -1;
     }
 }
 
-void ale_mapper_see_walls(ale_mapper_t *mapper, const ale_pose_t *smooth, const ale_pose_t *sensor,
+void ale_mapper_add_walls(ale_mapper_t *mapper, const ale_pose_t *smooth, const ale_pose_t *sensor,
                           const ale_features_t *features)
 {
     try {
-        mapper->closer.see_walls(ale::from_core(*smooth), ale::walls_of(*features, ale::from_core(*sensor)));
+        mapper->closer.add_walls(ale::from_core(*smooth), ale::walls_of(*features, ale::from_core(*sensor)));
     } catch (const std::bad_alloc &) {
-        return; // a compass with one scan less
+        return; // the building direction goes without this scan
     }
 }
 
@@ -151,11 +151,11 @@ bool ale_mapper_correction(ale_mapper_t *mapper, ale_correction_t *out)
 {
     const std::vector<Pose> &now = mapper->closer.poses();
     const std::vector<ale::Node> &nodes = mapper->closer.nodes();
-    bool worth = false;
+    bool moved = false;
     for (size_t k = 0; k < now.size(); k++) {
-        worth = worth || is_worth_it(nodes[k].tracked, now[k]);
+        moved = moved || has_moved(nodes[k].tracked, now[k]);
     }
-    if (!worth) {
+    if (!moved) {
         return false;
     }
     out->epoch = mapper->epoch;
@@ -164,9 +164,9 @@ bool ale_mapper_correction(ale_mapper_t *mapper, ale_correction_t *out)
     for (size_t k = 0; k < now.size(); k++) {
         out->shift[out->count++] = {nodes[k].scan, ale::to_core(shift_of(nodes[k].tracked, now[k]))};
     }
-    mapper->last_shift.push_back(shift_of(nodes.back().tracked, now.back()));
-    mapper->closer.told();
-    out->number = mapper->heard + static_cast<uint32_t>(mapper->last_shift.size());
+    mapper->pending_shifts.push_back(shift_of(nodes.back().tracked, now.back()));
+    mapper->closer.mark_handed_out();
+    out->number = mapper->applied + static_cast<uint32_t>(mapper->pending_shifts.size());
     return true;
 }
 
@@ -176,7 +176,7 @@ ale_mapper_statistics_t ale_mapper_statistics(const ale_mapper_t *mapper)
     return {static_cast<uint32_t>(mapper->closer.nodes().size()),
             s.thinned,
             s.candidates,
-            s.known,
+            s.recognised,
             s.unclear,
             s.unconfirmed,
             s.contradicted,

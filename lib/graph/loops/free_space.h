@@ -1,5 +1,5 @@
-// What a node saw to be free: where another node's points lie in it, one of the two is not where it is said
-// to be.
+// Free space that a node saw around it. Points of another node that lie in it are a free-space violation: one
+// of the two is not where it is assumed to be. Metres, the node's frame.
 #ifndef ALE_GRAPH_LOOPS_FREE_SPACE_H
 #define ALE_GRAPH_LOOPS_FREE_SPACE_H
 
@@ -10,28 +10,29 @@
 namespace ale
 {
 
-struct Contradiction {
-    int points = 0;  // that lie where the view reaches
-    int in_free = 0; // of these, clearly before what was seen there
+struct FreeSpaceCheck {
+    int points = 0;     // within the view
+    int violations = 0; // of these, clearly nearer than the surface seen there
 };
 
 class FreeSpace
 {
   public:
+    // The nearest range in each of 360 sectors. O(points); nothing here throws.
     explicit FreeSpace(const Node &node);
 
-    // Whether the node would have seen a surface at this point, given in its frame: nothing nearer hides it.
-    bool reaches(const Eigen::Vector2d &p) const;
+    // Whether the node had this point in view: no surface nearer hides it. O(1).
+    bool has_in_view(const Eigen::Vector2d &p) const;
 
-    // Adds what the points of another node say, which lies at `pose` as seen from this one.
-    void confront(const Node &other, const Pose &pose, Contradiction *sum) const;
+    // Adds the counts for the points of another node, which lies at `pose`. O(points).
+    void check(const Node &other, const Pose &pose, FreeSpaceCheck *sum) const;
 
   private:
     static constexpr int sectors = 360;
-    static int sector_of(const Eigen::Vector2d &from_eye);
-    double range_towards(const Eigen::Vector2d &from_eye) const;
+    static int sector_of(const Eigen::Vector2d &from_sensor);
+    double range_towards(const Eigen::Vector2d &from_sensor) const;
 
-    Eigen::Vector2d eye_;
+    Eigen::Vector2d sensor_;
     std::array<float, sectors> range_m_; // by bearing in the node's frame; 0: nothing was seen
 };
 

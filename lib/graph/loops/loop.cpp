@@ -10,14 +10,15 @@ namespace ale
 namespace
 {
 
-constexpr double agreement_m = 0.15;
-constexpr double agreement_rad = 0.035;
+constexpr double gap_m = 0.15; // of a cycle
+constexpr double gap_rad = 0.035;
+// Accuracy of a match, however many points it has.
 constexpr double least_variance_m2 = 0.01 * 0.01;
 constexpr double least_variance_rad2 = 0.003 * 0.003;
 
 } // namespace
 
-Loop loop_by(const LoopMatch &match, int from, int to)
+Loop loop_from_match(const LoopMatch &match, int from, int to)
 {
     const Eigen::Vector3d floor(least_variance_m2, least_variance_m2, least_variance_rad2);
     const Eigen::Matrix3d regular = match.information + Eigen::Matrix3d::Identity() * 1e-3;
@@ -25,20 +26,24 @@ Loop loop_by(const LoopMatch &match, int from, int to)
             match.overlap};
 }
 
-bool is_sight(const LoopMatch &match, double in_view)
+GraphEdge edge_of(const Loop &loop)
+{
+    return {loop.from, loop.to, loop.measured, loop.information, true};
+}
+
+bool is_acceptable(const LoopMatch &match, double in_view)
 {
     return match.found && match.overlap >= least_overlap * in_view && match.ambiguity <= most_ambiguity;
 }
 
-bool agree(const Loop &a, const Loop &b, const std::vector<Pose> &poses)
+bool are_consistent(const Loop &a, const Loop &b, const std::vector<Pose> &poses)
 {
     if (a.to == b.to) {
         return false;
     }
-    const Pose along_there = between(poses[static_cast<size_t>(a.from)], poses[static_cast<size_t>(b.from)]);
-    const Pose along_here = between(poses[static_cast<size_t>(a.to)], poses[static_cast<size_t>(b.to)]);
-    const Pose gap = between(compose(a.measured, along_here), compose(along_there, b.measured));
-    return length(gap.x, gap.y) < agreement_m && std::abs(gap.theta) < agreement_rad;
+    const Pose gap = between(compose(a.measured, between(poses, a.to, b.to)),
+                             compose(between(poses, a.from, b.from), b.measured));
+    return length(gap.x, gap.y) < gap_m && std::abs(gap.theta) < gap_rad;
 }
 
 } // namespace ale

@@ -1,16 +1,14 @@
 // Closes loops: nodes in, corrected poses out.
 //
-//   LoopCloser closer;
-//   if (closer.add(node)) { ... closer.poses() have moved ... }
+//   LoopCloser closer(capacity);
+//   if (closer.add(node, motion)) { ... closer.poses() have moved ... }
 //
-// A loop is believed only when matching finds the place clearly (overlap, no second place nearly as good),
-// and other nodes nearby find the same shift; it is taken back when the graph then contradicts it. Where the
-// tracker has recognised the place itself nothing is to be corrected: the tie is noted as the tracker knows
-// it, so that later corrections keep it. Work of one call: at most loop_candidates matches and two of
-// neighbours, and 30 iterations of the graph, however many loops are tried.
+// A loop is accepted if the match is clear (overlap, no other place nearly as good) and loops from other
+// nodes confirm it; it is rejected again if the graph then contradicts it. Where the tracker has recognised
+// the place itself nothing is corrected: the edge records the pose as tracked, so that later corrections keep
+// it. Memory is bounded: a full graph removes the most redundant node (thinning.h) for each new one.
 //
-// Memory is bounded: when it holds as many nodes as it may, the next one takes the place of the most
-// redundant (thinning.h), whose ties go over to its neighbours on the way.
+// Not thread-safe. Whatever adds or refines may throw std::bad_alloc; reset() is then the only valid call.
 #ifndef ALE_GRAPH_LOOPS_LOOP_CLOSER_H
 #define ALE_GRAPH_LOOPS_LOOP_CLOSER_H
 
@@ -18,11 +16,11 @@
 #include <optional>
 #include <vector>
 
-#include "graph/loops/known_map.h"
 #include "graph/loops/loop.h"
 #include "graph/loops/loop_match.h"
 #include "graph/loops/loop_search.h"
-#include "graph/loops/refinement.h"
+#include "graph/loops/pairwise_refinement.h"
+#include "graph/loops/prior_map.h"
 #include "graph/optimise/node.h"
 #include "graph/optimise/pose_graph.h"
 
@@ -30,94 +28,97 @@ namespace ale
 {
 
 struct LoopStatistics {
-    uint32_t candidates;   // places looked at
-    uint32_t known;        // the tracker has recognised the place itself: nothing to correct
-    uint32_t unclear;      // too little overlap, or a second place nearly as good
+    uint32_t candidates;   // places matched
+    uint32_t recognised;   // the tracker has recognised the place itself
+    uint32_t unclear;      // too little overlap, or another place nearly as good
     uint32_t unconfirmed;  // too few other nodes agreed
-    uint32_t contradicted; // taken back after optimisation
-    uint32_t loops;        // believed
-    uint32_t straightened; // headings had drifted from the directions of the walls
-    uint32_t thinned;      // nodes that made room for others
+    uint32_t contradicted; // rejected after optimisation
+    uint32_t loops;        // accepted
+    uint32_t straightened; // corrections by the building direction
+    uint32_t thinned;      // nodes removed for others
 };
 
 class LoopCloser
 {
   public:
-    // At most so many nodes are kept: at least least_capacity, so that the present visit is whole.
-    explicit LoopCloser(size_t capacity);
-    static constexpr size_t least_capacity = 64;
+    static constexpr size_t least_capacity = 64; // so that the present visit is whole
+    static constexpr int most_later_scans = 16;
 
-    // The map that the drive begins in, before the first node: nodes are laid on its walls, and it stays
-    // where it is. begin_anew() forgets it.
-    void know(const ale_map_t &map)
+    // Holds at most `capacity` nodes, least_capacity at least; allocates the graph for them.
+    explicit LoopCloser(size_t capacity);
+
+    // The drive begins in this map: nodes are matched with its walls, which stay where they are. Before the
+    // first node; reset() forgets it. O(walls).
+    void set_prior_map(const ale_map_t &map)
     {
-        known_.emplace(map);
+        prior_.emplace(map);
     }
 
-    // `motion` is the node's pose as seen from the node before; of the first one its pose in the map. True
-    // when earlier poses moved.
+    // Adds a node and searches for loops. `motion`: the node's pose as seen from the node before; of the
+    // first one its pose in the map. True: earlier poses have moved. Work: three searches by match_submap,
+    // two pairwise matches, one match with the prior map, 30 iterations of the graph.
     bool add(Node node, const Pose &motion);
 
-    // Walls that a scan after the last node saw, `smooth` as the nodes' own: a compass for refine(). Of so
-    // many scans a node at most.
-    void see_walls(const Pose &smooth, const std::vector<WallSight> &walls);
-    static constexpr int most_scans_after = 16;
+    // Adds the walls of a scan after the last node, robot's frame, for the building direction in refine();
+    // `smooth` as the nodes' own. Scans beyond most_later_scans a node are ignored. O(walls).
+    void add_walls(const Pose &smooth, const std::vector<WallDirection> &walls);
 
-    // Looks for loops once more and draws all poses tighter by matching neighbours anew, a bounded piece a
-    // call; poses() move with the last. False: nothing is left to do until a node is added.
+    // Searches for loops again and refines all poses, a bounded piece of the work a call; poses() move with
+    // the last. False: nothing is left to do until a node is added.
     bool refine();
 
     const std::vector<Node> &nodes() const
     {
         return nodes_;
     }
-    // The tracker was told where all nodes are.
-    void told();
-    // As after the constructor; allocates nothing.
-    void begin_anew();
+    // Map frame, one for each node.
     const std::vector<Pose> &poses() const
     {
         return graph_.poses();
     }
+    // The tracker was handed all poses as they are now. O(nodes); never throws.
+    void mark_handed_out();
+    // As after the constructor; allocates nothing, never throws.
+    void reset();
     const LoopStatistics &statistics() const
     {
         return statistics_;
     }
 
   private:
-    enum class Sight { unclear, known, displaced };
-    // Two nodes of the way that show the same, matched tightly: drift plays no part in it.
-    struct Neighbours {
+    enum class MatchOutcome { unclear, recognised, displaced };
+    // Two neighbours along the path, matched pairwise: independent of drift.
+    struct NeighbourMatch {
         GraphEdge match;
-        double misfit; // as the tracker has placed the two
+        double misfit; // of the poses as tracked
     };
 
     void make_room();
     void link_to_previous(const Pose &motion);
     void match_neighbours();
-    bool are_neighbours_torn() const;
+    bool neighbours_contradict_building() const;
     std::vector<int> candidates() const;
-    bool look_at(int there);
-    Sight look_for_loop(int there, Loop *loop) const;
-    std::vector<Loop> partners_of(const Loop &loop) const;
-    size_t partners_wanted(const Loop &loop) const;
-    bool close(const Loop &loop, const std::vector<Loop> &partners);
+    bool evaluate_candidate(int candidate);
+    MatchOutcome match_candidate(int candidate, Loop *loop) const;
+    std::vector<Loop> confirmations_of(const Loop &loop) const;
+    size_t confirmations_needed(const Loop &loop) const;
+    bool close_loop(const Loop &loop, const std::vector<Loop> &confirmations);
     bool straighten();
-    bool lay_on_known();
+    bool match_prior_map();
     bool optimise();
-    bool is_tied(const Loop &loop) const;
+    bool is_in_graph(const Loop &loop) const;
 
     size_t capacity_;
-    std::vector<Node> nodes_; // in the order of the way
+    std::vector<Node> nodes_; // along the path
     PoseGraph graph_;
-    std::optional<KnownMap> known_;
-    std::deque<Loop> pending_;
-    std::vector<Neighbours> neighbours_; // along the way
-    size_t added_ = 0;                   // nodes, ever
-    size_t straightened_at_ = 0;         // how many had been added then
-    int iterations_left_ = 0;            // of those that may follow from the present node
+    std::optional<PriorMap> prior_;
+    std::deque<Loop> pending_;               // wait for confirmation
+    std::vector<NeighbourMatch> neighbours_; // along the path
+    size_t added_ = 0;                       // nodes, ever
+    size_t straightened_at_ = 0;             // how many had been added then
+    int iterations_left_ = 0;                // of those that the present node may cause
     std::optional<LoopSearch> search_;
-    std::optional<Refinement> refinement_;
+    std::optional<PairwiseRefinement> refinement_;
     bool refined_ = false; // nothing was added since
     LoopStatistics statistics_{};
 };

@@ -12,15 +12,15 @@ namespace ale
 namespace
 {
 
-constexpr size_t glanced_points = 32; // of all hypotheses, to choose those that are scored
+constexpr size_t coarse_points = 32; // score all hypotheses, to choose those that are scored with more
 constexpr size_t scored_points = 120;
 constexpr size_t scored_hypotheses = 600;
 constexpr size_t max_corner_hypotheses = 2000;
-constexpr int max_window_places = 20000; // the widest windows are searched over fewer turns
+constexpr int max_window_places = 20000; // wider windows are searched over fewer rotations
 constexpr int window_step_cells = 2;
-constexpr double window_step_m = window_step_cells * SurfaceField::cell_m;
+constexpr double window_step_m = window_step_cells * LikelihoodField::cell_m;
 constexpr double window_step_rad = 0.035;
-constexpr double distinct_m = 0.40; // two places farther apart than this are different answers
+constexpr double distinct_m = 0.40; // poses farther apart are different places
 constexpr double distinct_rad = 0.26;
 constexpr size_t refined_hypotheses = 6;
 constexpr double corner_angle_tolerance_rad = 0.30;
@@ -33,9 +33,9 @@ struct Hypothesis {
 
 // Which points make a pair.
 struct Pairing {
-    double facing;  // least cosine between their normals
-    bool known;     // both normals must be
-    double damping; // of a step, as if so many pairs held each direction where it is
+    double least_cosine; // between their normals
+    bool normals_needed; // both points must have one
+    double damping;      // of a step, as if so many pairs held each direction where it is
 };
 constexpr Pairing loose{0.5, false, 1e-3};
 constexpr Pairing strict{0.8, true, 0.05};
@@ -44,8 +44,8 @@ struct Pass {
     int count;
     double gate_m;
 };
-constexpr Pass passes_from_afar[] = {{4, 0.25}, {4, 0.12}, {4, 0.06}};
-constexpr Pass passes_from_near[] = {{1, 0.20}, {1, 0.15}, {2, 0.10}, {4, 0.06}};
+constexpr Pass coarse_to_fine[] = {{4, 0.25}, {4, 0.12}, {4, 0.06}};
+constexpr Pass fine_passes[] = {{1, 0.20}, {1, 0.15}, {2, 0.10}, {4, 0.06}};
 
 std::vector<SurfacePoint> thinned(const std::vector<SurfacePoint> &points, size_t count)
 {
@@ -57,45 +57,45 @@ std::vector<SurfacePoint> thinned(const std::vector<SurfacePoint> &points, size_
     return few;
 }
 
-double score_of(const Pose &pose, const std::vector<SurfacePoint> &points, const SurfaceField &field)
+double score_of(const Pose &pose, const std::vector<SurfacePoint> &points, const LikelihoodField &field)
 {
     const Eigen::Matrix2d r = rotation(pose.theta);
     const Eigen::Vector2d t(pose.x, pose.y);
     double sum = 0;
     for (const SurfacePoint &point : points) {
-        sum += field.likeness(r * point.p + t);
+        sum += field.likelihood(r * point.p + t);
     }
     return points.empty() ? 0 : sum / static_cast<double>(points.size());
 }
 
-bool inside(const Pose &pose, const Pose &guess, const SearchWindow &window)
+bool is_inside(const Pose &pose, const Pose &guess, const SearchWindow &window)
 {
     return length(pose.x - guess.x, pose.y - guess.y) <= window.half_m &&
            std::abs(wrapped(pose.theta - guess.theta)) <= window.half_rad;
 }
 
-// Section IV of the paper: one corner of each side is laid on the other; their bisectors give the rotation.
-void hypotheses_from_corners(const std::vector<CornerMark> &corners,
-                             const std::vector<CornerMark> &field_corners, const Pose &guess,
+// Section IV of the paper: a pair of corners gives the translation, their bisectors the rotation.
+void hypotheses_from_corners(const std::vector<CornerFeature> &corners,
+                             const std::vector<CornerFeature> &field_corners, const Pose &guess,
                              const SearchWindow &window, std::vector<Pose> *out)
 {
-    for (const CornerMark &here : corners) {
-        for (const CornerMark &there : field_corners) {
+    for (const CornerFeature &here : corners) {
+        for (const CornerFeature &there : field_corners) {
             if (here.convex != there.convex ||
-                std::abs(here.angle - there.angle) > corner_angle_tolerance_rad) {
+                std::abs(here.angle_rad - there.angle_rad) > corner_angle_tolerance_rad) {
                 continue;
             }
-            const double theta = wrapped(there.bisector - here.bisector);
+            const double theta = wrapped(there.bisector_rad - here.bisector_rad);
             const Eigen::Vector2d p = there.p - rotation(theta) * here.p;
             const Pose pose{p.x(), p.y(), theta};
-            if (inside(pose, guess, window) && out->size() < max_corner_hypotheses) {
+            if (is_inside(pose, guess, window) && out->size() < max_corner_hypotheses) {
                 out->push_back(pose);
             }
         }
     }
 }
 
-// Places all around the guess, a step apart: by turn, row, column.
+// Poses in the window, a step apart: by rotation, row, column.
 class WindowGrid
 {
   public:
@@ -108,15 +108,15 @@ class WindowGrid
 
     Pose pose(size_t k) const
     {
-        const int in_turn = static_cast<int>(k % places());
-        const int column = in_turn % side() - steps_;
-        const int row = in_turn / side() - steps_;
+        const int place = static_cast<int>(k % places());
+        const int column = place % side() - steps_;
+        const int row = place / side() - steps_;
         return {guess_.x + column * window_step_m, guess_.y + row * window_step_m,
                 turned(static_cast<int>(k / places()) - turns_)};
     }
 
-    // Appends the score of each: only whole cells lie between the places of one turn.
-    void add_scores(const std::vector<SurfacePoint> &points, const SurfaceField &field,
+    // Appends the score of each pose. The places of one rotation are whole cells apart.
+    void add_scores(const std::vector<SurfacePoint> &points, const LikelihoodField &field,
                     std::vector<double> *scores) const
     {
         std::vector<double> sums;
@@ -124,8 +124,8 @@ class WindowGrid
             const Eigen::Matrix2d r = rotation(turned(turn));
             sums.assign(places(), 0);
             for (const SurfacePoint &point : points) {
-                field.add_likeness_around(r * point.p + Eigen::Vector2d(guess_.x, guess_.y), steps_,
-                                          window_step_cells, &sums);
+                field.add_likelihoods_around(r * point.p + Eigen::Vector2d(guess_.x, guess_.y), steps_,
+                                             window_step_cells, &sums);
             }
             for (const double sum : sums) {
                 scores->push_back(points.empty() ? 0 : sum / static_cast<double>(points.size()));
@@ -154,13 +154,13 @@ class WindowGrid
 
 struct Fit {
     Pose pose;
-    Eigen::Matrix3d information; // patch frame, rotation about the node
+    Eigen::Matrix3d information; // submap frame, rotation about the node
     double overlap;
     double rms_m;
 };
 
 // One least-squares pass, point to surface along the normal, with pairs nearer than gate_m.
-Fit refine_once(const Pose &pose, const std::vector<SurfacePoint> &points, const SurfaceField &field,
+Fit refine_once(const Pose &pose, const std::vector<SurfacePoint> &points, const LikelihoodField &field,
                 double gate_m, const Pairing &pairing)
 {
     Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
@@ -178,7 +178,7 @@ Fit refine_once(const Pose &pose, const std::vector<SurfacePoint> &points, const
         }
         const Eigen::Vector2d n = r * point.normal;
         const bool unknown = point.normal.isZero();
-        if (unknown ? pairing.known : n.dot(there->normal) < pairing.facing) {
+        if (unknown ? pairing.normals_needed : n.dot(there->normal) < pairing.least_cosine) {
             continue;
         }
         const double residual = there->normal.dot(lever + t - there->p);
@@ -209,7 +209,7 @@ Fit refine_once(const Pose &pose, const std::vector<SurfacePoint> &points, const
 }
 
 template <size_t N>
-Fit refine(const Pose &start, const std::vector<SurfacePoint> &points, const SurfaceField &field,
+Fit refine(const Pose &start, const std::vector<SurfacePoint> &points, const LikelihoodField &field,
            const Pass (&passes)[N], const Pairing &pairing)
 {
     Fit fit{start, Eigen::Matrix3d::Zero(), 0, 0};
@@ -221,12 +221,12 @@ Fit refine(const Pose &start, const std::vector<SurfacePoint> &points, const Sur
     return fit;
 }
 
-bool distinct(const Pose &a, const Pose &b)
+bool are_distinct(const Pose &a, const Pose &b)
 {
     return length(a.x - b.x, a.y - b.y) > distinct_m || std::abs(wrapped(a.theta - b.theta)) > distinct_rad;
 }
 
-// Indices of the best so many, best first; of equals the first.
+// Indices of the `count` best scores, best first; of equals the first.
 std::vector<size_t> best_of(const std::vector<double> &scores, size_t count)
 {
     std::vector<size_t> order(scores.size());
@@ -239,20 +239,20 @@ std::vector<size_t> best_of(const std::vector<double> &scores, size_t count)
     return order;
 }
 
-// The hypotheses worth a closer look, scored, best first: of those from corners and of a window.
-std::vector<Hypothesis> promising(const std::vector<Pose> &from_corners, const WindowGrid &window,
-                                  const std::vector<SurfacePoint> &scan, const SurfaceField &field)
+// The best hypotheses by a coarse score, from corners and window, scored with more points, best first.
+std::vector<Hypothesis> best_scored(const std::vector<Pose> &from_corners, const WindowGrid &window,
+                                    const std::vector<SurfacePoint> &scan, const LikelihoodField &field)
 {
-    const std::vector<SurfacePoint> few = thinned(scan, glanced_points);
-    std::vector<double> glances;
-    glances.reserve(from_corners.size() + max_window_places);
+    const std::vector<SurfacePoint> few = thinned(scan, coarse_points);
+    std::vector<double> coarse_scores;
+    coarse_scores.reserve(from_corners.size() + max_window_places);
     for (const Pose &pose : from_corners) {
-        glances.push_back(score_of(pose, few, field));
+        coarse_scores.push_back(score_of(pose, few, field));
     }
-    window.add_scores(few, field, &glances);
+    window.add_scores(few, field, &coarse_scores);
     const std::vector<SurfacePoint> more = thinned(scan, scored_points);
     std::vector<Hypothesis> chosen;
-    for (const size_t k : best_of(glances, scored_hypotheses)) {
+    for (const size_t k : best_of(coarse_scores, scored_hypotheses)) {
         const Pose pose = k < from_corners.size() ? from_corners[k] : window.pose(k - from_corners.size());
         chosen.push_back({pose, score_of(pose, more, field)});
     }
@@ -261,13 +261,14 @@ std::vector<Hypothesis> promising(const std::vector<Pose> &from_corners, const W
     return chosen;
 }
 
-// The best few hypotheses that are different places, best first.
+// The best hypotheses that are different places, best first.
 std::vector<Hypothesis> best_distinct(const std::vector<Hypothesis> &all)
 {
     std::vector<Hypothesis> best;
     for (const Hypothesis &h : all) {
-        const bool is_new = std::all_of(
-            best.begin(), best.end(), [&](const Hypothesis &other) { return distinct(h.pose, other.pose); });
+        const bool is_new = std::all_of(best.begin(), best.end(), [&](const Hypothesis &other) {
+            return are_distinct(h.pose, other.pose);
+        });
         if (is_new) {
             best.push_back(h);
         }
@@ -287,17 +288,17 @@ LoopMatch as_match(const Fit &fit, double ambiguity)
 
 } // namespace
 
-LoopMatch match_patch(const std::vector<SurfacePoint> &scan, const std::vector<CornerMark> &corners,
-                      const SurfaceField &field, const std::vector<CornerMark> &field_corners,
-                      const Pose &guess, const SearchWindow &window)
+LoopMatch match_submap(const std::vector<SurfacePoint> &scan, const std::vector<CornerFeature> &corners,
+                       const LikelihoodField &field, const std::vector<CornerFeature> &field_corners,
+                       const Pose &guess, const SearchWindow &window)
 {
     std::vector<Pose> from_corners;
     hypotheses_from_corners(corners, field_corners, guess, window, &from_corners);
-    const std::vector<Hypothesis> scored = promising(from_corners, WindowGrid(guess, window), scan, field);
+    const std::vector<Hypothesis> scored = best_scored(from_corners, WindowGrid(guess, window), scan, field);
     std::vector<Hypothesis> refined;
     std::vector<Fit> fits;
     for (const Hypothesis &h : best_distinct(scored)) {
-        fits.push_back(refine(h.pose, scan, field, passes_from_afar, loose));
+        fits.push_back(refine(h.pose, scan, field, coarse_to_fine, loose));
         refined.push_back({fits.back().pose, score_of(fits.back().pose, scan, field)});
     }
     if (refined.empty()) {
@@ -309,19 +310,21 @@ LoopMatch match_patch(const std::vector<SurfacePoint> &scan, const std::vector<C
     }
     double other = 0;
     for (const Hypothesis &h : refined) {
-        other = distinct(h.pose, refined[best].pose) ? std::max(other, h.score) : other;
+        other = are_distinct(h.pose, refined[best].pose) ? std::max(other, h.score) : other;
     }
     return as_match(fits[best], refined[best].score > 0 ? other / refined[best].score : 1);
 }
 
-LoopMatch match_near(const std::vector<SurfacePoint> &scan, const SurfaceField &field, const Pose &guess)
+LoopMatch match_locally(const std::vector<SurfacePoint> &scan, const LikelihoodField &field,
+                        const Pose &guess)
 {
-    return as_match(refine(guess, scan, field, passes_from_afar, loose), 0);
+    return as_match(refine(guess, scan, field, coarse_to_fine, loose), 0);
 }
 
-LoopMatch match_tightly(const std::vector<SurfacePoint> &scan, const SurfaceField &field, const Pose &guess)
+LoopMatch match_closely(const std::vector<SurfacePoint> &scan, const LikelihoodField &field,
+                        const Pose &guess)
 {
-    return as_match(refine(guess, scan, field, passes_from_near, strict), 0);
+    return as_match(refine(guess, scan, field, fine_passes, strict), 0);
 }
 
 } // namespace ale

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "graph/loops/likelihood_field.h"
 #include "graph/loops/loop_match.h"
-#include "graph/loops/patch.h"
-#include "graph/loops/surface_field.h"
-#include "graph/loops/visits.h"
+#include "graph/loops/place_candidates.h"
+#include "graph/loops/submap.h"
 
 namespace ale
 {
@@ -16,48 +16,43 @@ namespace
 {
 
 constexpr int rounds = 2;
-constexpr size_t looked_from = 700; // nodes at most; of more every second, third..
+constexpr size_t searched_nodes = 700; // of more, every second, third..
 constexpr size_t most_places = 3;
 constexpr int same_visit_nodes = 12;
-constexpr double reach_m = 2.0; // places this near, beside what the graph does not know
+constexpr double reach_m = 2.0; // of places, beside the deviation of the graph
 constexpr double metres_a_radian = 0.5;
-constexpr PatchExtent patch_there{6, 6};
-constexpr PatchExtent patch_here{2, 2};
-constexpr PatchExtent corners_there{2, 2};
-constexpr PatchExtent corners_here{2, 2};
-// The window: three standard deviations and what a match may be off anyway.
+constexpr SubmapExtent submap_there{6, 6};
+constexpr SubmapExtent submap_here{2, 2};
+constexpr SubmapExtent corners_there{2, 2};
+constexpr SubmapExtent corners_here{2, 2};
+// The window: three standard deviations and the error of a match.
 constexpr double deviations = 3;
 constexpr double window_m = 0.20;
 constexpr double window_rad = 0.05;
 constexpr double max_window_m = 3.0;
 constexpr double max_window_rad = 0.5;
-// Nearer than this to where the graph has it nothing else needs to be looked for.
+// A clear match this near to its pose in the graph needs no further search.
 constexpr double near_m = 0.15;
 constexpr double near_rad = 0.03;
-constexpr int viewer_stride = 2;
-// A match elsewhere is judged by the points that were in view there; of those out of view so many at most are
-// left out, for what little remains fits anywhere.
+constexpr int checked_stride = 2; // of the nodes that a loop is checked against for free space
+// The overlap of a displaced match refers to the points in view there, but at least to this part of all
+// points: fewer fit anywhere.
 constexpr double least_in_view = 1.0 / 3;
-// A displaced loop stays in the next round when the kernel, at its normal width, leaves it at least so much.
+// A displaced loop is kept for the next round if its weight in the robust kernel is at least this.
 constexpr double least_weight_kept = 0.25;
-constexpr double most_in_free = 0.15; // doors, people and chairs move
-constexpr int partner_nodes = 12;     // how far along the way those may be that bear a loop out
-constexpr int partner_places = 20;
-constexpr int partners_when_clear = 1;
-constexpr int partners_when_sparse = 2;
+constexpr double most_violations = 0.15; // part of the points: doors, people and chairs move
+constexpr int confirming_nodes = 12;     // largest distance along the path of loops that confirm another
+constexpr int confirming_places = 20;
+constexpr int confirmations_when_clear = 1;
+constexpr int confirmations_when_sparse = 2;
 // The robust kernel narrows by half every other iteration, to its normal width.
 constexpr double widest_kernel = 10000;
 constexpr int iterations = 32;
 
-SearchWindow window_of(const Spread &spread)
+SearchWindow window_of(const Deviation &deviation)
 {
-    return {std::min(max_window_m, window_m + deviations * spread.metres),
-            std::min(max_window_rad, window_rad + deviations * spread.radians)};
-}
-
-GraphEdge edge_by(const Loop &loop)
-{
-    return {loop.from, loop.to, loop.measured, loop.information, true};
+    return {std::min(max_window_m, window_m + deviations * deviation.position_m),
+            std::min(max_window_rad, window_rad + deviations * deviation.heading_rad)};
 }
 
 } // namespace
@@ -70,9 +65,9 @@ LoopSearch::LoopSearch(const std::vector<Node> *nodes, PoseGraph graph)
             given_.push_back(edge);
         }
     }
-    free_.reserve(nodes_->size());
+    free_space_.reserve(nodes_->size());
     for (const Node &node : *nodes_) {
-        free_.emplace_back(node);
+        free_space_.emplace_back(node);
     }
 }
 
@@ -82,15 +77,15 @@ bool LoopSearch::step()
         return false;
     }
     if (next_ < static_cast<int>(nodes_->size())) {
-        look_from(next_);
-        next_ += 1 + static_cast<int>(nodes_->size() / looked_from);
+        search_from(next_);
+        next_ += 1 + static_cast<int>(nodes_->size() / searched_nodes);
         return true;
     }
     solve();
     if (solved_ == iterations) {
         keep_displaced();
         found_.clear();
-        spread_.reset();
+        covariance_.reset();
         next_ = solved_ = 0;
         round_++;
     }
@@ -100,127 +95,123 @@ bool LoopSearch::step()
 // The nearest of each earlier visit.
 std::vector<LoopSearch::Place> LoopSearch::places_near(int k) const
 {
-    const std::vector<Spread> spread = spread_->from(k);
-    const Node &here = (*nodes_)[static_cast<size_t>(k)];
-    std::vector<NearPlace> near;
+    const std::vector<Deviation> deviation = covariance_->from(k);
+    const double path_m = at(*nodes_, k).path_m;
+    std::vector<PlaceCandidate> near;
     for (int there = 0; there < k; there++) {
-        const auto at = static_cast<size_t>(there);
-        if (here.path_m - (*nodes_)[at].path_m < loop_min_path_m) {
+        if (path_m - at(*nodes_, there).path_m < loop_min_path_m) {
             break;
         }
-        const Pose off = between(graph_.poses()[at], graph_.poses()[static_cast<size_t>(k)]);
+        const Pose off = between(graph_.poses(), there, k);
         const double distance = length(off.x, off.y);
-        if (distance < reach_m + window_of(spread[at]).half_m) {
+        if (distance < reach_m + window_of(at(deviation, there)).half_m) {
             near.push_back({there, distance + metres_a_radian * std::abs(off.theta)});
         }
     }
     const std::vector<int> chosen = nearest_of_each_visit(std::move(near), same_visit_nodes, most_places);
     std::vector<Place> places;
     for (const int there : chosen) {
-        places.push_back({there, window_of(spread[static_cast<size_t>(there)])});
+        places.push_back({there, window_of(at(deviation, there))});
     }
     return places;
 }
 
-void LoopSearch::look_from(int k)
+void LoopSearch::search_from(int k)
 {
-    if (!spread_) {
-        spread_.emplace(graph_);
+    if (!covariance_) {
+        covariance_.emplace(graph_);
     }
     const std::vector<Place> places = places_near(k);
     if (places.empty()) {
         return;
     }
-    const std::vector<SurfacePoint> seen = patch_around(*nodes_, graph_.poses(), k, patch_here);
+    const std::vector<SurfacePoint> seen = submap_around(*nodes_, graph_.poses(), k, submap_here);
     for (const Place &place : places) {
-        const std::optional<Found> found = look_at(place, k, seen);
-        if (found && !is_contradicted(found->loop)) {
+        const std::optional<FoundLoop> found = match_place(place, k, seen);
+        if (found && !violates_free_space(found->loop)) {
             found_.push_back(*found);
         }
     }
 }
 
-std::optional<LoopSearch::Found> LoopSearch::look_at(const Place &place, int k,
-                                                     const std::vector<SurfacePoint> &seen) const
+std::optional<LoopSearch::FoundLoop> LoopSearch::match_place(const Place &place, int k,
+                                                             const std::vector<SurfacePoint> &seen) const
 {
     const std::vector<Pose> &poses = graph_.poses();
-    const Pose guess = between(poses[static_cast<size_t>(place.k)], poses[static_cast<size_t>(k)]);
-    const SurfaceField field(patch_around(*nodes_, poses, place.k, patch_there));
+    const Pose guess = between(poses, place.node, k);
+    const LikelihoodField field(submap_around(*nodes_, poses, place.node, submap_there));
     const auto is_displaced = [&guess](const LoopMatch &match) {
         const Pose off = between(guess, match.pose);
         return length(off.x, off.y) >= near_m || std::abs(off.theta) >= near_rad;
     };
-    const LoopMatch close_by = match_near(seen, field, guess);
+    const LoopMatch close_by = match_locally(seen, field, guess);
     if (close_by.overlap > clear_overlap && !is_displaced(close_by)) {
-        return Found{loop_by(close_by, place.k, k), false};
+        return FoundLoop{loop_from_match(close_by, place.node, k), false};
     }
     const LoopMatch match =
-        match_patch(seen, corners_around(*nodes_, poses, k, corners_here), field,
-                    corners_around(*nodes_, poses, place.k, corners_there), guess, place.window);
+        match_submap(seen, corners_around(*nodes_, poses, k, corners_here), field,
+                     corners_around(*nodes_, poses, place.node, corners_there), guess, place.window);
     const bool displaced = is_displaced(match);
-    const double in_view = displaced ? share_in_view(seen, place.k, match.pose) : 1;
-    if (!is_sight(match, std::max(least_in_view, in_view))) {
+    const double in_view = displaced ? part_in_view(seen, place.node, match.pose) : 1;
+    if (!is_acceptable(match, std::max(least_in_view, in_view))) {
         return std::nullopt;
     }
-    return Found{loop_by(match, place.k, k), displaced};
+    return FoundLoop{loop_from_match(match, place.node, k), displaced};
 }
 
-// Of points seen from `pose`, as the node `from` has it, the share that some node around that one had in
-// view.
-double LoopSearch::share_in_view(const std::vector<SurfacePoint> &seen, int from, const Pose &pose) const
+// The part of these points, seen from `pose` relative to node `from`, that some node around it had in view.
+double LoopSearch::part_in_view(const std::vector<SurfacePoint> &seen, int from, const Pose &pose) const
 {
     const std::vector<Pose> &poses = graph_.poses();
     std::vector<bool> in_view(seen.size(), false);
-    for (const int viewer : viewers_of(poses, from, patch_there)) {
-        const auto at = static_cast<size_t>(viewer);
-        const Pose place = compose(between(poses[at], poses[static_cast<size_t>(from)]), pose);
+    for (const int there : nodes_around(poses, from, submap_there)) {
+        const FreeSpace &space = at(free_space_, there);
+        const Pose place = compose(between(poses, there, from), pose);
         const Eigen::Matrix2d r = rotation(place.theta);
         for (size_t k = 0; k < seen.size(); k++) {
-            in_view[k] = in_view[k] || free_[at].reaches(r * seen[k].p + Eigen::Vector2d(place.x, place.y));
+            in_view[k] = in_view[k] || space.has_in_view(r * seen[k].p + Eigen::Vector2d(place.x, place.y));
         }
     }
     const auto count = static_cast<double>(std::count(in_view.begin(), in_view.end(), true));
     return seen.empty() ? 0 : count / static_cast<double>(seen.size());
 }
 
-// Whether what was seen here lies where was seen from there to be nothing.
-bool LoopSearch::is_contradicted(const Loop &loop) const
+// Whether too many points of the nodes around `to` lie in the free space of the nodes around `from`.
+bool LoopSearch::violates_free_space(const Loop &loop) const
 {
     const std::vector<Pose> &poses = graph_.poses();
     const int count = static_cast<int>(nodes_->size());
-    Contradiction sum;
-    for (int there = std::max(0, loop.from - patch_there.before);
-         there <= std::min(count - 1, loop.from + patch_there.after); there += viewer_stride) {
-        const Pose place = compose(
-            between(poses[static_cast<size_t>(there)], poses[static_cast<size_t>(loop.from)]), loop.measured);
-        for (int here = std::max(0, loop.to - patch_here.before);
-             here <= std::min(count - 1, loop.to + patch_here.after); here++) {
-            const auto at = static_cast<size_t>(here);
-            free_[static_cast<size_t>(there)].confront(
-                (*nodes_)[at], compose(place, between(poses[static_cast<size_t>(loop.to)], poses[at])), &sum);
+    FreeSpaceCheck sum;
+    for (int there = std::max(0, loop.from - submap_there.before);
+         there <= std::min(count - 1, loop.from + submap_there.after); there += checked_stride) {
+        const Pose place = compose(between(poses, there, loop.from), loop.measured);
+        for (int here = std::max(0, loop.to - submap_here.before);
+             here <= std::min(count - 1, loop.to + submap_here.after); here++) {
+            at(free_space_, there)
+                .check(at(*nodes_, here), compose(place, between(poses, loop.to, here)), &sum);
         }
     }
-    return sum.in_free > most_in_free * sum.points;
+    return sum.violations > most_violations * sum.points;
 }
 
-bool LoopSearch::is_believed(const Found &found) const
+bool LoopSearch::is_confirmed(const FoundLoop &found) const
 {
     const bool clear = found.loop.overlap >= clear_overlap;
-    const auto partners = std::count_if(found_.begin(), found_.end(), [&](const Found &other) {
-        return std::abs(other.loop.to - found.loop.to) <= partner_nodes &&
-               std::abs(other.loop.from - found.loop.from) <= partner_places &&
-               agree(found.loop, other.loop, graph_.poses());
+    const auto confirmations = std::count_if(found_.begin(), found_.end(), [&](const FoundLoop &other) {
+        return std::abs(other.loop.to - found.loop.to) <= confirming_nodes &&
+               std::abs(other.loop.from - found.loop.from) <= confirming_places &&
+               are_consistent(found.loop, other.loop, graph_.poses());
     });
-    return partners >= (clear ? partners_when_clear : partners_when_sparse);
+    return confirmations >= (clear ? confirmations_when_clear : confirmations_when_sparse);
 }
 
-// Motions, the loops of this round, and of those before that were believed what was not found again.
+// Odometry, the confirmed loops of this round, and the given loops that were not found again.
 std::vector<GraphEdge> LoopSearch::edges() const
 {
     std::vector<GraphEdge> edges;
-    for (const Found &found : found_) {
-        if (is_believed(found)) {
-            edges.push_back(edge_by(found.loop));
+    for (const FoundLoop &found : found_) {
+        if (is_confirmed(found)) {
+            edges.push_back(edge_of(found.loop));
         }
     }
     const size_t loops = edges.size();
@@ -238,12 +229,12 @@ std::vector<GraphEdge> LoopSearch::edges() const
     return edges;
 }
 
-// What pulled two visits together may not be found from where they then lie.
+// A loop that displaced two visits may not be found again from where they then lie.
 void LoopSearch::keep_displaced()
 {
-    for (const Found &found : found_) {
-        const GraphEdge edge = edge_by(found.loop);
-        if (found.displaced && is_believed(found) && graph_.weight(edge) > least_weight_kept) {
+    for (const FoundLoop &found : found_) {
+        const GraphEdge edge = edge_of(found.loop);
+        if (found.displaced && is_confirmed(found) && graph_.weight(edge) > least_weight_kept) {
             given_.push_back(edge);
         }
     }

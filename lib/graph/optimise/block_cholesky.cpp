@@ -31,17 +31,17 @@ BlockCholesky::BlockCholesky(size_t rows, const std::vector<Pair> &pairs)
 
 void BlockCholesky::order(const std::vector<Pair> &pairs)
 {
-    std::vector<Eigen::Triplet<char, int>> ties;
-    ties.reserve(position_.size() + pairs.size());
+    std::vector<Eigen::Triplet<char, int>> entries;
+    entries.reserve(position_.size() + pairs.size());
     for (int k = 0; k < static_cast<int>(position_.size()); k++) {
-        ties.emplace_back(k, k, 1); // without it Eigen takes the row for dense and puts it last
+        entries.emplace_back(k, k, 1); // without it Eigen takes the row for dense and puts it last
     }
     for (const Pair &pair : pairs) {
-        ties.emplace_back(std::min(pair.first, pair.second), std::max(pair.first, pair.second), 1);
+        entries.emplace_back(std::min(pair.first, pair.second), std::max(pair.first, pair.second), 1);
     }
     const auto rows = static_cast<Eigen::Index>(position_.size());
     Eigen::SparseMatrix<char, Eigen::ColMajor, int> pattern(rows, rows);
-    pattern.setFromTriplets(ties.begin(), ties.end(), [](char a, char) { return a; });
+    pattern.setFromTriplets(entries.begin(), entries.end(), [](char a, char) { return a; });
     Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> eliminated;
     Eigen::AMDOrdering<int>()(pattern.selfadjointView<Eigen::Upper>(), eliminated);
     for (int k = 0; k < static_cast<int>(rows); k++) {
@@ -49,7 +49,7 @@ void BlockCholesky::order(const std::vector<Pair> &pairs)
     }
 }
 
-// Columns of the upper half, each row of them once.
+// Columns of the upper half; repeated pairs share one block.
 void BlockCholesky::place(const std::vector<Pair> &pairs)
 {
     struct Entry {
@@ -86,7 +86,7 @@ void BlockCholesky::place(const std::vector<Pair> &pairs)
     above_.resize(above_row_.size());
 }
 
-// Elimination tree, and with it how long the columns of the factor become.
+// Elimination tree and the lengths of the columns of the factor.
 void BlockCholesky::find_fill()
 {
     const int rows = static_cast<int>(position_.size());
@@ -131,8 +131,8 @@ void BlockCholesky::add(size_t pair, const Eigen::Matrix3d &block)
     }
 }
 
-// Which blocks of row k of the factor are not zero, in an order in which they can be computed: at the end of
-// pattern_, from the index that is given back. The blocks of the matrix are in work_ then.
+// Blocks of row k of the factor that are not zero, in an order in which they can be computed: at the end of
+// pattern_, from the index returned. Copies the blocks of the matrix to work_.
 size_t BlockCholesky::pattern_of(int k)
 {
     const auto column = static_cast<size_t>(k);
@@ -152,7 +152,7 @@ size_t BlockCholesky::pattern_of(int k)
     return top;
 }
 
-// Block (k, i) of the factor, and what it takes away from the blocks right of it.
+// Computes block (k, i) of the factor and subtracts its part from the blocks right of it.
 void BlockCholesky::eliminate(int i, int k)
 {
     const auto column = static_cast<size_t>(i);

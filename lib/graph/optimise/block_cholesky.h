@@ -1,5 +1,5 @@
 // Sparse LDL^T of a symmetric positive definite matrix of 3x3 blocks: one row of blocks a pose, one block off
-// the diagonal for each pair of poses that are tied.
+// the diagonal for each pair of poses with a common constraint.
 //
 //   BlockCholesky matrix(poses, pairs);
 //   matrix.clear();
@@ -8,9 +8,9 @@
 //       matrix.solve(&x);
 //   }
 //
-// Blocks instead of numbers make ordering and indices nine times fewer. Ordered once (approximate minimum
-// degree), for as many factorisations as wanted. Up-looking, after Davis, "LDL: a concise sparse Cholesky
-// package" (2005).
+// The pattern is ordered once (approximate minimum degree) for any number of factorisations.
+// Source: up-looking factorisation after Davis, "Algorithm 849: a concise sparse Cholesky factorization
+// package" (2005), with blocks in place of numbers.
 #ifndef ALE_GRAPH_OPTIMISE_BLOCK_CHOLESKY_H
 #define ALE_GRAPH_OPTIMISE_BLOCK_CHOLESKY_H
 
@@ -27,22 +27,24 @@ class BlockCholesky
   public:
     using Pair = std::pair<int, int>;
 
-    // `rows` rows of blocks; of a pair of different rows only one half is given. The same pair may come
-    // often.
+    // `rows` rows of blocks. A pair names two different rows, in either order and any number of times. May
+    // throw std::bad_alloc, as factorise() and solve() may.
     BlockCholesky(size_t rows, const std::vector<Pair> &pairs);
 
-    void clear(); // all blocks zero
+    // Sets all blocks to zero. O(rows + pairs).
+    void clear();
+    // Adds to a block of the diagonal. O(1).
     void add_diagonal(int row, const Eigen::Matrix3d &block);
-    // `block` stands in the row of the pair's first and the column of its second; pair: its index.
+    // Adds to the block in the row of the pair's first and the column of its second; pair: its index. O(1).
     void add(size_t pair, const Eigen::Matrix3d &block);
 
-    // False: not positive definite.
+    // False: not positive definite. Work: blocks() times the length of their columns.
     bool factorise();
 
-    // x: the right side, then the solution; three entries a row.
+    // x: the right side, then the solution; three entries a row. After factorise(). O(blocks()).
     void solve(Eigen::VectorXd *x) const;
 
-    // Of the factor, below the diagonal: what the work grows with.
+    // Blocks of the factor below the diagonal.
     size_t blocks() const
     {
         return row_.size();
@@ -60,7 +62,7 @@ class BlockCholesky
     size_t pattern_of(int k);
     void eliminate(int i, int k);
 
-    // Rows and columns from here on in the order of elimination. Of the matrix the blocks above the diagonal.
+    // Rows and columns below are in the order of elimination. First the blocks above the diagonal.
     std::vector<int> position_; // of a row as the caller counts
     std::vector<Slot> slots_;   // of a pair
     std::vector<size_t> first_; // of column k, in above_row_ and above_

@@ -11,11 +11,6 @@ namespace
 
 constexpr double least_facing = 0.7; // cosine between the point's normal and the mean's
 
-size_t quadrant_of(const Eigen::Vector2d &normal)
-{
-    return (normal.x() > 0 ? 1U : 0U) + (normal.y() > 0 ? 2U : 0U);
-}
-
 } // namespace
 
 MeanSurface::MeanSurface(const Eigen::Vector2d &low, const Eigen::Vector2d &high)
@@ -55,7 +50,7 @@ void MeanSurface::add(const SurfacePoint &point)
     sum.count++;
 }
 
-// Adds what faces that way in a cell.
+// Adds the points of a cell that face that way.
 void MeanSurface::gather(int64_t cell, const Eigen::Vector2d &facing, Sum *sum) const
 {
     const int32_t place = place_[static_cast<size_t>(cell)];

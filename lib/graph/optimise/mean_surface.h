@@ -4,7 +4,7 @@
 //   surface.add(point);                          (of all scans)
 //   if (const auto mean = surface.around(point, 8)) ... mean->p, mean->normal ...
 //
-// Memory: four bytes for each of at most max_cells, and 160 for each that is not empty.
+// Memory: four bytes for each of at most max_cells, and 160 for each that is not empty. Metres.
 #ifndef ALE_GRAPH_OPTIMISE_MEAN_SURFACE_H
 #define ALE_GRAPH_OPTIMISE_MEAN_SURFACE_H
 
@@ -24,13 +24,14 @@ class MeanSurface
     static constexpr double cell_m = 0.05;
     static constexpr int64_t max_cells = int64_t{1} << 25; // 290 m by 290 m
 
-    // Over the rectangle between the two corners; what lies outside, or farther from its middle than
-    // max_cells reach, is left out.
+    // Covers the rectangle between two corners, cut to max_cells about its middle. May throw std::bad_alloc.
     MeanSurface(const Eigen::Vector2d &low, const Eigen::Vector2d &high);
 
+    // Adds a point with its normal; one outside the grid is ignored. O(1); may throw std::bad_alloc.
     void add(const SurfacePoint &point);
 
-    // Of what faces as the point does in its cell and in the eight around; none: fewer than least_points.
+    // Mean of the points in the cell of `point` and the eight around that face as it does, with a unit
+    // normal. None: fewer than least_points, or outside the grid. O(1), never throws.
     std::optional<SurfacePoint> around(const SurfacePoint &point, double least_points) const;
 
   private:
@@ -39,8 +40,7 @@ class MeanSurface
         Eigen::Vector2d normal{0, 0};
         double count = 0;
     };
-    // Two sides of a thin panel lie in one cell: by quadrant of the normal.
-    using Cell = std::array<Sum, 4>;
+    using Cell = std::array<Sum, quadrants>; // by quadrant of the normal
 
     int64_t index_of(const Eigen::Vector2d &p) const; // -1: outside
     void gather(int64_t cell, const Eigen::Vector2d &facing, Sum *sum) const;

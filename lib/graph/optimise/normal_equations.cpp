@@ -9,7 +9,7 @@ namespace
 {
 
 constexpr double damping = 1e-9;
-constexpr double held = 1e12;
+constexpr double held = 1e12; // of a pose that stays where it is
 
 std::vector<BlockCholesky::Pair> pairs_of(const std::vector<GraphEdge> &edges)
 {
@@ -43,18 +43,18 @@ void NormalEquations::clear(bool hold_first)
 
 void NormalEquations::add(size_t k, const GraphEdge &edge, const LinearisedEdge &linearised, double weight)
 {
-    const Eigen::Matrix3d weighted = linearised.to.transpose() * (weight * edge.information);
-    const Eigen::Matrix3d at_to = weighted * linearised.to;
-    const Eigen::Matrix3d carried = linearised.carry.transpose() * at_to;
-    h_.add_diagonal(edge.to, at_to);
-    h_.add_diagonal(edge.from, carried * linearised.carry);
-    h_.add(k, -carried);
-    const Eigen::Vector3d pull = weighted * linearised.e;
-    x_.segment<3>(Eigen::Index{3} * edge.to) -= pull;
-    x_.segment<3>(Eigen::Index{3} * edge.from) += linearised.carry.transpose() * pull;
+    const Eigen::Matrix3d weighted = linearised.jacobian.transpose() * (weight * edge.information);
+    const Eigen::Matrix3d to_block = weighted * linearised.jacobian;
+    const Eigen::Matrix3d from_to = linearised.transfer.transpose() * to_block;
+    h_.add_diagonal(edge.to, to_block);
+    h_.add_diagonal(edge.from, from_to * linearised.transfer);
+    h_.add(k, -from_to);
+    const Eigen::Vector3d gradient = weighted * linearised.residual;
+    x_.segment<3>(Eigen::Index{3} * edge.to) -= gradient;
+    x_.segment<3>(Eigen::Index{3} * edge.from) += linearised.transfer.transpose() * gradient;
 }
 
-void NormalEquations::add(const HeadingPrior &prior, double e, double weight)
+void NormalEquations::add(const HeadingPrior &prior, double residual_rad, double weight)
 {
     const double omega = weight * prior.information;
     const Eigen::Index theta = Eigen::Index{3} * prior.pose + 2;
@@ -63,14 +63,14 @@ void NormalEquations::add(const HeadingPrior &prior, double e, double weight)
     h_.add_diagonal(prior.pose, block);
     border_(theta) -= omega;
     corner_ += omega;
-    x_(theta) -= omega * e;
-    building_ += omega * e;
+    x_(theta) -= omega * residual_rad;
+    building_ += omega * residual_rad;
 }
 
-void NormalEquations::add(const PosePull &pull)
+void NormalEquations::add(const LinearisedPrior &prior)
 {
-    h_.add_diagonal(pull.pose, pull.information);
-    x_.segment<3>(Eigen::Index{3} * pull.pose) += pull.pull;
+    h_.add_diagonal(prior.pose, prior.information);
+    x_.segment<3>(Eigen::Index{3} * prior.pose) += prior.right_side;
 }
 
 bool NormalEquations::solve()

@@ -1,13 +1,13 @@
-// The normal equations of a pose graph, summed edge by edge and solved: three unknowns a pose, and one more
-// for the building's direction, which all heading priors share.
+// The normal equations of a pose graph, summed constraint by constraint and solved: three unknowns a pose,
+// and one more for the building's direction, which all heading priors share.
 //
 //   NormalEquations equations(poses, edges);
 //   equations.clear(true);
-//   equations.add(k, linearised, weight);
+//   equations.add(k, edge, linearised, weight);
 //   if (equations.solve()) { ... equations.step(pose) ... }
 //
-// The building's direction is a border of the matrix and not a row of it: it ties
-// hundreds of poses, and would fill the factor.
+// The building's direction is a border of the matrix (Schur complement): as a row it would tie hundreds of
+// poses and fill the factor.
 #ifndef ALE_GRAPH_OPTIMISE_NORMAL_EQUATIONS_H
 #define ALE_GRAPH_OPTIMISE_NORMAL_EQUATIONS_H
 
@@ -16,43 +16,47 @@
 #include <Eigen/Core>
 
 #include "graph/optimise/block_cholesky.h"
-#include "graph/optimise/pose_graph.h"
+#include "graph/optimise/constraints.h"
 
 namespace ale
 {
 
-// An edge at the present poses. By increments of (x, y, theta) of its ends the error becomes
-// e + to * (increment of `to` - carry * increment of `from`).
+// An edge at the present poses. By increments of (x, y, theta) of its ends the residual becomes
+// residual + jacobian * (increment of `to` - transfer * increment of `from`).
 struct LinearisedEdge {
-    Eigen::Vector3d e;
-    Eigen::Matrix3d to;
-    Eigen::Matrix3d carry; // turning `from` moves what it sees
+    Eigen::Vector3d residual;
+    Eigen::Matrix3d jacobian;
+    Eigen::Matrix3d transfer; // turning `from` moves what it sees
 };
 
 class NormalEquations
 {
   public:
+    // For so many poses and these edges, in their order. May throw std::bad_alloc, as no other but solve().
     NormalEquations(size_t poses, const std::vector<GraphEdge> &edges);
 
-    // hold_first: the first pose stays where it is.
+    // Sets all sums to zero. hold_first: the first pose stays where it is. O(poses + edges).
     void clear(bool hold_first);
-    // Edge k of those that the constructor was given.
+    // Adds edge k of the constructor's. O(1).
     void add(size_t k, const GraphEdge &edge, const LinearisedEdge &linearised, double weight);
-    // e: heading of the pose minus what the prior says.
-    void add(const HeadingPrior &prior, double e, double weight);
-    void add(const PosePull &pull);
+    // residual_rad: heading of the pose minus the prior's. O(1).
+    void add(const HeadingPrior &prior, double residual_rad, double weight);
+    void add(const LinearisedPrior &prior);
 
-    // False: singular.
+    // False: not positive definite; the steps are undefined. Time: one or two solutions by BlockCholesky.
     bool solve();
 
+    // The increment of a pose; metres, radians.
     Eigen::Vector3d step(size_t pose) const
     {
         return x_.segment<3>(static_cast<Eigen::Index>(3 * pose));
     }
+    // The increment of the building's direction, radians.
     double building_step() const
     {
         return building_step_;
     }
+    // Largest magnitude of all increments.
     double largest_step() const;
 
   private:

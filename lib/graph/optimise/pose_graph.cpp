@@ -13,18 +13,17 @@ namespace ale
 namespace
 {
 
-constexpr double converged_step = 1e-6;
+constexpr double converged_step = 1e-6; // metres, radians
 
-Eigen::Vector3d error_of(const GraphEdge &edge, const std::vector<Pose> &poses)
+Eigen::Vector3d residual_of(const GraphEdge &edge, const std::vector<Pose> &poses)
 {
-    const Pose seen = between(poses[static_cast<size_t>(edge.from)], poses[static_cast<size_t>(edge.to)]);
-    const Pose e = between(edge.measured, seen);
+    const Pose e = between(edge.measured, between(poses, edge.from, edge.to));
     return {e.x, e.y, e.theta};
 }
 
-Eigen::Vector3d error_of(const PoseAnchor &anchor, const std::vector<Pose> &poses)
+Eigen::Vector3d residual_of(const PosePrior &prior, const std::vector<Pose> &poses)
 {
-    const Pose e = between(anchor.measured, poses[static_cast<size_t>(anchor.pose)]);
+    const Pose e = between(prior.measured, at(poses, prior.pose));
     return {e.x, e.y, e.theta};
 }
 
@@ -37,22 +36,21 @@ double kernel_weight(double chi2, double kernel)
 
 LinearisedEdge linearised(const GraphEdge &edge, const std::vector<Pose> &poses)
 {
-    const Pose &a = poses[static_cast<size_t>(edge.from)];
-    const Pose &b = poses[static_cast<size_t>(edge.to)];
-    LinearisedEdge l{error_of(edge, poses), Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()};
-    l.to.topLeftCorner<2, 2>() = rotation(-edge.measured.theta - a.theta);
-    l.carry(0, 2) = a.y - b.y;
-    l.carry(1, 2) = b.x - a.x;
+    const Pose &a = at(poses, edge.from);
+    const Pose &b = at(poses, edge.to);
+    LinearisedEdge l{residual_of(edge, poses), Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()};
+    l.jacobian.topLeftCorner<2, 2>() = rotation(-edge.measured.theta - a.theta);
+    l.transfer(0, 2) = a.y - b.y;
+    l.transfer(1, 2) = b.x - a.x;
     return l;
 }
 
-// Towards where the pose is seen, as it stands.
-PosePull pull_of(const PoseAnchor &anchor, const Eigen::Vector3d &e, double weight)
+LinearisedPrior linearised(const PosePrior &prior, const Eigen::Vector3d &e, double weight)
 {
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-    turn.topLeftCorner<2, 2>() = rotation(-anchor.measured.theta);
-    const Eigen::Matrix3d weighted = turn.transpose() * (weight * anchor.information);
-    return {anchor.pose, weighted * turn, -weighted * e};
+    turn.topLeftCorner<2, 2>() = rotation(-prior.measured.theta);
+    const Eigen::Matrix3d weighted = turn.transpose() * (weight * prior.information);
+    return {prior.pose, weighted * turn, -weighted * e};
 }
 
 double robust_cost(double chi2, double kernel)
@@ -60,31 +58,16 @@ double robust_cost(double chi2, double kernel)
     return kernel_weight(chi2, kernel) * chi2;
 }
 
-// One measurement after the other; they err independently.
+// One measurement after the other; their errors are independent.
 GraphEdge composed(const GraphEdge &first, const GraphEdge &second, bool robust)
 {
-    const Eigen::Matrix3d carry = carried_over(second.measured);
+    const Eigen::Matrix3d jacobian = displacement_jacobian(second.measured);
     const Eigen::Matrix3d covariance =
-        carry * first.information.inverse() * carry.transpose() + second.information.inverse();
+        jacobian * first.information.inverse() * jacobian.transpose() + second.information.inverse();
     return {first.from, second.to, compose(first.measured, second.measured), covariance.inverse(), robust};
 }
 
 } // namespace
-
-Eigen::Matrix3d known_to(double sigma_m, double sigma_rad)
-{
-    return Eigen::Vector3d(1 / (sigma_m * sigma_m), 1 / (sigma_m * sigma_m), 1 / (sigma_rad * sigma_rad))
-        .asDiagonal();
-}
-
-Eigen::Matrix3d carried_over(const Pose &step)
-{
-    const Pose back = inverse(step);
-    Eigen::Matrix3d a = Eigen::Matrix3d::Identity();
-    a.block<2, 2>(0, 0) = rotation(back.theta);
-    a.block<2, 1>(0, 2) << back.y, -back.x;
-    return a;
-}
 
 void PoseGraph::reserve(size_t poses, size_t edges)
 {
@@ -97,10 +80,10 @@ void PoseGraph::clear()
 {
     poses_.clear();
     edges_.clear();
-    headings_.building = 0;
-    headings_.priors.clear();
-    anchors_.clear();
-    pulls_.clear();
+    building_.direction_rad = 0;
+    building_.priors.clear();
+    pose_priors_.clear();
+    linearised_priors_.clear();
 }
 
 int PoseGraph::add_pose(const Pose &pose)
@@ -116,14 +99,14 @@ void PoseGraph::add_edge(const GraphEdge &edge)
 
 double PoseGraph::residual2(const GraphEdge &edge) const
 {
-    const Eigen::Vector3d e = error_of(edge, poses_);
+    const Eigen::Vector3d e = residual_of(edge, poses_);
     return e.dot(edge.information * e);
 }
 
-double PoseGraph::residual2(const PoseAnchor &anchor) const
+double PoseGraph::residual2(const PosePrior &prior) const
 {
-    const Eigen::Vector3d e = error_of(anchor, poses_);
-    return e.dot(anchor.information * e);
+    const Eigen::Vector3d e = residual_of(prior, poses_);
+    return e.dot(prior.information * e);
 }
 
 double PoseGraph::misfit(const GraphEdge &edge) const
@@ -150,7 +133,7 @@ bool PoseGraph::has_room(const GraphEdge &edge, int max_robust) const
     return ending_there < max_robust;
 }
 
-// Of poses above k, which is no more.
+// Poses above k move down by one; what ties k is dropped.
 void PoseGraph::renumber_above(int k)
 {
     const auto moved = [k](int pose) { return pose > k ? pose - 1 : pose; };
@@ -166,31 +149,31 @@ void PoseGraph::renumber_above(int k)
             one.pose = moved(one.pose);
         }
     };
-    follow(headings_.priors);
-    follow(anchors_);
+    follow(building_.priors);
+    follow(pose_priors_);
 }
 
-// The edges of pose k, which are taken out.
-std::vector<GraphEdge> PoseGraph::cut_loose(int k)
+// Takes the edges of pose k out of the graph; these.
+std::vector<GraphEdge> PoseGraph::remove_edges_of(int k)
 {
     const auto touches = [k](const GraphEdge &edge) { return edge.from == k || edge.to == k; };
-    std::vector<GraphEdge> loose;
-    std::copy_if(edges_.begin(), edges_.end(), std::back_inserter(loose), touches);
+    std::vector<GraphEdge> removed;
+    std::copy_if(edges_.begin(), edges_.end(), std::back_inserter(removed), touches);
     edges_.erase(std::remove_if(edges_.begin(), edges_.end(), touches), edges_.end());
-    return loose;
+    return removed;
 }
 
-void PoseGraph::take_out(int k, int max_robust)
+void PoseGraph::remove_pose(int k, int max_robust)
 {
-    const std::vector<GraphEdge> loose = cut_loose(k);
-    const auto on_the_way = [&loose](int from) {
-        return *std::find_if(loose.begin(), loose.end(),
+    const std::vector<GraphEdge> removed = remove_edges_of(k);
+    const auto odometry_from = [&removed](int from) {
+        return *std::find_if(removed.begin(), removed.end(),
                              [from](const GraphEdge &edge) { return !edge.robust && edge.from == from; });
     };
-    const GraphEdge before = on_the_way(k - 1);
-    const GraphEdge after = on_the_way(k);
+    const GraphEdge before = odometry_from(k - 1);
+    const GraphEdge after = odometry_from(k);
     edges_.push_back(composed(before, after, false));
-    for (const GraphEdge &edge : loose) {
+    for (const GraphEdge &edge : removed) {
         GraphEdge moved = edge.to == k ? composed(edge, after, true) : composed(before, edge, true);
         moved.recognised = edge.recognised;
         if (edge.robust && has_room(moved, max_robust)) {
@@ -201,32 +184,31 @@ void PoseGraph::take_out(int k, int max_robust)
     renumber_above(k);
 }
 
-// The equations at the present poses; chi2 of all.
+// Sums the equations at the present poses; the weighted chi2 of all constraints.
 double PoseGraph::linearise(NormalEquations *equations, double kernel) const
 {
     double sum = 0;
-    equations->clear(anchors_.empty());
+    equations->clear(pose_priors_.empty());
     for (size_t k = 0; k < edges_.size(); k++) {
         const LinearisedEdge l = linearised(edges_[k], poses_);
-        const double chi2 = l.e.dot(edges_[k].information * l.e);
+        const double chi2 = l.residual.dot(edges_[k].information * l.residual);
         equations->add(k, edges_[k], l, edges_[k].robust ? kernel_weight(chi2, kernel) : 1);
         sum += edges_[k].robust ? robust_cost(chi2, kernel) : chi2;
     }
-    for (const HeadingPrior &prior : headings_.priors) {
-        const double e =
-            wrapped(poses_[static_cast<size_t>(prior.pose)].theta - headings_.building - prior.theta);
+    for (const HeadingPrior &prior : building_.priors) {
+        const double e = wrapped(at(poses_, prior.pose).theta - building_.direction_rad - prior.heading_rad);
         const double chi2 = e * e * prior.information;
         equations->add(prior, e, prior.robust ? kernel_weight(chi2, kernel) : 1);
         sum += prior.robust ? robust_cost(chi2, kernel) : chi2;
     }
-    for (const PoseAnchor &anchor : anchors_) {
-        const Eigen::Vector3d e = error_of(anchor, poses_);
-        const double chi2 = e.dot(anchor.information * e);
-        equations->add(pull_of(anchor, e, kernel_weight(chi2, kernel)));
+    for (const PosePrior &prior : pose_priors_) {
+        const Eigen::Vector3d e = residual_of(prior, poses_);
+        const double chi2 = e.dot(prior.information * e);
+        equations->add(linearised(prior, e, kernel_weight(chi2, kernel)));
         sum += robust_cost(chi2, kernel);
     }
-    for (const PosePull &pull : pulls_) {
-        equations->add(pull);
+    for (const LinearisedPrior &prior : linearised_priors_) {
+        equations->add(prior);
     }
     return sum;
 }
@@ -237,7 +219,7 @@ void PoseGraph::move(const NormalEquations &equations)
         const Eigen::Vector3d step = equations.step(k);
         poses_[k] = {poses_[k].x + step(0), poses_[k].y + step(1), wrapped(poses_[k].theta + step(2))};
     }
-    headings_.building += equations.building_step();
+    building_.direction_rad += equations.building_step();
 }
 
 GraphReport PoseGraph::optimise(int max_iterations, double kernel)

@@ -12,26 +12,26 @@ namespace ale
 namespace
 {
 
-constexpr int sweeps = 24;         // each sweep's map is what the one before has left
+constexpr int sweeps = 24;         // each makes the map of the poses that the one before has left
 constexpr double gate_m = 0.10;    // farther from the mean it is another surface
 constexpr double least_points = 8; // fewer are no mean
-// What a point is known to along its normal, and how many err together, as for a match of two keyframes.
+// Error of a point along its normal, and how many neighbours share it, as in a match of two keyframes.
 constexpr double sigma_m = 0.01;
-constexpr double points_a_witness = 4;
-constexpr double point_information = 1 / (sigma_m * sigma_m * points_a_witness);
-// How well the tracker knows the way from one scan to the next.
-constexpr double way_m = 0.004;
-constexpr double way_rad = 0.003;
-// And the graph the heading of a scan: what many scans pull at together turns whole stretches of the way.
-constexpr double graph_rad = 0.006;
-constexpr double graph_information = 1 / (graph_rad * graph_rad);
+constexpr double correlated_points = 4;
+constexpr double point_information = 1 / (sigma_m * sigma_m * correlated_points);
+// Error of the tracker from one scan to the next.
+constexpr double tracked_m = 0.004;
+constexpr double tracked_rad = 0.003;
+// Error of a heading in the graph. Without this prior, walls that many scans see bent turn whole stretches.
+constexpr double heading_rad = 0.006;
+constexpr double heading_information = 1 / (heading_rad * heading_rad);
 
 SurfacePoint placed(const SurfacePoint &point, const Eigen::Matrix2d &turn, const Pose &pose)
 {
     return {turn * point.p + Eigen::Vector2d(pose.x, pose.y), turn * point.normal};
 }
 
-// Hands over the points of all scans as they lie in the map.
+// Calls put(point) for the points of all scans, map frame.
 template <class Put>
 void each_point(const std::vector<AlignedScan> &scans, const std::vector<Pose> &poses, const Put &put)
 {
@@ -43,7 +43,7 @@ void each_point(const std::vector<AlignedScan> &scans, const std::vector<Pose> &
     }
 }
 
-MeanSurface seen_by_all(const std::vector<AlignedScan> &scans, const std::vector<Pose> &poses)
+MeanSurface mean_of(const std::vector<AlignedScan> &scans, const std::vector<Pose> &poses)
 {
     Eigen::Vector2d low(1e9, 1e9);
     Eigen::Vector2d high(-1e9, -1e9);
@@ -56,12 +56,12 @@ MeanSurface seen_by_all(const std::vector<AlignedScan> &scans, const std::vector
     return surface;
 }
 
-// Point to line, under Tukey's biweight; and to the heading that the graph knows.
-PosePull pull_of(int k, const AlignedScan &scan, const Pose &pose, const MeanSurface &surface)
+// Point to line, under Tukey's biweight, and the prior of the heading.
+LinearisedPrior linearised(int k, const AlignedScan &scan, const Pose &pose, const MeanSurface &surface)
 {
-    PosePull pull{k, Eigen::Matrix3d::Zero(), Eigen::Vector3d::Zero()};
-    pull.information(2, 2) = graph_information;
-    pull.pull(2) = -graph_information * wrapped(pose.theta - scan.pose.theta);
+    LinearisedPrior prior{k, Eigen::Matrix3d::Zero(), Eigen::Vector3d::Zero()};
+    prior.information(2, 2) = heading_information;
+    prior.right_side(2) = -heading_information * wrapped(pose.theta - scan.pose.theta);
     const Eigen::Matrix2d turn = rotation(pose.theta);
     for (const SurfacePoint &point : scan.points) {
         const SurfacePoint here = placed(point, turn, pose);
@@ -76,11 +76,11 @@ PosePull pull_of(int k, const AlignedScan &scan, const Pose &pose, const MeanSur
         if (std::abs(x) < 1) {
             const Eigen::Vector3d j(n.x(), n.y(), lever.x() * n.y() - lever.y() * n.x());
             const double weight = (1 - x * x) * (1 - x * x) * point_information;
-            pull.information += weight * j * j.transpose();
-            pull.pull -= weight * residual * j;
+            prior.information += weight * j * j.transpose();
+            prior.right_side -= weight * residual * j;
         }
     }
-    return pull;
+    return prior;
 }
 
 } // namespace
@@ -91,7 +91,7 @@ ScanAlignment::ScanAlignment(std::vector<AlignedScan> scans) : scans_(std::move(
         const int here = graph_.add_pose(scans_[k].pose);
         if (k > 0 && scans_[k].tied) {
             graph_.add_edge({here - 1, here, between(scans_[k - 1].pose, scans_[k].pose),
-                             known_to(way_m, way_rad), false});
+                             information_from_deviations(tracked_m, tracked_rad), false});
         }
     }
 }
@@ -101,12 +101,12 @@ bool ScanAlignment::step()
     if (sweep_ == sweeps || scans_.empty()) {
         return false;
     }
-    const MeanSurface surface = seen_by_all(scans_, graph_.poses());
-    std::vector<PosePull> pulls;
+    const MeanSurface surface = mean_of(scans_, graph_.poses());
+    std::vector<LinearisedPrior> priors;
     for (size_t k = 0; k < scans_.size(); k++) {
-        pulls.push_back(pull_of(static_cast<int>(k), scans_[k], graph_.poses()[k], surface));
+        priors.push_back(linearised(static_cast<int>(k), scans_[k], graph_.poses()[k], surface));
     }
-    graph_.set_pulls(std::move(pulls));
+    graph_.set_linearised_priors(std::move(priors));
     graph_.optimise(1);
     sweep_++;
     return true;

@@ -1,14 +1,13 @@
-// Every scan of a drive laid on what all scans together saw, when the poses of the keyframes are known.
+// Aligns every scan of a drive to the mean surface of all scans, once the keyframes are refined.
 //
 //   ScanAlignment alignment(std::move(scans));
 //   while (alignment.step()) {
 //   }
 //   alignment.poses()
 //
-// Keyframes are half a metre apart; between them the way is as the tracker knew it at the time, each scan's
-// pose with its own error of a centimetre. Here all scans make the map, the mean of what they saw of each
-// surface; each scan is drawn to it, point to line, to its neighbours along the way as it lay to them, and to
-// the heading that it was given; then the map is made anew.
+// Between keyframes each scan has the tracker's own error of a centimetre. Here all scans make the map, the
+// mean of what they saw of each surface. Each scan is matched to it, point to line, and tied to its
+// neighbours as tracked and to the heading it was given. Then the map is made again.
 #ifndef ALE_GRAPH_OPTIMISE_SCAN_ALIGNMENT_H
 #define ALE_GRAPH_OPTIMISE_SCAN_ALIGNMENT_H
 
@@ -22,18 +21,21 @@ namespace ale
 
 struct AlignedScan {
     Pose pose;                        // where the graph has it
-    bool tied;                        // the way as tracked leads here from the scan before
-    std::vector<SurfacePoint> points; // robot's frame; none: nothing was seen, or it was lost
+    bool tied;                        // tracked from the scan before without a break
+    std::vector<SurfacePoint> points; // robot's frame; empty: nothing was seen, or the robot was lost
 };
 
 class ScanAlignment
 {
   public:
+    // Takes the scans over, in the order of the drive. May throw std::bad_alloc.
     explicit ScanAlignment(std::vector<AlignedScan> scans);
 
-    // Once over all scans. False: nothing is left to do.
+    // One sweep over all scans; 24 in all. False: done. O(points) and one sparse solution; may throw
+    // std::bad_alloc, after which the alignment must not be used.
     bool step();
 
+    // One for each scan, in their order.
     const std::vector<Pose> &poses() const
     {
         return graph_.poses();

@@ -6,13 +6,13 @@ namespace ale
 namespace
 {
 
-// To each side, for the normal of a point that lies on no line: beams, and how far apart they may be.
+// Beams to each side that give the normal of a point off the lines, and how far apart they may be.
 struct Neighbourhood {
     size_t beams;
     double gap_m;
 };
 constexpr Neighbourhood close{3, 0.12};
-constexpr Neighbourhood far_apart{1, 0.35}; // sensors of few beams see most surfaces so
+constexpr Neighbourhood coarse{1, 0.35}; // for sensors with few beams
 
 struct Beams {
     std::vector<Eigen::Vector2d> p; // sensor's frame
@@ -25,14 +25,13 @@ Beams beams_of(const ale_scan_t &scan, const uint32_t *bearing_bam)
     for (int k = 0; k < scan.beams; k++) {
         const uint32_t bearing = bearing_bam ? bearing_bam[k] : ale_scan_bearing(&scan, k);
         const double range = scan.range_um[k] * 1e-6;
-        beams.p.emplace_back(range * ale_cos_q30(bearing) / 1073741824.0,
-                             range * ale_sin_q30(bearing) / 1073741824.0);
+        beams.p.emplace_back(range * ale_cos_q30(bearing) / one_q30, range * ale_sin_q30(bearing) / one_q30);
         beams.valid.push_back(scan.flag[k] == ALE_BEAM_VALID && scan.range_um[k] > 0);
     }
     return beams;
 }
 
-// The line of each beam, or -1.
+// The index of the line of each beam, or -1.
 std::vector<int> lines_of(const ale_features_t &features, size_t beams)
 {
     std::vector<int> line(beams, -1);
@@ -49,8 +48,7 @@ Eigen::Vector2d towards_sensor(const Eigen::Vector2d &normal, const Eigen::Vecto
     return normal.dot(p) > 0 ? Eigen::Vector2d(-normal) : normal;
 }
 
-// Normal of a point off the lines, from the chord of its neighbours; zero where the surface is not
-// continuous.
+// Normal of a point off the lines, from the chord of its neighbours; zero if the surface is not continuous.
 Eigen::Vector2d neighbourhood_normal(const Beams &beams, size_t beam, const Neighbourhood &around)
 {
     if (beam < around.beams || beam + around.beams >= beams.p.size()) {
@@ -65,55 +63,54 @@ Eigen::Vector2d neighbourhood_normal(const Beams &beams, size_t beam, const Neig
     return towards_sensor(Eigen::Vector2d(-chord.y(), chord.x()).normalized(), beams.p[beam]);
 }
 
-// The point of the line itself where the beam meets it: free of the beam's own noise.
+// Foot of the point on the line: free of the beam's own noise.
 Eigen::Vector2d on_line(const ale_line_t &line, const Eigen::Vector2d &p)
 {
-    const double alpha = static_cast<int32_t>(line.alpha_bam) / bam_per_radian;
+    const double alpha = to_radians(line.alpha_bam);
     const Eigen::Vector2d n(cosine(alpha), sine(alpha));
     return p - n * (n.dot(p) - line.rho_um * 1e-6);
 }
 
 Eigen::Vector2d line_normal(const ale_line_t &line, const Eigen::Vector2d &p)
 {
-    const double alpha = static_cast<int32_t>(line.alpha_bam) / bam_per_radian;
+    const double alpha = to_radians(line.alpha_bam);
     return towards_sensor({cosine(alpha), sine(alpha)}, p);
 }
 
-CornerMark corner_of(const ale_corner_t &corner, const Pose &sensor)
+CornerFeature corner_of(const ale_corner_t &corner, const Pose &sensor)
 {
-    const double bisector = static_cast<int32_t>(corner.bisector_bam) / bam_per_radian;
-    return {apply(sensor, {corner.p.x_um * 1e-6, corner.p.y_um * 1e-6}), wrapped(bisector + sensor.theta),
+    const double bisector = to_radians(corner.bisector_bam);
+    return {apply(sensor, to_metres(corner.p)), wrapped(bisector + sensor.theta),
             corner.angle_bam / bam_per_radian, corner.kind == ALE_CORNER_CONVEX};
 }
 
-// A scan as it was straightened, with what was found in it.
-struct Sight {
+struct DeskewedScan {
     const ale_scan_t &scan;
-    const uint32_t *bearing_bam; // NULL: regular
+    const uint32_t *bearing_bam; // NULL: evenly spaced
     const ale_features_t &features;
     Pose sensor;
 };
 
-// Hands over points at least node_point_spacing_m apart, and whether their normal is vague.
-template <class Put> void each_point(const Sight &sight, const Put &put)
+// Calls put(point, has_coarse_normal) for points at least node_point_spacing_m apart.
+template <class Put> void each_point(const DeskewedScan &seen, const Put &put)
 {
-    const Eigen::Matrix2d turn = rotation(sight.sensor.theta);
-    const Beams beams = beams_of(sight.scan, sight.bearing_bam);
-    const std::vector<int> line = lines_of(sight.features, beams.p.size());
+    const Eigen::Matrix2d turn = rotation(seen.sensor.theta);
+    const Beams beams = beams_of(seen.scan, seen.bearing_bam);
+    const std::vector<int> line = lines_of(seen.features, beams.p.size());
     Eigen::Vector2d last(1e9, 1e9);
     for (size_t k = 0; k < beams.p.size(); k++) {
         if (!beams.valid[k] || (beams.p[k] - last).norm() < node_point_spacing_m) {
             continue;
         }
         last = beams.p[k];
-        const ale_line_t *on = line[k] < 0 ? nullptr : &sight.features.line[line[k]];
+        const ale_line_t *on = line[k] < 0 ? nullptr : &seen.features.line[line[k]];
         const Eigen::Vector2d p = on ? on_line(*on, beams.p[k]) : beams.p[k];
         Eigen::Vector2d normal = on ? line_normal(*on, beams.p[k]) : neighbourhood_normal(beams, k, close);
-        const bool vague = normal.isZero();
-        if (vague) {
-            normal = neighbourhood_normal(beams, k, far_apart);
+        const bool is_coarse = normal.isZero();
+        if (is_coarse) {
+            normal = neighbourhood_normal(beams, k, coarse);
         }
-        put(SurfacePoint{apply(sight.sensor, p), turn * normal}, vague);
+        put(SurfacePoint{apply(seen.sensor, p), turn * normal}, is_coarse);
     }
 }
 
@@ -136,9 +133,9 @@ Node node_of(const ale_keyframe_t &keyframe)
     node.walls = walls_of(keyframe.features, sensor);
     each_point(
         {keyframe.taken, keyframe.straightened ? keyframe.bearing_bam : nullptr, keyframe.features, sensor},
-        [&node](const SurfacePoint &point, bool vague) {
+        [&node](const SurfacePoint &point, bool is_coarse) {
             node.points.push_back(point);
-            node.vague.push_back(vague);
+            node.coarse_normal.push_back(is_coarse);
         });
     for (int k = 0; k < keyframe.features.corner_count; k++) {
         node.corners.push_back(corner_of(keyframe.features.corner[k], sensor));
@@ -146,12 +143,12 @@ Node node_of(const ale_keyframe_t &keyframe)
     return node;
 }
 
-std::vector<WallSight> walls_of(const ale_features_t &features, const Pose &sensor)
+std::vector<WallDirection> walls_of(const ale_features_t &features, const Pose &sensor)
 {
-    std::vector<WallSight> walls;
+    std::vector<WallDirection> walls;
     for (int k = 0; k < features.line_count; k++) {
         const ale_line_t &line = features.line[k];
-        const double alpha = static_cast<int32_t>(line.alpha_bam) / bam_per_radian;
+        const double alpha = to_radians(line.alpha_bam);
         walls.push_back({wrapped(alpha + sensor.theta), length((line.end.x_um - line.start.x_um) * 1e-6,
                                                                (line.end.y_um - line.start.y_um) * 1e-6)});
     }

@@ -1,4 +1,6 @@
-// From a keyframe of the core to a node of the graph: the boundary at which floating point begins.
+// From a keyframe of the integer core to a node of the graph: here floating point begins.
+//
+// Every function may throw std::bad_alloc; time is linear in the beams of the scan.
 #ifndef ALE_GRAPH_OPTIMISE_SCAN_NODE_H
 #define ALE_GRAPH_OPTIMISE_SCAN_NODE_H
 
@@ -12,17 +14,17 @@ extern "C" {
 namespace ale
 {
 
-// Points at least this far apart are kept: enough for matching, and bounded by what a scan can show.
+// Points lie at least this far apart: enough for matching, and bounded by what a scan can show.
 constexpr double node_point_spacing_m = 0.04;
 
-// Points of a line lie on it and carry its normal; other points the normal of their neighbourhood, if it has
-// one. path_m is left 0, `tracked` is the pose in the keyframe.
+// The node of a keyframe. Points of a line lie on it and carry its normal; other points carry the normal of
+// their neighbouring beams, or none. path_m is left 0; `tracked` is the keyframe's map pose.
 Node node_of(const ale_keyframe_t &keyframe);
 
-// Its lines, robot's frame.
-std::vector<WallSight> walls_of(const ale_features_t &features, const Pose &sensor);
+// Directions of the extracted lines, robot's frame; `sensor` is the sensor's pose on the robot.
+std::vector<WallDirection> walls_of(const ale_features_t &features, const Pose &sensor);
 
-// The same points of any scan, those alone that have a normal; robot's frame.
+// The points of any scan that have a normal, robot's frame.
 std::vector<SurfacePoint> surface_of(const ale_seen_t &seen, const ale_features_t &features);
 
 } // namespace ale

@@ -6,13 +6,13 @@ namespace ale
 namespace
 {
 
-// Two keyframes this far apart have little of their views in common; a radian counts as a metre, as it does
-// when keyframes are taken.
+// Keyframes this far apart share little of their views; a radian counts as a metre, as it does when keyframes
+// are taken.
 constexpr double common_view_m = 2.0;
 constexpr double metres_per_radian = 1.0;
 
-// 1 at the same place with the same heading, 0 where nothing is common.
-double likeness(const Pose &a, const Pose &b)
+// Shared part of two views: 1 at the same pose, 0 beyond common_view_m.
+double common_view(const Pose &a, const Pose &b)
 {
     const double dx = std::abs(a.x - b.x);
     const double dy = std::abs(a.y - b.y);
@@ -28,7 +28,7 @@ std::vector<double> densities(const std::vector<Pose> &poses)
     std::vector<double> density(poses.size(), 0);
     for (size_t i = 0; i < poses.size(); i++) {
         for (size_t k = i + 1; k < poses.size(); k++) {
-            const double common = likeness(poses[i], poses[k]);
+            const double common = common_view(poses[i], poses[k]);
             density[i] += common;
             density[k] += common;
         }
@@ -38,12 +38,12 @@ std::vector<double> densities(const std::vector<Pose> &poses)
 
 } // namespace
 
-std::optional<size_t> most_redundant(const std::vector<Pose> &poses, const std::vector<bool> &may_go)
+std::optional<size_t> most_redundant(const std::vector<Pose> &poses, const std::vector<bool> &removable)
 {
     const std::vector<double> density = densities(poses);
     std::optional<size_t> best;
     for (size_t k = 0; k < poses.size(); k++) {
-        if (may_go[k] && (!best || density[k] > density[*best])) {
+        if (removable[k] && (!best || density[k] > density[*best])) {
             best = k;
         }
     }

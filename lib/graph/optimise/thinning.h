@@ -10,9 +10,9 @@
 namespace ale
 {
 
-// The pose with most others near it, in place and heading; of equals the first, which is the oldest. Only
-// those that may go are chosen from, but all count. None: nobody may go. O(n^2); both of the same length.
-std::optional<size_t> most_redundant(const std::vector<Pose> &poses, const std::vector<bool> &may_go);
+// The removable pose with most others near it, in place and heading; of equals the oldest. All poses count as
+// neighbours. None: no pose is removable. Both lists have the same length. O(n^2); may throw std::bad_alloc.
+std::optional<size_t> most_redundant(const std::vector<Pose> &poses, const std::vector<bool> &removable);
 
 } // namespace ale
 

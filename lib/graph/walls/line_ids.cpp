@@ -16,10 +16,10 @@ namespace
 {
 
 constexpr int64_t beside_um = 150000;
-constexpr int64_t turned_bam = int64_t{10} * ALE_BAM_PER_DEGREE;
+constexpr int64_t parallel_bam = int64_t{10} * ALE_BAM_PER_DEGREE;
 
 struct Claim {
-    int64_t common_um;
+    int64_t overlap_um;
     size_t last;
     uint16_t line;
 };
@@ -28,14 +28,14 @@ struct Claim {
 
 LineIds::Line LineIds::line_of(const ale_map_line_t &line)
 {
-    const ale_point_t way = ale_minus(line.end, line.start);
-    return {line, ale_atan2_bam(way.y_um, way.x_um)};
+    const ale_point_t d = ale_minus(line.end, line.start);
+    return {line, ale_atan2_bam(d.y_um, d.x_um)};
 }
 
-// How much of `line` lies on `last`; 0 when it is another wall.
-int64_t LineIds::common_um(const Line &last, const Line &line)
+// Length of `line` that lies on `last`; 0: another wall.
+int64_t LineIds::overlap_um(const Line &last, const Line &line)
 {
-    if (ale_abs64(ale_bam_diff(last.along_bam, line.along_bam)) > turned_bam) {
+    if (ale_abs64(ale_bam_diff(last.along_bam, line.along_bam)) > parallel_bam) {
         return 0;
     }
     const ale_point_t from = ale_minus(line.line.start, last.line.start);
@@ -48,31 +48,31 @@ int64_t LineIds::common_um(const Line &last, const Line &line)
     return ale_abs64(aside_um) < beside_um ? ale_max64(end_um - first_um, 0) : 0;
 }
 
-void LineIds::name(ale_map_t *map)
+void LineIds::assign(ale_map_t *map)
 {
     std::vector<Line> now;
     std::transform(map->line, map->line + map->line_count, std::back_inserter(now), line_of);
     std::vector<Claim> claims;
     for (uint16_t line = 0; line < map->line_count; line++) {
         for (size_t last = 0; last < last_.size(); last++) {
-            const int64_t common = common_um(last_[last], now[line]);
-            if (common > 0) {
-                claims.push_back({common, last, line});
+            const int64_t overlap = overlap_um(last_[last], now[line]);
+            if (overlap > 0) {
+                claims.push_back({overlap, last, line});
             }
         }
     }
     std::stable_sort(claims.begin(), claims.end(),
-                     [](const Claim &a, const Claim &b) { return a.common_um > b.common_um; });
-    std::vector<bool> named(map->line_count, false);
-    std::vector<bool> given(last_.size(), false);
+                     [](const Claim &a, const Claim &b) { return a.overlap_um > b.overlap_um; });
+    std::vector<bool> has_id(map->line_count, false);
+    std::vector<bool> taken(last_.size(), false);
     for (const Claim &claim : claims) {
-        if (!named[claim.line] && !given[claim.last]) {
+        if (!has_id[claim.line] && !taken[claim.last]) {
             now[claim.line].line.id = last_[claim.last].line.id;
-            named[claim.line] = given[claim.last] = true;
+            has_id[claim.line] = taken[claim.last] = true;
         }
     }
     for (uint16_t line = 0; line < map->line_count; line++) {
-        if (!named[line]) {
+        if (!has_id[line]) {
             now[line].line.id = next_++;
         }
         map->line[line].id = now[line].line.id;

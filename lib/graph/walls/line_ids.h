@@ -1,4 +1,4 @@
-// Names of walls that last from one drawing of the map to the next.
+// Line ids that persist from one rebuilt map to the next.
 #ifndef ALE_GRAPH_WALLS_LINE_IDS_H
 #define ALE_GRAPH_WALLS_LINE_IDS_H
 
@@ -15,9 +15,9 @@ namespace ale
 class LineIds
 {
   public:
-    // A line that lies where one of the last drawing lay, and has most in common with it, takes its id;
-    // others get new ones. O(lines^2).
-    void name(ale_map_t *map);
+    // Sets the id of every line. The line that overlaps most with one of the last map takes its id, within
+    // 0.15 m and 10 degrees; others get new ids. O(lines^2); may throw std::bad_alloc.
+    void assign(ale_map_t *map);
 
   private:
     struct Line {
@@ -25,7 +25,7 @@ class LineIds
         uint32_t along_bam;
     };
     static Line line_of(const ale_map_line_t &line);
-    static int64_t common_um(const Line &last, const Line &line);
+    static int64_t overlap_um(const Line &last, const Line &line);
 
     std::vector<Line> last_;
     uint32_t next_ = 0;

@@ -17,35 +17,25 @@ namespace
 constexpr int64_t million = 1000000;
 constexpr int64_t gate2 = 9; // squared sigmas
 
-// How far a line may lie from its wall, and be turned, whatever the errors say.
+// Largest distance and angle of a line from its wall, whatever the variances.
 constexpr int64_t line_offset_um = 80000;
 constexpr int64_t line_angle_urad = 150000;
 constexpr int64_t least_common_um = 0;
 
-// Groups: the same within their errors, or side by side.
+// The same for two groups.
 constexpr int64_t beside_offset_um = 300000;
 constexpr int64_t beside_angle_urad = 150000;
 
-// Two lines of one scan are two surfaces when they lie so far apart.
+// Two lines of one scan this far apart are two surfaces.
 constexpr int64_t apart_um = 40000;
 constexpr int apart_least = 2; // scans
 
-int64_t length_um(const ale_observation_t &view)
+int64_t length_um(const ale_observation_t &line)
 {
-    return int64_t{view.end_um} - view.start_um;
+    return int64_t{line.end_um} - line.start_um;
 }
 
-ale_observation_t view_of(const ale_wall_t &wall)
-{
-    ale_observation_t view{};
-    view.centre = wall.anchor;
-    view.normal_bam = wall.normal_bam;
-    view.start_um = wall.start_um;
-    view.end_um = wall.end_um;
-    return view;
-}
-
-// Offset of something at t of a wall, that has an error e at its own centre.
+// Offset at t of a wall, from the error at the centre of the observation.
 int64_t offset_at(const ale_wall_error_t &e, int64_t t_um)
 {
     return e.offset_um + ale_mul_div(t_um - e.t_um, e.angle_urad, million);
@@ -53,33 +43,33 @@ int64_t offset_at(const ale_wall_error_t &e, int64_t t_um)
 
 void observe(ale_wall_t *wall, const PlacedLine &line)
 {
-    const ale_wall_error_t e = ale_wall_error(wall, &line.view);
-    ale_wall_observe(wall, &e, line.view.var_offset_um2 + line.doubt_um2,
-                     line.view.var_angle_urad2 + line.doubt_urad2);
-    ale_wall_extend(wall, e.t_um + line.view.start_um, e.t_um + line.view.end_um);
+    const ale_wall_error_t e = ale_wall_error(wall, &line.line);
+    ale_wall_observe(wall, &e, line.line.var_offset_um2 + line.pose_var_um2,
+                     line.line.var_angle_urad2 + line.pose_var_urad2);
+    ale_wall_extend(wall, e.t_um + line.line.start_um, e.t_um + line.line.end_um);
     wall->seen++;
 }
 
-ale_wall_t begun_by(const PlacedLine &line)
+ale_wall_t wall_from(const PlacedLine &line)
 {
     ale_wall_t wall;
-    ale_wall_from_observation(&wall, &line.view);
-    wall.var_offset_um2 += line.doubt_um2;
-    wall.var_angle_urad2 += line.doubt_urad2;
+    ale_wall_from_observation(&wall, &line.line);
+    wall.var_offset_um2 += line.pose_var_um2;
+    wall.var_angle_urad2 += line.pose_var_urad2;
     wall.seen = 1;
     return wall;
 }
 
-// Squared distance in sigmas, of offset and angle together, or -1: not this wall.
+// Squared distance of offset and angle in thousandths of a sigma squared, or -1: not this wall.
 int64_t distance2(const ale_wall_t &wall, const PlacedLine &line)
 {
-    const ale_wall_error_t e = ale_wall_error(&wall, &line.view);
+    const ale_wall_error_t e = ale_wall_error(&wall, &line.line);
     if (e.overlap_um < least_common_um || ale_abs64(e.offset_um) > line_offset_um ||
         ale_abs64(e.angle_urad) > line_angle_urad) {
         return -1;
     }
-    const int64_t var = ale_wall_offset_var(&wall, e.t_um) + line.view.var_offset_um2 + line.doubt_um2;
-    const int64_t var_angle = wall.var_angle_urad2 + line.view.var_angle_urad2 + line.doubt_urad2;
+    const int64_t var = ale_wall_offset_var(&wall, e.t_um) + line.line.var_offset_um2 + line.pose_var_um2;
+    const int64_t var_angle = wall.var_angle_urad2 + line.line.var_angle_urad2 + line.pose_var_urad2;
     const int64_t offset2 = e.offset_um * e.offset_um;
     const int64_t angle2 = e.angle_urad * e.angle_urad;
     if (offset2 > gate2 * var || angle2 > gate2 * var_angle) {
@@ -88,12 +78,12 @@ int64_t distance2(const ale_wall_t &wall, const PlacedLine &line)
     return 1000 * offset2 / var + 1000 * angle2 / var_angle;
 }
 
-std::vector<WallGroup> gather(const std::vector<PlacedLine> &lines)
+std::vector<WallGroup> assign_lines(const std::vector<PlacedLine> &lines)
 {
     std::vector<uint32_t> order(lines.size());
     std::iota(order.begin(), order.end(), 0U);
     std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-        return length_um(lines[a].view) > length_um(lines[b].view);
+        return length_um(lines[a].line) > length_um(lines[b].line);
     });
     std::vector<WallGroup> groups;
     for (const uint32_t k : order) {
@@ -109,8 +99,8 @@ std::vector<WallGroup> gather(const std::vector<PlacedLine> &lines)
         if (best) {
             observe(&best->wall, lines[k]);
             best->lines.push_back(k);
-        } else if (length_um(lines[k].view) >= ALE_WALL_LENGTH_UM) {
-            groups.push_back({begun_by(lines[k]), {k}});
+        } else if (length_um(lines[k].line) >= ALE_WALL_LENGTH_UM) {
+            groups.push_back({wall_from(lines[k]), {k}});
         }
     }
     for (WallGroup &group : groups) {
@@ -119,9 +109,9 @@ std::vector<WallGroup> gather(const std::vector<PlacedLine> &lines)
     return groups;
 }
 
-// Whether a scan shows two lines that cannot be one surface: they do not continue each other, as far as one
-// scan knows, which no pose can change.
-bool are_apart(const ale_observation_t &a, const ale_observation_t &b)
+// Whether two lines of one scan are two surfaces: neither continues the other. The pose of the scan has no
+// effect on this.
+bool are_two_surfaces(const ale_observation_t &a, const ale_observation_t &b)
 {
     ale_wall_t wall;
     ale_wall_from_observation(&wall, &a);
@@ -136,8 +126,8 @@ bool are_apart(const ale_observation_t &a, const ale_observation_t &b)
     return ale_abs64(offset_um) > apart_um && offset_um * offset_um > gate2 * var;
 }
 
-// Scans that show both groups: in how many they are one, and in how many two surfaces.
-bool seen_apart(const std::vector<PlacedLine> &lines, const WallGroup &a, const WallGroup &b)
+// Whether the scans that show both groups show two surfaces: in enough scans, and at least as many as not.
+bool are_seen_apart(const std::vector<PlacedLine> &lines, const WallGroup &a, const WallGroup &b)
 {
     int one = 0;
     int two = 0;
@@ -147,29 +137,29 @@ bool seen_apart(const std::vector<PlacedLine> &lines, const WallGroup &a, const 
             ++next;
         }
         for (auto other = next; other != b.lines.end() && lines[*other].scan == lines[k].scan; ++other) {
-            (are_apart(lines[k].view, lines[*other].view) ? two : one) +=
+            (are_two_surfaces(lines[k].line, lines[*other].line) ? two : one) +=
                 std::min(apart_least, static_cast<int>(lines[k].scans));
         }
     }
     return two >= apart_least && two >= one;
 }
 
-bool is_known(const std::vector<PlacedLine> &lines, const WallGroup &group)
+bool is_prior(const std::vector<PlacedLine> &lines, const WallGroup &group)
 {
     return std::any_of(group.lines.begin(), group.lines.end(),
                        [&](uint32_t k) { return lines[k].scans > 1; });
 }
 
-// A drive that began in a map was laid on its walls: what lies aside of them stands before or behind them.
+// Poses are already matched to the walls of a prior map: what lies beside one is another surface.
 int64_t farthest_um(const std::vector<PlacedLine> &lines, const WallGroup &a, const WallGroup &b)
 {
-    return is_known(lines, a) != is_known(lines, b) ? line_offset_um : beside_offset_um;
+    return is_prior(lines, a) != is_prior(lines, b) ? line_offset_um : beside_offset_um;
 }
 
 bool are_one(const std::vector<PlacedLine> &lines, const WallGroup &a, const WallGroup &b)
 {
-    const ale_observation_t as_view = view_of(b.wall);
-    const ale_wall_error_t e = ale_wall_error(&a.wall, &as_view);
+    const ale_observation_t other = as_observation(b.wall);
+    const ale_wall_error_t e = ale_wall_error(&a.wall, &other);
     if (e.overlap_um < 0 || ale_abs64(e.angle_urad) > beside_angle_urad) {
         return false;
     }
@@ -177,10 +167,10 @@ bool are_one(const std::vector<PlacedLine> &lines, const WallGroup &a, const Wal
                                ale_max64(a.wall.start_um, e.t_um + b.wall.start_um)) /
                               2;
     const int64_t offset_um = offset_at(e, middle_um);
-    return ale_abs64(offset_um) < farthest_um(lines, a, b) && !seen_apart(lines, a, b);
+    return ale_abs64(offset_um) < farthest_um(lines, a, b) && !are_seen_apart(lines, a, b);
 }
 
-void join(const std::vector<PlacedLine> &lines, WallGroup *into, const WallGroup &other)
+void merge(const std::vector<PlacedLine> &lines, WallGroup *into, const WallGroup &other)
 {
     for (const uint32_t k : other.lines) {
         observe(&into->wall, lines[k]);
@@ -193,18 +183,30 @@ void join(const std::vector<PlacedLine> &lines, WallGroup *into, const WallGroup
 
 } // namespace
 
+ale_observation_t as_observation(const ale_wall_t &wall)
+{
+    ale_observation_t line{};
+    line.centre = wall.anchor;
+    line.normal_bam = wall.normal_bam;
+    line.start_um = wall.start_um;
+    line.end_um = wall.end_um;
+    line.var_offset_um2 = wall.var_offset_um2;
+    line.var_angle_urad2 = wall.var_angle_urad2;
+    return line;
+}
+
 std::vector<WallGroup> group_lines(const std::vector<PlacedLine> &lines)
 {
-    std::vector<WallGroup> groups = gather(lines);
-    // Every join takes a group away, so this ends. A joined group may now reach an earlier one.
-    for (bool joined = true; joined;) {
-        joined = false;
+    std::vector<WallGroup> groups = assign_lines(lines);
+    // Every merge removes a group, so this ends. A merged group may now reach an earlier one.
+    for (bool merged = true; merged;) {
+        merged = false;
         for (size_t a = 0; a < groups.size(); a++) {
             for (size_t b = a + 1; b < groups.size();) {
                 if (are_one(lines, groups[a], groups[b])) {
-                    join(lines, &groups[a], groups[b]);
+                    merge(lines, &groups[a], groups[b]);
                     groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(b));
-                    joined = true;
+                    merged = true;
                 } else {
                     b++;
                 }

@@ -1,10 +1,10 @@
-// Which lines of which scans show one wall.
+// Groups the lines of all scans by the wall that they show.
 //
-// Longest first, every line joins the group that it lies in, or begins one. Then groups that are one wall
-// are joined: those that continue or repeat each other within their errors, and those that lie side by side
-// farther than poses err, when no scan has seen them apart: of two surfaces that face the same way the nearer
-// hides the other, so that what stands twice in the map, and never in a scan, stands once. On a known wall
-// the drive was laid: only what lies nearer to it than poses err is that wall.
+// Longest first, every line joins the group that it agrees with, or starts one. Then groups of one wall are
+// merged: those that agree within their errors, and those side by side, farther apart than poses err, unless
+// some scans have seen both at once as two surfaces. Of two surfaces that face the same way the nearer hides
+// the other, so a wall that is double in the map, but single in every scan, is one wall. Next to a wall of a
+// prior map only the first rule holds.
 #ifndef ALE_GRAPH_WALLS_WALL_GROUPS_H
 #define ALE_GRAPH_WALLS_WALL_GROUPS_H
 
@@ -22,19 +22,23 @@ namespace ale
 // A line where the pose of its scan puts it.
 struct PlacedLine {
     uint32_t scan;
-    ale_observation_t view; // map frame; variances as one scan knows them
-    // What the doubt of the pose adds to the variances.
-    int64_t doubt_um2;
-    int64_t doubt_urad2;
-    uint32_t scans = 1; // that stand behind it; more than one: a wall of the map that the drive began in
+    ale_observation_t line; // map frame; variances of the scan alone
+    // What the error of the pose adds to the variances.
+    int64_t pose_var_um2;
+    int64_t pose_var_urad2;
+    uint32_t scans = 1; // that support it; more than one: a wall of the prior map
 };
 
 struct WallGroup {
-    ale_wall_t wall;             // as all its lines together have it
+    ale_wall_t wall;             // estimate from all its lines
     std::vector<uint32_t> lines; // indices, ascending
 };
 
-// Lines by ascending scan. Groups by the length of their first line. O(lines * groups).
+// Wall as a line of an observation: offset and variances at its anchor.
+ale_observation_t as_observation(const ale_wall_t &wall);
+
+// Lines by ascending scan; groups by descending length of their first line. O(lines * groups + groups^3);
+// may throw std::bad_alloc.
 std::vector<WallGroup> group_lines(const std::vector<PlacedLine> &lines);
 
 } // namespace ale

@@ -17,20 +17,20 @@ namespace
 {
 
 constexpr int64_t cell_um = 50000;
-constexpr size_t gap_cells = 3; // closed, where nothing is seen through
+constexpr size_t gap_cells = 3; // a gap this long is closed unless beams pass through it
 
-// Walls so near to each other, and turned, cannot both be seen.
+// Walls this near to each other, and at most so turned, cannot both be seen.
 constexpr int64_t beside_um = 120000;
 constexpr int64_t beside_bam = int64_t{45} * ALE_BAM_PER_DEGREE;
 constexpr int64_t parallel_um = 300000;
 constexpr int64_t parallel_bam = int64_t{9} * ALE_BAM_PER_DEGREE;
 
 struct Cell {
-    uint32_t shown = 0; // by lines of so many scans of the drive
-    uint32_t known = 0; // by so many more, of a map that the drive began in
-    uint32_t there = 0; // looks whose beams end there
-    uint32_t through = 0;
-    bool yields = false; // to a wall beside it
+    uint32_t scans = 0;        // of the drive, whose lines cover it
+    uint32_t prior_scans = 0;  // the same of the prior map
+    uint32_t hits = 0;         // scans whose beams end there
+    uint32_t passes = 0;       // scans whose beams go through
+    bool is_displaced = false; // by a wall beside it
 };
 
 struct Range {
@@ -38,10 +38,10 @@ struct Range {
     int64_t to_um;
 };
 
-Range along(const ale_wall_t &wall, const ale_observation_t &view)
+Range along(const ale_wall_t &wall, const ale_observation_t &line)
 {
-    const ale_wall_error_t e = ale_wall_error(&wall, &view);
-    return {e.t_um + view.start_um, e.t_um + view.end_um};
+    const ale_wall_error_t e = ale_wall_error(&wall, &line);
+    return {e.t_um + line.start_um, e.t_um + line.end_um};
 }
 
 class Cells
@@ -52,42 +52,43 @@ class Cells
     {
     }
 
-    // Cells whose middle the line covers.
-    void show(const PlacedLine &line)
+    // Counts a line in the cells whose middle it covers.
+    void count_line(const PlacedLine &line)
     {
-        const Range r = along(wall_, line.view);
+        const Range r = along(wall_, line.line);
         for (size_t k = 0; k < cells_.size(); k++) {
             if (middle_um(k) >= r.from_um && middle_um(k) <= r.to_um) {
-                (line.scans > 1 ? cells_[k].known : cells_[k].shown) += line.scans;
+                (line.scans > 1 ? cells_[k].prior_scans : cells_[k].scans) += line.scans;
             }
         }
     }
 
-    void look(const PlacedLook &from)
+    // Counts where the beams of a scan end, and where they go through.
+    void count_beams(const PlacedScan &scan)
     {
-        ale_posed_scan_t posed = ale_seen_copy_posed(from.seen);
-        posed.sensor = from.sensor;
+        ale_posed_scan_t posed = ale_seen_copy_posed(scan.beams);
+        posed.sensor = scan.sensor;
         for (size_t k = 0; k < cells_.size(); k++) {
-            const ale_visibility_t sight = ale_wall_point_visibility(&wall_, middle_um(k), &posed);
-            cells_[k].there += sight == ALE_VISIBILITY_SUPPORTED;
-            cells_[k].through += sight == ALE_VISIBILITY_VIOLATED;
+            const ale_visibility_t visibility = ale_wall_point_visibility(&wall_, middle_um(k), &posed);
+            cells_[k].hits += visibility == ALE_VISIBILITY_SUPPORTED;
+            cells_[k].passes += visibility == ALE_VISIBILITY_VIOLATED;
         }
     }
 
     bool is_shown(size_t k) const
     {
         const Cell &cell = cells_[k];
-        const uint32_t shown = cell.shown + cell.known;
-        return shown > 0 && shown + cell.there >= ALE_MAP_CONFIRMED && cell.through <= cell.there;
+        const uint32_t scans = cell.scans + cell.prior_scans;
+        return scans > 0 && scans + cell.hits >= ALE_MAP_CONFIRMED && cell.passes <= cell.hits;
     }
     bool stands(size_t k) const
     {
-        return is_shown(k) && !cells_[k].yields;
+        return is_shown(k) && !cells_[k].is_displaced;
     }
 
-    // Gives way to a wall beside it, cell by cell, where more scans show that one; `first` of equals stays.
-    // What the drive shows counts before what was known: it may stand before that, and hide it.
-    void yield_to(const Cells &other, bool first)
+    // Marks the cells that a wall beside them displaces: more scans show that one; `first` of equals stays.
+    // Scans of the drive decide before those of a prior map: what they show may hide it.
+    void displace_by(const Cells &other, bool first)
     {
         const int64_t turned = ale_abs64(ale_bam_diff(wall_.normal_bam, other.wall_.normal_bam));
         if (turned > beside_bam) {
@@ -96,25 +97,25 @@ class Cells
         const int64_t near_um = turned > parallel_bam ? beside_um : parallel_um;
         for (size_t k = 0; k < cells_.size(); k++) {
             const ale_point_t p = ale_wall_point(&wall_, middle_um(k));
-            const int64_t there = other.cell_beside(p);
-            if (there < 0 || ale_abs64(ale_wall_offset(&other.wall_, p)) > near_um) {
+            const int64_t beside = other.cell_beside(p);
+            if (beside < 0 || ale_abs64(ale_wall_offset(&other.wall_, p)) > near_um) {
                 continue;
             }
-            const auto other_k = static_cast<size_t>(there);
+            const auto other_k = static_cast<size_t>(beside);
             const Cell nothing;
             const Cell &own = cells_[k];
             const Cell &its = other.is_shown(other_k) ? other.cells_[other_k] : nothing;
-            const bool driven = std::max(own.shown, its.shown) >= ALE_MAP_CONFIRMED;
-            const uint32_t own_scans = own.shown + (driven ? 0 : own.known);
-            const uint32_t its_scans = its.shown + (driven ? 0 : its.known);
-            cells_[k].yields |= its_scans > own_scans || (its_scans == own_scans && !first);
+            const bool is_driven = std::max(own.scans, its.scans) >= ALE_MAP_CONFIRMED;
+            const uint32_t own_scans = own.scans + (is_driven ? 0 : own.prior_scans);
+            const uint32_t its_scans = its.scans + (is_driven ? 0 : its.prior_scans);
+            cells_[k].is_displaced |= its_scans > own_scans || (its_scans == own_scans && !first);
         }
     }
 
-    // A gap may be closed where nothing speaks against it.
+    // Whether beams go through, so that a gap is not closed.
     bool is_open(size_t k) const
     {
-        return cells_[k].through > cells_[k].there;
+        return cells_[k].passes > cells_[k].hits;
     }
 
     size_t size() const
@@ -127,7 +128,7 @@ class Cells
     }
 
   private:
-    // Index of the cell at the foot of a point, or -1: beyond the ends.
+    // The cell at the foot of a point, or -1: beyond the ends.
     int64_t cell_beside(ale_point_t p) const
     {
         const int64_t t_um = ale_wall_along(&wall_, p);
@@ -139,18 +140,18 @@ class Cells
     std::vector<Cell> cells_;
 };
 
-// Neither out of reach nor behind the wall: only such looks can see it.
-bool may_see(const PlacedLook &from, const ale_wall_t &wall)
+// Whether the sensor is within reach and on the side that the wall faces.
+bool may_see(const PlacedScan &scan, const ale_wall_t &wall)
 {
-    const ale_point_t at = {from.sensor.x_um, from.sensor.y_um};
+    const ale_point_t at = {scan.sensor.x_um, scan.sensor.y_um};
     const int64_t height_um = ale_wall_offset(&wall, at);
-    const int64_t reach_um = from.seen->scan.range_max_um;
+    const int64_t reach_um = scan.beams->scan.range_max_um;
     const int64_t t_um = ale_wall_along(&wall, at);
     return height_um > 0 && height_um < reach_um && t_um > wall.start_um - reach_um &&
            t_um < wall.end_um + reach_um;
 }
 
-// The next run of cells from k on that stand, gaps closed: first and one past the last.
+// The next run of standing cells from k on, gaps closed: first, and one past the last.
 bool next_run(const Cells &cells, size_t k, size_t *first, size_t *last)
 {
     while (k < cells.size() && !cells.stands(k)) {
@@ -169,28 +170,28 @@ bool next_run(const Cells &cells, size_t k, size_t *first, size_t *last)
 uint32_t scans_in(const WallGroup &group, const std::vector<PlacedLine> &lines, int64_t from_um,
                   int64_t to_um)
 {
-    uint32_t seen = 0;
+    uint32_t scans = 0;
     uint32_t last = UINT32_MAX;
     for (const uint32_t k : group.lines) {
-        const Range r = along(group.wall, lines[k].view);
+        const Range r = along(group.wall, lines[k].line);
         if (r.from_um < to_um && r.to_um > from_um && (lines[k].scan != last || lines[k].scans > 1)) {
-            seen += lines[k].scans;
+            scans += lines[k].scans;
             last = lines[k].scan;
         }
     }
-    return seen;
+    return scans;
 }
 
 Cells cells_of(const WallGroup &group, const std::vector<PlacedLine> &lines,
-               const std::vector<PlacedLook> &looks)
+               const std::vector<PlacedScan> &scans)
 {
     Cells cells(group.wall);
     for (const uint32_t k : group.lines) {
-        cells.show(lines[k]);
+        cells.count_line(lines[k]);
     }
-    for (const PlacedLook &look : looks) {
-        if (may_see(look, group.wall)) {
-            cells.look(look);
+    for (const PlacedScan &scan : scans) {
+        if (may_see(scan, group.wall)) {
+            cells.count_beams(scan);
         }
     }
     return cells;
@@ -205,9 +206,9 @@ void add_spans(const Cells &cells, const WallGroup &group, const std::vector<Pla
         ale_wall_t wall = group.wall;
         wall.start_um = static_cast<int32_t>(cells.middle_um(first) - cell_um / 2);
         wall.end_um = static_cast<int32_t>(cells.middle_um(last - 1) + cell_um / 2);
-        const uint32_t seen = scans_in(group, lines, wall.start_um, wall.end_um);
-        if (wall.end_um - wall.start_um >= ALE_WALL_LENGTH_UM && seen >= ALE_MAP_CONFIRMED) {
-            spans->push_back({wall, seen});
+        const uint32_t scans = scans_in(group, lines, wall.start_um, wall.end_um);
+        if (wall.end_um - wall.start_um >= ALE_WALL_LENGTH_UM && scans >= ALE_MAP_CONFIRMED) {
+            spans->push_back({wall, scans});
         }
     }
 }
@@ -215,17 +216,17 @@ void add_spans(const Cells &cells, const WallGroup &group, const std::vector<Pla
 } // namespace
 
 std::vector<WallSpan> spans_of(const std::vector<WallGroup> &groups, const std::vector<PlacedLine> &lines,
-                               const std::vector<PlacedLook> &looks)
+                               const std::vector<PlacedScan> &scans)
 {
     std::vector<Cells> cells;
     cells.reserve(groups.size());
     for (const WallGroup &group : groups) {
-        cells.push_back(cells_of(group, lines, looks));
+        cells.push_back(cells_of(group, lines, scans));
     }
     for (size_t a = 0; a < groups.size(); a++) {
         for (size_t b = 0; b < groups.size(); b++) {
             if (a != b) {
-                cells[a].yield_to(cells[b], a < b);
+                cells[a].displace_by(cells[b], a < b);
             }
         }
     }

@@ -1,35 +1,35 @@
-// Where along its line a wall stands.
+// Where along its line a wall stands, cell by cell of 5 cm.
 //
-// Along the wall, cell by cell: scans whose lines cover it, looks whose beams end there, and looks that see
-// through it. What hardly a scan has shown, and what more looks see through than not, is no wall. Where two
-// walls that face the same way lie side by side only one can have been seen: the one that more scans show.
-// Scans of the drive count before those of a map that it began in: what now stands before a known wall hides
-// it.
+// Each cell counts the scans whose lines cover it, and of the scans with beams those whose beams end there or
+// pass through. A cell that hardly any scan shows, or that more scans pass than hit, is free. Of two walls
+// that face the same way side by side only one can have been seen: the one that more scans show. Scans of
+// this drive decide before those of a prior map: what now stands before a known wall hides it.
 #ifndef ALE_GRAPH_WALLS_WALL_SPANS_H
 #define ALE_GRAPH_WALLS_WALL_SPANS_H
 
 #include <vector>
 
-#include "graph/walls/map_record.h"
+#include "graph/walls/observation_record.h"
 #include "graph/walls/wall_groups.h"
 
 namespace ale
 {
 
-// A look, and where its laser was.
-struct PlacedLook {
-    const ale_seen_copy_t *seen;
+// A scan with all its beams, and the pose of its sensor in the map.
+struct PlacedScan {
+    const ale_seen_copy_t *beams;
     ale_pose_t sensor;
 };
 
 struct WallSpan {
     ale_wall_t wall; // from end to end of the span
-    uint32_t seen;   // scans that show part of it
+    uint32_t scans;  // that show part of it
 };
 
-// In the order of the groups. O(cells of all walls * looks in reach + groups * cells).
+// Spans in the order of the groups, at least ALE_WALL_LENGTH_UM long and shown by ALE_MAP_CONFIRMED scans.
+// O(cells of all walls * scans in reach + groups * cells); may throw std::bad_alloc.
 std::vector<WallSpan> spans_of(const std::vector<WallGroup> &groups, const std::vector<PlacedLine> &lines,
-                               const std::vector<PlacedLook> &looks);
+                               const std::vector<PlacedScan> &scans);
 
 } // namespace ale
 

@@ -1,5 +1,5 @@
-// A corridor whose second half may run askew to the first, walked once along its middle: nodes that see its
-// walls, and the truth.
+// A corridor whose second half may be bent, driven once along its middle: nodes with its walls, and the
+// truth.
 #ifndef TESTS_GRAPH_BENT_CORRIDOR_HPP
 #define TESTS_GRAPH_BENT_CORRIDOR_HPP
 
@@ -15,7 +15,7 @@ namespace bent_corridor
 constexpr double half_m = 12;
 constexpr double end_m = 22;
 
-// Of what lies so far along the corridor and so far to its left.
+// The point this far along the corridor and to its left.
 inline Eigen::Vector2d at(double along_m, double left_m, double bend_rad)
 {
     const double turned = along_m > half_m ? bend_rad : 0;
@@ -58,15 +58,15 @@ inline std::vector<ale::Pose> truth(double bend_rad)
     return poses;
 }
 
-// Each side of the corridor as the line that a scan shows of it there.
+// A node with the points and lines of the corridor seen from a pose.
 inline ale::Node node_at(const std::vector<ring_corridor::Wall> &walls, const ale::Pose &pose,
                          std::mt19937 *random)
 {
     ale::Node node = ring_corridor::seen_from(walls, pose, random);
-    const Eigen::Vector2d eye(pose.x, pose.y);
+    const Eigen::Vector2d sensor(pose.x, pose.y);
     for (const ring_corridor::Wall &wall : walls) {
         const Eigen::Vector2d n = ring_corridor::normal_of(wall);
-        if (((wall.a + wall.b) / 2 - eye).norm() < 4 && n.dot(eye - wall.a) > 0.1) {
+        if (((wall.a + wall.b) / 2 - sensor).norm() < 4 && n.dot(sensor - wall.a) > 0.1) {
             node.walls.push_back(
                 {ale::wrapped(std::atan2(n.y(), n.x()) - pose.theta), (wall.b - wall.a).norm()});
         }
@@ -74,7 +74,7 @@ inline ale::Node node_at(const std::vector<ring_corridor::Wall> &walls, const al
     return node;
 }
 
-// Nodes with poses as a tracker has them whose heading drifts by so much a metre.
+// Nodes with the poses of a tracker whose heading drifts.
 inline std::vector<ale::Node> nodes(double bend_rad, double drift_rad_m, unsigned seed)
 {
     std::mt19937 random(seed);

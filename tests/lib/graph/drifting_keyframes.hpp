@@ -1,4 +1,4 @@
-// Keyframes as the estimate task hands them out: the corridor around a block, ray by ray, with drifting
+// Keyframes as the estimate task hands them out: ray-cast scans of the corridor around a block, with drifting
 // poses.
 #ifndef TESTS_GRAPH_DRIFTING_KEYFRAMES_HPP
 #define TESTS_GRAPH_DRIFTING_KEYFRAMES_HPP

@@ -1,4 +1,4 @@
-// Lines of a made wall, as scans at known poses show them.
+// Lines of a synthetic wall as scans at known poses extract them.
 #ifndef TESTS_GRAPH_PLACED_LINES_HPP
 #define TESTS_GRAPH_PLACED_LINES_HPP
 
@@ -27,17 +27,17 @@ inline ale::PlacedLine line(uint32_t scan, double normal_deg, double from_m, dou
     const uint32_t normal_bam = bam_of_degrees(normal_deg);
     const auto half_um = static_cast<int32_t>((to_m - from_m) * 5e5);
     placed.scan = scan;
-    placed.view.centre =
+    placed.line.centre =
         ale_plus(ale_polar(static_cast<int64_t>((from_m + to_m) * 5e5), ale_tangent_bam(normal_bam)),
                  ale_polar(static_cast<int64_t>(off_mm * 1000), normal_bam));
-    placed.view.normal_bam =
+    placed.line.normal_bam =
         normal_bam + static_cast<uint32_t>(static_cast<int64_t>(turned_mrad * ALE_BAM_PER_MRAD));
-    placed.view.start_um = -half_um;
-    placed.view.end_um = half_um;
-    placed.view.var_offset_um2 = 9000000;
-    placed.view.var_angle_urad2 = 25000000;
-    placed.doubt_um2 = sigma_um * sigma_um;
-    placed.doubt_urad2 = sigma_urad * sigma_urad;
+    placed.line.start_um = -half_um;
+    placed.line.end_um = half_um;
+    placed.line.var_offset_um2 = 9000000;
+    placed.line.var_angle_urad2 = 25000000;
+    placed.pose_var_um2 = sigma_um * sigma_um;
+    placed.pose_var_urad2 = sigma_urad * sigma_urad;
     return placed;
 }
 

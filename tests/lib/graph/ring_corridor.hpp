@@ -1,4 +1,4 @@
-// A corridor around a square block, walked twice: nodes with drifting poses, and the truth.
+// A corridor around a square block, driven several times: nodes with drifting poses, and the truth.
 #ifndef TESTS_GRAPH_RING_CORRIDOR_HPP
 #define TESTS_GRAPH_RING_CORRIDOR_HPP
 
@@ -31,7 +31,7 @@ inline void add_room(std::vector<Wall> *walls, double low, double high, bool inw
     }
 }
 
-// Outer walls 0..20 m, the block 2..18 m, and alcoves of different depth so that places differ.
+// Outer walls 0..20 m, the block 2..18 m, and alcoves of different depths, so that places differ.
 inline std::vector<Wall> walls()
 {
     std::vector<Wall> w;
@@ -78,18 +78,18 @@ inline ale::Node seen_from(const std::vector<Wall> &walls, const ale::Pose &pose
     std::normal_distribution<double> noise(0, 0.004);
     ale::Node node = {};
     const ale::Pose to_robot = ale::inverse(pose);
-    const Eigen::Vector2d eye(pose.x, pose.y);
+    const Eigen::Vector2d sensor(pose.x, pose.y);
     for (const Wall &wall : walls) {
         const Eigen::Vector2d n = normal_of(wall);
         const double length = (wall.b - wall.a).norm();
         for (double u = 0.02; u < length; u += 0.08) {
-            const double x = wall.a.x() + (wall.b.x() - wall.a.x()) / length * u - eye.x();
-            const double y = wall.a.y() + (wall.b.y() - wall.a.y()) / length * u - eye.y();
+            const double x = wall.a.x() + (wall.b.x() - wall.a.x()) / length * u - sensor.x();
+            const double y = wall.a.y() + (wall.b.y() - wall.a.y()) / length * u - sensor.y();
             if (x * x + y * y > 16) {
                 continue;
             }
-            const Eigen::Vector2d p = eye + Eigen::Vector2d(x, y) + n * noise(*random);
-            if (n.dot(eye - p) > 0.1) {
+            const Eigen::Vector2d p = sensor + Eigen::Vector2d(x, y) + n * noise(*random);
+            if (n.dot(sensor - p) > 0.1) {
                 node.points.push_back({ale::apply(to_robot, p), ale::rotation(-pose.theta) * n});
             }
         }
@@ -97,7 +97,7 @@ inline ale::Node seen_from(const std::vector<Wall> &walls, const ale::Pose &pose
     return node;
 }
 
-// Poses as a tracker would have them: a scale error, a bend, and noise.
+// Poses as tracked: with a scale error, heading drift and noise.
 inline std::vector<ale::Pose> drifting_poses(const std::vector<ale::Pose> &truth, double bend_rad_m,
                                              unsigned seed)
 {

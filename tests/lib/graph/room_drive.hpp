@@ -1,4 +1,4 @@
-// A drive through a made room: what its scans have shown, where they truly were taken, and its keyframes.
+// A drive through a synthetic room: observations of its scans, their true poses, and its keyframes.
 #ifndef TESTS_GRAPH_ROOM_DRIVE_HPP
 #define TESTS_GRAPH_ROOM_DRIVE_HPP
 
@@ -13,12 +13,12 @@ extern "C" {
 }
 
 struct RoomDrive {
-    std::vector<std::unique_ptr<ale_scan_observation_t>> sightings; // of every scan
-    std::vector<ale_pose_t> truth;                                  // by scan, in the frame of the room
+    std::vector<std::unique_ptr<ale_scan_observation_t>> observations; // of every scan
+    std::vector<ale_pose_t> truth;                                     // by scan, in the frame of the room
     std::unique_ptr<ale_mapper_poses_t> keyframes =
-        std::make_unique<ale_mapper_poses_t>(); // where they truly are
+        std::make_unique<ale_mapper_poses_t>(); // at their true poses
 
-    // `walls_at`: what stands there at a scan; `pose_at`: where the robot is, by seconds.
+    // `walls_at`: the walls at a scan; `pose_at`: the pose of the robot at a time in seconds.
     template <typename WallsAt, typename PoseAt> RoomDrive(int scans, WallsAt walls_at, PoseAt pose_at)
     {
         std::mt19937 rng(7);
@@ -37,8 +37,8 @@ struct RoomDrive {
                 keyframes->epoch = keyframe->epoch;
                 keyframes->pose[keyframes->count++] = {keyframe->scan, keyframe->smooth, truth.back()};
             }
-            sightings.push_back(std::make_unique<ale_scan_observation_t>());
-            EXPECT_TRUE(ale_pipeline_scan_observation(pipeline.get(), sightings.back().get()));
+            observations.push_back(std::make_unique<ale_scan_observation_t>());
+            EXPECT_TRUE(ale_pipeline_scan_observation(pipeline.get(), observations.back().get()));
         }
     }
     template <typename WallsAt>

@@ -1,9 +1,9 @@
-// lib/graph/live_map: the map of a robot under way, drawn again and again from what its scans have shown.
+// lib/graph/live_map: the map while driving, rebuilt from the observations of its scans.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "drawn_walls.hpp"
+#include "map_against_room.hpp"
 #include "room_drive.hpp"
 
 extern "C" {
@@ -14,8 +14,8 @@ extern "C" {
 namespace
 {
 
-using drawn_walls::distance_m;
-using drawn_walls::length_m;
+using map_against_room::distance_m;
+using map_against_room::length_m;
 
 struct DestroyLiveMap {
     void operator()(ale_live_map_t *live) const
@@ -26,19 +26,19 @@ struct DestroyLiveMap {
 using LiveMap = std::unique_ptr<ale_live_map_t, DestroyLiveMap>;
 using Map = std::unique_ptr<ale_map_t>;
 
-LiveMap with(const std::vector<std::unique_ptr<ale_scan_observation_t>> &sightings)
+LiveMap with(const std::vector<std::unique_ptr<ale_scan_observation_t>> &observations)
 {
     LiveMap live(ale_live_map_create());
-    for (const auto &sighting : sightings) {
-        EXPECT_EQ(ale_live_map_take(live.get(), sighting.get()), 0);
+    for (const auto &observation : observations) {
+        EXPECT_EQ(ale_live_map_add(live.get(), observation.get()), 0);
     }
     return live;
 }
 
-Map drawn(ale_live_map_t *live, const ale_mapper_poses_t &keyframes)
+Map rebuilt(ale_live_map_t *live, const ale_mapper_poses_t &keyframes)
 {
     auto map = std::make_unique<ale_map_t>();
-    EXPECT_TRUE(ale_live_map_draw(live, &keyframes, map.get()));
+    EXPECT_TRUE(ale_live_map_build(live, &keyframes, map.get()));
     return map;
 }
 
@@ -61,11 +61,11 @@ const RoomDrive &plain_drive()
     return drive;
 }
 
-TEST(LiveMap, TheRoomIsDrawnWhereTheKeyframesAre)
+TEST(LiveMap, TheRoomIsWhereTheKeyframesAre)
 {
     const RoomDrive &drive = plain_drive();
-    const LiveMap live = with(drive.sightings);
-    const Map map = drawn(live.get(), *drive.keyframes);
+    const LiveMap live = with(drive.observations);
+    const Map map = rebuilt(live.get(), *drive.keyframes);
     EXPECT_EQ(ale_live_map_epoch(live.get()), drive.keyframes->epoch);
     EXPECT_GT(length_m(*map), 20.0); // of 25.6 m
     EXPECT_LT(length_m(*map), 25.6);
@@ -82,17 +82,17 @@ TEST(LiveMap, TheRoomIsDrawnWhereTheKeyframesAre)
     EXPECT_GE(map->corner[0].seen, static_cast<uint32_t>(ALE_CORNER_CONFIRMED));
 }
 
-TEST(LiveMap, ACorrectionOfTheKeyframesMovesAllOfItAndWallsKeepTheirIds)
+TEST(LiveMap, ACorrectionMovesTheMapAndWallsKeepTheirIds)
 {
     const RoomDrive &drive = plain_drive();
-    const LiveMap live = with(drive.sightings);
-    const Map before = drawn(live.get(), *drive.keyframes);
+    const LiveMap live = with(drive.observations);
+    const Map before = rebuilt(live.get(), *drive.keyframes);
     auto moved = std::make_unique<ale_mapper_poses_t>(*drive.keyframes);
     const ale_pose_t aside = convert::pose(reference::Pose(0.05, -0.03, 0));
     std::for_each(moved->pose, moved->pose + moved->count, [&](ale_mapper_pose_t &keyframe) {
         keyframe.pose = ale_pose_compose(aside, keyframe.pose);
     });
-    const Map after = drawn(live.get(), *moved);
+    const Map after = rebuilt(live.get(), *moved);
     ASSERT_EQ(after->line_count, before->line_count);
     for (int k = 0; k < after->line_count; k++) {
         EXPECT_EQ(after->line[k].id, before->line[k].id);
@@ -101,21 +101,22 @@ TEST(LiveMap, ACorrectionOfTheKeyframesMovesAllOfItAndWallsKeepTheirIds)
     }
 }
 
-// What a keyframe has shown goes with it; what the mapper has not heard of yet is drawn where it was tracked.
-TEST(LiveMap, WhatTheMapperHasThinnedOutIsForgotten)
+// Scans of a removed keyframe go with it; those of a keyframe that the mapper does not have yet stay as
+// tracked.
+TEST(LiveMap, ScansOfRemovedKeyframesAreRemoved)
 {
     const RoomDrive &drive = plain_drive();
-    const LiveMap live = with(drive.sightings);
+    const LiveMap live = with(drive.observations);
     auto last = std::make_unique<ale_mapper_poses_t>();
     last->epoch = drive.keyframes->epoch;
     last->pose[last->count++] = drive.keyframes->pose[drive.keyframes->count - 1];
-    const Map few = drawn(live.get(), *last);
-    const Map all = drawn(with(drive.sightings).get(), *drive.keyframes);
+    const Map few = rebuilt(live.get(), *last);
+    const Map all = rebuilt(with(drive.observations).get(), *drive.keyframes);
     EXPECT_LT(length_m(*few), length_m(*all));
-    EXPECT_EQ(drawn(live.get(), *drive.keyframes)->line_count, few->line_count) << "it does not come back";
+    EXPECT_EQ(rebuilt(live.get(), *drive.keyframes)->line_count, few->line_count) << "it does not come back";
 }
 
-TEST(LiveMap, WhereTheRobotStaysTheOldestScansGoAndWhatIsGoneWithThem)
+TEST(LiveMap, WhereTheRobotStaysTheOldestScansGo)
 {
     const RoomDrive drive(
         40,
@@ -129,53 +130,53 @@ TEST(LiveMap, WhereTheRobotStaysTheOldestScansGoAndWhatIsGoneWithThem)
         [](double) { return reference::Pose(2, 1.2, reference::pi); });
     LiveMap live(ale_live_map_create());
     for (size_t k = 0; k < 10; k++) {
-        ale_live_map_take(live.get(), drive.sightings[k].get());
+        ale_live_map_add(live.get(), drive.observations[k].get());
     }
-    EXPECT_GT(screen_m(*drawn(live.get(), *drive.keyframes)), 0.5);
-    for (size_t k = 10; k < drive.sightings.size(); k++) {
-        ale_live_map_take(live.get(), drive.sightings[k].get());
+    EXPECT_GT(screen_m(*rebuilt(live.get(), *drive.keyframes)), 0.5);
+    for (size_t k = 10; k < drive.observations.size(); k++) {
+        ale_live_map_add(live.get(), drive.observations[k].get());
     }
-    EXPECT_EQ(screen_m(*drawn(live.get(), *drive.keyframes)), 0);
+    EXPECT_EQ(screen_m(*rebuilt(live.get(), *drive.keyframes)), 0);
 }
 
-TEST(LiveMap, WhateverIsSeenTheRecordIsBounded)
+TEST(LiveMap, TheRecordIsBounded)
 {
     const LiveMap live(ale_live_map_create());
-    auto sighting = std::make_unique<ale_scan_observation_t>(*plain_drive().sightings[0]);
+    auto observation = std::make_unique<ale_scan_observation_t>(*plain_drive().observations[0]);
     uint32_t most = 0;
     for (uint32_t scan = 0; scan < 3000; scan++) {
-        sighting->scan = scan;
-        sighting->keyframe = scan / 2 * 2;
-        sighting->stamp_us += 6000000; // long enough for all its beams to be kept
-        ASSERT_EQ(ale_live_map_take(live.get(), sighting.get()), 0);
+        observation->scan = scan;
+        observation->keyframe = scan / 2 * 2;
+        observation->stamp_us += 6000000; // so long that all beams are kept
+        ASSERT_EQ(ale_live_map_add(live.get(), observation.get()), 0);
         most = std::max(most, ale_live_map_bytes(live.get()));
     }
     EXPECT_LE(most, static_cast<uint32_t>(ALE_LIVE_MAP_BYTES));
     EXPECT_GT(most, ALE_LIVE_MAP_BYTES - 32768U) << "it was full";
 }
 
-TEST(LiveMap, ANewMapForgetsTheOldOne)
+TEST(LiveMap, ANewEpochRemovesTheOldOne)
 {
     const RoomDrive &drive = plain_drive();
-    const LiveMap live = with(drive.sightings);
-    auto first = std::make_unique<ale_scan_observation_t>(*drive.sightings[0]);
+    const LiveMap live = with(drive.observations);
+    auto first = std::make_unique<ale_scan_observation_t>(*drive.observations[0]);
     first->epoch++;
-    ale_live_map_take(live.get(), first.get());
+    ale_live_map_add(live.get(), first.get());
     auto map = std::make_unique<ale_map_t>();
-    EXPECT_FALSE(ale_live_map_draw(live.get(), drive.keyframes.get(), map.get()))
-        << "the mapper is still at the old one";
+    EXPECT_FALSE(ale_live_map_build(live.get(), drive.keyframes.get(), map.get()))
+        << "the mapper is still at the old epoch";
     EXPECT_EQ(ale_live_map_epoch(live.get()), drive.keyframes->epoch + 1);
     auto keyframes = std::make_unique<ale_mapper_poses_t>(*drive.keyframes);
     keyframes->epoch++;
-    EXPECT_FALSE(ale_live_map_draw(live.get(), keyframes.get(), map.get())) << "one scan is no map";
+    EXPECT_FALSE(ale_live_map_build(live.get(), keyframes.get(), map.get())) << "one scan is no map";
 }
 
-TEST(LiveMap, WithoutScansThereIsNothingToDraw)
+TEST(LiveMap, WithoutScansThereIsNoMap)
 {
     const LiveMap live(ale_live_map_create());
     auto map = std::make_unique<ale_map_t>();
     auto keyframes = std::make_unique<ale_mapper_poses_t>();
-    EXPECT_FALSE(ale_live_map_draw(live.get(), keyframes.get(), map.get()));
+    EXPECT_FALSE(ale_live_map_build(live.get(), keyframes.get(), map.get()));
     EXPECT_EQ(ale_live_map_epoch(live.get()), 0U);
 }
 

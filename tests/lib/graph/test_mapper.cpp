@@ -1,4 +1,4 @@
-// lib/graph/mapper: what C sees of it.
+// lib/graph/mapper: the C interface.
 #include <cstring>
 
 #include <gtest/gtest.h>
@@ -21,29 +21,29 @@ struct DestroyMapper {
 using Mapper = std::unique_ptr<ale_mapper_t, DestroyMapper>;
 using Correction = std::unique_ptr<ale_correction_t>;
 
-struct Heard {
+struct Received {
     std::vector<Correction> corrections;
     uint32_t last_scan = 0;
 };
 
-// All keyframes, each as a tracker that takes every correction at once would place it.
-Heard follow(ale_mapper_t *mapper, const std::vector<drifting_keyframes::Keyframe> &keyframes)
+// Adds all keyframes, with the poses of a tracker that applies every correction at once.
+Received follow(ale_mapper_t *mapper, const std::vector<drifting_keyframes::Keyframe> &keyframes)
 {
-    Heard heard;
+    Received received;
     ale_pose_t shift = {0, 0, 0};
     for (const auto &original : keyframes) {
         auto keyframe = std::make_unique<ale_keyframe_t>(*original);
-        keyframe->corrections = static_cast<uint32_t>(heard.corrections.size());
+        keyframe->corrections = static_cast<uint32_t>(received.corrections.size());
         keyframe->map = ale_pose_compose(shift, original->map);
         EXPECT_EQ(ale_mapper_add(mapper, keyframe.get()), 0);
         auto correction = std::make_unique<ale_correction_t>();
         if (ale_mapper_correction(mapper, correction.get())) {
             shift = ale_pose_compose(correction->shift[correction->count - 1].shift, shift);
-            heard.corrections.push_back(std::move(correction));
+            received.corrections.push_back(std::move(correction));
         }
-        heard.last_scan = original->scan;
+        received.last_scan = original->scan;
     }
-    return heard;
+    return received;
 }
 
 double error_m(const ale_pose_t &pose, const ale::Pose &truth)
@@ -51,21 +51,21 @@ double error_m(const ale_pose_t &pose, const ale::Pose &truth)
     return std::hypot(pose.x_um * 1e-6 - truth.x, pose.y_um * 1e-6 - truth.y);
 }
 
-TEST(Mapper, CorrectionsTakeTheTrackerWhereTheGraphPutsIt)
+TEST(Mapper, CorrectionsMoveTheTrackerToTheGraph)
 {
     const auto keyframes = drifting_keyframes::walk(1.25, 0.0008, 2);
     const std::vector<ale::Pose> truth = ring_corridor::truth(1.25);
     const Mapper mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES));
-    const Heard heard = follow(mapper.get(), keyframes);
-    ASSERT_GT(heard.corrections.size(), 0U);
+    const Received received = follow(mapper.get(), keyframes);
+    ASSERT_GT(received.corrections.size(), 0U);
     const uint32_t count = ale_mapper_statistics(mapper.get()).keyframes;
     ASSERT_EQ(count, keyframes.size());
     double tracked = 0;
     double corrected = 0;
     for (uint32_t k = 0; k < count; k++) {
-        // the way a wall goes that was born in this keyframe
+        // as a wall first seen in this keyframe moves
         ale_pose_t moved = keyframes[k]->map;
-        for (const Correction &correction : heard.corrections) {
+        for (const Correction &correction : received.corrections) {
             moved = ale_pose_compose(ale_correction_at(correction.get(), 10 * k), moved);
         }
         const ale_mapper_pose_t placed = ale_mapper_pose(mapper.get(), k);
@@ -79,20 +79,19 @@ TEST(Mapper, CorrectionsTakeTheTrackerWhereTheGraphPutsIt)
     EXPECT_LT(corrected, 0.25);
 }
 
-// Only some keyframes are held, and what was born in one that is not moves with the one before
-// it.
-TEST(Mapper, AFullMapperThinsOutAndStaysRight)
+// A wall first seen in a removed keyframe moves with the keyframe before it.
+TEST(Mapper, AFullMapperIsThinnedAndStaysRight)
 {
     const auto keyframes = drifting_keyframes::walk(1.4, 0.0008, 2);
     const std::vector<ale::Pose> truth = ring_corridor::truth(1.4);
     constexpr uint32_t capacity = 70;
     const Mapper mapper(ale_mapper_create(capacity));
-    const Heard heard = follow(mapper.get(), keyframes);
+    const Received received = follow(mapper.get(), keyframes);
     const ale_mapper_statistics_t statistics = ale_mapper_statistics(mapper.get());
     EXPECT_EQ(statistics.keyframes, capacity);
     EXPECT_EQ(statistics.keyframes + statistics.thinned, keyframes.size());
-    ASSERT_GT(heard.corrections.size(), 0U);
-    for (const Correction &correction : heard.corrections) {
+    ASSERT_GT(received.corrections.size(), 0U);
+    for (const Correction &correction : received.corrections) {
         EXPECT_LE(correction->count, capacity);
     }
     for (uint32_t k = 0; k < capacity; k++) {
@@ -135,17 +134,17 @@ std::unique_ptr<ale_map_t> corridor_map()
     return map;
 }
 
-// Half a lap: no place is seen twice, so that nothing but the map can tell of the drift.
-TEST(Mapper, KeyframesAreLaidOnTheMapThatTheDriveBeganIn)
+// Half a lap: no place is seen twice, so that only the prior map can correct the drift.
+TEST(Mapper, KeyframesAreMatchedWithThePriorMap)
 {
     const auto keyframes = drifting_keyframes::walk(0.55, 0.0012, 2);
     const std::vector<ale::Pose> truth = ring_corridor::truth(0.55);
     const Mapper mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES));
-    ASSERT_EQ(ale_mapper_know(mapper.get(), 1, corridor_map().get()), 0);
+    ASSERT_EQ(ale_mapper_set_prior_map(mapper.get(), 1, corridor_map().get()), 0);
     ASSERT_GT(follow(mapper.get(), keyframes).corrections.size(), 0U);
-    double under_way = 0;
+    double while_driving = 0;
     for (uint32_t k = 0; k < keyframes.size(); k++) {
-        under_way = std::max(under_way, error_m(ale_mapper_pose(mapper.get(), k).pose, truth[k]));
+        while_driving = std::max(while_driving, error_m(ale_mapper_pose(mapper.get(), k).pose, truth[k]));
     }
     while (ale_mapper_refine(mapper.get())) {
     }
@@ -156,19 +155,19 @@ TEST(Mapper, KeyframesAreLaidOnTheMapThatTheDriveBeganIn)
         refined = std::max(refined, error_m(ale_mapper_pose(mapper.get(), k).pose, truth[k]));
     }
     EXPECT_GT(tracked, 0.3);
-    EXPECT_LT(under_way, 0.1);
+    EXPECT_LT(while_driving, 0.1);
     EXPECT_LT(refined, 0.02);
 }
 
-TEST(Mapper, WhatWasKnownOfAMapIsNotBelievedOfTheNext)
+TEST(Mapper, APriorMapOfAnotherEpochIsNotUsed)
 {
     const auto keyframes = drifting_keyframes::walk(0.55, 0.0012, 2);
     const Mapper mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES));
-    ASSERT_EQ(ale_mapper_know(mapper.get(), 7, corridor_map().get()), 0);
+    ASSERT_EQ(ale_mapper_set_prior_map(mapper.get(), 7, corridor_map().get()), 0);
     EXPECT_EQ(follow(mapper.get(), keyframes).corrections.size(), 0U);
 }
 
-TEST(Mapper, AMapBegunAnewBeginsTheGraphAnew)
+TEST(Mapper, ANewEpochStartsANewGraph)
 {
     const auto keyframes = drifting_keyframes::walk(0.1, 0, 1);
     const Mapper mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES));
@@ -186,10 +185,10 @@ TEST(Mapper, TheSameKeyframesGiveTheSameBytes)
     const auto keyframes = drifting_keyframes::walk(1.1, 0.0008, 1);
     const Mapper mappers[2] = {Mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES)),
                                Mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES))};
-    const Heard heard[2] = {follow(mappers[0].get(), keyframes), follow(mappers[1].get(), keyframes)};
-    ASSERT_EQ(heard[0].corrections.size(), heard[1].corrections.size());
-    for (size_t k = 0; k < heard[0].corrections.size(); k++) {
-        EXPECT_EQ(std::memcmp(heard[0].corrections[k].get(), heard[1].corrections[k].get(),
+    const Received received[2] = {follow(mappers[0].get(), keyframes), follow(mappers[1].get(), keyframes)};
+    ASSERT_EQ(received[0].corrections.size(), received[1].corrections.size());
+    for (size_t k = 0; k < received[0].corrections.size(); k++) {
+        EXPECT_EQ(std::memcmp(received[0].corrections[k].get(), received[1].corrections[k].get(),
                               sizeof(ale_correction_t)),
                   0);
     }

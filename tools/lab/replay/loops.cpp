@@ -74,7 +74,7 @@ void Loops::after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate)
     if (!ale_pipeline_keyframe(pipeline, keyframe_.get())) {
         if (sees) {
             const ale_pose_t sensor = ale_pose_between(seen.robot, seen.posed.sensor);
-            ale_mapper_see_walls(mapper_.get(), &estimate.smooth, &sensor, features);
+            ale_mapper_add_walls(mapper_.get(), &estimate.smooth, &sensor, features);
         }
         return;
     }
@@ -82,7 +82,7 @@ void Loops::after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate)
         breaks_.push_back(keyframe_->scan);
     }
     if (known_) {
-        ale_mapper_know(mapper_.get(), keyframe_->epoch, known_.get());
+        ale_mapper_set_prior_map(mapper_.get(), keyframe_->epoch, known_.get());
         known_.reset();
     }
     const int64_t start_ns = thread_time_ns();

@@ -8,7 +8,7 @@
 #include "common/export/scan_cloud.h"
 #include "common/log/core_object.h"
 #include "common/log/robot_config.h"
-#include "graph/walls/map_redraw.h"
+#include "graph/walls/map_rebuild.h"
 #include "lab/replay/features_file.h"
 #include "lab/replay/loops.h"
 #include "lab/replay/poses_file.h"
@@ -69,8 +69,8 @@ class Replay
     std::optional<TimingFile> timing_file_;
 
     std::optional<Loops> loops_;
-    std::optional<MapRecord> record_;  /* when a map is asked for that may be drawn anew */
-    std::unique_ptr<ale_map_t> known_; /* loaded; until the record knows it */
+    std::optional<ObservationRecord> record_; /* when a map is asked for that may be drawn anew */
+    std::unique_ptr<ale_map_t> known_;        /* loaded; until the record knows it */
     std::unique_ptr<ale_scan_observation_t> sighting_ = std::make_unique<ale_scan_observation_t>();
     std::vector<ScanPose> track_;
     StageClock clock_;
@@ -201,10 +201,10 @@ void Replay::put_estimate(const ale_estimate_t &estimate)
     }
     if (record_ && ale_pipeline_scan_observation(pipeline_.get(), sighting_.get())) {
         if (known_) {
-            record_->know(sighting_->epoch, *known_);
+            record_->set_prior_map(sighting_->epoch, *known_);
             known_.reset();
         }
-        record_->take(*sighting_);
+        record_->add(*sighting_);
     }
     counts_.weak += estimate.state == ALE_STATE_WEAK;
     counts_.lost += estimate.state == ALE_STATE_LOST;
@@ -276,8 +276,8 @@ void Replay::draw_maps()
     auto map = std::make_unique<ale_map_t>();
     ale_pipeline_copy_map(pipeline_.get(), map.get());
     if (record_ && record_->epoch() != 0) {
-        redraw_map(
-            *record_, [this](const Sight &sight) { return track_[sight.scan].robot; }, map.get());
+        rebuild_map(
+            *record_, [this](const RecordedScan &scan) { return track_[scan.scan].robot; }, map.get());
     }
     if (!options_.save_map.empty()) {
         char error[ALE_MAP_FILE_ERROR];

@@ -10,7 +10,7 @@ namespace
 ale::Node room()
 {
     ale::Node node = {};
-    node.eye = {0.3, 0};
+    node.sensor = {0.3, 0};
     for (int k = -100; k <= 100; k++) {
         const double u = 0.02 * k;
         for (const Eigen::Vector2d &p :
@@ -21,38 +21,38 @@ ale::Node room()
     return node;
 }
 
-double share_in_free(const ale::Node &there, const ale::Node &here, const ale::Pose &pose)
+double violating_part(const ale::Node &there, const ale::Node &here, const ale::Pose &pose)
 {
-    ale::Contradiction sum;
-    ale::FreeSpace(there).confront(here, pose, &sum);
-    return sum.points > 0 ? static_cast<double>(sum.in_free) / sum.points : -1;
+    ale::FreeSpaceCheck sum;
+    ale::FreeSpace(there).check(here, pose, &sum);
+    return sum.points > 0 ? static_cast<double>(sum.violations) / sum.points : -1;
 }
 
-TEST(FreeSpace, AViewDoesNotContradictItself)
+TEST(FreeSpace, AViewDoesNotViolateItsOwnFreeSpace)
 {
-    EXPECT_EQ(share_in_free(room(), room(), {0, 0, 0}), 0);
-    EXPECT_EQ(share_in_free(room(), room(), {0.05, -0.05, ale::pi / 2}), 0) << "nor turned by a quarter";
+    EXPECT_EQ(violating_part(room(), room(), {0, 0, 0}), 0);
+    EXPECT_EQ(violating_part(room(), room(), {0.05, -0.05, ale::pi / 2}), 0) << "nor turned by a quarter";
 }
 
-TEST(FreeSpace, AWallWhereNothingWasIsAContradiction)
+TEST(FreeSpace, AWallInFreeSpaceIsAViolation)
 {
-    EXPECT_GT(share_in_free(room(), room(), {1, 0, 0}), 0.3);
-    EXPECT_GT(share_in_free(room(), room(), {0, 0, ale::pi / 4}), 0.1);
+    EXPECT_GT(violating_part(room(), room(), {1, 0, 0}), 0.3);
+    EXPECT_GT(violating_part(room(), room(), {0, 0, ale::pi / 4}), 0.1);
 }
 
-TEST(FreeSpace, WhatLiesBehindAWallOrOutOfViewIsNone)
+TEST(FreeSpace, PointsBehindAWallOrOutOfViewAreNoViolation)
 {
-    EXPECT_EQ(share_in_free(room(), room(), {9, 0, 0}), -1) << "nothing of it is within the view";
-    EXPECT_EQ(share_in_free(ale::Node{}, room(), {0, 0, 0}), -1) << "who sees nothing contradicts nothing";
+    EXPECT_EQ(violating_part(room(), room(), {9, 0, 0}), -1) << "nothing of it is within the view";
+    EXPECT_EQ(violating_part(ale::Node{}, room(), {0, 0, 0}), -1) << "an empty view has no free space";
 }
 
-TEST(FreeSpace, ReachesAsFarAsTheFirstSurfaceAndNotWhereNothingWasSeen)
+TEST(FreeSpace, InViewIsWhatLiesBeforeTheFirstSurface)
 {
     const ale::FreeSpace space(room());
-    EXPECT_TRUE(space.reaches({1.0, 0.5})) << "within the room";
-    EXPECT_TRUE(space.reaches({2.0, 1.0})) << "on its wall";
-    EXPECT_FALSE(space.reaches({2.5, 0})) << "behind its wall";
-    EXPECT_FALSE(ale::FreeSpace(ale::Node{}).reaches({1.0, 0.5})) << "who sees nothing reaches nothing";
+    EXPECT_TRUE(space.has_in_view({1.0, 0.5})) << "within the room";
+    EXPECT_TRUE(space.has_in_view({2.0, 1.0})) << "on its wall";
+    EXPECT_FALSE(space.has_in_view({2.5, 0})) << "behind its wall";
+    EXPECT_FALSE(ale::FreeSpace(ale::Node{}).has_in_view({1.0, 0.5})) << "an empty view";
 }
 
 } // namespace

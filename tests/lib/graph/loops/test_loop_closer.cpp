@@ -1,4 +1,4 @@
-// lib/graph/loops/loop_closer: a walk around a block, with drift, against the truth.
+// lib/graph/loops/loop_closer: a drive around a block, with drift, against the truth.
 #include <set>
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace
 {
 
-// With the motion that was tracked; the test's tracker never takes a correction in.
+// With the tracked motion; this tracker never applies a correction.
 void add(ale::LoopCloser *closer, const ale::Node &node)
 {
     closer->add(node, closer->nodes().empty() ? node.smooth
@@ -38,7 +38,7 @@ Walk walk(double laps, double bend_rad_m, unsigned seed)
             ring_corridor::largest_error_m(truth, closer.poses()), closer.statistics()};
 }
 
-TEST(LoopCloser, ADriftingWalkAroundABlockCloses)
+TEST(LoopCloser, ADriftingDriveAroundABlockCloses)
 {
     for (unsigned seed = 1; seed <= 2; seed++) {
         const Walk w = walk(1.3, 0.0008, seed);
@@ -48,27 +48,27 @@ TEST(LoopCloser, ADriftingWalkAroundABlockCloses)
     }
 }
 
-TEST(LoopCloser, WithoutAPlaceSeenAgainNothingMoves)
+TEST(LoopCloser, WithoutARevisitNothingMoves)
 {
     const Walk w = walk(0.9, 0.0008, 1);
     EXPECT_EQ(w.statistics.loops, 0U);
     EXPECT_NEAR(w.tracked, w.corrected, 1e-6);
 }
 
-TEST(LoopCloser, WhereTheTrackerIsRightNothingMoves)
+TEST(LoopCloser, WithoutDriftNothingMoves)
 {
     const Walk w = walk(1.3, 0, 2);
     EXPECT_LT(w.tracked, 0.3);
     EXPECT_LE(w.corrected, w.tracked + 0.02);
 }
 
-// The largest error of a heading, along the corridor that bends or in which headings drift.
-struct Compass {
+// Largest heading errors along a bent corridor, or with heading drift.
+struct HeadingErrors {
     double tracked_rad = 0;
-    double turned_rad = 0;
+    double corrected_rad = 0;
     uint32_t straightened = 0;
 
-    Compass(double bend_rad, double drift_rad_m)
+    HeadingErrors(double bend_rad, double drift_rad_m)
     {
         ale::LoopCloser closer(plenty);
         for (const ale::Node &node : bent_corridor::nodes(bend_rad, drift_rad_m, 4)) {
@@ -78,32 +78,32 @@ struct Compass {
         for (size_t k = 0; k < truth.size(); k++) {
             const double tracked = closer.nodes()[k].smooth.theta;
             tracked_rad = std::max(tracked_rad, std::abs(ale::wrapped(tracked - truth[k].theta)));
-            turned_rad =
-                std::max(turned_rad, std::abs(ale::wrapped(closer.poses()[k].theta - truth[k].theta)));
+            corrected_rad =
+                std::max(corrected_rad, std::abs(ale::wrapped(closer.poses()[k].theta - truth[k].theta)));
         }
         straightened = closer.statistics().straightened;
     }
 };
 
-TEST(LoopCloser, HeadingsThatDriftAreTurnedToTheWalls)
+TEST(LoopCloser, HeadingDriftIsCorrectedByTheWalls)
 {
-    const Compass compass(0, 0.006);
-    EXPECT_GT(compass.straightened, 0U);
-    EXPECT_GT(compass.tracked_rad, 0.1);
-    EXPECT_LT(compass.turned_rad, 0.5 * compass.tracked_rad);
+    const HeadingErrors errors(0, 0.006);
+    EXPECT_GT(errors.straightened, 0U);
+    EXPECT_GT(errors.tracked_rad, 0.1);
+    EXPECT_LT(errors.corrected_rad, 0.5 * errors.tracked_rad);
 }
 
-TEST(LoopCloser, ACorridorThatBendsIsNotStraightened)
+TEST(LoopCloser, ABentCorridorIsNotStraightened)
 {
     for (const double bend_rad : {0.05, -0.14}) {
-        const Compass compass(bend_rad, 0);
-        EXPECT_EQ(compass.straightened, 0U) << bend_rad;
-        EXPECT_EQ(compass.turned_rad, compass.tracked_rad) << bend_rad;
+        const HeadingErrors errors(bend_rad, 0);
+        EXPECT_EQ(errors.straightened, 0U) << bend_rad;
+        EXPECT_EQ(errors.corrected_rad, errors.tracked_rad) << bend_rad;
     }
 }
 
 // Twice around the block with room for less than half of one round.
-TEST(LoopCloser, AFullGraphThinsOutAndStaysRight)
+TEST(LoopCloser, AFullGraphIsThinnedAndStaysRight)
 {
     const std::vector<ale::Pose> truth = ring_corridor::truth(2);
     ale::LoopCloser closer(ale::LoopCloser::least_capacity);
@@ -119,50 +119,49 @@ TEST(LoopCloser, AFullGraphThinsOutAndStaysRight)
     std::set<int> sides;
     uint32_t before = 0;
     for (const ale::Node &node : closer.nodes()) {
-        EXPECT_TRUE(node.scan > before || true_of_held.empty()) << "in the order of the way";
+        EXPECT_TRUE(node.scan > before || true_of_held.empty()) << "along the path";
         before = node.scan;
         true_of_held.push_back(truth[node.scan]);
         sides.insert(static_cast<int>(node.scan / 36 % 4));
     }
     EXPECT_EQ(closer.nodes().front().scan, 0U);
     EXPECT_EQ(closer.nodes().back().scan, truth.size() - 1);
-    EXPECT_EQ(sides.size(), 4U) << "all of the way is held";
+    EXPECT_EQ(sides.size(), 4U) << "the whole path is held";
     EXPECT_EQ(closer.statistics().thinned, truth.size() - ale::LoopCloser::least_capacity);
     EXPECT_GT(closer.statistics().loops, 0U);
     EXPECT_GT(tracked_m, 1.0);
     EXPECT_LT(ring_corridor::largest_error_m(true_of_held, closer.poses()), 0.35);
 }
 
-// Four sides of a square hall that look alike: the place that was left is not the place that is reached.
-TEST(LoopCloser, WallsOfTheNextScansAreKeptAsSeenFromTheNodeBeforeThem)
+TEST(LoopCloser, WallsOfLaterScansAreKeptInTheFrameOfTheNode)
 {
     ale::LoopCloser closer(plenty);
-    closer.see_walls({0, 0, 0}, {{0.5, 1}}); // nobody to keep it
+    closer.add_walls({0, 0, 0}, {{0.5, 1}}); // no node yet
     ale::Node node{};
     node.smooth = {1, 2, 0.4};
     add(&closer, node);
-    for (int scan = 0; scan < ale::LoopCloser::most_scans_after + 3; scan++) {
-        closer.see_walls({1, 2, 0.7}, {{1.0, 2.5}});
+    for (int scan = 0; scan < ale::LoopCloser::most_later_scans + 3; scan++) {
+        closer.add_walls({1, 2, 0.7}, {{1.0, 2.5}});
     }
     const ale::Node &kept = closer.nodes().back();
-    EXPECT_EQ(kept.scans_after, ale::LoopCloser::most_scans_after);
-    ASSERT_EQ(kept.walls_after.size(), static_cast<size_t>(ale::LoopCloser::most_scans_after));
-    EXPECT_NEAR(kept.walls_after[0].direction, 1.3, 1e-12);
-    EXPECT_EQ(kept.walls_after[0].length_m, 2.5);
+    EXPECT_EQ(kept.later_scans, ale::LoopCloser::most_later_scans);
+    ASSERT_EQ(kept.later_walls.size(), static_cast<size_t>(ale::LoopCloser::most_later_scans));
+    EXPECT_NEAR(kept.later_walls[0].direction_rad, 1.3, 1e-12);
+    EXPECT_EQ(kept.later_walls[0].length_m, 2.5);
     node.broken = true;
     add(&closer, node);
-    EXPECT_EQ(closer.nodes()[0].scans_after, 0) << "nobody knows since when the way was broken";
-    EXPECT_TRUE(closer.nodes()[0].walls_after.empty());
+    EXPECT_EQ(closer.nodes()[0].later_scans, 0) << "the break may lie before them";
+    EXPECT_TRUE(closer.nodes()[0].later_walls.empty());
 }
 
-TEST(LoopCloser, APlaceThatOnlyLooksLikeAnotherIsNotALoop)
+TEST(LoopCloser, APlaceThatLooksLikeAnotherIsNoLoop)
 {
     std::vector<ale::Node> nodes = ring_corridor::drifting(ring_corridor::truth(0.5), 0, 5);
     ale::LoopCloser closer(plenty);
     for (const ale::Node &node : nodes) {
         add(&closer, node);
     }
-    // the same corridor over again, two metres beside the first and never on the way there
+    // the same corridor again, beside the first and reached by another path
     const double path_m = nodes.back().path_m + 10;
     for (size_t k = 0; k < 6; k++) {
         ale::Node twin = nodes[k];

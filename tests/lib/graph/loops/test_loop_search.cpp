@@ -1,4 +1,4 @@
-// lib/graph/loops/loop_search: a drifting walk around a block, against the truth.
+// lib/graph/loops/loop_search: a drifting drive around a block, against the truth.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ constexpr double bend_rad_m = 0.003;
 struct Walk {
     std::vector<ale::Pose> truth;
     std::vector<ale::Node> nodes;
-    ale::PoseGraph graph; // its motions alone
+    ale::PoseGraph graph; // odometry alone
 
     explicit Walk(double laps)
         : truth(ring_corridor::truth(laps)), nodes(ring_corridor::drifting(truth, bend_rad_m, 5))
@@ -24,7 +24,7 @@ struct Walk {
             graph.add_pose(nodes[k].smooth);
             if (k > 0) {
                 graph.add_edge({here - 1, here, ale::between(nodes[k - 1].smooth, nodes[k].smooth),
-                                ale::known_to(0.01, 0.004), false});
+                                ale::information_from_deviations(0.01, 0.004), false});
             }
         }
     }
@@ -43,16 +43,15 @@ template <class Drive> ale::PoseGraph searched(const Drive &drive, const ale::Po
     return search.graph();
 }
 
-TEST(LoopSearch, FindsWhatWasMissedWhileDriving)
+TEST(LoopSearch, FindsLoopsMissedWhileDriving)
 {
     const Walk walk(1.1);
     EXPECT_GT(walk.error_m(walk.graph), 2.0);
     EXPECT_LT(walk.error_m(searched(walk, walk.graph)), 0.4);
 }
 
-// A place seen at the start and, from a few steps on, again at the end: the first visit saw a niche and
-// nothing else, the second a long wall behind it, too. The way between leads 8 m off and turns by more than
-// it says.
+// A place seen at the start and again at the end: the first visit saw a niche alone, the second a long wall
+// behind it, too. The path between leads 8 m away, with a heading error.
 struct Return {
     static constexpr int visit = 4;
     static constexpr int between = 9;
@@ -95,7 +94,7 @@ struct Return {
         motion.theta += k == visit + between / 2 ? turned_rad : 0;
         graph.add_pose(k > 0 ? ale::compose(graph.poses().back(), motion) : motion);
         if (k > 0) {
-            graph.add_edge({k - 1, k, motion, ale::known_to(0.02, 0.01), false});
+            graph.add_edge({k - 1, k, motion, ale::information_from_deviations(0.02, 0.01), false});
         }
         node.smooth = graph.poses().back();
         nodes.push_back(node);
@@ -116,7 +115,7 @@ struct Return {
     }
 };
 
-TEST(LoopSearch, FindsAPlaceOfWhichMuchWasOutOfViewBeforeAndKeepsIt)
+TEST(LoopSearch, FindsAPlaceOfWhichMuchWasOutOfViewBefore)
 {
     const Return walk(9);
     const ale::Pose before = walk.error(walk.graph);
@@ -126,24 +125,24 @@ TEST(LoopSearch, FindsAPlaceOfWhichMuchWasOutOfViewBeforeAndKeepsIt)
     EXPECT_LT(std::abs(after.theta), 0.01);
 }
 
-TEST(LoopSearch, LittleInViewIsNoPlaceSeenAgain)
+TEST(LoopSearch, TooLittleInViewIsNoLoop)
 {
     const Return walk(36);
     EXPECT_NEAR(walk.error(searched(walk, walk.graph)).theta, walk.error(walk.graph).theta, 1e-6);
 }
 
-TEST(LoopSearch, LetsGoOfWhatWasBelievedWrongly)
+TEST(LoopSearch, RejectsAFalseLoopAcceptedWhileDriving)
 {
     Walk walk(1.1);
     const int last = static_cast<int>(walk.nodes.size()) - 1;
     ale::Pose elsewhere = ale::between(walk.truth[4], walk.truth.back());
     elsewhere.x += 1.5;
-    walk.graph.add_edge({4, last, elsewhere, ale::known_to(0.01, 0.003), true});
+    walk.graph.add_edge({4, last, elsewhere, ale::information_from_deviations(0.01, 0.003), true});
     walk.graph.optimise(10);
     EXPECT_LT(walk.error_m(searched(walk, walk.graph)), 0.4);
 }
 
-TEST(LoopSearch, WithoutAPlaceSeenAgainNothingMoves)
+TEST(LoopSearch, WithoutARevisitNothingMoves)
 {
     const Walk walk(0.6);
     EXPECT_NEAR(walk.error_m(searched(walk, walk.graph)), walk.error_m(walk.graph), 1e-6);

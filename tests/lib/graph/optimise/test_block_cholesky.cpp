@@ -11,8 +11,8 @@ namespace
 
 using ale::BlockCholesky;
 
-// A way with loops, pairs given in both directions and twice.
-std::vector<BlockCholesky::Pair> way_with_loops(int rows, std::mt19937 *random)
+// A path with loops; pairs in both directions and twice.
+std::vector<BlockCholesky::Pair> path_with_loops(int rows, std::mt19937 *random)
 {
     std::vector<BlockCholesky::Pair> pairs;
     for (int k = 1; k < rows; k++) {
@@ -63,7 +63,7 @@ TEST(BlockCholesky, SolvesAsADenseFactorisationDoes)
 {
     std::mt19937 random(7);
     for (const int rows : {2, 5, 40}) {
-        System system = system_of(rows, way_with_loops(rows, &random), &random);
+        System system = system_of(rows, path_with_loops(rows, &random), &random);
         const Eigen::VectorXd right = Eigen::VectorXd::LinSpaced(3 * rows, -1, 2);
         ASSERT_TRUE(system.sparse.factorise());
         Eigen::VectorXd x = right;
@@ -75,7 +75,7 @@ TEST(BlockCholesky, SolvesAsADenseFactorisationDoes)
 TEST(BlockCholesky, FactorisesAgainWithOtherNumbers)
 {
     std::mt19937 random(8);
-    const std::vector<BlockCholesky::Pair> pairs = way_with_loops(20, &random);
+    const std::vector<BlockCholesky::Pair> pairs = path_with_loops(20, &random);
     System system = system_of(20, pairs, &random);
     ASSERT_TRUE(system.sparse.factorise());
     for (int k = 0; k < 20; k++) {
@@ -88,7 +88,7 @@ TEST(BlockCholesky, FactorisesAgainWithOtherNumbers)
     EXPECT_LT((system.dense * x - Eigen::VectorXd::Ones(60)).norm(), 1e-9);
 }
 
-TEST(BlockCholesky, AWayWithoutLoopsFillsNothing)
+TEST(BlockCholesky, APathWithoutLoopsHasNoFill)
 {
     std::vector<BlockCholesky::Pair> pairs;
     for (int k = 1; k < 500; k++) {
@@ -97,7 +97,7 @@ TEST(BlockCholesky, AWayWithoutLoopsFillsNothing)
     EXPECT_EQ(BlockCholesky(500, pairs).blocks(), 499U);
 }
 
-TEST(BlockCholesky, RefusesWhatIsNotPositive)
+TEST(BlockCholesky, RefusesAMatrixThatIsNotPositiveDefinite)
 {
     BlockCholesky matrix(2, {{0, 1}});
     matrix.clear();

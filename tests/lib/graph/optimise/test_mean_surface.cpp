@@ -55,7 +55,7 @@ TEST(MeanSurface, TheSidesOfAThinPanelStayApart)
     EXPECT_NEAR(surface.around({{0.2, 0.51}, -up}, 8)->p.y(), 0.52, 1e-12);
 }
 
-TEST(MeanSurface, WhatLiesOutsideIsLeftOut)
+TEST(MeanSurface, PointsOutsideAreIgnored)
 {
     ale::MeanSurface surface(low, high);
     const ale::SurfacePoint outside{{3.2, 0}, up};

@@ -1,4 +1,4 @@
-// lib/graph/optimise/pose_graph: against what can be said without solving anything.
+// lib/graph/optimise/pose_graph: against closed forms and a dense solution.
 #include <algorithm>
 #include <random>
 
@@ -33,7 +33,7 @@ double largest_error(const std::vector<ale::Pose> &a, const std::vector<ale::Pos
     return largest;
 }
 
-TEST(PoseGraph, TrueMeasurementsBringDisturbedPosesBack)
+TEST(PoseGraph, TrueMeasurementsRestoreDisturbedPoses)
 {
     const std::vector<ale::Pose> truth = circle(40);
     std::mt19937 random(3);
@@ -46,16 +46,17 @@ TEST(PoseGraph, TrueMeasurementsBringDisturbedPosesBack)
     }
     for (int k = 0; k < 40; k++) {
         const int next = (k + 1) % 40;
-        const ale::Pose way = ale::between(truth[static_cast<size_t>(k)], truth[static_cast<size_t>(next)]);
-        graph.add_edge({k, next, way, unit_information, false});
+        const ale::Pose motion =
+            ale::between(truth[static_cast<size_t>(k)], truth[static_cast<size_t>(next)]);
+        graph.add_edge({k, next, motion, unit_information, false});
     }
     const ale::GraphReport report = graph.optimise(20);
     EXPECT_TRUE(report.solved);
     EXPECT_LT(largest_error(truth, graph.poses()), 1e-6);
 }
 
-// The first pose is no better known than the others then.
-TEST(PoseGraph, AnchorsTakeAllPosesToWhereTheMapHasThem)
+// With priors the first pose is not held.
+TEST(PoseGraph, PosePriorsMoveAllPosesToTheMap)
 {
     ale::PoseGraph graph;
     const ale::Pose shift{0.3, -0.2, 0.05};
@@ -64,22 +65,23 @@ TEST(PoseGraph, AnchorsTakeAllPosesToWhereTheMapHasThem)
         graph.add_pose(ale::compose(shift, pose));
     }
     for (int k = 0; k < 11; k++) {
-        const ale::Pose way = ale::between(truth[static_cast<size_t>(k)], truth[static_cast<size_t>(k) + 1]);
-        graph.add_edge({k, k + 1, way, unit_information, false});
+        const ale::Pose motion =
+            ale::between(truth[static_cast<size_t>(k)], truth[static_cast<size_t>(k) + 1]);
+        graph.add_edge({k, k + 1, motion, unit_information, false});
     }
     for (const int k : {2, 6, 9}) {
-        graph.add_anchor({k, truth[static_cast<size_t>(k)], unit_information});
+        graph.add_pose_prior({k, truth[static_cast<size_t>(k)], unit_information});
     }
-    EXPECT_GT(graph.residual2(graph.anchors().front()), 100);
+    EXPECT_GT(graph.residual2(graph.pose_priors().front()), 100);
     ASSERT_TRUE(graph.optimise(30, 1e5).solved);
     EXPECT_LT(largest_error(truth, graph.poses()), 1e-6);
-    graph.take_out(6, 3);
-    ASSERT_EQ(graph.anchors().size(), 2U);
-    EXPECT_EQ(graph.anchors()[1].pose, 8);
-    EXPECT_LT(graph.residual2(graph.anchors()[1]), 1e-9);
+    graph.remove_pose(6, 3);
+    ASSERT_EQ(graph.pose_priors().size(), 2U);
+    EXPECT_EQ(graph.pose_priors()[1].pose, 8);
+    EXPECT_LT(graph.residual2(graph.pose_priors()[1]), 1e-9);
 }
 
-TEST(PoseGraph, OneAnchorThatContradictsAllOthersLosesItsWeight)
+TEST(PoseGraph, OnePosePriorThatContradictsAllOthersLosesItsWeight)
 {
     ale::PoseGraph graph;
     const std::vector<ale::Pose> truth = circle(12);
@@ -87,13 +89,14 @@ TEST(PoseGraph, OneAnchorThatContradictsAllOthersLosesItsWeight)
         graph.add_pose(pose);
     }
     for (int k = 0; k < 11; k++) {
-        const ale::Pose way = ale::between(truth[static_cast<size_t>(k)], truth[static_cast<size_t>(k) + 1]);
-        graph.add_edge({k, k + 1, way, unit_information, false});
+        const ale::Pose motion =
+            ale::between(truth[static_cast<size_t>(k)], truth[static_cast<size_t>(k) + 1]);
+        graph.add_edge({k, k + 1, motion, unit_information, false});
     }
     for (const int k : {1, 3, 5, 7, 9}) {
-        graph.add_anchor({k, truth[static_cast<size_t>(k)], unit_information});
+        graph.add_pose_prior({k, truth[static_cast<size_t>(k)], unit_information});
     }
-    graph.add_anchor({11, ale::compose({1.0, 0.5, 0}, truth[11]), unit_information});
+    graph.add_pose_prior({11, ale::compose({1.0, 0.5, 0}, truth[11]), unit_information});
     ASSERT_TRUE(graph.optimise(30).solved);
     EXPECT_LT(largest_error(truth, graph.poses()), 0.02);
 }
@@ -125,8 +128,9 @@ TEST(PoseGraph, ALoopThatContradictsAllOthersLosesItsWeight)
     }
     for (int k = 0; k < 40; k++) {
         const int next = (k + 1) % 40;
-        const ale::Pose way = ale::between(truth[static_cast<size_t>(k)], truth[static_cast<size_t>(next)]);
-        graph.add_edge({k, next, way, unit_information, next == 0});
+        const ale::Pose motion =
+            ale::between(truth[static_cast<size_t>(k)], truth[static_cast<size_t>(next)]);
+        graph.add_edge({k, next, motion, unit_information, next == 0});
     }
     graph.add_edge({3, 23, {0.5, 0.2, 1}, unit_information, true});
     graph.optimise(20);
@@ -134,14 +138,14 @@ TEST(PoseGraph, ALoopThatContradictsAllOthersLosesItsWeight)
     EXPECT_GT(graph.residual2(graph.edges().back()), 1000);
 }
 
-// One iteration of two tied poses and what pulls them, by a dense solution with numerical derivatives.
-TEST(PoseGraph, WhatPullsAPoseIsWeighedAgainstTheWay)
+// One iteration with a linearised prior, against a dense solution with numerical derivatives.
+TEST(PoseGraph, ALinearisedPriorIsWeighedAgainstOdometry)
 {
     const ale::Pose start[] = {{0, 0, 0.2}, {1, 0.3, 0.5}, {1.9, 0.8, 0.9}};
     const Eigen::Matrix3d information = Eigen::Vector3d(1e4, 4e4, 9e4).asDiagonal();
-    Eigen::Matrix3d seen;
-    seen << 5e4, 1e4, 2e3, 1e4, 3e4, -1e3, 2e3, -1e3, 8e4;
-    const Eigen::Vector3d pull(300, -200, 150);
+    Eigen::Matrix3d prior;
+    prior << 5e4, 1e4, 2e3, 1e4, 3e4, -1e3, 2e3, -1e3, 8e4;
+    const Eigen::Vector3d right_side(300, -200, 150);
     ale::PoseGraph graph;
     Eigen::MatrixXd h = Eigen::MatrixXd::Zero(9, 9);
     Eigen::VectorXd b = Eigen::VectorXd::Zero(9);
@@ -149,14 +153,14 @@ TEST(PoseGraph, WhatPullsAPoseIsWeighedAgainstTheWay)
         graph.add_pose(pose);
     }
     for (int k = 0; k < 2; k++) {
-        const ale::Pose way{1, 0.1, 0.3};
-        graph.add_edge({k, k + 1, way, information, false});
+        const ale::Pose motion{1, 0.1, 0.3};
+        graph.add_edge({k, k + 1, motion, information, false});
         const auto error = [&](const Eigen::VectorXd &step) {
             const auto moved = [&](int i) {
                 return ale::Pose{start[i].x + step(3 * i), start[i].y + step(3 * i + 1),
                                  start[i].theta + step(3 * i + 2)};
             };
-            const ale::Pose e = ale::between(way, ale::between(moved(k), moved(k + 1)));
+            const ale::Pose e = ale::between(motion, ale::between(moved(k), moved(k + 1)));
             return Eigen::Vector3d(e.x, e.y, e.theta);
         };
         Eigen::MatrixXd j(3, 9);
@@ -167,9 +171,9 @@ TEST(PoseGraph, WhatPullsAPoseIsWeighedAgainstTheWay)
         h += j.transpose() * information * j;
         b -= j.transpose() * information * error(Eigen::VectorXd::Zero(9));
     }
-    h.block<3, 3>(6, 6) += seen;
-    b.tail<3>() += pull;
-    graph.set_pulls({{2, seen, pull}});
+    h.block<3, 3>(6, 6) += prior;
+    b.tail<3>() += right_side;
+    graph.set_linearised_priors({{2, prior, right_side}});
     graph.optimise(1);
     const Eigen::VectorXd step = h.bottomRightCorner<6, 6>().ldlt().solve(b.tail<6>());
     for (int k = 1; k < 3; k++) {
@@ -180,7 +184,7 @@ TEST(PoseGraph, WhatPullsAPoseIsWeighedAgainstTheWay)
     }
 }
 
-// A ring of poses whose measured motions err, closed by one loop.
+// A ring of poses with noisy odometry, closed by one loop.
 ale::PoseGraph noisy_ring(unsigned seed)
 {
     const std::vector<ale::Pose> truth = circle(40);
@@ -191,23 +195,23 @@ ale::PoseGraph noisy_ring(unsigned seed)
         graph.add_pose(pose);
     }
     for (int k = 0; k < 39; k++) {
-        ale::Pose way = ale::between(truth[static_cast<size_t>(k)], truth[static_cast<size_t>(k) + 1]);
-        way = {way.x + normal(random), way.y + normal(random), way.theta + normal(random)};
+        ale::Pose motion = ale::between(truth[static_cast<size_t>(k)], truth[static_cast<size_t>(k) + 1]);
+        motion = {motion.x + normal(random), motion.y + normal(random), motion.theta + normal(random)};
         const Eigen::Vector3d sigma(0.01, 0.02, k % 3 == 0 ? 0.02 : 0.005);
-        graph.add_edge({k, k + 1, way, sigma.cwiseAbs2().cwiseInverse().asDiagonal(), false});
+        graph.add_edge({k, k + 1, motion, sigma.cwiseAbs2().cwiseInverse().asDiagonal(), false});
     }
     graph.add_edge({0, 39, ale::between(truth[0], truth[39]), 100 * unit_information, true});
     return graph;
 }
 
-TEST(PoseGraph, WithoutAPoseOfTheWayTheOthersLieWhereTheyLay)
+TEST(PoseGraph, WithoutAPoseOfThePathTheOthersStay)
 {
     for (unsigned seed = 1; seed <= 3; seed++) {
         ale::PoseGraph whole = noisy_ring(seed);
         ale::PoseGraph thinned = whole;
         whole.optimise(20);
         for (const int k : {30, 20, 19, 18, 7}) {
-            thinned.take_out(k, 3);
+            thinned.remove_pose(k, 3);
         }
         thinned.optimise(20);
         std::vector<ale::Pose> expected = whole.poses();
@@ -220,20 +224,20 @@ TEST(PoseGraph, WithoutAPoseOfTheWayTheOthersLieWhereTheyLay)
     }
 }
 
-TEST(PoseGraph, LoopsOfAPoseThatGoesAreTakenOverByItsNeighbours)
+TEST(PoseGraph, NeighboursTakeOverTheLoopsOfARemovedPose)
 {
     ale::PoseGraph graph = noisy_ring(1);
     const std::vector<ale::Pose> truth = circle(40);
-    const auto tie = [&](int from, int to) {
+    const auto add_loop = [&](int from, int to) {
         graph.add_edge({from, to,
                         ale::between(truth[static_cast<size_t>(from)], truth[static_cast<size_t>(to)]),
                         unit_information, true});
     };
-    tie(5, 20);  // ends at it: goes to 21, as 20 is called then
-    tie(20, 35); // begins at it: from 19 then, to 34
-    tie(6, 20);
-    tie(6, 21); // the pair is tied already when that one goes over
-    graph.take_out(20, 3);
+    add_loop(5, 20);  // ends at it: then at 21, renumbered 20
+    add_loop(20, 35); // begins at it: then from 19 to 34
+    add_loop(6, 20);
+    add_loop(6, 21); // already an edge when the one above moves
+    graph.remove_pose(20, 3);
     const auto has = [&](int from, int to) {
         return std::count_if(graph.edges().begin(), graph.edges().end(), [&](const ale::GraphEdge &edge) {
             return edge.robust && edge.from == from && edge.to == to;
@@ -251,7 +255,7 @@ TEST(PoseGraph, LoopsOfAPoseThatGoesAreTakenOverByItsNeighbours)
     }
 }
 
-TEST(PoseGraph, NoPoseGathersMoreLoopsThanItMay)
+TEST(PoseGraph, NoPoseGathersMoreLoopsThanTheBound)
 {
     ale::PoseGraph graph = noisy_ring(1);
     const std::vector<ale::Pose> &poses = graph.poses();
@@ -263,8 +267,8 @@ TEST(PoseGraph, NoPoseGathersMoreLoopsThanItMay)
         }
     }
     for (int gone = 0; gone < 8; gone++) {
-        graph.take_out(2, 3);
-        graph.take_out(20 - gone, 3);
+        graph.remove_pose(2, 3);
+        graph.remove_pose(20 - gone, 3);
     }
     const auto count = static_cast<int>(graph.poses().size());
     for (int to = 1; to < count; to++) {

@@ -1,5 +1,4 @@
-// lib/graph/optimise/scan_alignment: scans of a room from a way that is known to centimetres, against the
-// truth.
+// lib/graph/optimise/scan_alignment: scans of a room with poses good to centimetres, against the truth.
 #include <cmath>
 #include <random>
 
@@ -39,7 +38,7 @@ std::vector<ale::SurfacePoint> seen_from(const ale::Pose &pose, std::mt19937 *ra
     return points;
 }
 
-// What slowly errs on the way from one keyframe to the next.
+// Slow drift between keyframes.
 ale::Pose disturbed(const ale::Pose &pose, int k)
 {
     return {pose.x + 0.02 * std::sin(0.7 * k), pose.y + 0.02 * std::sin(0.5 * k),
@@ -69,7 +68,7 @@ double error_m(const ale::Pose &pose, int k)
     return ale::length(pose.x - truth(k).x, pose.y - truth(k).y);
 }
 
-TEST(ScanAlignment, ScansLieWhereAllTogetherSawTheWalls)
+TEST(ScanAlignment, ScansMoveToTheMeanOfAll)
 {
     const std::vector<ale::AlignedScan> before = drive(1);
     const std::vector<ale::Pose> after = aligned(before);
@@ -83,7 +82,7 @@ TEST(ScanAlignment, ScansLieWhereAllTogetherSawTheWalls)
     EXPECT_LT(std::sqrt(sum2_after), 0.33 * std::sqrt(sum2_before));
 }
 
-TEST(ScanAlignment, AScanThatShowsNothingGoesWithItsNeighbours)
+TEST(ScanAlignment, AScanWithoutPointsMovesWithItsNeighbours)
 {
     std::vector<ale::AlignedScan> blind = drive(2);
     blind[20].points.clear();
@@ -94,7 +93,7 @@ TEST(ScanAlignment, AScanThatShowsNothingGoesWithItsNeighbours)
     EXPECT_NEAR(shift_after.y, shift_before.y, 0.015);
 }
 
-TEST(ScanAlignment, WhatNothingTiesAndNobodySeesStaysWhereItIs)
+TEST(ScanAlignment, ScansWithoutTiesAndPointsStay)
 {
     std::vector<ale::AlignedScan> broken = drive(3);
     for (size_t k = 20; k < broken.size(); k++) {
@@ -108,28 +107,28 @@ TEST(ScanAlignment, WhatNothingTiesAndNobodySeesStaysWhereItIs)
     }
 }
 
-TEST(ScanAlignment, WhatManyScansSeeBentTurnsNoStretchOfTheWay)
+TEST(ScanAlignment, WallsSeenBentTurnNoPartOfThePath)
 {
-    // In the second half the little that is seen is turned by a degree, as waves of a wall make it. The graph
-    // knows better.
+    // In the second half the few points are turned by a degree, as by a wavy wall; the headings are right.
     constexpr double bent = 0.0175;
-    std::vector<ale::AlignedScan> way = drive(4);
-    for (size_t k = 0; k < way.size(); k++) {
-        way[k].pose = truth(static_cast<int>(k));
-        if (k < way.size() / 2) {
+    std::vector<ale::AlignedScan> scans_turned = drive(4);
+    for (size_t k = 0; k < scans_turned.size(); k++) {
+        scans_turned[k].pose = truth(static_cast<int>(k));
+        if (k < scans_turned.size() / 2) {
             continue;
         }
         std::vector<ale::SurfacePoint> few;
-        for (size_t i = 0; i < way[k].points.size(); i += 20) {
-            const ale::SurfacePoint &point = way[k].points[i];
+        for (size_t i = 0; i < scans_turned[k].points.size(); i += 20) {
+            const ale::SurfacePoint &point = scans_turned[k].points[i];
             few.push_back({ale::rotation(bent) * point.p, ale::rotation(bent) * point.normal});
         }
-        way[k].points = few;
+        scans_turned[k].points = few;
     }
-    const std::vector<ale::Pose> after = aligned(way);
+    const std::vector<ale::Pose> after = aligned(scans_turned);
     double turned = 0;
-    for (size_t k = way.size() / 2; k < way.size(); k++) {
-        turned += ale::wrapped(after[k].theta - way[k].pose.theta) / static_cast<double>(way.size() / 2);
+    for (size_t k = scans_turned.size() / 2; k < scans_turned.size(); k++) {
+        turned += ale::wrapped(after[k].theta - scans_turned[k].pose.theta) /
+                  static_cast<double>(scans_turned.size() / 2);
     }
     EXPECT_LT(std::abs(turned), 0.5 * bent);
 }

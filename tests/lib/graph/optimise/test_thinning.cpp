@@ -1,4 +1,4 @@
-// lib/graph/optimise/thinning: who goes first.
+// lib/graph/optimise/thinning: which keyframe is removed first.
 #include <gtest/gtest.h>
 
 #include "graph/optimise/thinning.h"
@@ -6,7 +6,7 @@
 namespace
 {
 
-TEST(Thinning, WhoHasMostOthersNearItGoesFirst)
+TEST(Thinning, TheOneWithMostNeighboursGoesFirst)
 {
     const std::vector<ale::Pose> poses = {{0, 0, 0}, {5, 0, 0}, {9.5, 0, 0}, {10, 0, 0}, {10.5, 0, 0}};
     EXPECT_EQ(ale::most_redundant(poses, std::vector<bool>(5, true)), 3U);
@@ -24,7 +24,7 @@ TEST(Thinning, TheSamePlaceWithAnotherHeadingIsAnotherView)
     EXPECT_EQ(ale::most_redundant(poses, std::vector<bool>(4, true)), 2U);
 }
 
-TEST(Thinning, OnlyThoseThatMayGo)
+TEST(Thinning, OnlyRemovableOnes)
 {
     const std::vector<ale::Pose> poses = {{0, 0, 0}, {0.1, 0, 0}, {0.2, 0, 0}, {8, 0, 0}};
     EXPECT_EQ(ale::most_redundant(poses, {false, false, false, true}), 3U);

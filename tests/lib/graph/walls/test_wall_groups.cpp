@@ -1,4 +1,4 @@
-// lib/graph/walls/wall_groups: lines of scans whose poses err, against the walls that they were taken of.
+// lib/graph/walls/wall_groups: lines of scans with pose errors, against their walls.
 #include <random>
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ double offset_mm(const ale_wall_t &wall, double normal_deg)
            1e-3;
 }
 
-TEST(WallGroups, LinesOfOneWallFromPosesThatErrAreOneGroupOnTheWall)
+TEST(WallGroups, LinesOfOneWallAreOneGroupDespitePoseErrors)
 {
     std::mt19937 random(5);
     std::normal_distribution<double> normal;
@@ -47,8 +47,8 @@ TEST(WallGroups, BothSidesOfAPanelAreTwoWalls)
     EXPECT_EQ(ale::group_lines(lines).size(), 2U);
 }
 
-// The second visit is displaced by more than any pose should be.
-TEST(WallGroups, WhatStandsTwiceAndNeverInOneScanStandsOnceBetween)
+// The second visit is displaced by more than a pose error.
+TEST(WallGroups, AWallThatIsSingleInEveryScanIsOneGroup)
 {
     std::vector<ale::PlacedLine> lines;
     for (uint32_t k = 0; k < 40; k++) {
@@ -59,7 +59,7 @@ TEST(WallGroups, WhatStandsTwiceAndNeverInOneScanStandsOnceBetween)
     EXPECT_NEAR(offset_mm(groups[0].wall, 20), 100, 10);
 }
 
-TEST(WallGroups, AStepThatScansHaveSeenStaysAStep)
+TEST(WallGroups, AStepSeenByScansStaysAStep)
 {
     std::vector<ale::PlacedLine> lines;
     for (uint32_t k = 0; k < 20; k++) {
@@ -81,7 +81,7 @@ TEST(WallGroups, WallsOnBothSidesOfADoorAreTwo)
     EXPECT_EQ(ale::group_lines(lines).size(), 2U);
 }
 
-TEST(WallGroups, LinesTooShortForAWallBeginNone)
+TEST(WallGroups, ShortLinesStartNoGroup)
 {
     std::vector<ale::PlacedLine> lines;
     for (uint32_t k = 0; k < 20; k++) {

@@ -1,4 +1,4 @@
-// lib/graph/walls/wall_spans: where walls stand, by the lines that cover them.
+// lib/graph/walls/wall_spans: spans of walls by the lines that cover them.
 #include <gtest/gtest.h>
 
 #include "graph/walls/wall_spans.h"
@@ -19,7 +19,7 @@ double length_m(const ale::WallSpan &span)
     return static_cast<double>(int64_t{span.wall.end_um} - span.wall.start_um) * 1e-6;
 }
 
-void show(std::vector<ale::PlacedLine> *lines, uint32_t scans, double from_m, double to_m)
+void add_scans(std::vector<ale::PlacedLine> *lines, uint32_t scans, double from_m, double to_m)
 {
     for (uint32_t k = 0; k < scans; k++) {
         const auto scan = static_cast<uint32_t>(lines->size());
@@ -27,23 +27,23 @@ void show(std::vector<ale::PlacedLine> *lines, uint32_t scans, double from_m, do
     }
 }
 
-TEST(WallSpans, WhatFewerThanThreeScansShowIsNoWall)
+TEST(WallSpans, FewerThanThreeScansShowNoWall)
 {
     std::vector<ale::PlacedLine> lines;
-    show(&lines, 2, 0, 2);
+    add_scans(&lines, 2, 0, 2);
     EXPECT_TRUE(spans(lines).empty());
-    show(&lines, 1, 0, 2);
+    add_scans(&lines, 1, 0, 2);
     const std::vector<ale::WallSpan> whole = spans(lines);
     ASSERT_EQ(whole.size(), 1U);
-    EXPECT_EQ(whole[0].seen, 3U);
+    EXPECT_EQ(whole[0].scans, 3U);
     EXPECT_NEAR(length_m(whole[0]), 2, 0.06);
 }
 
-TEST(WallSpans, AnEndThatOneScanHasLengthenedIsCut)
+TEST(WallSpans, AnEndSeenByOneScanIsCut)
 {
     std::vector<ale::PlacedLine> lines;
-    show(&lines, 10, 0, 2);
-    show(&lines, 1, 0, 3);
+    add_scans(&lines, 10, 0, 2);
+    add_scans(&lines, 1, 0, 3);
     const std::vector<ale::WallSpan> cut = spans(lines);
     ASSERT_EQ(cut.size(), 1U);
     EXPECT_NEAR(length_m(cut[0]), 2, 0.06);
@@ -53,14 +53,14 @@ TEST(WallSpans, SmallGapsAreClosedAndDoorsAreNot)
 {
     for (const double gap_m : {0.1, 0.9}) {
         std::vector<ale::PlacedLine> lines;
-        show(&lines, 10, 0, 1);
-        show(&lines, 10, 1 + gap_m, 2 + gap_m);
-        show(&lines, 1, 0, 2 + gap_m); // one scan has mistaken both for one
+        add_scans(&lines, 10, 0, 1);
+        add_scans(&lines, 10, 1 + gap_m, 2 + gap_m);
+        add_scans(&lines, 1, 0, 2 + gap_m); // one scan has taken both for one
         EXPECT_EQ(spans(lines).size(), gap_m < 0.5 ? 1U : 2U) << gap_m;
     }
 }
 
-TEST(WallSpans, OfTwoThatCrossAtAFlatAngleTheOneThatMoreScansShowStays)
+TEST(WallSpans, OfTwoWallsThatCrossAtAFlatAngleTheOneWithMoreScansStays)
 {
     std::vector<ale::PlacedLine> lines;
     for (uint32_t k = 0; k < 20; k++) {

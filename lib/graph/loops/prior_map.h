@@ -1,0 +1,40 @@
+// The map that a drive begins in, as surfaces to match scans with.
+//
+//   PriorMap prior(map);
+//   if (const auto match = prior.find(node.points, guess)) ... match->pose ...
+#ifndef ALE_GRAPH_LOOPS_PRIOR_MAP_H
+#define ALE_GRAPH_LOOPS_PRIOR_MAP_H
+
+#include <optional>
+#include <vector>
+
+#include "graph/loops/pairwise_match.h"
+#include "graph/optimise/node.h"
+
+extern "C" {
+#include "map/wall.h"
+#include "track/pipeline.h"
+}
+
+namespace ale
+{
+
+class PriorMap
+{
+  public:
+    // Copies the walls: less than 1 MB, however long they are. May throw std::bad_alloc.
+    explicit PriorMap(const ale_map_t &map);
+
+    // The pose in the map from which these points, robot's frame, are seen near `guess`; see match_pair.
+    // None: no match, or no walls near. O(walls) and one LikelihoodField; may throw std::bad_alloc.
+    std::optional<PairwiseMatch> find(const std::vector<SurfacePoint> &seen, const Pose &guess) const;
+
+  private:
+    std::vector<SurfacePoint> points_around(const Pose &guess, double reach_m) const;
+
+    std::vector<ale_wall_t> walls_;
+};
+
+} // namespace ale
+
+#endif
