@@ -1,7 +1,7 @@
 /* The map while driving, rebuilt from the observations of all recorded scans. C interface.
  *
  *   ale_live_map_t *live = ale_live_map_create();
- *   ale_live_map_add(live, &observation);            (as they come)
+ *   ale_live_map_add(live, &observation);              (as they come)
  *   if (ale_live_map_build(live, &poses, map)) ...     (now and then)
  *   ale_live_map_destroy(live);
  *

@@ -164,7 +164,11 @@ bool ale_mapper_correction(ale_mapper_t *mapper, ale_correction_t *out)
     for (size_t k = 0; k < now.size(); k++) {
         out->shift[out->count++] = {nodes[k].scan, ale::to_core(shift_of(nodes[k].tracked, now[k]))};
     }
-    mapper->pending_shifts.push_back(shift_of(nodes.back().tracked, now.back()));
+    try {
+        mapper->pending_shifts.push_back(shift_of(nodes.back().tracked, now.back()));
+    } catch (const std::bad_alloc &) {
+        return false; // the next correction will contain this one
+    }
     mapper->closer.mark_handed_out();
     out->number = mapper->applied + static_cast<uint32_t>(mapper->pending_shifts.size());
     return true;

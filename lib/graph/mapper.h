@@ -84,7 +84,8 @@ void ale_mapper_add_walls(ale_mapper_t *mapper, const ale_pose_t *smooth, const 
 bool ale_mapper_refine(ale_mapper_t *mapper);
 
 /* Fills *out with the moves of the keyframes since the last correction; each correction must be applied, in
- * order. False: no keyframe has moved by more than 5 mm or 1 mrad. O(keyframes). */
+ * order. False: no keyframe has moved by more than 5 mm or 1 mrad, or out of memory; *out may
+ * then hold anything. O(keyframes). */
 bool ale_mapper_correction(ale_mapper_t *mapper, ale_correction_t *out);
 
 /* Counts since the epoch began; `refused` since the mapper was created. O(1). */

@@ -18,7 +18,7 @@ namespace
 constexpr int rounds = 2; // the second finds neighbours that the first has brought together
 constexpr int nodes_per_step = 8;
 constexpr int solves_per_round = 10;
-constexpr int nodes_along = 2; // the next few along the way
+constexpr int nodes_along = 2; // the next along the path
 constexpr size_t max_other_visits = 6;
 constexpr int same_visit_nodes = 3;
 constexpr double reach_m = 3.0;
@@ -60,7 +60,7 @@ bool PairwiseRefinement::step()
     return true;
 }
 
-// Later nodes that may see the same: the next few along the way, and the nearest of each other visit.
+// Later nodes that may see the same: the next few along the path, and the nearest of each other visit.
 std::vector<int> PairwiseRefinement::neighbours_of(int k) const
 {
     const int count = static_cast<int>(nodes_->size());

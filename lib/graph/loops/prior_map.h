@@ -12,8 +12,8 @@
 #include "graph/optimise/node.h"
 
 extern "C" {
+#include "map/line_map.h"
 #include "map/wall.h"
-#include "track/pipeline.h"
 }
 
 namespace ale

@@ -6,7 +6,7 @@
 #include <vector>
 
 extern "C" {
-#include "track/pipeline.h"
+#include "map/line_map.h"
 }
 
 namespace ale

@@ -13,6 +13,7 @@
 #include <vector>
 
 extern "C" {
+#include "map/line_map.h"
 #include "track/scan_observation.h"
 }
 

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "graph/optimise/pose_graph.h"
+
 namespace
 {
 
