@@ -1,8 +1,8 @@
-/* Marks: where the map has no walls, the places of surfaces and small things, with normals.
+/* Point landmarks: where the map has no walls, positions of surfaces and small objects, with normals.
  *
- * A table of cells (100 mm) by hash, four landmarks a set: bounded memory, bounded look-up. A set that is
- * full gives up its least seen mark. A mark is the running mean of the short segments that met it. One owner.
- */
+ * A set-associative table of 100 mm cells by hash: bounded memory, bounded look-up. A full set replaces its
+ * least seen landmark. A landmark is a Kalman filter over the short segments that were associated with it.
+ * One owner. */
 #ifndef ALE_MAP_LANDMARKS_H
 #define ALE_MAP_LANDMARKS_H
 
@@ -30,15 +30,15 @@ typedef struct {
 
 void ale_landmarks_clear(ale_landmarks_t *landmarks);
 
-/* The nearest mark within reach_um (100 mm at most) of a place that faces about as `normal_bam` does (point
- * features face everywhere): its index, or ALE_NO_LANDMARK. 36 landmarks are looked at. */
+/* The nearest landmark within reach_um (100 mm at most) whose normal is within 60 degrees of normal_bam (of
+ * two point features any): its index, or ALE_NO_LANDMARK. 36 landmarks are compared. */
 int32_t ale_landmarks_find(const ale_landmarks_t *landmarks, ale_point_t p, uint32_t normal_bam,
                            bool is_point, int32_t reach_um);
 
-/* Enters a new mark. */
+/* Adds a landmark, replacing the least seen of a full set. Constant work. */
 void ale_landmarks_add(ale_landmarks_t *landmarks, const ale_landmark_t *landmark);
 
-/* Takes an independent view of the landmark, with its variance, into its mean. */
+/* Kalman update by an independent observation with its variance, no lower than (3 mm)^2. */
 void ale_landmark_observe(ale_landmark_t *landmark, ale_point_t p, uint32_t normal_bam, int64_t var_um2,
                           uint32_t scan);
 

@@ -1,6 +1,6 @@
 /* The map as it is handed out, stored and taken in: confirmed walls and corners, by value.
  *
- * Map frame throughout. The tracker's working map is ale_local_map_t; map_exchange.h converts between them.
+ * Map frame throughout. The map in work is ale_local_map_t; map_exchange.h converts between them.
  */
 #ifndef ALE_MAP_LINE_MAP_H
 #define ALE_MAP_LINE_MAP_H

@@ -4,7 +4,7 @@
 #include "base/trig.h"
 
 enum {
-    NEAR_MARGIN_UM = 2000000, /* list made for more than the reach: it holds for the next metre */
+    NEAR_MARGIN_UM = 2000000, /* the list covers more than the reach, and is valid for the next metre */
     NEAR_STEP_UM = 1000000,
     BUCKET_SHIFT = 26,
     BUCKET_URAD = 98175,
@@ -164,14 +164,14 @@ void ale_local_map_remove(ale_local_map_t *map, uint16_t index)
 /* How the wall `other` lies to `wall`: as if it were an observation from the origin of the map. */
 static ale_wall_error_t between_walls(const ale_wall_t *wall, const ale_wall_t *other)
 {
-    const ale_observation_t as_view = {.centre = other->anchor,
-                                       .normal_bam = other->normal_bam,
-                                       .start_um = other->start_um,
-                                       .end_um = other->end_um};
-    return ale_wall_error(wall, &as_view);
+    const ale_observation_t as_observation = {.centre = other->anchor,
+                                              .normal_bam = other->normal_bam,
+                                              .start_um = other->start_um,
+                                              .end_um = other->end_um};
+    return ale_wall_error(wall, &as_observation);
 }
 
-/* The same wall: side by side for a while, and no farther apart than their errors. */
+/* The same wall: they overlap, and differ by no more than their errors. */
 static bool is_same(const ale_wall_t *wall, const ale_wall_t *other, const ale_wall_error_t *e)
 {
     if (e->overlap_um < 0 || ale_abs64(e->angle_urad) > MERGE_ANGLE_URAD) {

@@ -1,8 +1,8 @@
-/* The map: walls in bounded memory, and quick access to those around the robot.
+/* The map in bounded memory, with quick access to the walls around the robot.
  *
- * Walls lie in one array without gaps. Those near the robot are listed by the direction of their normal,
- * so that an observation is compared only with walls that face the same way; the list is made anew when the
- * robot has gone on or the map has changed, in time bounded by the capacity. One owner. */
+ * Walls lie in one array without gaps. The near list holds those around the robot by the direction of their
+ * normal, so that an observation is compared only with walls that face the same way. It is rebuilt when the
+ * robot has moved a metre or walls came and went, in time bounded by the capacity. One owner. */
 #ifndef ALE_MAP_LOCAL_MAP_H
 #define ALE_MAP_LOCAL_MAP_H
 
@@ -20,7 +20,7 @@ enum {
     ALE_NO_WALL = 0xffff
 };
 
-/* What a first look at a wall asks for, packed: most walls that are looked at are dismissed by it. */
+/* The line of a wall, packed for the first test of an association, which dismisses most walls. */
 typedef struct {
     int64_t offset_q30; /* of the wall's line along its normal, from the map's origin, um */
     int32_t normal_x_q30;
@@ -45,8 +45,8 @@ typedef struct {
 
     uint16_t near[ALE_MAP_MAX_LINES]; /* walls around near_centre, by direction of their normal */
     uint16_t near_first[ALE_MAP_DIRECTIONS + 1];
-    uint16_t chosen[ALE_MAP_MAX_LINES];           /* working memory of the listing */
-    ale_candidate_t candidate[ALE_MAP_MAX_LINES]; /* those of them that a scan may show, in the same order */
+    uint16_t chosen[ALE_MAP_MAX_LINES];           /* working memory of ale_local_map_approach */
+    ale_candidate_t candidate[ALE_MAP_MAX_LINES]; /* of the near walls those in focus, in the same order */
     uint16_t candidate_first[ALE_MAP_DIRECTIONS + 1];
     ale_point_t near_centre;
     int32_t near_radius_um; /* 0: to be made anew */
@@ -58,17 +58,17 @@ void ale_local_map_clear(ale_local_map_t *map);
  * when the robot has gone a metre or walls came and went. */
 void ale_local_map_approach(ale_local_map_t *map, ale_point_t centre, int32_t reach_um);
 
-/* Of the near walls those within reach of a place: what ale_associate looks at until the next call. As the
- * walls are now; while a scan moves them a little, so far off. O(near walls), a few instructions each. */
+/* Selects the near walls within reach of a place as the candidates of ale_associate until the next call, as
+ * they lie now: later updates of a wall do not move its candidate. O(near walls), a few instructions each. */
 void ale_local_map_focus(ale_local_map_t *map, ale_point_t centre, int32_t reach_um);
 
-/* The ranges of a list by direction (near[], glance[] with their first[]) that hold the walls facing within
- * `reach` buckets of a direction, 31 at most; the second is empty unless the list wraps. */
+/* The ranges of a list by direction (near[], candidate[] with their first[]) that hold the walls facing
+ * within `reach` buckets of a direction, 31 at most; the second is empty unless the list wraps. */
 void ale_local_map_facing(const uint16_t first[ALE_MAP_DIRECTIONS + 1], uint32_t normal_bam, int32_t reach,
                           ale_range_t out[2]);
 int32_t ale_local_map_bucket(uint32_t normal_bam);
 
-/* Shortens a range to the looks that are left, and takes them. */
+/* Shortens a range to the work that is left, and spends it. */
 static inline void ale_spend_work(ale_range_t *range, int32_t *work)
 {
     const int32_t size = range->last - range->first;
@@ -87,8 +87,8 @@ uint16_t ale_local_map_add(ale_local_map_t *map, const ale_wall_t *wall);
 /* Removes a wall: the last one takes its place. */
 void ale_local_map_remove(ale_local_map_t *map, uint16_t index);
 
-/* Joins a near wall with another one that continues or repeats it, if there is one. True when it did. looks:
- * as for ale_associate. */
+/* Merges a near wall with another one that continues or repeats it. True: one was found, and the walls have
+ * new indices. *work: as for ale_associate. */
 bool ale_local_map_merge_at(ale_local_map_t *map, uint16_t index, int32_t *work);
 
 #endif

@@ -1,8 +1,8 @@
-/* Corners of the map: where two walls were seen to meet, met again, and averaged.
+/* Corners of the map: where two walls meet, associated from scan to scan and averaged.
  *
- * A corner follows from its two walls, which already hold the pose in the match; as a row of its own it
- * would count them twice. Corners are kept because they name places: for people, and to find a place again.
- * O(corners of the map), and ALE_CORNERS_PER_SCAN times those that lie around the scan's. */
+ * A corner follows from its two walls, which already determine the pose; as a row of the registration it
+ * would count them twice. Corners are kept because they name places, for people and for loop closing.
+ * O(corners of the map), and ALE_CORNERS_PER_SCAN times those around the scan's corners. */
 #ifndef ALE_MAP_MAP_CORNER_H
 #define ALE_MAP_MAP_CORNER_H
 
@@ -15,7 +15,7 @@
 
 enum {
     ALE_CORNERS_PER_SCAN = 16,
-    ALE_CORNERS_AROUND = 128, /* of the map that are compared with a scan's */
+    ALE_CORNERS_AROUND = 128, /* of the map, that are compared with those of a scan */
     ALE_CORNER_CONFIRMED = 3
 };
 
@@ -27,13 +27,14 @@ typedef struct {
 
     uint16_t around[ALE_CORNERS_AROUND]; /* working memory: those around the scan's corners */
     uint16_t around_count;
-    uint16_t once; /* where to go on looking for one that was seen once */
+    uint16_t once; /* where the search for a corner that was seen once continues */
 } ale_map_corners_t;
 
 void ale_map_corners_clear(ale_map_corners_t *corners);
 
-/* Takes the first ALE_CORNERS_PER_SCAN corners of a scan, the sensor being at a pose of the map. grow =
- * false: no new ones. A full map gives up a corner that was seen once. Returns how many were known. */
+/* Updates by the first ALE_CORNERS_PER_SCAN corners of a scan; sensor: its pose in the map. grow false: no
+ * new corners. A full map replaces corners that were seen once, else the new one is refused. Returns how many
+ * were known. */
 uint16_t ale_map_corners_update(ale_map_corners_t *corners, const ale_features_t *features, ale_pose_t sensor,
                                 uint32_t scan, bool grow);
 

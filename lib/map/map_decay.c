@@ -4,21 +4,20 @@
 #include "map/visibility.h"
 
 enum {
-    MISSES = 4,        /* scans that must look through a wall that was hardly ever seen */
-    SEEN_PER_MISS = 4, /* and one more for so many scans that saw it */
-    MISSES_MOST = 60,
+    VIOLATIONS_LEAST = 4,    /* of free space that remove a wall that was seen once */
+    SCANS_PER_VIOLATION = 4, /* of support, that ask for one violation more */
+    VIOLATIONS_MOST = 60,
     TRIM_UM = 10000,
     TRIM_INSIDE_UM = 30000,
-    TRIM_LENGTH_UM = 300000 /* shorter walls fade as a whole */
+    TRIM_LENGTH_UM = 300000 /* shorter walls are not trimmed */
 };
 
-static bool has_faded(const ale_wall_t *wall)
+static bool is_gone(const ale_wall_t *wall)
 {
-    return wall->missed > ale_min64(MISSES + wall->seen / SEEN_PER_MISS, MISSES_MOST);
+    return wall->missed > ale_min64(VIOLATIONS_LEAST + wall->seen / SCANS_PER_VIOLATION, VIOLATIONS_MOST);
 }
 
-/* An end that is seen through was never there: noise and things beside a wall lengthen it, this shortens it.
- */
+/* Noise and objects beside a wall lengthen it; an end that is seen through is cut back. */
 static void trim(ale_wall_t *wall, const ale_posed_scan_t *from)
 {
     if (wall->end_um - wall->start_um < TRIM_LENGTH_UM) {
@@ -55,7 +54,7 @@ ale_visibility_counts_t ale_map_decay(ale_map_decay_t *decay, ale_local_map_t *m
         counts.violated = (uint16_t)(counts.violated + (visibility == ALE_VISIBILITY_VIOLATED));
         if (forget && visibility != ALE_VISIBILITY_NONE) {
             wall->missed = visibility == ALE_VISIBILITY_SUPPORTED ? 0 : (uint16_t)(wall->missed + 1);
-            gone = has_faded(wall) ? index : gone;
+            gone = is_gone(wall) ? index : gone;
         }
     }
     if (gone != ALE_NO_WALL) {

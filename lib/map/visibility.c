@@ -4,9 +4,9 @@
 #include "base/trig.h"
 
 enum {
-    TOLERANCE_UM = 120000, /* how far a point may lie before or behind its wall, and per mille of the range */
+    TOLERANCE_UM = 120000, /* by which the range may differ, and per mille of the range */
     TOLERANCE_PER_MILLE = 30,
-    SAME_PLACE_UM = 60000, /* the same where noise and slanting beams alone differ */
+    SAME_PLACE_UM = 60000, /* the same where noise and incidence alone differ */
     SAME_PLACE_PER_MILLE = 10,
     GRAZING_Q30 = 278000000, /* cosine of 75 degrees */
     BEAMS_ASIDE_MOST = 16,
@@ -14,8 +14,8 @@ enum {
     NOT_IN_VIEW = -1
 };
 
-/* The beam that points in a direction of the sensor's frame. Straightening moves beams by a few steps:
- * the regular place is corrected twice. */
+/* The beam that points in a direction of the sensor's frame. Deskewing moves bearings by a few steps: the
+ * index of the evenly spaced beam is corrected twice. */
 static int32_t beam_towards(const ale_posed_scan_t *from, uint32_t direction_bam)
 {
     const ale_scan_t *scan = from->scan;
@@ -55,14 +55,14 @@ static ale_visibility_t beam_visibility(const ale_scan_t *scan, int32_t beam, in
     return beyond_um < -tolerance_um ? ALE_VISIBILITY_NONE : ALE_VISIBILITY_SUPPORTED;
 }
 
-/* Beams to either side of the middle one that may be meant, with the pose as uncertain as it is. */
+/* Beams to either side of the middle one within the allowance for the pose. */
 static int32_t beams_aside(const ale_scan_t *scan, int64_t range_um, int64_t slack_um)
 {
     const int64_t spacing_um = ale_mul_div(range_um, ale_abs64(scan->step_bam), BAM_PER_RAD);
     return (int32_t)ale_min64(slack_um / ale_max64(spacing_um, 1), BEAMS_ASIDE_MOST);
 }
 
-/* Supported by any beam that may be meant, seen through by all of them. */
+/* Supported by any beam within the allowance, violated by all of them. */
 static ale_visibility_t point_visibility(const ale_wall_t *wall, int64_t t_um, const ale_posed_scan_t *from,
                                          ale_slack_t slack)
 {

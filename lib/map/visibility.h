@@ -1,7 +1,8 @@
-/* Whether a scan sees a wall of the map, sees through where it should be, or cannot tell.
+/* Visibility: whether a scan supports a wall, violates it by seeing through it, or cannot tell.
  *
- * What is seen through again and again is no longer there: it fades from the map. And a robot that sees
- * through most of what it should see is not where it believes to be. Constant work a wall. */
+ * A wall that is violated again and again is no longer there: it decays from the map. A robot whose scan
+ * violates most walls in view is not where it believes to be. Constant work per wall. Test: rays in double,
+ * test_visibility.cpp. */
 #ifndef ALE_MAP_VISIBILITY_H
 #define ALE_MAP_VISIBILITY_H
 
@@ -17,30 +18,31 @@ typedef enum {
     ALE_VISIBILITY_VIOLATED   /* the beams go on beyond it */
 } ale_visibility_t;
 
-/* How many points of a wall, of ALE_VISIBILITY_POINTS that are asked, are there and are seen through. */
+/* Of ALE_VISIBILITY_POINTS points of a wall: how many are supported, and how many are violated. */
 enum { ALE_VISIBILITY_POINTS = 3 };
 typedef struct {
     uint8_t supported;
     uint8_t violated;
 } ale_points_visibility_t;
 
-/* How far the sensor's pose may be off, beyond what is always allowed for. same_place: the surface was seen
- * from where the scan was taken; what a map errs need not be allowed for, and where it gave an answer then,
- * no answer means that it is not there. */
+/* Allowance for the error of the sensor's pose, beyond the fixed tolerance. It widens the tolerance of the
+ * range and adds beams beside the one meant: one of them supports, all must violate. same_place: the surface
+ * was observed from where the scan was taken, so the tolerance is smaller, and a beam without return
+ * violates. */
 typedef struct {
     int32_t offset_um;
     int32_t angle_urad;
     bool same_place;
 } ale_slack_t;
 
+/* Visibility of three evenly spaced points. from: sensor pose in the frame of the wall, here and below. */
 ale_points_visibility_t ale_wall_points_visibility(const ale_wall_t *wall, const ale_posed_scan_t *from,
                                                    ale_slack_t slack);
 
-/* What a straightened scan, taken by a sensor at a pose of the map, says of a wall. bearing_bam as for
- * ale_extract_scan. Three points of the wall are asked; two must be seen through. */
+/* Of a wall as a whole, without allowance: supported by one of the three points, violated by two. */
 ale_visibility_t ale_wall_visibility(const ale_wall_t *wall, const ale_posed_scan_t *from);
 
-/* The same of the point t_um along the wall's tangent alone. */
+/* Of the point at t_um along the wall's tangent, without allowance. */
 ale_visibility_t ale_wall_point_visibility(const ale_wall_t *wall, int64_t t_um,
                                            const ale_posed_scan_t *from);
 

@@ -4,12 +4,12 @@
 #include "base/trig.h"
 #include "motion/ratio.h"
 
-/* A wall is never known better than this: buildings are not straighter, and it stays open to change. */
+/* Floors of the variance: buildings are not straighter than this, and the filter stays open to change. */
 enum {
     OFFSET_FLOOR_UM2 = 10000,
     ANGLE_FLOOR_URAD2 = 2500,
-    END_STRAYS_UM = 150000,
-    OUTWARDS = 4, /* parts of what an end strays that one look takes in */
+    END_NOISE_UM = 150000,
+    OUTWARDS = 4, /* divisors of the step of an end towards what one scan shows */
     INWARDS = 16
 };
 
@@ -46,8 +46,7 @@ int64_t ale_wall_offset_angle_cov(const ale_wall_t *wall, int64_t t_um)
     return wall->cov_um_urad + ale_mul_div(wall->var_angle_urad2, t_um, 1000000);
 }
 
-/* Whether the place is within 8 m of the anchor, and the wall known to some 90 mrad: the products fit int64
- * then, and none need be asked for its width. */
+/* Whether t is within 8 m and the angle known to about 90 mrad: then plain int64 products cannot overflow. */
 static inline bool is_plain(const ale_wall_t *wall, int64_t t_um)
 {
     return (ale_beyond(t_um, 23) | ale_beyond(wall->var_angle_urad2, 33) |
@@ -107,11 +106,11 @@ void ale_wall_extend(ale_wall_t *wall, int64_t from_um, int64_t to_um)
 static int32_t settled_end(int32_t end_um, int64_t seen_um, int64_t outwards)
 {
     const int64_t beyond_um = (seen_um - end_um) * outwards;
-    if (beyond_um > END_STRAYS_UM) {
+    if (beyond_um > END_NOISE_UM) {
         return (int32_t)seen_um;
     }
     const int64_t parts = beyond_um > 0 ? OUTWARDS : INWARDS;
-    return beyond_um < -END_STRAYS_UM ? end_um : (int32_t)(end_um + (seen_um - end_um) / parts);
+    return beyond_um < -END_NOISE_UM ? end_um : (int32_t)(end_um + (seen_um - end_um) / parts);
 }
 
 void ale_wall_settle_ends(ale_wall_t *wall, int64_t from_um, int64_t to_um)

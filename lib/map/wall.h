@@ -1,4 +1,4 @@
-/* One wall of the map: a segment with an error model, sharpened by every view of it.
+/* One wall of the map: a segment with an error model, refined by every observation of it.
  *
  * A wall has an anchor on it, a normal towards the side it was seen from, and extends along its tangent
  * from start to end, counted from the anchor. Its error is an offset along the normal at the anchor and
@@ -17,9 +17,9 @@
 /* Number of the scan that saw first what was in the map before the drive began. */
 #define ALE_BORN_BEFORE UINT32_MAX
 
-/* How far the map around a place lies off where it should lie to the map's origin, see map_uncertainty.h:
- * covariance of the motion that has moved it, a shift x, y and a turn t about the origin. A point p was moved
- * by (x - t p.y, y + t p.x). */
+/* Uncertainty of the map around a place relative to the map's origin, see match/map_uncertainty.h: covariance
+ * of a rigid motion, a shift x, y and a turn t about the origin, that moves a point p by (x - t p.y, y + t
+ * p.x). */
 typedef struct {
     int64_t xx_um2;
     int64_t xy_um2;
@@ -32,7 +32,7 @@ typedef struct {
 typedef struct {
     ale_point_t anchor; /* map frame */
     uint32_t normal_bam;
-    int32_t normal_x_q30; /* its cosine and sine, kept because every match asks for them */
+    int32_t normal_x_q30; /* its cosine and sine, kept because every association needs them */
     int32_t normal_y_q30;
     int32_t start_um;
     int32_t end_um;
@@ -40,15 +40,15 @@ typedef struct {
     int64_t cov_um_urad;
     int64_t var_angle_urad2;
     ale_map_uncertainty_t map_uncertainty;
-    int32_t scale_error_um; /* along the normal: see odometry_scale_error.h */
+    int32_t scale_error_um; /* along the normal: see match/odometry_scale_error.h */
     uint32_t id;
     uint32_t born;      /* number of the scan that saw it first, or ALE_BORN_BEFORE */
     uint32_t seen;      /* scans that supported it */
     uint32_t last_scan; /* of the last one that did */
-    uint16_t missed;    /* scans that looked through it since */
+    uint16_t missed;    /* scans that saw through it since */
 } ale_wall_t;
 
-/* How an observation lies to a wall: errors view minus wall at t along the wall. */
+/* Errors of an observation against a wall, observation minus wall, at t along the wall. */
 typedef struct {
     int64_t offset_um;
     int64_t angle_urad;
@@ -56,11 +56,10 @@ typedef struct {
     int64_t overlap_um; /* common length; negative: gap between them */
 } ale_wall_error_t;
 
-/* A new wall where an observation lies. The view is in the map's frame here and below (see
- * ale_observation_from). */
+/* A new wall from an observation, which is in the map frame here and below (see ale_observation_from). */
 void ale_wall_from_observation(ale_wall_t *wall, const ale_observation_t *observation);
 
-/* Gives the wall a normal and what goes with it. */
+/* Sets the normal with its cosine and sine. */
 void ale_wall_set_normal(ale_wall_t *wall, uint32_t normal_bam);
 
 ale_wall_error_t ale_wall_error(const ale_wall_t *wall, const ale_observation_t *observation);
@@ -81,7 +80,7 @@ static inline int64_t ale_wall_along(const ale_wall_t *wall, ale_point_t p)
                            30);
 }
 
-/* How far a normal is turned against the wall's, and how much an observation at t has in common with it. */
+/* Angle of a normal against the wall's, and the common length of an observation at t and the wall. */
 static inline int64_t ale_wall_angle(const ale_wall_t *wall, uint32_t normal_bam)
 {
     return ale_bam_to_nrad(ale_bam_diff(normal_bam, wall->normal_bam)) / 1000;
@@ -97,16 +96,16 @@ static inline int64_t ale_wall_overlap(const ale_wall_t *wall, const ale_observa
 int64_t ale_wall_offset_var(const ale_wall_t *wall, int64_t t_um);
 int64_t ale_wall_offset_angle_cov(const ale_wall_t *wall, int64_t t_um);
 
-/* Takes in an independent view (Kalman filter): offset error at t and angle error, with variances. */
+/* Kalman update by an independent observation: offset error at t and angle error, with their variances. */
 void ale_wall_observe(ale_wall_t *wall, const ale_wall_error_t *error, int64_t var_offset_um2,
                       int64_t var_angle_urad2);
 
-/* Lengthens the wall to hold from..to (along the tangent, from the anchor). */
+/* Extends the wall to include from..to (along the tangent, from the anchor). */
 void ale_wall_extend(ale_wall_t *wall, int64_t from_um, int64_t to_um);
 
-/* The same for one of many looks from one place, the longest of which would make the wall too long: an end
- * that is off by no more than looks stray goes outwards by a quarter and inwards by a sixteenth of that. One
- * that is shorter by more may be hidden, and says nothing. */
+/* The same for one of many scans from one place, the longest of which would make the wall too long.
+ * Asymmetric smoothing: an end within 150 mm moves outwards by a quarter and inwards by a sixteenth of its
+ * error. One that is shorter by more may be hidden, and is ignored. */
 void ale_wall_settle_ends(ale_wall_t *wall, int64_t from_um, int64_t to_um);
 
 /* The point at t along the tangent. */

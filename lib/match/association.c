@@ -44,14 +44,14 @@ int64_t ale_observation_angle_var(const ale_matrix_t *cov)
     return cov->m[2][2];
 }
 
-/* An observation as it is held against walls, placed in their frame, and the variance that the pose's
- * covariance gives its offset, found out when it is asked for. */
+/* An observation placed in the frame of the walls, and the variance that the pose's covariance gives its
+ * offset, computed on demand. */
 typedef struct {
     const ale_observation_t *observation;
     ale_point_t centre;
     uint32_t normal_bam;
     const ale_matrix_t *cov; /* NULL: the pose is known exactly */
-    int64_t pose_var_um2;    /* negative: not found out */
+    int64_t pose_var_um2;    /* negative: not computed yet */
 } candidate_t;
 
 static int64_t pose_var_um2(candidate_t *c)
@@ -62,7 +62,7 @@ static int64_t pose_var_um2(candidate_t *c)
     return c->pose_var_um2;
 }
 
-/* Of wall and view, without the pose. */
+/* Of wall and observation, without the pose. */
 static int64_t known_var(const ale_wall_t *wall, const candidate_t *c, const ale_wall_error_t *e)
 {
     return ale_wall_offset_var(wall, e->t_um) + c->observation->var_offset_um2;
@@ -74,7 +74,7 @@ static int64_t angle_var(const ale_wall_t *wall, const candidate_t *c)
            (c->cov ? ale_observation_angle_var(c->cov) : 0);
 }
 
-/* Common length of view and wall, enough to believe that one shows the other. */
+/* Whether observation and wall overlap enough for one to show the other. */
 static inline bool overlaps(const ale_wall_t *wall, const ale_observation_t *observation, int64_t overlap_um)
 {
     if (overlap_um <= 0) {
@@ -86,8 +86,8 @@ static inline bool overlaps(const ale_wall_t *wall, const ale_observation_t *obs
            (overlap_um > OVERLAP_LEAST_UM && overlap_um * 100 > shorter_um * OVERLAP_PERCENT);
 }
 
-/* The view's errors against a wall, where it lies beside it and within the gate. Most walls are dismissed by
- * what is found out first. */
+/* The observation's errors against a wall that it overlaps, within the gate. The cheapest tests come first:
+ * they dismiss most walls. */
 static inline bool is_beside(const ale_wall_t *wall, const candidate_t *c, const ale_gate_t *gate,
                              ale_wall_error_t *e)
 {
@@ -152,7 +152,7 @@ ale_association_t ale_associate(const ale_local_map_t *map, const ale_observatio
                                 const ale_gate_t *gate, int32_t *work)
 {
     ale_association_t best = {.wall = ALE_NO_WALL, .landmark = ALE_NO_LANDMARK};
-    int64_t least_q8 = -1; /* of the best, found out when another wall may be it */
+    int64_t least_q8 = -1; /* of the best, computed when a second wall passes */
     candidate_t shown = {observation, ale_point_from(observation->centre, viewpoint),
                          observation->normal_bam + viewpoint->pose.theta_bam, cov, -1};
     const int64_t limit_q30 =

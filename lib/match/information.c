@@ -25,19 +25,19 @@ void ale_information_add(ale_information_t *sum, const int64_t row_q14[ALE_STATE
 bool ale_information_determines(const ale_information_t *sum, int64_t sigma_um)
 {
     const int64_t least = ((int64_t)1 << ALE_MATRIX_BITS) / (sigma_um * sigma_um);
-    ale_matrix_t zero_motion = {{{0}}};
+    ale_matrix_t excess = {{{0}}};
     ale_factors_t factors;
     for (int i = 0; i < ALE_STATES; i++) {
-        zero_motion.m[i][i] = 1;
+        excess.m[i][i] = 1;
     }
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < i; j++) {
-            zero_motion.m[i][j] = sum->matrix.m[i][j];
+            excess.m[i][j] = sum->matrix.m[i][j];
         }
-        zero_motion.m[i][i] = sum->matrix.m[i][i] - least;
-        if (zero_motion.m[i][i] <= 0) {
+        excess.m[i][i] = sum->matrix.m[i][i] - least;
+        if (excess.m[i][i] <= 0) {
             return false;
         }
     }
-    return ale_matrix_factor(&zero_motion, &factors) == 0;
+    return ale_matrix_factor(&excess, &factors) == 0;
 }

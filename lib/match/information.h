@@ -1,4 +1,4 @@
-/* Normal equations of the match, and what they determine.
+/* Normal equations of the registration, and what they determine.
  *
  * Rows are scalar errors, in um or urad, with a derivative by the six states in Q14 (um per um, um per
  * urad, and the same per tick of time) and a variance. The sums keep matrix in Q54 and gradient in Q40

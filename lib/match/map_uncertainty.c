@@ -5,16 +5,16 @@
 #include "motion/projection.h"
 
 enum {
-    STEP_UM2 = 500000, /* what a scan's surfaces add that its covariance does not know */
+    STEP_UM2 = 500000, /* systematic errors of a scan's surfaces, not in its covariance */
     STEP_URAD2 = 100000,
-    SLID_MOST_UM = 1000000,
+    DRIFT_MOST_UM = 1000000,
     BEFORE_MM = 100,
     BEFORE_LEAST_Q20 = 256, /* of the whole weight: below that nothing could be divided by */
     COMPARED_BITS = 26,
-    COMMON_BITS = 16
+    COVARIANCE_BITS = 16
 };
 
-/* (2 m)^2 and (1 rad)^2: more drift is not told apart, and does not grow. */
+/* (2 m)^2 and (1 rad)^2: beyond it the uncertainty does not grow. */
 static const int64_t most_um2 = 4000000000000;
 static const int64_t most_urad2 = 1000000000000;
 
@@ -92,7 +92,7 @@ static int64_t times(int64_t m_q20, int64_t v)
     return ale_mul_shift(v, m_q20, 20);
 }
 
-/* The drift when the point about which it turns moves by p. */
+/* The same uncertainty with the centre of the turn moved by p. */
 static ale_map_uncertainty_t moved(const ale_map_uncertainty_t *d, metres_t p)
 {
     const int64_t x_turn = times(p.x_q20, d->tt_urad2);
@@ -112,20 +112,20 @@ ale_map_uncertainty_t ale_map_uncertainty_at(const ale_map_uncertainty_t *map_un
     return moved(map_uncertainty, metres(place));
 }
 
-/* About the origin, of a drift that is felt so at a place. */
+/* The uncertainty about the origin that is `at` about a place. */
 static ale_map_uncertainty_t about_origin(const ale_map_uncertainty_t *at, ale_point_t place)
 {
     const metres_t p = metres(place);
     return moved(at, (metres_t){-p.x_q20, -p.y_q20});
 }
 
-/* Variance of the place along a wall's normal, and what it has in common with the heading. */
+/* Variance of the position along a wall's normal, and its covariance with the heading. */
 typedef struct {
     int64_t var_um2;
     int64_t cov_um_urad;
-} facing_drift_t;
+} facing_var_t;
 
-static facing_drift_t facing_drift(const ale_wall_t *wall, const square_t *n_nt, metres_t place)
+static facing_var_t facing_var(const ale_wall_t *wall, const square_t *n_nt, metres_t place)
 {
     const ale_map_uncertainty_t *d = &wall->map_uncertainty;
     const int64_t x = ale_round_shift(wall->normal_x_q30, 10);
@@ -135,18 +135,18 @@ static facing_drift_t facing_drift(const ale_wall_t *wall, const square_t *n_nt,
     const int64_t turn = times(lever_q20, d->tt_urad2);
     const int64_t var = times(n_nt->xx, d->xx_um2) + 2 * times(n_nt->xy, d->xy_um2) +
                         times(n_nt->yy, d->yy_um2) + times(lever_q20, 2 * cov + turn);
-    return (facing_drift_t){ale_clamp64(var, 0, most_um2), cov + turn};
+    return (facing_var_t){ale_clamp64(var, 0, most_um2), cov + turn};
 }
 
-/* What place and heading have in common, c, is told by walls that face one way, the heading by all: c may be
- * more than a covariance can have. It is held to c^T V^(-1) c <= 3/4 t, what a heading that drifts evenly
- * along a straight way has in common with the place at its end. */
-static void limit_common(ale_map_uncertainty_t *at)
+/* The covariance c of position and heading is averaged over walls that face one way, the heading variance t
+ * over all: c may exceed what a covariance can be. It is limited to c^T V^(-1) c <= 3/4 t, its value at the
+ * end of a straight path along which the heading drifts evenly. */
+static void limit_covariance(ale_map_uncertainty_t *at)
 {
     const int64_t turn_urad = ale_max64(ale_isqrt((uint64_t)at->tt_urad2), 1);
     const unsigned bits = ale_bit_length((uint64_t)ale_max64(ale_max64(at->xx_um2, at->yy_um2), 0));
     const unsigned half = bits > COMPARED_BITS ? (bits - COMPARED_BITS + 1) / 2 : 0;
-    const int64_t most = (int64_t)1 << COMMON_BITS;
+    const int64_t most = (int64_t)1 << COVARIANCE_BITS;
     const int64_t x = ale_clamp64(ale_round_shift(at->xt_um_urad / turn_urad, half), -most, most);
     const int64_t y = ale_clamp64(ale_round_shift(at->yt_um_urad / turn_urad, half), -most, most);
     const int64_t xx = ale_round_shift(at->xx_um2, 2 * half);
@@ -161,38 +161,38 @@ static void limit_common(ale_map_uncertainty_t *at)
     }
 }
 
-/* Weighted sums over walls: of n n^T, of that with the variance along n, of n with what that variance has in
- * common with the heading, and of the heading's variance. */
+/* Weighted sums over walls: of n n^T, of n n^T times the variance along n, of n times the covariance with the
+ * heading, and of the heading's variance. */
 typedef struct {
     square_t facing_q20;
     square_t var;
-    int64_t x_common;
-    int64_t y_common;
+    int64_t x_cov;
+    int64_t y_cov;
     int64_t var_urad2;
 } sums_t;
 
-/* What was there before counts in all directions, and not for the heading. */
+/* The uncertainty so far counts in all directions, and not for the heading. */
 static sums_t begin_with(const ale_map_uncertainty_t *old, int64_t part_q20)
 {
     const int64_t xx = ale_min64(old->xx_um2, most_um2);
     const int64_t yy = ale_min64(old->yy_um2, most_um2);
-    const int64_t most_common = ale_isqrt((uint64_t)xx) * (int64_t)ale_isqrt((uint64_t)yy);
-    const int64_t xy = ale_clamp64(old->xy_um2, -most_common, most_common);
+    const int64_t most_cov = ale_isqrt((uint64_t)xx) * (int64_t)ale_isqrt((uint64_t)yy);
+    const int64_t xy = ale_clamp64(old->xy_um2, -most_cov, most_cov);
     return (sums_t){.facing_q20 = {part_q20, 0, part_q20},
                     .var = {times(part_q20, xx), times(part_q20, xy), times(part_q20, yy)},
-                    .x_common = times(part_q20, old->xt_um_urad),
-                    .y_common = times(part_q20, old->yt_um_urad)};
+                    .x_cov = times(part_q20, old->xt_um_urad),
+                    .y_cov = times(part_q20, old->yt_um_urad)};
 }
 
 static void add_wall(sums_t *sums, const ale_wall_t *wall, metres_t place, int64_t part_q20)
 {
     const square_t n_nt = facing(wall);
-    const facing_drift_t map_uncertainty = facing_drift(wall, &n_nt, place);
-    const int64_t common = times(part_q20, map_uncertainty.cov_um_urad);
+    const facing_var_t along = facing_var(wall, &n_nt, place);
+    const int64_t cov = times(part_q20, along.cov_um_urad);
     add_scaled(&sums->facing_q20, &n_nt, part_q20);
-    add_scaled(&sums->var, &n_nt, times(part_q20, map_uncertainty.var_um2));
-    sums->x_common += ale_mul_shift(common, wall->normal_x_q30, 30);
-    sums->y_common += ale_mul_shift(common, wall->normal_y_q30, 30);
+    add_scaled(&sums->var, &n_nt, times(part_q20, along.var_um2));
+    sums->x_cov += ale_mul_shift(cov, wall->normal_x_q30, 30);
+    sums->y_cov += ale_mul_shift(cov, wall->normal_y_q30, 30);
     sums->var_urad2 += times(part_q20, wall->map_uncertainty.tt_urad2);
 }
 
@@ -200,15 +200,15 @@ static ale_map_uncertainty_t mean_of(const sums_t *sums)
 {
     const square_t root = inverse_root(&sums->facing_q20);
     const square_t var = congruence(&root, &sums->var);
-    const int64_t x = of_two(root.xx, sums->x_common, root.xy, sums->y_common);
-    const int64_t y = of_two(root.xy, sums->x_common, root.yy, sums->y_common);
+    const int64_t x = of_two(root.xx, sums->x_cov, root.xy, sums->y_cov);
+    const int64_t y = of_two(root.xy, sums->x_cov, root.yy, sums->y_cov);
     ale_map_uncertainty_t mean = {.xx_um2 = var.xx,
                                   .xy_um2 = var.xy,
                                   .yy_um2 = var.yy,
                                   .xt_um_urad = of_two(root.xx, x, root.xy, y),
                                   .yt_um_urad = of_two(root.xy, x, root.yy, y),
                                   .tt_urad2 = sums->var_urad2};
-    limit_common(&mean);
+    limit_covariance(&mean);
     return mean;
 }
 
@@ -271,10 +271,11 @@ void ale_map_uncertainty_drift(ale_map_uncertainty_t *here, int64_t *drifted_um,
     const square_t now = {predicted->cov.m[0][0], predicted->cov.m[0][1], predicted->cov.m[1][1]};
     const int64_t grown_um2 = across(&now, along_bam - predicted->pose.theta_bam) -
                               across(&then, along_bam - before->pose.theta_bam);
-    const int64_t slid = ale_min64(*drifted_um + ale_isqrt((uint64_t)ale_max64(grown_um2, 0)), SLID_MOST_UM);
+    const int64_t sum_um =
+        ale_min64(*drifted_um + ale_isqrt((uint64_t)ale_max64(grown_um2, 0)), DRIFT_MOST_UM);
     const ale_map_uncertainty_t at =
         ale_map_uncertainty_at(here, (ale_point_t){predicted->pose.x_um, predicted->pose.y_um});
-    const int64_t more_um2 = ale_clamp64(slid * slid - *drifted_um * *drifted_um, 0,
+    const int64_t more_um2 = ale_clamp64(sum_um * sum_um - *drifted_um * *drifted_um, 0,
                                          ale_max64(most_um2 - ale_max64(at.xx_um2, at.yy_um2), 0));
     const ale_direction_t along = ale_direction(along_bam);
     const int64_t x = ale_round_shift(along.cos_q30, 10);
@@ -282,5 +283,5 @@ void ale_map_uncertainty_drift(ale_map_uncertainty_t *here, int64_t *drifted_um,
     here->xx_um2 += ale_mul_shift(more_um2, x * x, 40);
     here->xy_um2 += ale_mul_shift(more_um2, x * y, 40);
     here->yy_um2 += ale_mul_shift(more_um2, y * y, 40);
-    *drifted_um = slid;
+    *drifted_um = sum_um;
 }

@@ -4,9 +4,9 @@
 #include "base/trig.h"
 
 enum {
-    HELD_UM = 30000,
-    BARE_UM = 200000,
-    CONFIRMED = 3, /* a landmark that was seen less often holds nothing */
+    DETERMINED_UM = 30000,
+    DEGENERATE_UM = 200000,
+    CONFIRMED = 3, /* scans; a landmark seen less often determines nothing */
     WEIGHT_BITS = 20
 };
 
@@ -15,8 +15,8 @@ typedef struct {
     int64_t xx;
     int64_t xy;
     int64_t yy;
-    int64_t pull_x;
-    int64_t pull_y;
+    int64_t bias_x;
+    int64_t bias_y;
 } information_t;
 
 static void add(information_t *sum, int64_t x_q30, int64_t y_q30, int64_t var_um2, int64_t scale_error_um)
@@ -27,12 +27,12 @@ static void add(information_t *sum, int64_t x_q30, int64_t y_q30, int64_t var_um
     sum->xx += ale_round_shift(weight * x_q14 * x_q14, 28);
     sum->xy += ale_round_shift(weight * x_q14 * y_q14, 28);
     sum->yy += ale_round_shift(weight * y_q14 * y_q14, 28);
-    sum->pull_x += ale_mul_shift(weight * x_q14, scale_error_um, 14);
-    sum->pull_y += ale_mul_shift(weight * y_q14, scale_error_um, 14);
+    sum->bias_x += ale_mul_shift(weight * x_q14, scale_error_um, 14);
+    sum->bias_y += ale_mul_shift(weight * y_q14, scale_error_um, 14);
 }
 
-/* Whether every direction is told better than to one sigma of so much. */
-static bool tells(const information_t *sum, int64_t sigma_um)
+/* Whether every direction is determined to better than one sigma. */
+static bool determines(const information_t *sum, int64_t sigma_um)
 {
     const int64_t least = ((int64_t)1000000 << WEIGHT_BITS) / (sigma_um * sigma_um);
     const int64_t xx = sum->xx - least;
@@ -54,17 +54,17 @@ static void add_walls(const ale_local_map_t *map, const ale_observation_t observ
     }
 }
 
-/* What a surface may have slid along itself: its length, as far as its direction may be another one than that
- * of the landmark. */
-static int64_t slid_um2(const ale_observation_t *observation, int64_t turned_q30)
+/* Variance that the unknown position along a surface adds across the landmark: its length, times the angle
+ * between the two. */
+static int64_t along_var_um2(const ale_observation_t *observation, int64_t turned_q30)
 {
     const int64_t length_mm = ale_observation_length_um(observation) / 1000;
     const int64_t turned_mrad = ale_round_shift(turned_q30 * 1000, 30);
     return length_mm * length_mm * (turned_mrad * turned_mrad + observation->var_angle_urad2 / 1000000);
 }
 
-static void add_marks(const ale_local_map_t *map, const ale_observation_t observation[], uint32_t count,
-                      const ale_fit_t *fit, information_t *sum)
+static void add_landmarks(const ale_local_map_t *map, const ale_observation_t observation[], uint32_t count,
+                          const ale_fit_t *fit, information_t *sum)
 {
     for (uint32_t i = 0; i < count; i++) {
         const ale_association_t *association = &fit->association[i];
@@ -78,7 +78,7 @@ static void add_marks(const ale_local_map_t *map, const ale_observation_t observ
             observation[i].normal_bam + fit->motion.pose.theta_bam - landmark->normal_bam;
         add(sum, normal.cos_q30, normal.sin_q30,
             landmark->var_um2 + observation[i].var_offset_um2 +
-                slid_um2(&observation[i], ale_sin_q30(turned_bam)),
+                along_var_um2(&observation[i], ale_sin_q30(turned_bam)),
             0);
     }
 }
@@ -89,16 +89,16 @@ ale_observability_t ale_observability_of(const ale_local_map_t *map, const ale_o
     information_t sum = {0, 0, 0, 0, 0};
     add_walls(map, observation, count, fit, &sum);
     const information_t walls = sum;
-    if (!tells(&sum, HELD_UM)) {
-        add_marks(map, observation, count, fit, &sum);
+    if (!determines(&sum, DETERMINED_UM)) {
+        add_landmarks(map, observation, count, fit, &sum);
     }
-    return (ale_observability_t){.determined = tells(&sum, HELD_UM),
-                                 .degenerate = !tells(&sum, BARE_UM),
+    return (ale_observability_t){.determined = determines(&sum, DETERMINED_UM),
+                                 .degenerate = !determines(&sum, DEGENERATE_UM),
                                  .along_bam =
                                      ale_atan2_bam(2 * sum.xy, sum.xx - sum.yy) / 2 + ALE_BAM_QUARTER_TURN,
                                  .xx_q20 = walls.xx,
                                  .xy_q20 = walls.xy,
                                  .yy_q20 = walls.yy,
-                                 .pull_x_q20 = walls.pull_x,
-                                 .pull_y_q20 = walls.pull_y};
+                                 .bias_x_q20 = walls.bias_x,
+                                 .bias_y_q20 = walls.bias_y};
 }

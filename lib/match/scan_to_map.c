@@ -14,8 +14,7 @@ enum {
     LATER_OFFSET_UM = 60000,
     LATER_ANGLE_URAD = 200000,
     LATER_SEGMENT_UM = 50000,
-    LANDMARK_CONFIRMED =
-        3, /* until it was seen so often a landmark may be of someone who walks: (20 mm)^2 more */
+    LANDMARK_CONFIRMED = 3, /* scans; one seen less often may be of somebody who walks: (20 mm)^2 more */
     LANDMARK_PASSING_UM2 = 400000000,
     SEGMENT_ANGLE_URAD = 600000, /* a short segment hardly has a direction */
     FOCUS_MARGIN_UM = 2000000
@@ -100,7 +99,7 @@ static void add_rows(const ale_observation_t *observation, const ale_wall_t *wal
     ale_information_add(sum, rest_row, rest_urad, robust_var(rest_urad, var_angle));
 }
 
-/* A mark: the offset along its normal, and for a point feature also the one across. */
+/* A landmark: the offset along its normal, for a point feature also the one across. */
 static void add_landmark_rows(const ale_observation_t *observation, const ale_landmark_t *landmark,
                               uint32_t theta_bam, const int64_t change[3], ale_association_t *association,
                               ale_information_t *sum)
@@ -142,10 +141,10 @@ static ale_association_t find(const ale_scene_t *scene, const ale_observation_t 
             wall.wall != ALE_NO_WALL || ale_observation_length_um(observation) >= ALE_WALL_LENGTH_UM;
         return found ? wall : ale_associate_landmark(scene->map, observation, viewpoint, gate->segment_um);
     }
-    const ale_gate_t surface_run = {gate->segment_um, SEGMENT_ANGLE_URAD, gate->sigmas, 0};
+    const ale_gate_t segment_gate = {gate->segment_um, SEGMENT_ANGLE_URAD, gate->sigmas, 0};
     const ale_association_t association =
         observation->kind == ALE_OBSERVATION_SEGMENT
-            ? ale_associate(scene->map, observation, viewpoint, cov, &surface_run, work)
+            ? ale_associate(scene->map, observation, viewpoint, cov, &segment_gate, work)
             : (ale_association_t){.wall = ALE_NO_WALL};
     return association.wall != ALE_NO_WALL
                ? association
@@ -160,7 +159,7 @@ static void clear(ale_fit_t *fit)
     fit->shown_um = 0;
 }
 
-/* What every view shows from where fit->motion is. */
+/* Associates every observation at the pose of fit->motion. */
 static void find_all(const ale_scene_t *scene, const ale_matrix_t *cov, const ale_gate_t *gate,
                      ale_fit_t *fit)
 {
@@ -185,7 +184,7 @@ static void find_all(const ale_scene_t *scene, const ale_matrix_t *cov, const al
     fit->work += ALE_ASSOCIATION_WORK - (work < 0 ? 0 : work);
 }
 
-/* The rows of all that was found. */
+/* The rows of all associations. */
 static void add_all(const ale_scene_t *scene, ale_fit_t *fit)
 {
     fit->information = no_information;
@@ -258,8 +257,8 @@ void ale_register_reject(const ale_motion_t *predicted, const ale_scene_t *scene
     }
 }
 
-/* How far from the robot a wall may be that one of the observations shows: what the gates and a step of the
- * pose add is more than either allows. */
+/* Largest distance from the robot of a wall that an observation may show; the margin covers gates and steps.
+ */
 static int32_t reach_um(const ale_scene_t *scene)
 {
     int64_t reach = 0;
@@ -278,8 +277,8 @@ static void set_prior(const ale_motion_t *predicted, ale_fit_t *fit)
     ale_matrix_invert(&factors, ALE_MATRIX_BITS, &fit->prior);
 }
 
-/* Newton's steps from where out->motion is, with out->prior; the gates narrow from the first to the last.
- * `left` may be looked at: where that does not do for two more passes like the first, there is one step. */
+/* Gauss-Newton iterations from out->motion with out->prior; the gates narrow. Where the work `left` does not
+ * suffice for two more passes like the first, one step is made. */
 static void fit_from(const ale_motion_t *predicted, const ale_scene_t *scene,
                      const ale_gate_t *const gates[ALE_REGISTER_ITERATIONS], int32_t left, ale_fit_t *out)
 {
@@ -302,15 +301,15 @@ static void fit_from(const ale_motion_t *predicted, const ale_scene_t *scene,
     }
 }
 
-/* After all iterations what the last of them found stays. */
-static bool is_looked_at(const ale_fit_t *fit)
+/* After all iterations the associations of the last are kept. */
+static bool is_associated(const ale_fit_t *fit)
 {
     return fit->iterations == ALE_REGISTER_ITERATIONS;
 }
 
 void ale_register_associate(const ale_scene_t *scene, ale_fit_t *fit)
 {
-    if (!is_looked_at(fit)) {
+    if (!is_associated(fit)) {
         find_covariance(fit);
         find_all(scene, &fit->motion.cov, &later, fit);
     }
@@ -318,7 +317,7 @@ void ale_register_associate(const ale_scene_t *scene, ale_fit_t *fit)
 
 void ale_register_weigh(const ale_scene_t *scene, ale_fit_t *fit)
 {
-    if (is_looked_at(fit)) {
+    if (is_associated(fit)) {
         const ale_viewpoint_t viewpoint = ale_viewpoint(fit->motion.pose);
         find_covariance(fit);
         for (uint32_t i = 0; i < scene->observation_count; i++) {

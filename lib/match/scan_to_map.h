@@ -1,11 +1,11 @@
-/* The pose by least squares over all that a scan shows, together with the prediction; paper section IV.
+/* Registration of a scan to the map by least squares, together with the prediction; paper, section IV.
  *
- * The predicted state (pose and velocity with covariance) is corrected by the walls that the observations
- * show: an iterated Kalman update in information form. Each wall gives two independent rows, the offset at
- * the view's centre and what its angle says beyond that, weighted by the covariances of view and wall; rows
- * far out lose weight (Huber). Rows depend on the velocity too, by the time at which each wall was
- * passed: the motion within the scan is found along with the pose. What the scene does not determine
- * keeps the prediction and its variance. Iterations and observations are bounded. */
+ * An iterated Kalman update in information form corrects the predicted state (pose and velocity with
+ * covariance). Each associated wall gives two independent rows: the offset at the observation's centre, and
+ * what its angle says beyond that, weighted by the covariances of observation and wall; large errors lose
+ * weight (Huber). The rows depend on the velocity too, by the time at which the wall was swept: the motion
+ * within the scan is estimated along with the pose. What the scene does not determine keeps the prediction
+ * and its variance. At most ALE_REGISTER_ITERATIONS passes, each bounded by ALE_ASSOCIATION_WORK. */
 #ifndef ALE_MATCH_SCAN_TO_MAP_H
 #define ALE_MATCH_SCAN_TO_MAP_H
 
@@ -23,15 +23,15 @@
 enum { ALE_REGISTER_ITERATIONS = 3 };
 
 typedef struct {
-    ale_local_map_t *map; /* near list prepared; fits focus it */
+    ale_local_map_t *map; /* near list prepared (ale_local_map_approach); a fit focuses it */
     const ale_observation_t *observation;
     uint32_t observation_count; /* ALE_MAX_OBSERVATIONS at most */
-    const int32_t *velocity;    /* that the scan was straightened with; NULL: the predicted one */
+    const int32_t *velocity;    /* that the scan was deskewed with; NULL: the predicted one */
 } ale_scene_t;
 
 typedef struct {
     ale_motion_t motion;           /* corrected; its covariance once it is weighed */
-    int64_t velocity_change[3];    /* against the velocity the scan was straightened with */
+    int64_t velocity_change[3];    /* against the velocity that the scan was deskewed with */
     ale_matrix_t prior;            /* the prediction's information, Q54 */
     ale_information_t information; /* of the scan alone */
     ale_factors_t factors;         /* of both together, at the last step */
@@ -53,12 +53,13 @@ typedef struct {
 void ale_observation_rows(const ale_observation_t *observation, uint32_t pose_theta_bam,
                           uint32_t wall_normal_bam, ale_observation_rows_t *out);
 
+/* Registers a scan: the three parts below in one call. */
 void ale_register_scan(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
                        ale_fit_t *out);
 
-/* Its three parts: out->motion, for one of many poses that are tried, of which no more is asked; what the
- * observations show from there, while the map is focused on what that fit looked at; and what that says of
- * the pose: the errors with the velocity that was found, the information and the covariance. */
+/* Its three parts. pose: out->motion without its covariance, which is all that is asked of one of many
+ * trials. associate: the associations there; the map must still be focused by that fit. weigh: errors with
+ * the velocity found, information and covariance. */
 void ale_register_pose(const ale_motion_t *predicted, const ale_scene_t *scene, const ale_gate_t *gate,
                        ale_fit_t *out);
 void ale_register_associate(const ale_scene_t *scene, ale_fit_t *fit);
@@ -78,7 +79,7 @@ typedef struct {
 void ale_register_again(const ale_scene_t *scene, const ale_second_fit_t *second, ale_fit_t *other,
                         ale_fit_t *fit);
 
-/* Makes a fit of a scan that is not to be believed: the prediction stands, nothing is matched. */
+/* The fit of a rejected scan: the prediction stands, nothing is associated. O(observations). */
 void ale_register_reject(const ale_motion_t *predicted, const ale_scene_t *scene, ale_fit_t *fit);
 
 #endif

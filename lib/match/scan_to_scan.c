@@ -8,8 +8,8 @@
 enum {
     MIDDLE = ALE_SCAN_MATCH_CELLS / 2,
     MIDDLE_HEADING = ALE_SCAN_MATCH_HEADINGS / 2,
-    FACING_BAM = 12 * ALE_BAM_PER_DEGREE,       /* two lines that may be one wall */
-    PIECE_FACING_BAM = 40 * ALE_BAM_PER_DEGREE, /* with a short segment among them */
+    FACING_BAM = 12 * ALE_BAM_PER_DEGREE,         /* two lines that may be one wall */
+    SEGMENT_FACING_BAM = 40 * ALE_BAM_PER_DEGREE, /* with a short segment among them */
     LEAST_VOTES_MM = 800,
     FACING_WORK = 3, /* of a pair that faces the same way, */
     PAIR_WORK = 2,   /* and of one that votes, in votes */
@@ -65,9 +65,9 @@ static void note_surfaces(ale_scan_match_t *r, ale_observations_t before)
     }
 }
 
-/* The pairs of a new view that face the same way at any heading within most_bam of the guess, from pair
- * number `count` on; returns the number after them. Spots have no sides, and are laid on point features
- * alone. */
+/* The pairs of a new observation that face the same way at any heading within most_bam of the guess, from
+ * pair number `count` on; returns the number after them. Point features have no side, and pair with point
+ * features alone. */
 static uint16_t list_pairs_of(ale_scan_match_t *r, const ale_observation_t *now, uint32_t guess_bam,
                               int64_t most_bam, uint16_t count)
 {
@@ -76,7 +76,7 @@ static uint16_t list_pairs_of(ale_scan_match_t *r, const ale_observation_t *now,
         const ale_scan_match_surface_t *before = &r->surface[k];
         const bool lines = before->kind == ALE_OBSERVATION_LINE && now->kind == ALE_OBSERVATION_LINE;
         const uint32_t turned_bam = now->normal_bam + guess_bam - before->normal_bam;
-        const int32_t limit_bam = lines ? FACING_BAM : PIECE_FACING_BAM;
+        const int32_t limit_bam = lines ? FACING_BAM : SEGMENT_FACING_BAM;
         if ((before->kind == ALE_OBSERVATION_POINT) != (now->kind == ALE_OBSERVATION_POINT) ||
             ale_abs64((int32_t)turned_bam) >= limit_bam + most_bam) {
             continue;
@@ -155,7 +155,7 @@ static inline void vote_cells(ale_scan_match_t *r, cells_t c, uint16_t voter, in
 }
 
 /* All displacements that lay the pair on each other: the points offset + t * tangent, offset being the way
- * from the new view's centre to the other's. As far as the work that is left reaches. */
+ * from the new observation's centre to the other's. As far as the work that is left reaches. */
 static inline void vote_line(ale_scan_match_t *r, const ale_scan_match_pair_t *pair, ale_point_t centre,
                              uint16_t voter)
 {
@@ -183,8 +183,9 @@ static inline void vote_line(ale_scan_match_t *r, const ale_scan_match_pair_t *p
                voter, pair->weight_mm);
 }
 
-/* One new view, its centre placed at a heading that is turned from the guess by turn_bam. */
-static void vote_view(ale_scan_match_t *r, uint32_t i, ale_point_t centre, uint32_t turn_bam, uint16_t voter)
+/* One new observation, its centre placed at a heading that is turned from the guess by turn_bam. */
+static void vote_observation(ale_scan_match_t *r, uint32_t i, ale_point_t centre, uint32_t turn_bam,
+                             uint16_t voter)
 {
     const ale_scan_match_pair_t *const end = &r->pair[r->pair_first[i + 1]];
     for (const ale_scan_match_pair_t *pair = &r->pair[r->pair_first[i]];
@@ -205,8 +206,8 @@ static void vote(ale_scan_match_t *r, ale_observations_t now, ale_pose_t pose, u
     memset(r->row_mm, 0, sizeof r->row_mm);
     r->work = ALE_SCAN_MATCH_WORK;
     for (uint32_t i = 0; i < r->now_count; i++) {
-        vote_view(r, i, ale_point_from(now.observation[r->now[i]].centre, &viewpoint), turn_bam,
-                  (uint16_t)(first_voter + i));
+        vote_observation(r, i, ale_point_from(now.observation[r->now[i]].centre, &viewpoint), turn_bam,
+                         (uint16_t)(first_voter + i));
     }
 }
 

@@ -1,12 +1,11 @@
-/* Where the last scan says that this one was taken: a vote over headings and displacements.
+/* Scan-to-scan matching: a Hough vote over headings and displacements.
  *
- * Least squares needs a start from which every view finds its own wall. A robot that drove a metre and turned
- * half a radian since the last scan, on poor wheels, has none. Here every surface of the new scan is laid on
- * every surface of the last one that then faces the same way; each such pair allows the displacements along a
- * line, and where most lines cross the scans lie on each other. The paper's section IV adopts a pair of
- * features and checks the rest; all pairs at once are its Hough transform. Bounded:
- * ALE_SCAN_MATCH_OBSERVATIONS longest observations of each scan, headings, cells and votes as below; the
- * longest observations vote first. */
+ * Least squares needs a start from which each observation finds its own wall. After a metre and half a radian
+ * on poor odometry there is none. Here every surface of the new scan is laid on every surface of the last
+ * that then faces the same way; each pair allows the displacements along a line, and the scans lie on each
+ * other where most lines cross. The paper (section IV) adopts one pair of features and checks the rest; all
+ * pairs at once are its Hough transform. Bounded by the ALE_SCAN_MATCH_OBSERVATIONS longest observations of
+ * each scan, and by headings, cells and votes as below; the longest observations vote first. */
 #ifndef ALE_MATCH_SCAN_TO_SCAN_H
 #define ALE_MATCH_SCAN_TO_SCAN_H
 
@@ -57,10 +56,11 @@ typedef struct {
     uint32_t now_count;
     ale_scan_match_surface_t surface[ALE_SCAN_MATCH_OBSERVATIONS]; /* of the observations before */
     ale_scan_match_pair_t pair[ALE_SCAN_MATCH_OBSERVATIONS * ALE_SCAN_MATCH_OBSERVATIONS];
-    uint16_t pair_first[ALE_SCAN_MATCH_OBSERVATIONS + 1]; /* of each new view */
+    uint16_t pair_first[ALE_SCAN_MATCH_OBSERVATIONS + 1]; /* of each new observation */
     int32_t votes_mm[ALE_SCAN_MATCH_CELLS][ALE_SCAN_MATCH_COLUMNS];
-    int32_t row_mm[ALE_SCAN_MATCH_CELLS];                         /* sum of each row's votes */
-    uint16_t voter[ALE_SCAN_MATCH_CELLS][ALE_SCAN_MATCH_COLUMNS]; /* the last view, at which heading */
+    int32_t row_mm[ALE_SCAN_MATCH_CELLS]; /* sum of each row's votes */
+    uint16_t voter[ALE_SCAN_MATCH_CELLS]
+                  [ALE_SCAN_MATCH_COLUMNS]; /* the last observation that voted, and its heading */
     int32_t cell_um;
     int32_t half_um; /* of the grid's diagonal */
     int32_t work;    /* left for the heading at hand */

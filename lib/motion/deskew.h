@@ -1,4 +1,4 @@
-/* Straightening: each beam as it would have been measured from where the sensor was at the stamp.
+/* Deskewing: each beam as it would have been measured from where the sensor was at the stamp.
  *
  * While a scanner turns, the robot moves: at 2 rad/s the ends of a URG's scan are bent by 4 degrees.
  * With the motion known as a velocity, the beam taken at time t after the stamp is moved by it; out come

@@ -42,14 +42,13 @@ typedef struct {
 
 void ale_lag_init(ale_lag_t *lag, int32_t prior_us);
 
-/* Heading and turning of the robot as a well matched scan shows them. A gap of more than
- * a third of a second begins the row anew. */
+/* Adds heading and turn rate by a well registered scan. A gap of more than 350 ms clears the headings. */
 void ale_lag_add_heading(ale_lag_t *lag, const ale_heading_t *heading);
 
-/* The map was turned: the headings so far turn with it. */
+/* Turns the headings with the map. */
 void ale_lag_turn(ale_lag_t *lag, uint32_t turn_bam);
 
-/* Compares the samples of the wheels whose surroundings the headings now cover; renews lag_us, sigma_us. */
+/* Compares the odometry samples that the headings now cover, four at most; updates lag_us and sigma_us. */
 void ale_lag_update(ale_lag_t *lag, const ale_wheels_t *wheels);
 
 #endif

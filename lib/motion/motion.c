@@ -115,7 +115,7 @@ static void acceleration_noise(int axis, int64_t dt_us, int64_t *way, int64_t *v
     *way = ale_round_shift(*velocity * dt_us, ALE_TICK_BITS + 1);
 }
 
-static int64_t livelier(const ale_process_noise_t *l, int axis, int64_t var)
+static int64_t scaled_noise(const ale_process_noise_t *l, int axis, int64_t var)
 {
     return ale_mul_shift(var, l->factor_q8[axis], 8);
 }
@@ -135,10 +135,10 @@ static void predict_free(ale_motion_t *m, int64_t dt_us, const ale_process_noise
         int64_t way;
         int64_t velocity;
         acceleration_noise(i, dt_us, &way, &velocity);
-        cov.m[i][i] += livelier(l, i, way * way);
-        cov.m[i][i + 3] += livelier(l, i, way * velocity);
-        cov.m[i + 3][i] += livelier(l, i, way * velocity);
-        cov.m[i + 3][i + 3] += livelier(l, i, velocity * velocity);
+        cov.m[i][i] += scaled_noise(l, i, way * way);
+        cov.m[i][i + 3] += scaled_noise(l, i, way * velocity);
+        cov.m[i + 3][i] += scaled_noise(l, i, way * velocity);
+        cov.m[i + 3][i + 3] += scaled_noise(l, i, velocity * velocity);
     }
     m->pose = ale_pose_compose(m->pose, d);
     m->cov = cov;
@@ -186,8 +186,8 @@ static axis_t fuse_axis(const ale_motion_t *m, int i, int64_t dt_us, const ale_w
     a.vv = var + velocity * velocity;
     a.wv = ale_mul_shift(var, dt_q20, 20) + way * velocity;
     a.ww = ale_mul_shift(ale_mul_shift(var, dt_q20, 20), dt_q20, 20) + way * way;
-    measure_way(&a, wheels_way, livelier(l, i, wheels->displacement_var[i]));
-    measure_velocity(&a, wheels->velocity[i], livelier(l, i, wheels->velocity_var[i]));
+    measure_way(&a, wheels_way, scaled_noise(l, i, wheels->displacement_var[i]));
+    measure_velocity(&a, wheels->velocity[i], scaled_noise(l, i, wheels->velocity_var[i]));
     return a;
 }
 
@@ -231,7 +231,7 @@ static void predict_jump(ale_motion_t *m, const ale_wheel_motion_t *wheels, cons
     ale_matrix_congruence(f_q20, &m->cov, &cov);
     for (int i = 0; i < ALE_AXES; i++) {
         cov.m[i][i] +=
-            wheels ? livelier(l, i, wheels->displacement_var[i]) : unknown_step[i] * unknown_step[i];
+            wheels ? scaled_noise(l, i, wheels->displacement_var[i]) : unknown_step[i] * unknown_step[i];
         cov.m[i + 3][i + 3] = unknown_velocity[i] * unknown_velocity[i];
         m->velocity[i] = 0;
     }
@@ -296,8 +296,8 @@ static ale_point_t part_along(const ale_projection_t *a, int64_t x, int64_t y)
                          (int32_t)ale_round_shift(a->xy_q20 * x + a->yy_q20 * y, 20)};
 }
 
-/* The variance that the scan took away along that direction comes back. */
-static void give_back(const ale_projection_t *a, const ale_matrix_t *predicted, ale_matrix_t *found)
+/* Restores the variance that the scan has removed along that direction. */
+static void restore_variance(const ale_projection_t *a, const ale_matrix_t *predicted, ale_matrix_t *found)
 {
     int64_t f_q20[ALE_STATES][ALE_STATES] = {{0}};
     for (int i = 0; i < ALE_STATES; i += ALE_AXES) {
@@ -323,7 +323,7 @@ static void give_back(const ale_projection_t *a, const ale_matrix_t *predicted, 
 void ale_motion_keep_along(ale_motion_t *found, const ale_motion_t *predicted, uint32_t along_bam)
 {
     const ale_projection_t a = ale_projection(along_bam - predicted->pose.theta_bam);
-    give_back(&a, &predicted->cov, &found->cov);
+    restore_variance(&a, &predicted->cov, &found->cov);
     ale_pose_t step = ale_pose_between(predicted->pose, found->pose);
     const ale_point_t way = part_along(&a, step.x_um, step.y_um);
     step.x_um -= way.x_um;

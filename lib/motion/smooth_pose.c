@@ -10,9 +10,9 @@ void ale_smooth_follow(ale_smooth_t *smooth, ale_pose_t map)
     smooth->pose = ale_pose_compose(smooth->shift, map);
 }
 
-void ale_smooth_step(ale_smooth_t *smooth, ale_pose_t way, ale_pose_t map)
+void ale_smooth_step(ale_smooth_t *smooth, ale_pose_t displacement, ale_pose_t map)
 {
-    smooth->pose = ale_pose_compose(smooth->pose, way);
+    smooth->pose = ale_pose_compose(smooth->pose, displacement);
     ale_smooth_hold(smooth, map);
 }
 

@@ -17,7 +17,7 @@ void ale_timestamp_filter_init(ale_timestamp_filter_t *timestamp_filter)
     *timestamp_filter = (ale_timestamp_filter_t){0};
 }
 
-static void take_up(ale_timestamp_filter_t *p, int64_t stamp_us)
+static void restart(ale_timestamp_filter_t *p, int64_t stamp_us)
 {
     *p = (ale_timestamp_filter_t){
         .scans = 1, .stamp_us = stamp_us, .even_us = stamp_us, .usual_us = p->usual_us};
@@ -55,7 +55,7 @@ int64_t ale_timestamp_filter_instant(ale_timestamp_filter_t *timestamp_filter, i
             timestamp_filter->usual_us > 0 ? (gap_us - timestamp_filter->usual_us) / USUAL_SCANS : gap_us;
     }
     if (timestamp_filter->scans == 0 || dt_us <= 0 || dt_us > STEP_MAX_US) {
-        take_up(timestamp_filter, stamp_us);
+        restart(timestamp_filter, stamp_us);
         return stamp_us;
     }
     if (timestamp_filter->scans <= LEARN_SCANS) {
@@ -66,10 +66,10 @@ int64_t ale_timestamp_filter_instant(ale_timestamp_filter_t *timestamp_filter, i
     timestamp_filter->scans++;
     timestamp_filter->stamp_us = stamp_us;
     const int64_t loose_us = timestamp_filter->period_q8_us / 256 / PERIOD_PARTS;
-    const bool keeps_pace = timestamp_filter->period_q8_us / 256 < PERIOD_MOST_US &&
-                            timestamp_filter->jitter2_us2 < loose_us * loose_us;
+    const bool is_even = timestamp_filter->period_q8_us / 256 < PERIOD_MOST_US &&
+                         timestamp_filter->jitter2_us2 < loose_us * loose_us;
     const bool jitters = timestamp_filter->jitter2_us2 > (int64_t)EVEN_US * EVEN_US;
-    return keeps_pace && jitters ? timestamp_filter->even_us : stamp_us;
+    return is_even && jitters ? timestamp_filter->even_us : stamp_us;
 }
 
 bool ale_timestamp_filter_accepts(const ale_timestamp_filter_t *timestamp_filter, int64_t step_us)

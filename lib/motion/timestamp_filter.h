@@ -1,10 +1,10 @@
-/* When a scan was really taken: a mirror turns more evenly than a busy computer writes stamps.
+/* Timestamp filter: when a scan was really taken. A mirror turns more evenly than a busy computer writes
+ * stamps.
  *
- * Stamps that jitter about an even pace by more than a little are replaced by that pace (a phase-locked
- * loop over the stamps); stamps that are even, stamps that keep no pace, and those of logs that hold a scan
- * now and then, are taken as they are. In
- * the recordings of a URG on a rover the stamps swing by 20 ms: at 2 rad/s that is 2 degrees between the
- * scan and the wheels. Source: bench of recordings, see README. One owner; constant work. */
+ * A phase-locked loop follows the stamps. Stamps that jitter about an even period by more than 2 ms are
+ * replaced by the loop's; even stamps, stamps without a period, and those of logs with a scan now and then
+ * are kept. Where stamps swing by 20 ms, 2 rad/s make 2 degrees between scan and odometry. One owner;
+ * constant work. */
 #ifndef ALE_MOTION_TIMESTAMP_FILTER_H
 #define ALE_MOTION_TIMESTAMP_FILTER_H
 
@@ -12,22 +12,22 @@
 #include <stdint.h>
 
 typedef struct {
-    uint32_t scans;   /* since the pace was taken up */
+    uint32_t scans;   /* since the loop was restarted */
     int64_t stamp_us; /* of the last scan */
-    int64_t even_us;  /* its instant by the pace */
+    int64_t even_us;  /* its instant by the loop */
     int64_t period_q8_us;
-    int64_t jitter2_us2; /* mean square of stamp minus pace */
-    int64_t usual_us;    /* mean time between scans, whatever their pace; 0: not known */
+    int64_t jitter2_us2; /* mean square of stamp minus loop */
+    int64_t usual_us;    /* mean time between scans, even or not; 0: unknown */
 } ale_timestamp_filter_t;
 
 void ale_timestamp_filter_init(ale_timestamp_filter_t *timestamp_filter);
 
-/* Takes the stamp of the next scan and returns its instant, on the stamps' clock. A step back, or of more
- * than two seconds, takes up the pace anew. */
+/* Instant of the next scan, on the clock of its stamp. A step back, or of more than two seconds, restarts the
+ * loop. */
 int64_t ale_timestamp_filter_instant(ale_timestamp_filter_t *timestamp_filter, int64_t stamp_us);
 
-/* Whether the time between two scans can be believed: not if it is far less than usual, as in logs whose
- * stamps were taken when a queue was emptied. */
+/* Whether the time between two scans is plausible: not if it is less than a quarter of the mean, as in logs
+ * whose stamps were taken when a queue was emptied. */
 bool ale_timestamp_filter_accepts(const ale_timestamp_filter_t *timestamp_filter, int64_t step_us);
 
 #endif

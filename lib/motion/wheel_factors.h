@@ -1,10 +1,10 @@
 /* Systematic errors of the wheels, known from a calibration drive and taken off every sample.
  *
- *   way  = distance * counted way            wheels larger or smaller than believed
- *   turn = turn factor * (counted turn - bias * counted way)   track width; one wheel larger than the other
+ *   distance = distance factor * counted distance                    diameter of the wheels
+ *   turn     = turn factor * (counted turn - bias * counted distance)  track width; unequal wheels
  *
- * Odometry arrives as poses, so the way is undone into steps, each is corrected, and they are put together
- * again. What is left after that is random and belongs to the noise of `wheels.h`. Source: J. Borenstein,
+ * Odometry arrives as poses, so the path is split into steps, each is corrected, and they are composed
+ * again. What remains is random and belongs to the noise of `wheels.h`. Source: J. Borenstein,
  * L. Feng, "Measurement and correction of systematic odometry errors in mobile robots", 1996. One owner;
  * constant work a sample. */
 #ifndef ALE_MOTION_WHEEL_FACTORS_H

@@ -50,8 +50,8 @@ static int64_t centre_of(const ale_line_t *line, int64_t from_um, int64_t to_um)
     return ale_clamp64(t_um, ale_min64(from_um, to_um), ale_max64(from_um, to_um));
 }
 
-static void view_of(const ale_line_t *line, const ale_scan_t *scan, const ale_viewpoint_t *sensor,
-                    int64_t systematic_um, ale_observation_t *out)
+static void observation_of(const ale_line_t *line, const ale_scan_t *scan, const ale_viewpoint_t *sensor,
+                           int64_t systematic_um, ale_observation_t *out)
 {
     const ale_direction_t along = ale_direction(line->alpha_bam + ALE_BAM_QUARTER_TURN);
     const int64_t a_um = component(line->start, along);
@@ -84,7 +84,7 @@ uint32_t ale_observe_lines(const ale_features_t *features, const ale_scan_t *sca
     uint32_t count = 0;
     for (uint32_t i = 0; i < features->line_count; i++) {
         if (ale_is_chosen(i, features->line_count, ALE_MAX_OBSERVATIONS)) {
-            view_of(&features->line[i], scan, &viewpoint, systematic_um, &out[count]);
+            observation_of(&features->line[i], scan, &viewpoint, systematic_um, &out[count]);
             out[count].first_beam = features->line[i].first;
             out[count].last_beam = features->line[i].last;
             out[count++].kind = ALE_OBSERVATION_LINE;

@@ -1,12 +1,12 @@
-/* A wall as one scan shows it, in the robot's frame: what the matcher works with.
+/* A wall as one scan shows it, in the robot's frame: the input of association and registration.
  *
  *            start ------- centre ------------- end      tangent: start to end, counter-clockwise
  *                            | normal                     as seen from the sensor
  *                            v
  *                          sensor
  *
- * The line's covariance (alpha, rho) of the extractor is turned into two independent errors: of the
- * offset along the normal at the line's centre (its points' centre of weight), and of its angle. */
+ * The covariance (alpha, rho) of the extracted line is turned into two independent errors: of the offset
+ * along the normal at the line's centre (the centre of weight of its points), and of its angle. */
 #ifndef ALE_OBSERVE_OBSERVATION_H
 #define ALE_OBSERVE_OBSERVATION_H
 
@@ -15,23 +15,23 @@
 
 #include "extract/extract.h"
 
-/* Views of one scan. Recorded scans of 682 beams show 29 as a rule and 44 or less nine times in ten; of more
- * an even choice is matched, since the time of a fit goes with their number. */
+/* Observations of one scan, at most: nine recorded scans of 682 beams in ten have no more. Of more an even
+ * choice is made, since the time of a fit is proportional to their number. */
 enum { ALE_MAX_OBSERVATIONS = 44 };
 
-/* Whether the i-th of n things is one of the even choice of at most `most` of them. */
+/* Whether the i-th of n is in the even choice of at most `most` of them. */
 static inline bool ale_is_chosen(uint32_t i, uint32_t n, uint32_t most)
 {
     return n <= most || (i + 1) * most / n != i * most / n;
 }
 
-/* Shorter lines begin no wall in the map: they leave landmarks, as short segments do. */
+/* Shorter lines begin no wall in the map, but a landmark, as short segments do. */
 enum { ALE_WALL_LENGTH_UM = 250000 };
 
 typedef enum {
     ALE_OBSERVATION_LINE = 0,    /* an extracted line */
     ALE_OBSERVATION_SEGMENT = 1, /* a few beams of a surface that made no line */
-    ALE_OBSERVATION_POINT = 2    /* a small thing that stands alone, such as the leg of a table */
+    ALE_OBSERVATION_POINT = 2    /* a small object that stands alone, such as the leg of a table */
 } ale_observation_kind_t;
 
 typedef struct {
@@ -58,13 +58,13 @@ static inline int64_t ale_observation_length_um(const ale_observation_t *observa
 /* Length of all of them together. */
 int64_t ale_observations_length_um(const ale_observation_t observation[], uint32_t count);
 
-/* Views of the lines of a scan. systematic_um: one sigma of what bends and shifts a line the same way in
- * scan after scan (the surface, the range), which no number of beams or scans averages away. Returns their
- * number, ALE_MAX_OBSERVATIONS at most. O(lines). */
+/* Observations of the lines of a scan, in the frame of the sensor's pose (the robot's). systematic_um: one
+ * sigma of errors that are the same in every scan (surface, range bias) and that averaging does not reduce.
+ * Returns their number, ALE_MAX_OBSERVATIONS at most. O(lines). */
 uint32_t ale_observe_lines(const ale_features_t *features, const ale_scan_t *scan, ale_pose_t sensor,
                            int32_t systematic_um, ale_observation_t out[ALE_MAX_OBSERVATIONS]);
 
-/* Where observations are seen from: a pose, with the direction that turns them, for many of them. */
+/* A pose with the cosine and sine of its heading, for placing many observations. */
 typedef struct {
     ale_pose_t pose;
     ale_direction_t turn;
@@ -75,8 +75,7 @@ static inline ale_viewpoint_t ale_viewpoint(ale_pose_t pose)
     return (ale_viewpoint_t){pose, ale_direction(pose.theta_bam)};
 }
 
-/* A point of the observation's frame, and the observation, as they lie in the frame that the pose is given
- * in. */
+/* A point and an observation of the viewpoint's frame in the frame that its pose is given in. */
 ale_point_t ale_point_from(ale_point_t p, const ale_viewpoint_t *viewpoint);
 ale_observation_t ale_observation_from(const ale_observation_t *observation,
                                        const ale_viewpoint_t *viewpoint);

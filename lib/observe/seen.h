@@ -1,5 +1,5 @@
-/* What a scan showed and where it was taken from, as later scans are compared with it; and a copy that
- * outlives the scan. */
+/* A scan record: a posed scan with its observations, to compare later scans with; and a copy that outlives
+ * it. */
 #ifndef ALE_OBSERVE_SEEN_H
 #define ALE_OBSERVE_SEEN_H
 
@@ -18,7 +18,7 @@ typedef struct {
     uint32_t observation_count;           /* ALE_MAX_OBSERVATIONS at most */
 } ale_seen_t;
 
-/* The same without the observations, copied. */
+/* A copy without the observations. */
 typedef struct {
     ale_scan_t scan;
     uint32_t bearing_bam[ALE_MAX_BEAMS];

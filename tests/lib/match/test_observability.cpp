@@ -123,9 +123,9 @@ TEST(Hold, WallsPullWithWhatTheWheelsScaleHasGivenThem)
                 1e-3 * scene.told.trace());
     EXPECT_NEAR(static_cast<double>(observability.yy_q20) * per_m2, scene.told(1, 1),
                 1e-3 * scene.told.trace());
-    EXPECT_NEAR(static_cast<double>(observability.pull_x_q20) * per_m2 * 1e-6, scene.pull[0],
+    EXPECT_NEAR(static_cast<double>(observability.bias_x_q20) * per_m2 * 1e-6, scene.pull[0],
                 1e-3 * scene.pull.norm());
-    EXPECT_NEAR(static_cast<double>(observability.pull_y_q20) * per_m2 * 1e-6, scene.pull[1],
+    EXPECT_NEAR(static_cast<double>(observability.bias_y_q20) * per_m2 * 1e-6, scene.pull[1],
                 1e-3 * scene.pull.norm());
 }
 
