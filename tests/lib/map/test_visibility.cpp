@@ -76,6 +76,23 @@ struct Geometry {
         return beyond < -tolerance ? ALE_VISIBILITY_NONE : ALE_VISIBILITY_SUPPORTED;
     }
 
+    double beam_towards(const Eigen::Vector2d &d) const
+    {
+        const double angle = std::atan2(d[1], d[0]) - sensor[2] - model.first;
+        return (angle - 2 * pi * std::floor(angle / (2 * pi))) / model.step;
+    }
+
+    std::optional<ale_visibility_t> of_beams_around(double beam, double range) const
+    {
+        const auto here = of_beam(beam, range);
+        for (int aside = -1; aside <= 2; aside++) {
+            if (of_beam(beam + aside, range) != here) {
+                return std::nullopt;
+            }
+        }
+        return here;
+    }
+
     std::optional<ale_visibility_t> of_point(const Plane &plane, double t) const
     {
         const Eigen::Vector2d d = plane.point(t) - sensor.head<2>();
@@ -89,22 +106,11 @@ struct Geometry {
         if (cosine < grazing || range > model.reach || range < range_min_m) {
             return ALE_VISIBILITY_NONE;
         }
-        double angle = std::atan2(d[1], d[0]) - sensor[2] - model.first;
-        angle -= 2 * pi * std::floor(angle / (2 * pi));
-        const double beam = angle / model.step;
+        const double beam = beam_towards(d);
         if (beam < 2 || std::abs(beam - model.beams) < 2 || beam > 1022) {
             return std::nullopt;
         }
-        if (beam > model.beams) {
-            return ALE_VISIBILITY_NONE;
-        }
-        const auto here = of_beam(std::floor(beam), range);
-        for (int aside = -1; aside <= 2; aside++) {
-            if (of_beam(std::floor(beam) + aside, range) != here) {
-                return std::nullopt;
-            }
-        }
-        return here;
+        return beam > model.beams ? ALE_VISIBILITY_NONE : of_beams_around(std::floor(beam), range);
     }
 
     std::optional<ale_visibility_t> of_wall(const Plane &plane) const
