@@ -10,7 +10,7 @@ and the options named beside them. Figures are named in a comment below the para
     home, odometry on: ATE {2.4} mm live
     -->
 
-The first line is a command, run at the top of the tree, programs first in PATH, $TMP a folder of its own. Each further line must be
+The first line is a command, run at the top of the tree, programs first in PATH, $TMP a folder of its own, $PYTHON this interpreter. Each further line must be
 printed by it, blanks aside; `..` stands for any text. A figure in braces must stand in the block above, and be what is printed,
 rounded to as many digits; `{0.2 at most}` and `{98 at least}` are bounds. `check long:` marks a command of more than some seconds: it runs with
 --all only. A command that names $ALE_SHARED is left out where that is not there.
@@ -235,7 +235,7 @@ def run(command, root, build):
     with tempfile.TemporaryDirectory() as folder:
         environment = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
         variables = os.environ.get("MAKEFLAGS", "").partition("-- ")[2]
-        environment |= {"PATH": f"{build / 'bin'}:{os.environ['PATH']}", "TMP": folder, "BUILD": str(build),
+        environment |= {"PATH": f"{build / 'bin'}:{os.environ['PATH']}", "TMP": folder, "BUILD": str(build), "PYTHON": sys.executable,
                         "MAKEFLAGS": f"s -- {variables}", "ALE_RESULTS": f"{folder}/results"}
         done = subprocess.run(["sh", "-ec", command], cwd=root, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, check=False, timeout=LIMIT_S)
