@@ -7,11 +7,11 @@ A README has at most 120 lines. Its links and pictures exist; so do paths in bac
 and the options named beside them. Figures are named in a comment below the paragraph or table that holds them:
 
     <!-- check: make bench-slam ONLY=home
-    home, odometry on: ATE {2.4} mm live
+    | home | .. / {2.4} (..) |
     -->
 
-The first line is a command, run at the top of the tree, programs first in PATH, $TMP a folder of its own, $PYTHON this interpreter. Each further line must be
-printed by it, blanks aside; `..` stands for any text. A figure in braces must stand in the block above, and be what is printed,
+The first line is a command, run at the top of the tree, programs first in PATH, $TMP a folder of its own, $PYTHON this interpreter. Each
+further line must be printed by it, blanks aside; `..` stands for any text. A figure in braces must stand in the block above, and be what is printed,
 rounded to as many digits; `{0.2 at most}` and `{98 at least}` are bounds. `check long:` marks a command of more than some seconds: it runs with
 --all only. A command that names $ALE_SHARED is left out where that is not there.
 """
