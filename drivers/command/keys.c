@@ -223,8 +223,9 @@ static bool parse_secret(ale_text_t text, ale_secret_key_t *secret)
 int ale_secret_key_load(const char *path, ale_secret_key_t *secret, char error[ALE_KEYS_ERROR])
 {
     ale_bytes_t bytes;
-    if (sodium_init() < 0 || check_rights(path, S_IRWXG | S_IRWXO,
-                                          "readable by others: no longer secret (chmod 600)", error) < 0) {
+    if (start(error, path) < 0 ||
+        check_rights(path, S_IRWXG | S_IRWXO, "readable by others: no longer secret (chmod 600)", error) <
+            0) {
         return -1;
     }
     const char *wrong = ale_bytes_read_file(&bytes, path);

@@ -33,20 +33,28 @@ typedef struct {
     uint8_t key[ALE_SECRET_KEY_BYTES];
 } ale_secret_key_t;
 
+/* Could be the name of an operator. */
 bool ale_is_name(const char *text);
 
-/* A new pair from the system's random numbers. 0, or -1: the name is none. */
+/* A new pair from the system's random numbers. 0, or -1: the name is none, or libsodium finds no random
+ * numbers. */
 int ale_keys_make(const char *name, ale_secret_key_t *secret, ale_public_key_t *public_key);
 
-/* The robot's file. 0, or -1 with *error: not readable, writable by everybody (anyone could add himself), a
- * line that is no key, a name twice, too many. Then *keys is untouched. */
+/* The robot's file. 0, or -1 with one line in error: not there or not readable (the system's words), a
+ * directory, writable by everybody (anyone could add himself), no list of keys, a line that is no key, a name
+ * twice, too many, no memory. Then *keys is untouched. */
 int ale_keys_load(const char *path, ale_keys_t *keys, char error[ALE_KEYS_ERROR]);
 
-/* Writes the whole file beside the old one and renames. 0, or -1 with *error. */
+/* Writes the whole file beside the old one and renames. 0, or -1 with the system's words in error: the file
+ * is as it was. */
 int ale_keys_save(const char *path, const ale_keys_t *keys, char error[ALE_KEYS_ERROR]);
 
-/* The operator's file: a new one with rights 0600, never over another. Refused when others may read it. */
+/* The operator's file: a new one with rights 0600. 0, or -1 with the system's words in error: there is one
+ * already, or it cannot be written. */
 int ale_secret_key_save(const char *path, const ale_secret_key_t *secret, char error[ALE_KEYS_ERROR]);
+
+/* 0, or -1 with one line in error: not there or not readable, others may read it, no operator's key, no
+ * random numbers, no memory. Then *secret is untouched. */
 int ale_secret_key_load(const char *path, ale_secret_key_t *secret, char error[ALE_KEYS_ERROR]);
 
 /* Signs in the name of the key's owner: command->operator_name is set. Length of the message, or 0 when the

@@ -34,7 +34,7 @@ void ale_operator_saw(ale_operator_t *end, const char *robot, int64_t boot, int6
 size_t ale_operator_command(ale_operator_t *end, int64_t host_us, int64_t life_us, ale_command_t *command,
                             uint8_t bytes[ALE_COMMAND_BYTES]);
 
-/* Sets verb and arguments from words, words[0] the verb. 0, or -1: too many, or one too long. */
+/* Sets verb and arguments from words, words[0] the verb. 0, or -1: no word, too many, or one too long. */
 int ale_command_from_words(const char *const *words, uint32_t count, ale_command_t *command);
 
 #endif

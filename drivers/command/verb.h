@@ -33,7 +33,7 @@ enum { ALE_VERB_ERROR = 96 };
  * arguments, or there is no such setting. */
 int ale_verb_of(const ale_command_t *command, char error[ALE_VERB_ERROR]);
 
-/* Which setting a name is, or -1. */
+/* Which setting a name is (ale_setting_t), or -1: none. */
 int ale_setting_of(const char *name);
 
 #endif

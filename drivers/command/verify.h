@@ -36,6 +36,7 @@ typedef struct {
     uint64_t count[ALE_VERDICTS];
 } ale_verifier_t;
 
+/* robot: its name, copied. boot: the nonce of this start, as in ALE_STATUS. Cannot fail. */
 void ale_verifier_init(ale_verifier_t *verifier, const ale_keys_t *keys, const char *robot, int64_t boot);
 
 /* now_utime: the robot's clock. The verdict, counted. *command is set for ALE_GENUINE only. At most 1 kB is

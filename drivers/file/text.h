@@ -33,16 +33,18 @@ bool ale_text_word(ale_span_t *line, ale_span_t *word);
 /* Number of words, counted up to `most`. */
 uint32_t ale_text_count_words(ale_span_t line, uint32_t most);
 
+/* The word is exactly this. */
 bool ale_text_is(ale_span_t word, const char *what);
 
 /* The word as a number times 10^decimals (0..18), rounded half away from zero: sign, digits, point and
  * exponent. False, and *out untouched: not a number, or beyond int64. */
 bool ale_text_decimal(ale_span_t word, unsigned decimals, int64_t *out);
 
-/* The same for a value that must fit int32. */
+/* The same for a value that must fit int32; false also when it does not. */
 bool ale_text_decimal32(ale_span_t word, unsigned decimals, int32_t *out);
 
-/* Radians to BAM, any number of turns up to 10^8 rad. */
+/* Radians to BAM, any number of turns up to 10^8 rad. False, and *angle_bam untouched: no number, or beyond.
+ */
 bool ale_text_angle(ale_span_t word, uint32_t *angle_bam);
 
 #endif

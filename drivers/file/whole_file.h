@@ -19,10 +19,12 @@ typedef struct {
     char beside[ALE_WHOLE_FILE_PATH]; /* empty: a device or a pipe */
 } ale_whole_file_t;
 
-/* 0, or -1 with errno set: nothing is left behind. */
+/* Opens PATH.new for writing; path must stay until commit. 0, or -1 with errno set (ENAMETOOLONG: no room for
+ * the suffix; else as fopen): nothing is left behind. */
 int ale_whole_file_begin(ale_whole_file_t *file, const char *path);
 
-/* Closes. 0, or -1 with errno set when any write failed: the path is as it was. */
+/* Closes, and puts the file in its place. 0, or -1 with errno set (as fwrite, fsync, fclose, rename; EIO when
+ * a write failed before): the path is as it was. */
 int ale_whole_file_commit(ale_whole_file_t *file);
 
 #endif

@@ -34,12 +34,16 @@ enum { ALE_BUS_ERROR = ALE_LCM_URL_ERROR };
 
 typedef struct ale_bus ale_bus_t;
 
-/* url NULL or empty: the environment's LCM_DEFAULT_URL, else LCM's default. NULL on failure: *error then is
- * one line for people (no multicast route, unknown kind of URL, ...). */
+/* Joins the bus. url NULL or empty: the environment's LCM_DEFAULT_URL, else LCM's default. The bus is the
+ * caller's to close. NULL and one line for people in error: what ale_lcm_url says, LCM cannot open the URL,
+ * or no memory. */
 ale_bus_t *ale_bus_open(const char *url, char error[ALE_BUS_ERROR]);
+
+/* NULL: nothing. */
 void ale_bus_close(ale_bus_t *bus);
 
-/* Each: 0, or -1 when the system refused the message (counted: ale_bus_unsent). Reports as in report.h. */
+/* Sends one message; reports as in report.h. Each: 0, or -1 when the message was too long for the bus or the
+ * system refused it (counted: ale_bus_unsent). Nobody hears: no error. */
 int ale_bus_send_pose(ale_bus_t *bus, const ale_pose_report_t *report);
 int ale_bus_send_features(ale_bus_t *bus, const ale_features_t *features, int64_t utime, uint32_t scan,
                           ale_pose_t sensor);
@@ -57,12 +61,13 @@ int ale_bus_send_command(ale_bus_t *bus, const uint8_t *bytes, size_t count);
 int ale_bus_send_bot_lidar(ale_bus_t *bus, const ale_scan_t *scan, int64_t utime);
 int ale_bus_send_bot_pose(ale_bus_t *bus, const ale_pose_report_t *report);
 
-/* Odometry as it arrives, checked; sample->stamp_us is the message's utime. 0 or -1. */
+/* Odometry as it arrives, checked; sample->stamp_us is the message's utime. What is not what it should be is
+ * refused and counted. 0, or -1: LCM cannot subscribe (memory, threads). */
 typedef void (*ale_bus_odometry_t)(void *user, const ale_odometry_t *sample);
 int ale_bus_on_odometry(ale_bus_t *bus, ale_bus_odometry_t take, void *user);
 
 /* Commands as they arrive: bytes that nobody has looked at yet (command/verify.h does). At most 256 wait
- * between two calls of ale_bus_receive, of either channel. 0 or -1. */
+ * between two calls of ale_bus_receive, of either channel. 0, or -1 as above. */
 typedef void (*ale_bus_command_t)(void *user, const uint8_t *bytes, size_t count);
 int ale_bus_on_command(ale_bus_t *bus, ale_bus_command_t take, void *user);
 
@@ -70,10 +75,10 @@ int ale_bus_on_command(ale_bus_t *bus, ale_bus_command_t take, void *user);
 int ale_bus_descriptor(ale_bus_t *bus);
 
 /* Waits up to timeout_ms for a message (0: looks only), then handles all that have come, 64 at most.
- * The number handled, or -1 when the bus is broken. */
+ * The number handled (a signal ends the wait early), or -1 when LCM's receive thread is broken. */
 int ale_bus_receive(ale_bus_t *bus, int timeout_ms);
 
 uint64_t ale_bus_refused(const ale_bus_t *bus); /* messages that were not what they should be */
-uint64_t ale_bus_unsent(const ale_bus_t *bus);
+uint64_t ale_bus_unsent(const ale_bus_t *bus);  /* messages that did not go out */
 
 #endif

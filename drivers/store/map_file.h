@@ -21,16 +21,19 @@
 enum { ALE_MAP_FILE_ERROR = 320 };
 
 /* Writes beside the file, flushes to the disk and renames: whatever happens, the file is the old or the new
- * map. 0, or -1 with one line in *error. May block for as long as the disk takes; allocates. */
+ * map. pose NULL: not known. 0, or -1 with one line in *error: no memory, or the system's words. May block
+ * for as long as the disk takes; allocates. */
 int ale_map_file_save_with_pose(const char *path, const ale_map_t *map, const ale_pose_t *pose,
                                 char error[ALE_MAP_FILE_ERROR]);
 int ale_map_file_save(const char *path, const ale_map_t *map, char error[ALE_MAP_FILE_ERROR]);
 
-/* *known: the file says where the robot was; only then *pose is set. */
+/* Loads a map, version 1. 0, or -1 with one line in *error and nothing set: not readable (the system's
+ * words), a directory, too large, no memory, or with the number of the line not a map of version 1, damaged
+ * or too large, cut short. *known: the file says where the robot was; only then *pose is set. */
 int ale_map_file_load_with_pose(const char *path, ale_map_t *map, ale_pose_t *pose, bool *known,
                                 char error[ALE_MAP_FILE_ERROR]);
 
-/* 0 and *map filled (version 1), or -1 with one line in *error and *map untouched. */
+/* The same for those who do not ask for the pose. */
 int ale_map_file_load(const char *path, ale_map_t *map, char error[ALE_MAP_FILE_ERROR]);
 
 #endif

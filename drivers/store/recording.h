@@ -38,14 +38,19 @@ typedef struct {
     FILE *file;
 } ale_recording_t;
 
-/* Writing. One owner thread; buffered, so a crash loses the last chunks and never the ones before.
- * Each: 0, or -1 with errno set (EINVAL: a payload above ALE_CHUNK_MAX_PAYLOAD). Closing fails, too, when an
- * earlier write did: the recording is not whole. */
-int ale_recording_begin(ale_recording_t *recording, FILE *file); /* the file is the recording's until close */
+/* Writing. One owner thread; buffered, so a crash loses the last chunks and never the ones before. Each: 0,
+ * or -1 with errno set as by fopen, fwrite and fclose. */
+
+/* Begins a recording in an open file, which is the recording's until close, or in a new one. */
+int ale_recording_begin(ale_recording_t *recording, FILE *file);
 int ale_recording_create(ale_recording_t *recording, const char *path);
+
+/* One chunk; EINVAL: a payload above ALE_CHUNK_MAX_PAYLOAD. stamp_us: when it happened. */
 int ale_recording_write(ale_recording_t *recording, ale_chunk_kind_t kind, int64_t stamp_us,
                         const void *payload, uint32_t length);
 int ale_recording_odometry(ale_recording_t *recording, int64_t stamp_us, const ale_odometry_t *sample);
+
+/* Closed already: 0. EIO: an earlier write failed, the recording is not whole. */
 int ale_recording_close(ale_recording_t *recording);
 
 /* Chunks in memory, for those who keep them before they are written.
@@ -72,6 +77,7 @@ typedef struct {
     uint64_t bad_chunks; /* damaged or cut off at the end: skipped */
 } ale_chunk_reader_t;
 
+/* The bytes begin as a recording does. */
 bool ale_recording_claims(const uint8_t *bytes, size_t count);
 
 /* The bytes must begin as a recording does and outlive the reader. */
