@@ -8,12 +8,12 @@
 #include "lcm/bus.h"
 #include "mapping/map_drawer.h"
 #include "mapping/mapper_thread.h"
+#include "mapping/persistence.h"
 #include "mapping/start_map.h"
 #include "operator/drive.h"
 #include "operator/explore_thread.h"
 #include "realtime/rt.h"
 #include "recorder/recorder.h"
-#include "system/persistence.h"
 #include "system/service.h"
 #include "telemetry/telemetry.h"
 
@@ -82,37 +82,59 @@ static int start_writers(ale_daemon_t *daemon)
     return started ? 0 : fail(1, "no memory or no thread for the flight recorder or for what is kept");
 }
 
-/* The readers first, so that nothing fills up and no pose waits; telemetry after those of whom it tells what
- * they got, and before the scanner is spoken to: LCM takes its time until it hears itself. */
-static int start_tasks(ale_daemon_t *daemon)
+static bool takes_commands(const ale_daemon_t *daemon)
 {
-    const ale_config_t *config = &daemon->options->config;
+    return daemon->options->keys.count > 0;
+}
+
+/* Those who read what the estimate task writes, and the task itself. */
+static bool start_estimate_and_mapping(ale_daemon_t *daemon)
+{
+    ale_exchange_t *exchange = &daemon->exchange;
     daemon->estimate = ale_rt_task_start(&(ale_rt_task_config_t){
         .name = "ale-estimate", .kind = ALE_RT_HARD, .body = ale_estimator_run, .user = daemon->estimator});
-    const bool drives = daemon->options->keys.count > 0;
-    if (daemon->estimate && drives) {
-        daemon->exchange.explore = ale_explore_start(config, &daemon->exchange);
+    if (!daemon->estimate) {
+        return false;
     }
-    daemon->mapper = ale_mapper_thread_start(&daemon->exchange);
-    daemon->drawer = ale_map_drawer_start(&daemon->exchange);
+    if (takes_commands(daemon)) {
+        exchange->explore = ale_explore_start(&daemon->options->config, exchange);
+    }
+    daemon->mapper = ale_mapper_thread_start(exchange);
+    daemon->drawer = ale_map_drawer_start(exchange);
+    return daemon->mapper && daemon->drawer && (exchange->explore || !takes_commands(daemon));
+}
+
+/* What was got of real time, for people and for ALE_STATUS. */
+static ale_rt_report_t tell_realtime(ale_daemon_t *daemon)
+{
     ale_rt_report_t report;
     ale_rt_report(&report);
     daemon->realtime = report.realtime;
     fprintf(stderr, "ale-slamd: %s: %s\n", report.realtime ? "real time" : "real time degraded", report.text);
-    if (daemon->estimate && daemon->mapper && daemon->drawer) {
-        daemon->telemetry =
-            ale_telemetry_start(config, &daemon->options->keys, &daemon->exchange, daemon->bus, &report);
-    }
-    if (daemon->telemetry && drives) {
+    return report;
+}
+
+static bool start_telemetry_and_drive(ale_daemon_t *daemon, const ale_rt_report_t *realtime)
+{
+    const ale_config_t *config = &daemon->options->config;
+    daemon->telemetry =
+        ale_telemetry_start(config, &daemon->options->keys, &daemon->exchange, daemon->bus, realtime);
+    if (daemon->telemetry && takes_commands(daemon)) {
         daemon->drive = ale_drive_start(config, &daemon->exchange);
     }
-    if (daemon->telemetry) {
-        daemon->acquire = ale_acquire_start(config, &daemon->exchange);
+    return daemon->telemetry && (daemon->drive || !takes_commands(daemon));
+}
+
+/* The readers first, so that nothing fills up and no pose waits; telemetry after those of whom it tells what
+ * they got, and before the scanner is spoken to: LCM takes its time until it hears itself. */
+static int start_tasks(ale_daemon_t *daemon)
+{
+    const bool estimating = start_estimate_and_mapping(daemon);
+    const ale_rt_report_t report = tell_realtime(daemon);
+    if (estimating && start_telemetry_and_drive(daemon, &report)) {
+        daemon->acquire = ale_acquire_start(&daemon->options->config, &daemon->exchange);
     }
-    if (!daemon->acquire || (drives && (!daemon->drive || !daemon->exchange.explore))) {
-        return fail(1, "threads cannot be started");
-    }
-    return 0;
+    return daemon->acquire ? 0 : fail(1, "threads cannot be started");
 }
 
 ale_daemon_t *ale_daemon_start(const ale_options_t *options, int *exit_code)

@@ -1,5 +1,5 @@
 /* The table of the configuration's keys: where a value lies in ale_config_t, its unit, range and meaning.
- * Reading (config.c) and printing (config_print.c) both follow it; a new key is one entry. */
+ * Reading (config_read.c) and printing (config_print.c) both follow it; a new key is one entry. */
 #ifndef ALE_FIRMWARE_CONFIG_CONFIG_KEYS_H
 #define ALE_FIRMWARE_CONFIG_CONFIG_KEYS_H
 
@@ -32,8 +32,5 @@ enum { ALE_CONFIG_MAX_KEYS = 64 };
 /* All keys, grouped by section. */
 extern const ale_config_key_t ale_config_keys[];
 extern const size_t ale_config_key_count;
-
-/* Degrees as text to BAM, rounded; -360 to 360. 0 or -1. */
-int ale_config_degrees_parse(const char *text, uint32_t *bam);
 
 #endif

@@ -5,6 +5,7 @@
 #include "config/config.h"
 #include "config/config_keys.h"
 #include "config/decimal.h"
+#include "config/degrees.h"
 
 static void print_comment(const char *comment, FILE *out)
 {
@@ -45,28 +46,14 @@ static void print_angle(const ale_config_key_t *key, int32_t angle_bam, char tex
     }
 }
 
-/* The shortest decimal in degrees that reads back to the same angle. */
-static void print_degrees(uint32_t angle_bam, FILE *out)
-{
-    const int64_t ndeg = ale_mul_div((int32_t)angle_bam, 360000000000, (int64_t)1 << 32);
-    char text[ALE_DECIMAL_TEXT];
-    for (unsigned kept = 0; kept <= 9; kept++) {
-        uint32_t again = 0;
-        ale_decimal_print(ale_decimal_round(ndeg, 9, kept), 9, text);
-        if (ale_config_degrees_parse(text, &again) == 0 && again == angle_bam) {
-            break;
-        }
-    }
-    fputs(text, out);
-}
-
 static void print_sectors(const ale_pipeline_config_t *pipeline, FILE *out)
 {
+    char from[ALE_DECIMAL_TEXT];
+    char to[ALE_DECIMAL_TEXT];
     for (uint32_t k = 0; k < pipeline->blind_count; k++) {
-        fputs(k ? ", " : "", out);
-        print_degrees(pipeline->blind[k].from_bam, out);
-        fputc(':', out);
-        print_degrees(pipeline->blind[k].to_bam, out);
+        ale_degrees_print(pipeline->blind[k].from_bam, from);
+        ale_degrees_print(pipeline->blind[k].to_bam, to);
+        fprintf(out, "%s%s:%s", k ? ", " : "", from, to);
     }
 }
 

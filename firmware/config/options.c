@@ -8,8 +8,8 @@
 
 #include "base/version.h"
 #include "config/decimal.h"
+#include "realtime/clock.h"
 #include "store/map_file.h"
-#include "system/clock.h"
 
 static const char help[] =
     "usage: ale-slamd [--config FILE] [--port DEV] [--lcm-url URL] [--map FILE] [--keys FILE]\n"

@@ -11,20 +11,20 @@
 /* What a scan has shown is worth telling when the robot has gone on so far, or turned. Where it stays: soon
  * again, so that walls are seen often enough to count, and then now and then. */
 enum {
-    SIGHTING_STEP_UM = 100000,
-    SIGHTING_TURN_BAM = 100 * ALE_BAM_PER_MRAD,
-    SIGHTINGS_SOON = 3,
-    SIGHTING_SOON_US = 300000,
-    SIGHTING_WAIT_US = 5000000
+    OBSERVATION_STEP_UM = 100000,
+    OBSERVATION_TURN_BAM = 100 * ALE_BAM_PER_MRAD,
+    OBSERVATIONS_SOON = 3,
+    OBSERVATION_SOON_US = 300000,
+    OBSERVATION_WAIT_US = 5000000
 };
 
-/* The last sighting that was handed over. */
+/* The last scan observation that was handed over. */
 typedef struct {
     uint32_t epoch;
     ale_pose_t from;
     uint32_t count; /* from there */
     int64_t stamp_us;
-} ale_told_t;
+} ale_offered_t;
 
 struct ale_estimator {
     ale_exchange_t *exchange;
@@ -36,7 +36,7 @@ struct ale_estimator {
     uint32_t odometry_taken;
     bool corrected; /* since the last answer, by: */
     ale_pose_t correction;
-    ale_told_t told;
+    ale_offered_t offered;
     bool map_waits;     /* changed since it was last handed over */
     int64_t map_ns;     /* when it was handed over */
     int64_t arrival_ns; /* of the scan at hand, by the clock of ale_rt_now_ns */
@@ -144,27 +144,27 @@ static void offer_keyframe(ale_estimator_t *estimator)
     }
 }
 
-static bool is_still_there(const ale_told_t *told, const ale_estimate_t *estimate)
+static bool is_still_there(const ale_offered_t *offered, const ale_estimate_t *estimate)
 {
-    return told->epoch == estimate->epoch &&
-           ale_are_near(told->from, estimate->smooth, SIGHTING_STEP_UM, SIGHTING_TURN_BAM);
+    return offered->epoch == estimate->epoch &&
+           ale_are_near(offered->from, estimate->smooth, OBSERVATION_STEP_UM, OBSERVATION_TURN_BAM);
 }
 
-static void offer_sighting(ale_estimator_t *estimator, const ale_estimate_t *estimate)
+static void offer_observation(ale_estimator_t *estimator, const ale_estimate_t *estimate)
 {
-    ale_told_t *told = &estimator->told;
-    const bool there = is_still_there(told, estimate);
-    const int64_t wait_us = told->count < SIGHTINGS_SOON ? SIGHTING_SOON_US : SIGHTING_WAIT_US;
-    if (there && ale_abs64(estimate->stamp_us - told->stamp_us) < wait_us) {
+    ale_offered_t *offered = &estimator->offered;
+    const bool there = is_still_there(offered, estimate);
+    const int64_t wait_us = offered->count < OBSERVATIONS_SOON ? OBSERVATION_SOON_US : OBSERVATION_WAIT_US;
+    if (there && ale_abs64(estimate->stamp_us - offered->stamp_us) < wait_us) {
         return;
     }
-    ale_scan_observation_t *slot = ale_ring_reserve(estimator->exchange->sightings);
+    ale_scan_observation_t *slot = ale_ring_reserve(estimator->exchange->observations);
     if (slot && ale_pipeline_scan_observation(estimator->pipeline, slot)) {
-        ale_ring_commit(estimator->exchange->sightings);
-        *told = (ale_told_t){.epoch = estimate->epoch,
-                             .from = there ? told->from : estimate->smooth,
-                             .count = there ? told->count + 1 : 1,
-                             .stamp_us = estimate->stamp_us};
+        ale_ring_commit(estimator->exchange->observations);
+        *offered = (ale_offered_t){.epoch = estimate->epoch,
+                                   .from = there ? offered->from : estimate->smooth,
+                                   .count = there ? offered->count + 1 : 1,
+                                   .stamp_us = estimate->stamp_us};
     }
 }
 
@@ -220,7 +220,7 @@ static void answer_oldest(ale_estimator_t *estimator, uint32_t waiting)
     }
     ale_ring_release(exchange->scans);
     offer_keyframe(estimator);
-    offer_sighting(estimator, &estimate);
+    offer_observation(estimator, &estimate);
     take_corrections(estimator);
 }
 

@@ -14,7 +14,7 @@
 enum { ALE_MAX_BACKLOG = 4 };
 
 /* A scan is answered late when its result comes a turn of the scanner after its last byte. */
-enum { ALE_DEADLINE_US = 100000, ALE_MAP_PERIOD_NS = 1000000000 };
+enum { ALE_DEADLINE_US = 100000 };
 
 typedef struct ale_estimator ale_estimator_t;
 

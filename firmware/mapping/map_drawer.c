@@ -3,7 +3,6 @@
 #include <stdlib.h>
 
 #include "base/fixed.h"
-#include "estimate/estimate.h"
 #include "graph/live_map.h"
 #include "system/background.h"
 
@@ -20,37 +19,37 @@ struct ale_map_drawer {
     int64_t next_ns;
 };
 
-/* Whether the map that the sighting was taken in, if it was loaded, is known. */
-static bool knows_map_of(ale_map_drawer_t *drawer, const ale_scan_observation_t *sighting)
+/* Whether the map that the observation was taken in, if it was loaded, is known. */
+static bool knows_map_of(ale_map_drawer_t *drawer, const ale_scan_observation_t *observation)
 {
-    if (sighting->loaded == 0 || sighting->epoch == drawer->known_epoch) {
+    if (observation->loaded == 0 || observation->epoch == drawer->known_epoch) {
         return true;
     }
     bool fresh = false;
     const ale_loaded_map_t *known = ale_snapshot_newest(drawer->exchange->known_to_drawer, &fresh);
-    if (known->number != sighting->loaded ||
-        ale_live_map_set_prior_map(drawer->live, sighting->epoch, &known->map) < 0) {
+    if (known->number != observation->loaded ||
+        ale_live_map_set_prior_map(drawer->live, observation->epoch, &known->map) < 0) {
         return false;
     }
-    drawer->known_epoch = sighting->epoch;
+    drawer->known_epoch = observation->epoch;
     return true;
 }
 
 /* A drawing without the walls that the drive began with would be published, and saved, as the whole: where
  * they are not known nothing is drawn, and the tracker's map is shown. */
-static void add(ale_map_drawer_t *drawer, const ale_scan_observation_t *sighting)
+static void add(ale_map_drawer_t *drawer, const ale_scan_observation_t *observation)
 {
-    if (knows_map_of(drawer, sighting)) {
-        ale_live_map_add(drawer->live, sighting);
+    if (knows_map_of(drawer, observation)) {
+        ale_live_map_add(drawer->live, observation);
     }
 }
 
 static void take(ale_map_drawer_t *drawer)
 {
-    ale_ring_t *sightings = drawer->exchange->sightings;
-    for (uint32_t ready = ale_ring_ready(sightings); ready > 0; ready--) {
-        add(drawer, ale_ring_at(sightings, 0));
-        ale_ring_release(sightings);
+    ale_ring_t *observations = drawer->exchange->observations;
+    for (uint32_t ready = ale_ring_ready(observations); ready > 0; ready--) {
+        add(drawer, ale_ring_at(observations, 0));
+        ale_ring_release(observations);
         drawer->changed = true;
     }
 }

@@ -8,6 +8,16 @@
 #include "operator/explore_thread.h"
 #include "recorder/recorder.h"
 
+struct ale_commands {
+    ale_command_handlers_t handlers;
+    ale_verifier_t verifier;
+    bool explored;                      /* exploration was on when last looked at */
+    uint64_t refused;                   /* genuine commands that were not obeyed */
+    char operator_name[ALE_NAME_BYTES]; /* of the answer */
+    int64_t counter;
+    bool obeyed;
+};
+
 ale_commands_t *ale_commands_create(const ale_config_t *config, const ale_keys_t *keys, int64_t boot,
                                     ale_exchange_t *exchange, ale_map_storage_t *storage)
 {
@@ -15,12 +25,7 @@ ale_commands_t *ale_commands_create(const ale_config_t *config, const ale_keys_t
     if (!commands) {
         return NULL;
     }
-    commands->config = config;
-    commands->exchange = exchange;
-    commands->storage = storage;
-    commands->publish_scan = config->publish_scan;
-    commands->drive_um_s = config->drive_um_s;
-    commands->drive_urad_s = config->drive_urad_s;
+    ale_command_handlers_init(&commands->handlers, config, exchange, storage);
     ale_verifier_init(&commands->verifier, keys, config->name, boot);
     return commands;
 }
@@ -41,33 +46,35 @@ static void answer(ale_commands_t *commands, const char *name, int64_t counter, 
 /* For the flight recorder: what somebody wanted, and what came of it. */
 static void record(const ale_commands_t *commands, const ale_command_t *command)
 {
+    const ale_command_handlers_t *handlers = &commands->handlers;
     char text[ALE_NAME_BYTES * 2 + ALE_COMMAND_ARGS * ALE_COMMAND_ARG_BYTES + ALE_ANSWER_BYTES];
     int length = snprintf(text, sizeof text, "%s %s", command->operator_name, command->verb);
     for (uint32_t k = 0; k < command->args; k++) {
         length += snprintf(text + length, sizeof text - (size_t)length, " %s", command->arg[k]);
     }
     snprintf(text + length, sizeof text - (size_t)length, ": %s",
-             commands->job_waits ? "begun" : commands->result);
-    ale_recorder_command(commands->exchange->recorder, commands->now_us, text);
+             handlers->job_waits ? "begun" : handlers->result);
+    ale_recorder_command(handlers->exchange->recorder, handlers->now_us, text);
 }
 
 bool ale_commands_take(ale_commands_t *commands, const uint8_t *bytes, size_t count,
                        const ale_map_t *newest_map)
 {
-    const ale_clock_t *clock = &commands->exchange->clock;
+    ale_command_handlers_t *handlers = &commands->handlers;
+    const ale_clock_t *clock = &handlers->exchange->clock;
     ale_command_t command;
-    commands->now_us = ale_clock_now_us(clock);
-    if (ale_verify(&commands->verifier, bytes, count, ale_clock_to_utime(clock, commands->now_us),
+    handlers->now_us = ale_clock_now_us(clock);
+    if (ale_verify(&commands->verifier, bytes, count, ale_clock_to_utime(clock, handlers->now_us),
                    &command) != ALE_GENUINE) {
         return false;
     }
     const bool driving = strcmp(command.verb, "drive") == 0;
-    const bool job_before = commands->job_waits;
-    commands->newest_map = newest_map;
-    const bool obeyed = ale_command_handlers_obey(commands, &command);
-    if (commands->job_waits == job_before) {
+    const bool job_before = handlers->job_waits;
+    handlers->newest_map = newest_map;
+    const bool obeyed = ale_command_handlers_obey(handlers, &command);
+    if (handlers->job_waits == job_before) {
         answer(commands, command.operator_name, command.counter, obeyed);
-        commands->news = commands->news || !driving || !obeyed;
+        handlers->news = handlers->news || !driving || !obeyed;
     }
     record(commands, &command);
     return true;
@@ -76,54 +83,58 @@ bool ale_commands_take(ale_commands_t *commands, const uint8_t *bytes, size_t co
 /* That an exploration has begun or ended is news. */
 static void watch_exploration(ale_commands_t *commands)
 {
-    ale_explore_t *explore = commands->exchange->explore;
+    ale_command_handlers_t *handlers = &commands->handlers;
+    ale_explore_t *explore = handlers->exchange->explore;
     const bool on = explore && ale_explore_is_on(explore);
-    commands->news = commands->news || on != commands->explored;
+    handlers->news = handlers->news || on != commands->explored;
     commands->explored = on;
 }
 
 void ale_commands_work(ale_commands_t *commands)
 {
+    ale_command_handlers_t *handlers = &commands->handlers;
     ale_map_outcome_t outcome;
     watch_exploration(commands);
-    if (!commands->job_waits || !ale_map_storage_done(commands->storage, &outcome)) {
+    if (!handlers->job_waits || !ale_map_storage_done(handlers->storage, &outcome)) {
         return;
     }
-    commands->job_waits = false;
-    commands->news = true;
-    memcpy(commands->result, outcome.text, sizeof commands->result);
+    handlers->job_waits = false;
+    handlers->news = true;
+    memcpy(handlers->result, outcome.text, sizeof handlers->result);
     const bool obeyed =
-        outcome.fine && (!outcome.loaded || ale_command_handlers_request(commands, &commands->job_request));
-    answer(commands, commands->job_operator, commands->job_counter, obeyed);
+        outcome.fine && (!outcome.loaded || ale_command_handlers_request(handlers, &handlers->job_request));
+    answer(commands, handlers->job_operator, handlers->job_counter, obeyed);
 }
 
 bool ale_commands_news(ale_commands_t *commands)
 {
-    const bool news = commands->news;
-    commands->news = false;
+    ale_command_handlers_t *handlers = &commands->handlers;
+    const bool news = handlers->news;
+    handlers->news = false;
     return news;
 }
 
 void ale_commands_report(const ale_commands_t *commands, ale_operation_report_t *report)
 {
-    const int64_t now_us = ale_clock_now_us(&commands->exchange->clock);
+    const ale_command_handlers_t *handlers = &commands->handlers;
+    const int64_t now_us = ale_clock_now_us(&handlers->exchange->clock);
     *report = (ale_operation_report_t){
         .takes_commands = commands->verifier.keys.count > 0,
-        .map_frozen = commands->map_frozen,
+        .map_frozen = handlers->map_frozen,
         .command_counter = commands->counter,
         .command_obeyed = commands->obeyed,
     };
-    snprintf(report->robot, sizeof report->robot, "%s", commands->config->name);
+    snprintf(report->robot, sizeof report->robot, "%s", handlers->config->name);
     snprintf(report->who_drives, sizeof report->who_drives, "%s",
-             ale_drive_arbiter_holder(&commands->arbiter, now_us));
-    if (commands->exchange->explore) {
-        ale_explore_words(commands->exchange->explore, report->exploration);
-        if (report->who_drives[0] == '\0' && ale_explore_is_on(commands->exchange->explore)) {
+             ale_drive_arbiter_holder(&handlers->arbiter, now_us));
+    if (handlers->exchange->explore) {
+        ale_explore_words(handlers->exchange->explore, report->exploration);
+        if (report->who_drives[0] == '\0' && ale_explore_is_on(handlers->exchange->explore)) {
             snprintf(report->who_drives, sizeof report->who_drives, "exploration");
         }
     }
     memcpy(report->command_operator, commands->operator_name, sizeof report->command_operator);
-    memcpy(report->command_result, commands->result, sizeof report->command_result);
+    memcpy(report->command_result, handlers->result, sizeof report->command_result);
 }
 
 void ale_commands_counters(const ale_commands_t *commands, ale_status_report_t *report)
@@ -138,5 +149,5 @@ void ale_commands_counters(const ale_commands_t *commands, ale_status_report_t *
 
 bool ale_commands_publish_scan(const ale_commands_t *commands)
 {
-    return commands->publish_scan;
+    return commands->handlers.publish_scan;
 }

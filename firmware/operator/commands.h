@@ -17,7 +17,7 @@
 #include "config/config.h"
 #include "exchange/exchange.h"
 #include "lcm/report.h"
-#include "system/map_storage.h"
+#include "mapping/map_storage.h"
 
 typedef struct ale_commands ale_commands_t;
 

@@ -12,15 +12,8 @@
 #include "base/scan.h"
 #include "config/config.h"
 #include "exchange/exchange.h"
-#include "operator/drive_arbiter.h"
 
 enum { ALE_DRIVE_PERIOD_US = 40000, ALE_DRIVE_SCAN_LIFE_US = 500000 };
-
-/* From the telemetry thread. */
-typedef struct {
-    ale_velocity_request_t operator_request;
-    bool exploring; /* exploration may drive when the operator does not */
-} ale_drive_orders_t;
 
 typedef struct {
     int32_t v_um_s;

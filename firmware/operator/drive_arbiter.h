@@ -13,15 +13,9 @@
 #include <stdint.h>
 
 #include "command/command.h"
+#include "exchange/thread_messages.h"
 
 enum { ALE_DEAD_MAN_US = 300000, ALE_ARBITER_HOLD_US = 2000000 };
-
-/* A velocity that somebody wants, until a moment. All zero: none. */
-typedef struct {
-    int32_t v_um_s;
-    int32_t w_urad_s;
-    int64_t valid_until_us;
-} ale_velocity_request_t;
 
 typedef enum { ALE_ARBITER_GRANTED, ALE_ARBITER_TAKEN, ALE_ARBITER_STOPPED } ale_arbiter_answer_t;
 

@@ -1,6 +1,6 @@
 /* What was got and what is missing, gathered for the report of a back end. */
-#ifndef ALE_FIRMWARE_FINDINGS_H
-#define ALE_FIRMWARE_FINDINGS_H
+#ifndef ALE_FIRMWARE_REALTIME_FINDINGS_H
+#define ALE_FIRMWARE_REALTIME_FINDINGS_H
 
 #include <stdbool.h>
 

@@ -1,7 +1,7 @@
 /* The self-check of the machine: what of it decides whether deadlines can be kept. Asked once, before the
  * tasks run. */
-#ifndef ALE_FIRMWARE_MACHINE_H
-#define ALE_FIRMWARE_MACHINE_H
+#ifndef ALE_FIRMWARE_REALTIME_MACHINE_H
+#define ALE_FIRMWARE_REALTIME_MACHINE_H
 
 #include <stdint.h>
 

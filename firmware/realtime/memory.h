@@ -1,7 +1,7 @@
 /* Memory of a real-time process: all of it locked, stacks of a size that can be, heaps that do not breathe.
  */
-#ifndef ALE_FIRMWARE_MEMORY_H
-#define ALE_FIRMWARE_MEMORY_H
+#ifndef ALE_FIRMWARE_REALTIME_MEMORY_H
+#define ALE_FIRMWARE_REALTIME_MEMORY_H
 
 #include <stdbool.h>
 #include <stddef.h>

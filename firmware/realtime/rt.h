@@ -10,8 +10,8 @@
  * Back ends: rt_posix.c (SCHED_FIFO; hard under PREEMPT_RT), rt_rtai.c (RTAI/LXRT). A hard task waits on one
  * object that others may signal, time is read and never set, and nothing is started, allocated or printed
  * between release and wait. */
-#ifndef ALE_FIRMWARE_RT_H
-#define ALE_FIRMWARE_RT_H
+#ifndef ALE_FIRMWARE_REALTIME_RT_H
+#define ALE_FIRMWARE_REALTIME_RT_H
 
 #include <stdbool.h>
 #include <stdint.h>

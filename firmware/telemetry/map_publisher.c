@@ -1,6 +1,5 @@
 #include "telemetry/map_publisher.h"
 
-#include "estimate/estimate.h"
 #include "exchange/wake.h"
 
 #define WHOLE_MAP_PERIOD_NS 10000000000

@@ -20,7 +20,7 @@ ORDER = {
     "lib/track": ("evidence",),
     "drivers": ("file", "serial", "log", "store", "command", "lcm", "scanner"),
     "drivers/scanner": ("urg",),
-    "firmware": ("realtime", "system", "config", "exchange", "recorder", "acquire", "estimate", "mapping", "operator", "telemetry",
+    "firmware": ("realtime", "config", "exchange", "system", "recorder", "acquire", "estimate", "mapping", "operator", "telemetry",
                  "deploy"),
 }
 # Files of a folder itself stand above its rooms, but these, which the rooms share.

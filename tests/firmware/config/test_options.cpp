@@ -10,7 +10,7 @@
 
 extern "C" {
 #include "config/options.h"
-#include "system/clock.h"
+#include "realtime/clock.h"
 }
 
 namespace

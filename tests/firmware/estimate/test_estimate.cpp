@@ -144,7 +144,7 @@ TEST_F(Estimate, WhatScansHaveShownIsToldWhenTheRobotHasGoneOnAndWhereItStaysNow
         ale_estimator_step(estimator);
         auto result = std::make_unique<ale_result_t>();
         EXPECT_TRUE(pop(*result));
-        return ale_ring_ready(exchange.sightings);
+        return ale_ring_ready(exchange.observations);
     };
     const std::vector<uint32_t> expected = {1, 1, 1, 2, 2, 2, 3, 3, 3, 3, 3, 3};
     for (size_t k = 0; k < expected.size(); k++) {
@@ -154,12 +154,12 @@ TEST_F(Estimate, WhatScansHaveShownIsToldWhenTheRobotHasGoneOnAndWhereItStaysNow
     for (int k = 14; k <= 30; k++) {
         told_after(kPeriod * k, 0.15); // the smooth pose follows in its own time
     }
-    const uint32_t there = ale_ring_ready(exchange.sightings);
+    const uint32_t there = ale_ring_ready(exchange.observations);
     EXPECT_GT(there, 3U);
     EXPECT_LE(there, 8U);
     EXPECT_EQ(told_after(kPeriod * 31, 0.15), there);
     EXPECT_EQ(told_after(kPeriod * 82, 0.15), there + 1);
-    const auto *last = static_cast<ale_scan_observation_t *>(ale_ring_at(exchange.sightings, there));
+    const auto *last = static_cast<ale_scan_observation_t *>(ale_ring_at(exchange.observations, there));
     EXPECT_EQ(last->scan, 31U);
     EXPECT_GE(last->line_count, 3U);
 }

@@ -1,4 +1,4 @@
-// firmware/map_drawer: sightings and keyframes in, drawings out, and a last one in the end.
+// firmware/map_drawer: scan observations and keyframes in, drawings out, and a last one in the end.
 #include <algorithm>
 #include <memory>
 
@@ -42,11 +42,11 @@ class MapDrawer : public surroundings::WithExchange
     void see(size_t first, size_t end, uint32_t loaded = 0)
     {
         for (size_t k = first; k < end; k++) {
-            void *slot = ale_ring_reserve(exchange.sightings);
+            void *slot = ale_ring_reserve(exchange.observations);
             ASSERT_NE(slot, nullptr);
             *static_cast<ale_scan_observation_t *>(slot) = *drive().sightings[k];
             static_cast<ale_scan_observation_t *>(slot)->loaded = loaded;
-            ale_ring_commit(exchange.sightings);
+            ale_ring_commit(exchange.observations);
         }
     }
     void place_keyframes()
@@ -71,7 +71,7 @@ TEST_F(MapDrawer, WhatScansHaveShownIsDrawn)
     ASSERT_TRUE(comes_true([&] { return newest().epoch != 0; }));
     EXPECT_EQ(newest().epoch, drive().keyframes->epoch);
     EXPECT_GE(newest().map.line_count, 4);
-    EXPECT_EQ(ale_ring_ready(exchange.sightings), 0U);
+    EXPECT_EQ(ale_ring_ready(exchange.observations), 0U);
 }
 
 TEST_F(MapDrawer, WhatCameLastIsDrawnBeforeItEnds)
@@ -107,7 +107,7 @@ class MapDrawerInALoadedMap : public MapDrawer
     }
     bool are_all_taken()
     {
-        return comes_true([&] { return ale_ring_ready(exchange.sightings) == 0; });
+        return comes_true([&] { return ale_ring_ready(exchange.observations) == 0; });
     }
 };
 
@@ -123,7 +123,7 @@ TEST_F(MapDrawerInALoadedMap, ItIsDrawnOn)
 }
 
 // The next map is loaded before the drawer has come to what was seen in the one before.
-TEST_F(MapDrawerInALoadedMap, AnotherMapThanThatOfTheSightingsIsNotTakenForIt)
+TEST_F(MapDrawerInALoadedMap, AnotherMapThanThatOfTheObservationsIsNotTakenForIt)
 {
     const uint32_t number = ale_exchange_know(&exchange, std::make_unique<ale_map_t>().get());
     ale_exchange_know(&exchange, far_wall().get());

@@ -19,7 +19,7 @@
 extern "C" {
 #include "command/operator.h"
 #include "operator/commands.h"
-#include "operator/drive.h"
+#include "operator/drive_arbiter.h"
 #include "operator/explore_thread.h"
 #include "recorder/recorder.h"
 }

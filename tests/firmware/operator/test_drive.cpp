@@ -17,6 +17,7 @@ extern "C" {
 #include "exchange/wake.h"
 #include "lcm/bus.h"
 #include "operator/drive.h"
+#include "operator/drive_arbiter.h"
 }
 
 /* As in test_telemetry.cpp: GLib orders LCM's mutex by means that the sanitizer does not see. */

@@ -12,7 +12,6 @@
 #include "firmware/surroundings.hpp"
 
 extern "C" {
-#include "operator/drive_arbiter.h"
 #include "operator/explore_thread.h"
 }
 

@@ -7,7 +7,6 @@
 #include "firmware/surroundings.hpp"
 
 extern "C" {
-#include "estimate/estimate.h"
 #include "telemetry/map_publisher.h"
 }
 

@@ -10,7 +10,7 @@ extern "C" {
 #include "lcm/bus.h"
 #include "scanner/scanner.h"
 #include "store/recording.h"
-#include "system/clock.h"
+#include "realtime/clock.h"
 }
 
 namespace record

@@ -3,8 +3,8 @@
  *   telemetry ── ale_persistence_offer: newest map, pose ──► its thread ──► one file, whole or not at all
  *
  * The thread has no priority: disks take their time. NULL: nothing is kept. */
-#ifndef ALE_FIRMWARE_SYSTEM_PERSISTENCE_H
-#define ALE_FIRMWARE_SYSTEM_PERSISTENCE_H
+#ifndef ALE_FIRMWARE_MAPPING_PERSISTENCE_H
+#define ALE_FIRMWARE_MAPPING_PERSISTENCE_H
 
 #include <stdbool.h>
 

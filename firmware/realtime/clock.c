@@ -1,4 +1,4 @@
-#include "system/clock.h"
+#include "realtime/clock.h"
 
 #include <time.h>
 

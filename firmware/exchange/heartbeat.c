@@ -1,4 +1,4 @@
-#include "system/heartbeat.h"
+#include "exchange/heartbeat.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>

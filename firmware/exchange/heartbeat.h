@@ -1,6 +1,6 @@
 /* A sign of life: one thread beats, any other sees whether it still does. Lock-free; no system call. */
-#ifndef ALE_FIRMWARE_SYSTEM_HEARTBEAT_H
-#define ALE_FIRMWARE_SYSTEM_HEARTBEAT_H
+#ifndef ALE_FIRMWARE_EXCHANGE_HEARTBEAT_H
+#define ALE_FIRMWARE_EXCHANGE_HEARTBEAT_H
 
 #include <stdint.h>
 

@@ -6,8 +6,8 @@
  *
  * A loaded map lies in the snapshot `loaded_map` of the exchange, for the estimate task. One job at a time.
  */
-#ifndef ALE_FIRMWARE_SYSTEM_MAP_STORAGE_H
-#define ALE_FIRMWARE_SYSTEM_MAP_STORAGE_H
+#ifndef ALE_FIRMWARE_MAPPING_MAP_STORAGE_H
+#define ALE_FIRMWARE_MAPPING_MAP_STORAGE_H
 
 #include <stdbool.h>
 

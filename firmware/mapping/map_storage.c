@@ -1,4 +1,4 @@
-#include "system/map_storage.h"
+#include "mapping/map_storage.h"
 
 #include <stdatomic.h>
 #include <stdio.h>

@@ -4,8 +4,8 @@
 #include <random>
 
 extern "C" {
+#include "realtime/clock.h"
 #include "realtime/rt.h"
-#include "system/clock.h"
 }
 
 namespace

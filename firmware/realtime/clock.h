@@ -5,8 +5,8 @@
  *
  * A simulator that follows the same rule agrees with it without any exchange. Setting the computer's date
  * while the robot runs does not disturb it. Integers throughout; any thread. */
-#ifndef ALE_FIRMWARE_SYSTEM_CLOCK_H
-#define ALE_FIRMWARE_SYSTEM_CLOCK_H
+#ifndef ALE_FIRMWARE_REALTIME_CLOCK_H
+#define ALE_FIRMWARE_REALTIME_CLOCK_H
 
 #include <stdint.h>
 

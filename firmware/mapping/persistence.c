@@ -1,4 +1,4 @@
-#include "system/persistence.h"
+#include "mapping/persistence.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,0 +1,27 @@
+/* Sends what came of each scan: pose, features and scan over LCM; the scan to those who drive by it; all of
+ * it to the flight recorder. For the telemetry thread. */
+#ifndef ALE_FIRMWARE_TELEMETRY_RESULT_PUBLISHER_H
+#define ALE_FIRMWARE_TELEMETRY_RESULT_PUBLISHER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "config/config.h"
+#include "exchange/exchange.h"
+#include "lcm/bus.h"
+#include "telemetry/statistics.h"
+
+/* All zero but the first three: nothing has been sent yet. */
+typedef struct {
+    const ale_config_t *config;
+    ale_exchange_t *exchange;
+    ale_bus_t *bus;
+    ale_pose_t pose; /* in the map, newest */
+    uint32_t epoch;  /* of that map */
+    ale_statistics_t statistics;
+} ale_result_publisher_t;
+
+/* Sends every result that is ready, oldest first. with_scans: ALE_SCAN too. */
+void ale_result_publisher_work(ale_result_publisher_t *publisher, bool with_scans);
+
+#endif
