@@ -3,7 +3,6 @@
 #ifndef ALE_OBSERVE_POSED_SCAN_H
 #define ALE_OBSERVE_POSED_SCAN_H
 
-#include <stddef.h>
 #include <stdint.h>
 
 #include "base/pose.h"

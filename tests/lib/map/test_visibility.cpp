@@ -282,13 +282,19 @@ TEST_F(Ahead, AScannerThatTurnsClockwiseAnswersAlike)
         reversed.range_um[k] = scan.range_um[scan.beams - 1 - k];
         reversed.flag[k] = scan.flag[scan.beams - 1 - k];
     }
-    const ale_posed_scan_t forwards = {&scan, nullptr, {0, 0, 0}};
-    const ale_posed_scan_t backwards = {&reversed, nullptr, {0, 0, 0}};
+    std::vector<uint32_t> bearing_bam(scan.beams);
+    for (int k = 0; k < scan.beams; k++) { // deskewed: four steps further round
+        bearing_bam[k] = ale_scan_bearing(&scan, k) + 4 * static_cast<uint32_t>(scan.step_bam);
+    }
+    const std::vector<uint32_t> reversed_bam(bearing_bam.rbegin(), bearing_bam.rend());
+    const double edge_m = 2 * std::tan(std::atan(0.05) + 4 * 2 * pi / 1024);
+    const ale_posed_scan_t forwards = {&scan, bearing_bam.data(), {0, 0, 0}};
+    const ale_posed_scan_t backwards = {&reversed, reversed_bam.data(), {0, 0, 0}};
     for (int t_um = -790000; t_um < 800000; t_um += 53000) {
-        if (std::abs(std::abs(t_um) - 100000) > 20000) {
-            EXPECT_EQ(ale_wall_point_visibility(&wall, t_um, &forwards),
-                      ale_wall_point_visibility(&wall, t_um, &backwards))
-                << t_um;
+        if (std::abs(t_um - edge_m * 1e6) > 20000) {
+            const auto expected = t_um > edge_m * 1e6 ? ALE_VISIBILITY_SUPPORTED : ALE_VISIBILITY_VIOLATED;
+            EXPECT_EQ(ale_wall_point_visibility(&wall, t_um, &forwards), expected) << t_um;
+            EXPECT_EQ(ale_wall_point_visibility(&wall, t_um, &backwards), expected) << t_um;
         }
     }
 }
