@@ -44,7 +44,7 @@ class MapDrawer : public surroundings::WithExchange
         for (size_t k = first; k < end; k++) {
             void *slot = ale_ring_reserve(exchange.observations);
             ASSERT_NE(slot, nullptr);
-            *static_cast<ale_scan_observation_t *>(slot) = *drive().sightings[k];
+            *static_cast<ale_scan_observation_t *>(slot) = *drive().observations[k];
             static_cast<ale_scan_observation_t *>(slot)->loaded = loaded;
             ale_ring_commit(exchange.observations);
         }
@@ -81,7 +81,7 @@ TEST_F(MapDrawer, WhatCameLastIsDrawnBeforeItEnds)
     start();
     ASSERT_TRUE(comes_true([&] { return newest().epoch != 0; }));
     const int before = newest().map.line_count;
-    see(4, drive().sightings.size());
+    see(4, drive().observations.size());
     stop();
     EXPECT_GT(newest().map.line_count, before);
 }
