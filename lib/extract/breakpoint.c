@@ -19,74 +19,64 @@ enum {
     PROMISING_Q8 = 100       /* part of the gain wanted that a place of the grid must show */
 };
 
-int32_t ale_reading_direction(const ale_extractor_t *e, int32_t first, int32_t last)
-{
-    for (int32_t a = first, b = last; a < b; a++, b--) {
-        if (e->range_um[a] != e->range_um[b]) {
-            return e->range_um[a] < e->range_um[b] ? 1 : -1;
-        }
-    }
-    return 1;
-}
-
 /* Shared variances that n points of a true line may have, of which they have only one draw for every
  * 2 * shared_beams of them. */
-static int64_t shared_times(const ale_extractor_t *e, int32_t n)
+static int64_t shared_times(const ale_run_list_t *r, int32_t n)
 {
-    const int64_t together = ale_min64(n, (int64_t)2 * e->config.noise.shared_beams);
+    const int64_t together = ale_min64(n, (int64_t)2 * r->scan.noise.shared_beams);
     return (int64_t)SHARED_SHARE * n + SHARED_PEAK * together;
 }
 
 /* Squared residuals that n points of a true line may have: chi square of the own noise and the shared error.
  */
-static int64_t allowed_q8(const ale_extractor_t *e, const ale_run_fit_t *fit, int32_t n, int64_t chi_q8)
+static int64_t allowed_q8(const ale_run_list_t *r, const ale_run_fit_t *fit, int32_t n, int64_t chi_q8)
 {
-    return ((fit->var_q8 * chi_q8) >> 8) + fit->shared_q8 * shared_times(e, n);
+    return ((fit->var_q8 * chi_q8) >> 8) + fit->shared_q8 * shared_times(r, n);
 }
 
 /* Threshold of the search, as chi square of n points: it floats with the fit accepted last, between the
  * bounds that the noise model sets. */
-static int64_t floating_chi_q8(const ale_extractor_t *e, const ale_run_fit_t *accepted, int32_t n)
+static int64_t floating_chi_q8(const ale_run_list_t *r, const ale_run_fit_t *accepted, int32_t n)
 {
-    const int64_t expected_q8 = ale_max64((int64_t)2 * e->chi_high_q8[accepted->n], 1);
-    const int64_t scaled_q8 = ale_fit_chi_q8(accepted) * 3 * e->chi_high_q8[n] / expected_q8;
-    return ale_clamp64(scaled_q8, e->chi_low_q8[n], e->chi_high_q8[n]);
+    const int64_t expected_q8 = ale_max64((int64_t)2 * r->chi_high_q8[accepted->n], 1);
+    const int64_t scaled_q8 = ale_fit_chi_q8(accepted) * 3 * r->chi_high_q8[n] / expected_q8;
+    return ale_clamp64(scaled_q8, r->chi_low_q8[n], r->chi_high_q8[n]);
 }
 
 /* Step 5 of the paper's listing: the value of the error is below its threshold, and its rate of increase,
  * which is the error per point added since the fit accepted last, is no more than noise makes it. */
-static bool acceptable(const ale_extractor_t *e, const ale_run_fit_t *fit, const ale_run_fit_t *accepted)
+static bool acceptable(const ale_run_list_t *r, const ale_run_fit_t *fit, const ale_run_fit_t *accepted)
 {
     const int32_t added = fit->n - accepted->n + 2;
-    return fit->sse_q8 <= allowed_q8(e, fit, fit->n, floating_chi_q8(e, accepted, fit->n)) &&
-           fit->sse_q8 - accepted->sse_q8 <= allowed_q8(e, fit, added, e->chi_high_q8[added]);
+    return fit->sse_q8 <= allowed_q8(r, fit, fit->n, floating_chi_q8(r, accepted, fit->n)) &&
+           fit->sse_q8 - accepted->sse_q8 <= allowed_q8(r, fit, added, r->chi_high_q8[added]);
 }
 
-static ale_run_fit_t search_fit(ale_extractor_t *e, int32_t a, int32_t b)
+static ale_run_fit_t search_fit(ale_run_list_t *r, int32_t a, int32_t b)
 {
-    e->search_fits++;
-    e->effort += SEARCH_FIT_EFFORT;
-    return a <= b ? ale_moments_fit(e, a, b) : ale_moments_fit(e, b, a);
+    r->search_fits++;
+    r->effort += SEARCH_FIT_EFFORT;
+    return a <= b ? ale_moments_fit(&r->scan, a, b) : ale_moments_fit(&r->scan, b, a);
 }
 
-int32_t ale_break_search(ale_extractor_t *e, int32_t from, int32_t to, ale_run_fit_t *accepted)
+int32_t ale_break_search(ale_run_list_t *r, int32_t from, int32_t to, ale_run_fit_t *accepted)
 {
     const int32_t direction = to >= from ? 1 : -1;
-    int32_t low = (ale_costly(e) ? ALE_COSTLY_RUN : ALE_MIN_RUN) - 1;
+    int32_t low = (ale_costly(r) ? ALE_COSTLY_RUN : ALE_MIN_RUN) - 1;
     int32_t high = (to - from) * direction + 1;
     if (low >= high) {
         return from;
     }
-    *accepted = search_fit(e, from, from + direction * low);
-    if (accepted->sse_q8 > allowed_q8(e, accepted, accepted->n, e->chi_high_q8[accepted->n])) {
+    *accepted = search_fit(r, from, from + direction * low);
+    if (accepted->sse_q8 > allowed_q8(r, accepted, accepted->n, r->chi_high_q8[accepted->n])) {
         return from;
     }
-    bool bracketed = !ale_costly(e);
+    bool bracketed = !ale_costly(r);
     while (high - low > 1) {
         const int32_t half = (low + high) / 2;
         const int32_t p = bracketed ? half : (int32_t)ale_min64(half, (int64_t)COSTLY_REACH * low);
-        const ale_run_fit_t fit = search_fit(e, from, from + direction * p);
-        if (acceptable(e, &fit, accepted)) {
+        const ale_run_fit_t fit = search_fit(r, from, from + direction * p);
+        if (acceptable(r, &fit, accepted)) {
             low = p;
             *accepted = fit;
         } else {
@@ -105,32 +95,32 @@ typedef struct {
 } pair_t;
 
 /* Squared residuals of the two lines that part after split, each in its own variance; Q8. */
-static int64_t joint_chi_q8(ale_extractor_t *e, const pair_t *pair, int32_t split)
+static int64_t joint_chi_q8(ale_run_list_t *r, const pair_t *pair, int32_t split)
 {
-    e->effort += 2;
-    return (ale_moments_sse_q8(e, pair->both.first, split) << 8) / pair->var_a_q8 +
-           (ale_moments_sse_q8(e, split + 1, pair->both.last) << 8) / pair->var_b_q8;
+    r->effort += 2;
+    return (ale_moments_sse_q8(&r->scan, pair->both.first, split) << 8) / pair->var_a_q8 +
+           (ale_moments_sse_q8(&r->scan, split + 1, pair->both.last) << 8) / pair->var_b_q8;
 }
 
 /* The break where the lines through both runs meet: the one is nearer before it, the other beyond it. -1 when
  * they do not meet within the range. */
-static int32_t meeting_point(const ale_extractor_t *e, const pair_t *pair, int32_t split,
+static int32_t meeting_point(const ale_run_list_t *r, const pair_t *pair, int32_t split,
                              const ale_break_range_t *range)
 {
-    const ale_normal_line_t a = ale_moments_normal_line(e, pair->both.first, split);
-    const ale_normal_line_t b = ale_moments_normal_line(e, split + 1, pair->both.last);
+    const ale_normal_line_t a = ale_moments_normal_line(&r->scan, pair->both.first, split);
+    const ale_normal_line_t b = ale_moments_normal_line(&r->scan, split + 1, pair->both.last);
     /* a is nearer where this times the point is negative */
     const int64_t wx = (a.rho * b.nx - b.rho * a.nx) / MEETING_UNIT;
     const int64_t wy = (a.rho * b.ny - b.rho * a.ny) / MEETING_UNIT;
     int32_t low = range->lowest;
     int32_t high = range->highest + 1;
-    const bool a_first = e->x_q4[low] * wx + e->y_q4[low] * wy < 0;
-    if (a_first == (e->x_q4[high] * wx + e->y_q4[high] * wy < 0)) {
+    const bool a_first = r->scan.points.x_q4[low] * wx + r->scan.points.y_q4[low] * wy < 0;
+    if (a_first == (r->scan.points.x_q4[high] * wx + r->scan.points.y_q4[high] * wy < 0)) {
         return -1;
     }
     while (high - low > 1) {
         const int32_t middle = (low + high) / 2;
-        if (a_first == (e->x_q4[middle] * wx + e->y_q4[middle] * wy < 0)) {
+        if (a_first == (r->scan.points.x_q4[middle] * wx + r->scan.points.y_q4[middle] * wy < 0)) {
             low = middle;
         } else {
             high = middle;
@@ -148,12 +138,12 @@ typedef struct {
 /* The meeting point of the lines that part at a place is known better than the least joint chi square, which
  * is nearly the same over many points where a wall bends a little. It is taken unless it fits worse. Whether
  * the break has moved so far that the lines are others now. */
-static bool move_to_meeting(ale_extractor_t *e, const pair_t *pair, const ale_break_range_t *range,
+static bool move_to_meeting(ale_run_list_t *r, const pair_t *pair, const ale_break_range_t *range,
                             placing_t *best)
 {
-    const int32_t meeting = meeting_point(e, pair, best->split, range);
+    const int32_t meeting = meeting_point(r, pair, best->split, range);
     if (meeting < 0 || meeting == best->split ||
-        joint_chi_q8(e, pair, meeting) > best->chi_q8 + MEETING_LOSS_Q8) {
+        joint_chi_q8(r, pair, meeting) > best->chi_q8 + MEETING_LOSS_Q8) {
         return false;
     }
     const bool moved_far = ale_abs64(meeting - best->split) > 1;
@@ -162,7 +152,7 @@ static bool move_to_meeting(ale_extractor_t *e, const pair_t *pair, const ale_br
 }
 
 /* One step of the pattern search: the better of both sides, or false. */
-static bool better_side(ale_extractor_t *e, const pair_t *pair, const ale_break_range_t *range, int32_t step,
+static bool better_side(ale_run_list_t *r, const pair_t *pair, const ale_break_range_t *range, int32_t step,
                         int32_t came_from, placing_t *best)
 {
     const int32_t centre = best->split;
@@ -171,7 +161,7 @@ static bool better_side(ale_extractor_t *e, const pair_t *pair, const ale_break_
         if (k < range->lowest || k > range->highest || k == came_from) {
             continue;
         }
-        const int64_t chi = joint_chi_q8(e, pair, k);
+        const int64_t chi = joint_chi_q8(r, pair, k);
         if (chi < best->chi_q8) {
             *best = (placing_t){k, chi};
         }
@@ -179,7 +169,7 @@ static bool better_side(ale_extractor_t *e, const pair_t *pair, const ale_break_
     return best->split != centre;
 }
 
-int32_t ale_break_place(ale_extractor_t *e, ale_segment_t both, int64_t var_a_q8, int64_t var_b_q8,
+int32_t ale_break_place(ale_run_list_t *r, ale_segment_t both, int64_t var_a_q8, int64_t var_b_q8,
                         const ale_break_range_t *range)
 {
     if (range->lowest > range->highest) {
@@ -187,12 +177,12 @@ int32_t ale_break_place(ale_extractor_t *e, ale_segment_t both, int64_t var_a_q8
     }
     const pair_t pair = {both, var_a_q8, var_b_q8};
     placing_t best = {(int32_t)ale_clamp64(range->start, range->lowest, range->highest), 0};
-    best.chi_q8 = joint_chi_q8(e, &pair, best.split);
+    best.chi_q8 = joint_chi_q8(r, &pair, best.split);
     int32_t came_from = -1;
     for (int32_t step = range->widest_step; step > 0; step /= 2) {
         for (int32_t tries = 0; tries < 4; tries++) {
             const int32_t centre = best.split;
-            if (!better_side(e, &pair, range, step, came_from, &best)) {
+            if (!better_side(r, &pair, range, step, came_from, &best)) {
                 break;
             }
             came_from = centre;
@@ -200,14 +190,14 @@ int32_t ale_break_place(ale_extractor_t *e, ale_segment_t both, int64_t var_a_q8
     }
     bool moved = true;
     for (int32_t k = 0; moved && k < MOST_MEETINGS; k++) {
-        moved = move_to_meeting(e, &pair, range, &best);
+        moved = move_to_meeting(r, &pair, range, &best);
     }
     return best.split;
 }
 
 /* The break after which the joint fit is best, of the places of a grid that is the same in both directions;
  * -1 when the run has no room for two. *sse_q8: squared residuals of the two lines. */
-static int32_t coarse_break(ale_extractor_t *e, ale_segment_t run, int32_t direction, int64_t *sse_q8)
+static int32_t coarse_break(ale_run_list_t *r, ale_segment_t run, int32_t direction, int64_t *sse_q8)
 {
     const int32_t n = run.last + 1 - run.first;
     int32_t best = -1;
@@ -218,9 +208,9 @@ static int32_t coarse_break(ale_extractor_t *e, ale_segment_t run, int32_t direc
             continue;
         }
         const int32_t split = direction > 0 ? run.first + near_part - 1 : run.last - near_part;
-        e->effort += 2;
-        const int64_t sse =
-            ale_moments_sse_q8(e, run.first, split) + ale_moments_sse_q8(e, split + 1, run.last);
+        r->effort += 2;
+        const int64_t sse = ale_moments_sse_q8(&r->scan, run.first, split) +
+                            ale_moments_sse_q8(&r->scan, split + 1, run.last);
         if (sse < *sse_q8) {
             *sse_q8 = sse;
             best = split;
@@ -229,12 +219,13 @@ static int32_t coarse_break(ale_extractor_t *e, ale_segment_t run, int32_t direc
     return best;
 }
 
-int64_t ale_break_gain_q8(ale_extractor_t *e, ale_run_t *run)
+int64_t ale_break_gain_q8(ale_run_list_t *r, ale_run_t *run)
 {
-    const ale_run_fit_t *one = ale_fit_of_run(e, run);
+    const ale_run_fit_t *one = ale_fit_of_run(&r->scan, run);
     int64_t sse_q8;
     const ale_segment_t both = {run->first, run->last};
-    const int32_t split = coarse_break(e, both, ale_reading_direction(e, run->first, run->last), &sse_q8);
+    const int32_t split =
+        coarse_break(r, both, ale_points_reading_direction(&r->scan.points, run->first, run->last), &sse_q8);
     return split < 0 ? 0 : (sse_q8 - one->sse_q8) * 256 / one->var_q8;
 }
 
@@ -245,10 +236,12 @@ typedef struct {
     int64_t ratio_q8;
 } parting_t;
 
-static parting_t part_at(const ale_extractor_t *e, const ale_run_t *run, int32_t split)
+static parting_t part_at(const ale_run_list_t *r, const ale_run_t *run, int32_t split)
 {
-    parting_t p = {ale_moments_fit(e, run->first, split), ale_moments_fit(e, split + 1, run->last), 0};
-    p.ratio_q8 = ale_merge_ratio_q8(e, &run->fit, &p.a, &p.b, !e->jump_after[split]);
+    parting_t p = {ale_moments_fit(&r->scan, run->first, split),
+                   ale_moments_fit(&r->scan, split + 1, run->last), 0};
+    p.ratio_q8 =
+        ale_merge_ratio_q8(&r->scan.noise, &run->fit, &p.a, &p.b, !r->scan.segments.jump_after[split]);
     return p;
 }
 
@@ -257,23 +250,23 @@ bool ale_break_suspicious(const ale_run_fit_t *one)
     return ale_fit_chi_q8(one) >= (int64_t)(one->n - 2) * SUSPICIOUS_Q8 + SUSPICIOUS_SUM_Q8;
 }
 
-int32_t ale_break_find(ale_extractor_t *e, ale_run_t *run, int32_t direction)
+int32_t ale_break_find(ale_run_list_t *r, ale_run_t *run, int32_t direction)
 {
-    if (!ale_break_suspicious(ale_fit_of_run(e, run))) {
+    if (!ale_break_suspicious(ale_fit_of_run(&r->scan, run))) {
         return -1;
     }
     const ale_segment_t both = {run->first, run->last};
     int64_t sse_q8;
-    const int32_t coarse = coarse_break(e, both, direction, &sse_q8);
+    const int32_t coarse = coarse_break(r, both, direction, &sse_q8);
     if (coarse < 0) {
         return -1;
     }
-    const parting_t p = part_at(e, run, coarse);
+    const parting_t p = part_at(r, run, coarse);
     if (p.ratio_q8 < PROMISING_Q8) {
         return -1;
     }
     const ale_break_range_t range = {run->first + ALE_MIN_RUN - 1, run->last - ALE_MIN_RUN, coarse, direction,
                                      ALE_BREAK_WIDE_STEP};
-    const int32_t split = ale_break_place(e, both, p.a.var_q8, p.b.var_q8, &range);
-    return part_at(e, run, split).ratio_q8 >= 256 ? split : -1;
+    const int32_t split = ale_break_place(r, both, p.a.var_q8, p.b.var_q8, &range);
+    return part_at(r, run, split).ratio_q8 >= 256 ? split : -1;
 }

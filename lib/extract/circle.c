@@ -18,12 +18,13 @@ typedef struct {
     int64_t z;
 } circle_sums_t;
 
-static circle_sums_t sums_about(const ale_extractor_t *e, int32_t first, int32_t last, int64_t x, int64_t y)
+static circle_sums_t sums_about(const ale_prepared_scan_t *scan, int32_t first, int32_t last, int64_t x,
+                                int64_t y)
 {
     circle_sums_t s = {0};
     for (int32_t i = first; i <= last; i++) {
-        const int64_t u = ale_clamp64(e->x_q4[i] - x, -MAX_EXTENT_Q4, MAX_EXTENT_Q4);
-        const int64_t v = ale_clamp64(e->y_q4[i] - y, -MAX_EXTENT_Q4, MAX_EXTENT_Q4);
+        const int64_t u = ale_clamp64(scan->points.x_q4[i] - x, -MAX_EXTENT_Q4, MAX_EXTENT_Q4);
+        const int64_t v = ale_clamp64(scan->points.y_q4[i] - y, -MAX_EXTENT_Q4, MAX_EXTENT_Q4);
         const int64_t z = ale_round_shift(u * u + v * v, ALE_POINT_SHIFT);
         s.uu += u * u;
         s.uv += u * v;
@@ -53,13 +54,13 @@ static int64_t scaled_ratio(int64_t num, int64_t den, int32_t scale)
                          ale_max64(ale_round_shift(den, (unsigned)(scale - up)), 1));
 }
 
-ale_circle_t ale_circle_fit(const ale_extractor_t *e, int32_t first, int32_t last)
+ale_circle_t ale_circle_fit(const ale_prepared_scan_t *scan, int32_t first, int32_t last)
 {
     const ale_circle_t none = {0, 0, 0};
     const int64_t n = last + 1 - first;
-    const int64_t x = (e->sum[last + 1].x - e->sum[first].x) / n;
-    const int64_t y = (e->sum[last + 1].y - e->sum[first].y) / n;
-    const circle_sums_t s = sums_about(e, first, last, x, y);
+    const int64_t x = (scan->sum[last + 1].x - scan->sum[first].x) / n;
+    const int64_t y = (scan->sum[last + 1].y - scan->sum[first].y) / n;
+    const circle_sums_t s = sums_about(scan, first, last, x, y);
     const unsigned p = excess_bits(s.uu + s.vv);
     const unsigned q = excess_bits(ale_abs64(s.uz) + ale_abs64(s.vz));
     const int64_t uu = ale_round_shift(s.uu, p);
@@ -83,12 +84,13 @@ ale_circle_t ale_circle_fit(const ale_extractor_t *e, int32_t first, int32_t las
     return circle;
 }
 
-int64_t ale_circle_sse_q8(const ale_extractor_t *e, const ale_circle_t *circle, int32_t first, int32_t last)
+int64_t ale_circle_sse_q8(const ale_prepared_scan_t *scan, const ale_circle_t *circle, int32_t first,
+                          int32_t last)
 {
     int64_t sum = 0;
     for (int32_t i = first; i <= last; i++) {
-        const int64_t u = e->x_q4[i] - circle->x_q4;
-        const int64_t v = e->y_q4[i] - circle->y_q4;
+        const int64_t u = scan->points.x_q4[i] - circle->x_q4;
+        const int64_t v = scan->points.y_q4[i] - circle->y_q4;
         const int64_t d = (u * u + v * v - circle->radius_q4 * circle->radius_q4) / (2 * circle->radius_q4);
         const int64_t bounded = ale_clamp64(d, -MAX_DISTANCE_Q4, MAX_DISTANCE_Q4);
         sum += bounded * bounded;

@@ -1,5 +1,7 @@
 #include "extract/corner.h"
 
+#include <stdbool.h>
+
 #include "base/fixed.h"
 #include "base/trig.h"
 
@@ -131,20 +133,30 @@ static int64_t var_of_step_um2(const ale_line_t *a, const ale_line_t *b, int64_t
     return ((((spacing2_um2 * STEP_BEAMS2) >> 8) * part_q8) >> 8) * part_q8;
 }
 
-/* Variance of an end of line a along it, where line b adjoins, which it meets with a variance. The place
- * where they part lies half way between the ends that face each other, give or take a beam where neither is
- * seen: (3 g^2 + 1) / 12 of the beams' distance on the wall squared, for g beams from end to end. It errs by
- * what moves that place. */
-static int64_t facing_end_var_um2(const ale_line_t *a, const ale_line_t *b, direction_t nb, ale_point_t end,
-                                  int64_t meeting_um2, int64_t gap, int64_t step_nrad)
+/* Squared distance of neighbouring beams on a line, at its end. */
+static int64_t spacing2_at_um2(const ale_line_t *line, ale_point_t end, int64_t step_nrad)
 {
     const int64_t range2_um2 = squared_distance(end, (ale_point_t){0, 0});
     const int64_t spacing_um =
-        ale_min64(ale_mul_nano(range2_um2 / ale_max64(a->rho_um, 1), step_nrad), ALE_MAX_RANGE_UM);
-    const int64_t spacing2_um2 = spacing_um * spacing_um;
-    const int64_t parting_um2 =
-        ale_min64(meeting_um2, var_of_step_um2(a, b, distance_um(b, nb, end), spacing2_um2));
-    return spacing2_um2 * (3 * gap * gap + 1) / 12 + parting_um2;
+        ale_min64(ale_mul_nano(range2_um2 / ale_max64(line->rho_um, 1), step_nrad), ALE_MAX_RANGE_UM);
+    return spacing_um * spacing_um;
+}
+
+/* How two lines that adjoin lie to each other at an end of one of them. */
+typedef struct {
+    int64_t meeting_um2;  /* variance of the place where they meet, along that one */
+    int64_t step_um;      /* distance of its end from the other */
+    int64_t spacing2_um2; /* of its beams */
+    int64_t gap;          /* beams from end to end */
+} facing_t;
+
+/* Variance of an end along its line, where another adjoins. The place where they part lies half way between
+ * the ends that face each other, give or take a beam where neither is seen: (3 g^2 + 1) / 12 of the beams'
+ * distance on the wall squared, for g beams from end to end. It errs by what moves that place. */
+static int64_t facing_end_var_um2(const ale_line_t *a, const ale_line_t *b, const facing_t *f)
+{
+    const int64_t parting_um2 = ale_min64(f->meeting_um2, var_of_step_um2(a, b, f->step_um, f->spacing2_um2));
+    return f->spacing2_um2 * (3 * f->gap * f->gap + 1) / 12 + parting_um2;
 }
 
 static bool corner_of(const ale_line_t *a, const ale_line_t *b, direction_t na, direction_t nb,
@@ -189,8 +201,12 @@ void ale_corner_find(int64_t step_nrad, ale_features_t *out)
             continue;
         }
         const meeting_t meeting = meeting_of(a, b, here, next, a->end);
-        a->var_end_um2 = facing_end_var_um2(a, b, next, a->end, meeting.first_um2, gap, step_nrad);
-        b->var_start_um2 = facing_end_var_um2(b, a, here, b->start, meeting.second_um2, gap, step_nrad);
+        const facing_t end = {meeting.first_um2, distance_um(b, next, a->end),
+                              spacing2_at_um2(a, a->end, step_nrad), gap};
+        const facing_t start = {meeting.second_um2, distance_um(a, here, b->start),
+                                spacing2_at_um2(b, b->start, step_nrad), gap};
+        a->var_end_um2 = facing_end_var_um2(a, b, &end);
+        b->var_start_um2 = facing_end_var_um2(b, a, &start);
         if (!corner_of(a, b, here, next, corner)) {
             continue;
         }

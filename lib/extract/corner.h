@@ -2,7 +2,7 @@
 #ifndef ALE_EXTRACT_CORNER_H
 #define ALE_EXTRACT_CORNER_H
 
-#include "extract/extract.h"
+#include "extract/features.h"
 
 /* Fills out->corner from out->line (in beam order), and says how well the ends of adjoining lines are known,
  * which is what they are told apart by. step_nrad: from beam to beam, without sign. O(lines). */

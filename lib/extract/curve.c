@@ -30,22 +30,22 @@ typedef struct {
     int64_t y_q8;
 } mean_t;
 
-static inline mean_t mean_of(const ale_extractor_t *e, int32_t first, int32_t last)
+static inline mean_t mean_of(const ale_prepared_scan_t *scan, int32_t first, int32_t last)
 {
     const int64_t n = last + 1 - first;
-    const mean_t mean = {(e->sum[last + 1].x - e->sum[first].x) * 16 / n,
-                         (e->sum[last + 1].y - e->sum[first].y) * 16 / n};
+    const mean_t mean = {(scan->sum[last + 1].x - scan->sum[first].x) * 16 / n,
+                         (scan->sum[last + 1].y - scan->sum[first].y) * 16 / n};
     return mean;
 }
 
-static shape_t shape_of(const ale_extractor_t *e, ale_run_t *run)
+static shape_t shape_of(const ale_run_list_t *r, ale_run_t *run)
 {
     const int32_t n = run->last + 1 - run->first;
     const int32_t third = n / 3;
-    const mean_t a = mean_of(e, run->first, run->first + third - 1);
-    const mean_t m = mean_of(e, run->first + third, run->last - third);
-    const mean_t b = mean_of(e, run->last - third + 1, run->last);
-    const ale_run_fit_t *fit = ale_fit_of_run(e, run);
+    const mean_t a = mean_of(&r->scan, run->first, run->first + third - 1);
+    const mean_t m = mean_of(&r->scan, run->first + third, run->last - third);
+    const mean_t b = mean_of(&r->scan, run->last - third + 1, run->last);
+    const ale_run_fit_t *fit = ale_fit_of_run(&r->scan, run);
     const int64_t dx = (b.x_q8 - a.x_q8) / 16;
     const int64_t dy = (b.y_q8 - a.y_q8) / 16;
     /* about the mean of both ends: the same from either side */
@@ -58,9 +58,9 @@ static shape_t shape_of(const ale_extractor_t *e, ale_run_t *run)
     return shape;
 }
 
-static bool adjoin(const ale_extractor_t *e, const ale_run_t *a, const ale_run_t *b)
+static bool adjoin(const ale_run_list_t *r, const ale_run_t *a, const ale_run_t *b)
 {
-    return b->first - a->last <= MAX_GAP_POINTS && ale_segment_joins(e, a->last, b->first);
+    return b->first - a->last <= MAX_GAP_POINTS && ale_segment_joins(&r->scan.segments, a->last, b->first);
 }
 
 /* Sign of the turn from a to b when it is one of a chain of chords: 3 to 50 degrees; else 0. */
@@ -75,33 +75,33 @@ static int32_t turn_between(const shape_t *a, const shape_t *b)
 }
 
 /* Chi square of the points of the runs first..last about a circle, minus that about their own lines, Q8. */
-static int64_t circle_excess_q8(ale_extractor_t *e, int32_t first, int32_t last)
+static int64_t circle_excess_q8(ale_run_list_t *r, int32_t first, int32_t last)
 {
-    const ale_circle_t circle = ale_circle_fit(e, e->run[first].first, e->run[last].last);
-    e->effort += (e->run[last].last + 1 - e->run[first].first) * CIRCLE_EFFORT_Q2 / 4;
+    const ale_circle_t circle = ale_circle_fit(&r->scan, r->run[first].first, r->run[last].last);
+    r->effort += (r->run[last].last + 1 - r->run[first].first) * CIRCLE_EFFORT_Q2 / 4;
     if (circle.radius_q4 == 0) {
         return INT64_MAX;
     }
     int64_t excess = 0;
     for (int32_t k = first; k <= last; k++) {
-        const ale_run_fit_t *fit = ale_fit_of_run(e, &e->run[k]);
-        const int64_t sse = ale_circle_sse_q8(e, &circle, e->run[k].first, e->run[k].last);
+        const ale_run_fit_t *fit = ale_fit_of_run(&r->scan, &r->run[k]);
+        const int64_t sse = ale_circle_sse_q8(&r->scan, &circle, r->run[k].first, r->run[k].last);
         excess += (sse - fit->sse_q8) * 256 / fit->var_q8;
     }
     return excess;
 }
 
-static bool chain_is_curve(ale_extractor_t *e, int32_t first, int32_t last)
+static bool chain_is_curve(ale_run_list_t *r, int32_t first, int32_t last)
 {
-    return circle_excess_q8(e, first, last) <= (int64_t)CHAIN_ALLOWANCE_Q8 * (last - first - 1);
+    return circle_excess_q8(r, first, last) <= (int64_t)CHAIN_ALLOWANCE_Q8 * (last - first - 1);
 }
 
 /* One run: curved when a circle explains it better than its two best lines. */
-static bool run_is_curve(ale_extractor_t *e, int32_t k)
+static bool run_is_curve(ale_run_list_t *r, int32_t k)
 {
-    const int64_t circle = circle_excess_q8(e, k, k);
-    e->run[k].no_arc = circle >= 0 || circle >= ale_break_gain_q8(e, &e->run[k]);
-    return !e->run[k].no_arc;
+    const int64_t circle = circle_excess_q8(r, k, k);
+    r->run[k].no_arc = circle >= 0 || circle >= ale_break_gain_q8(r, &r->run[k]);
+    return !r->run[k].no_arc;
 }
 
 static bool is_suspect(const ale_run_t *run, const shape_t *shape, int64_t limit_q8)
@@ -110,14 +110,14 @@ static bool is_suspect(const ale_run_t *run, const shape_t *shape, int64_t limit
 }
 
 /* The bulge beyond which single runs are tried. */
-static int64_t suspect_bulge_q8(const ale_extractor_t *e, const shape_t *shape, int32_t most)
+static int64_t suspect_bulge_q8(const ale_run_list_t *r, const shape_t *shape, int32_t most)
 {
     int64_t limit_q8 = SINGLE_Q8;
     int32_t suspects;
     do {
         suspects = 0;
-        for (int32_t k = 0; k < e->run_count; k++) {
-            suspects += is_suspect(&e->run[k], &shape[k], limit_q8);
+        for (int32_t k = 0; k < r->count; k++) {
+            suspects += is_suspect(&r->run[k], &shape[k], limit_q8);
         }
         limit_q8 *= suspects > most ? 2 : 1;
     } while (suspects > most);
@@ -149,22 +149,22 @@ static stretch_t strongest_stretch(const shape_t *shape, int32_t first, int32_t 
 
 /* The last chord of a curve is often too short to bulge: it belongs to the curve if the circle holds with it.
  */
-static void widen_stretch(ale_extractor_t *e, int32_t first, int32_t last, stretch_t *stretch)
+static void widen_stretch(ale_run_list_t *r, int32_t first, int32_t last, stretch_t *stretch)
 {
-    if (stretch->last < last && chain_is_curve(e, stretch->first, stretch->last + 1)) {
+    if (stretch->last < last && chain_is_curve(r, stretch->first, stretch->last + 1)) {
         stretch->last++;
     }
-    if (stretch->first > first && chain_is_curve(e, stretch->first - 1, stretch->last)) {
+    if (stretch->first > first && chain_is_curve(r, stretch->first - 1, stretch->last)) {
         stretch->first--;
     }
 }
 
-static int32_t chain_end(const ale_extractor_t *e, const shape_t *shape, int32_t first, int32_t *sign)
+static int32_t chain_end(const ale_run_list_t *r, const shape_t *shape, int32_t first, int32_t *sign)
 {
     int32_t last = first;
     *sign = 0;
-    while (last + 1 < e->run_count && !e->run[last].curved && !e->run[last + 1].curved &&
-           adjoin(e, &e->run[last], &e->run[last + 1])) {
+    while (last + 1 < r->count && !r->run[last].curved && !r->run[last + 1].curved &&
+           adjoin(r, &r->run[last], &r->run[last + 1])) {
         const int32_t turn = turn_between(&shape[last], &shape[last + 1]);
         if (turn == 0 || (*sign != 0 && turn != *sign)) {
             break;
@@ -186,57 +186,57 @@ static void mark_chain(const stretch_t *stretch, uint8_t curve, uint8_t *curve_o
     }
 }
 
-static void join_marked(ale_extractor_t *e, const uint8_t *curve_of)
+static void join_marked(ale_run_list_t *r, const uint8_t *curve_of)
 {
     int32_t kept = 0;
-    for (int32_t k = 0; k < e->run_count; k++) {
-        ale_run_t run = e->run[k];
+    for (int32_t k = 0; k < r->count; k++) {
+        ale_run_t run = r->run[k];
         const uint8_t id = curve_of[k];
-        while (id != 0 && k + 1 < e->run_count && curve_of[k + 1] == id) {
-            run.last = e->run[++k].last;
+        while (id != 0 && k + 1 < r->count && curve_of[k + 1] == id) {
+            run.last = r->run[++k].last;
             ale_run_changed(&run);
         }
         run.curved = run.curved || id != 0;
-        e->run[kept++] = run;
+        r->run[kept++] = run;
     }
-    e->run_count = (uint16_t)kept;
+    r->count = (uint16_t)kept;
 }
 
-void ale_curve_find(ale_extractor_t *e, bool again)
+void ale_curve_find(ale_run_list_t *r, bool again)
 {
     shape_t shape[ALE_MAX_RUNS];
     uint8_t curve_of[ALE_MAX_RUNS] = {0};
     int64_t strength_q8[ALE_MAX_RUNS] = {0};
     uint8_t curves = 0;
-    for (int32_t k = 0; k < e->run_count; k++) {
-        const bool enough = e->run[k].last - e->run[k].first + 1 >= MIN_POINTS;
-        shape[k] = enough ? shape_of(e, &e->run[k]) : (shape_t){0};
+    for (int32_t k = 0; k < r->count; k++) {
+        const bool enough = r->run[k].last - r->run[k].first + 1 >= MIN_POINTS;
+        shape[k] = enough ? shape_of(r, &r->run[k]) : (shape_t){0};
     }
-    const int32_t most = again || ale_costly(e) ? MOST_SUSPECTS / 3 : MOST_SUSPECTS;
-    const int64_t limit_q8 = suspect_bulge_q8(e, shape, most);
-    for (int32_t k = 0; k < e->run_count; k++) {
-        if (is_suspect(&e->run[k], &shape[k], limit_q8) && run_is_curve(e, k)) {
+    const int32_t most = again || ale_costly(r) ? MOST_SUSPECTS / 3 : MOST_SUSPECTS;
+    const int64_t limit_q8 = suspect_bulge_q8(r, shape, most);
+    for (int32_t k = 0; k < r->count; k++) {
+        if (is_suspect(&r->run[k], &shape[k], limit_q8) && run_is_curve(r, k)) {
             curve_of[k] = ++curves;
         }
     }
-    for (int32_t first = 0; first < e->run_count;) {
+    for (int32_t first = 0; first < r->count;) {
         int32_t sign;
-        const int32_t last = chain_end(e, shape, first, &sign);
+        const int32_t last = chain_end(r, shape, first, &sign);
         stretch_t stretch = strongest_stretch(shape, first, last, sign);
-        if (stretch.first < stretch.last && chain_is_curve(e, stretch.first, stretch.last)) {
-            widen_stretch(e, first, last, &stretch);
+        if (stretch.first < stretch.last && chain_is_curve(r, stretch.first, stretch.last)) {
+            widen_stretch(r, first, last, &stretch);
             mark_chain(&stretch, ++curves, curve_of, strength_q8);
         }
         first = last > first ? last : first + 1;
     }
-    join_marked(e, curve_of);
+    join_marked(r, curve_of);
 }
 
-void ale_curve_fit(const ale_extractor_t *e, ale_segment_t run, ale_curve_t *curve)
+void ale_curve_fit(const ale_prepared_scan_t *scan, ale_segment_t run, ale_curve_t *curve)
 {
-    const ale_circle_t circle = ale_circle_fit(e, run.first, run.last);
-    curve->first = e->beam[run.first];
-    curve->last = e->beam[run.last];
+    const ale_circle_t circle = ale_circle_fit(scan, run.first, run.last);
+    curve->first = scan->points.beam[run.first];
+    curve->last = scan->points.beam[run.last];
     curve->centre.x_um = (int32_t)ale_round_shift(circle.x_q4 * 1000, ALE_POINT_SHIFT);
     curve->centre.y_um = (int32_t)ale_round_shift(circle.y_q4 * 1000, ALE_POINT_SHIFT);
     curve->radius_um = (int32_t)ale_round_shift(circle.radius_q4 * 1000, ALE_POINT_SHIFT);

@@ -7,19 +7,23 @@
 #include "extract/corner.h"
 #include "extract/curve.h"
 #include "extract/line_fit.h"
+#include "extract/lowess.h"
 #include "extract/merge.h"
 #include "extract/moments.h"
 #include "extract/outlier.h"
 #include "extract/points.h"
+#include "extract/run_list.h"
+#include "extract/run_noise.h"
 #include "extract/runs.h"
 #include "extract/scan_noise.h"
 #include "extract/segment.h"
 #include "extract/workspace.h"
 
 enum {
-    HIGH_Z = 4,
-    MOST_ROUNDS = 2, /* of splitting, joining and placing, where a round changes something */
-    LOW_Z = 3,
+    MOST_DEVIATION = 100000, /* um, ppm */
+    MOST_BEARING_NRAD = 100000000,
+    MOST_ROBUST_PASSES = 8,
+    MOST_ROUNDS = 2,    /* of splitting, joining and placing, where a round changes something */
     CLUTTER_LONGER = 4, /* thirds of the fewest points of a line, where there is clutter */
     ROUGH_OWN_Q2 = 6,   /* own variances that a line may have beyond its bound: the measured noise errs too */
     ROUGH_SHARED = 12,  /* shared variances that a long wall may be wavy by, */
@@ -44,37 +48,29 @@ uint32_t ale_extractor_size(void)
     return (uint32_t)sizeof(ale_extractor_t);
 }
 
-static bool noise_in_range(const ale_noise_t *n)
+static bool within(int32_t value, int32_t least, int32_t most)
 {
-    return n->own_um >= 0 && n->own_um <= 100000 && n->own_ppm >= 0 && n->own_ppm <= 100000 &&
-           n->shared_um >= 0 && n->shared_um <= 100000 && n->shared_ppm >= 0 && n->shared_ppm <= 100000 &&
-           n->shared_beams >= 1 && n->shared_beams <= ALE_MAX_BEAMS && n->surface_um >= 0 &&
-           n->surface_um <= 100000 && n->bearing_nrad >= 0 && n->bearing_nrad <= 100000000;
+    return least <= value && value <= most;
 }
 
-/* Chi square that n points about a fitted line exceed as seldom as a Gauss curve z deviations, by Wilson and
- * Hilferty: k (1 - h + z sqrt(h))^3 with h = 2 / 9 k and k = n - 2 degrees of freedom. */
-static int32_t chi_limit_q8(int32_t n, int32_t z)
+static bool noise_in_range(const ale_noise_t *n)
 {
-    const int64_t freedom = n > 2 ? n - 2 : 1;
-    const int64_t h_q20 = ((int64_t)2 << 20) / (9 * freedom);
-    const int64_t root_q20 = ((int64_t)1 << 20) - h_q20 + z * (int64_t)ale_isqrt((uint64_t)h_q20 << 20);
-    return (int32_t)(freedom * ((((root_q20 * root_q20) >> 20) * root_q20) >> 20) >> 12);
+    return within(n->own_um, 0, MOST_DEVIATION) && within(n->own_ppm, 0, MOST_DEVIATION) &&
+           within(n->shared_um, 0, MOST_DEVIATION) && within(n->shared_ppm, 0, MOST_DEVIATION) &&
+           within(n->shared_beams, 1, ALE_MAX_BEAMS) && within(n->surface_um, 0, MOST_DEVIATION) &&
+           within(n->bearing_nrad, 0, MOST_BEARING_NRAD);
 }
 
 int ale_extractor_init(ale_extractor_t *e, const ale_extract_config_t *config)
 {
-    if (!noise_in_range(&config->noise) || config->min_points < ALE_MIN_RUN ||
-        config->min_points > ALE_MAX_BEAMS || config->min_length_um < 0 || config->smooth_span % 2 != 1 ||
-        config->smooth_span > ALE_MAX_SPAN || config->robust_passes > 8) {
+    if (!noise_in_range(&config->noise) || !within(config->min_points, ALE_MIN_RUN, ALE_MAX_BEAMS) ||
+        config->min_length_um < 0 || config->smooth_span % 2 != 1 || config->smooth_span > ALE_MAX_SPAN ||
+        config->robust_passes > MOST_ROBUST_PASSES) {
         return -1;
     }
     memset(e, 0, sizeof *e);
     e->config = *config;
-    for (int32_t n = 0; n <= ALE_MAX_BEAMS; n++) {
-        e->chi_low_q8[n] = chi_limit_q8(n, LOW_Z);
-        e->chi_high_q8[n] = chi_limit_q8(n, HIGH_Z);
-    }
+    ale_run_list_init(&e->runs, config->min_points);
     return 0;
 }
 
@@ -84,52 +80,54 @@ void ale_extractor_set_hook(ale_extractor_t *e, const ale_stage_hook_t *hook)
 }
 
 /* Squared residuals that a line may have. What neighbours share bends a short line hardly at all. */
-static int64_t rough_q8(const ale_extractor_t *e, const ale_run_fit_t *fit)
+static int64_t rough_q8(const ale_run_list_t *r, const ale_run_fit_t *fit)
 {
-    const int64_t own = ((fit->var_q8 * e->chi_high_q8[fit->n]) >> 8) * ROUGH_OWN_Q2 / 4;
+    const int64_t own = ((fit->var_q8 * r->chi_high_q8[fit->n]) >> 8) * ROUGH_OWN_Q2 / 4;
     const int64_t n2 = (int64_t)fit->n * fit->n;
-    const int64_t reach = (int64_t)ROUGH_REACHES * e->config.noise.shared_beams;
+    const int64_t reach = (int64_t)ROUGH_REACHES * r->scan.noise.shared_beams;
     const int64_t share_q8 = (n2 << 8) / (n2 + reach * reach);
     return own + ((ROUGH_SHARED * fit->shared_q8 * fit->n * share_q8) >> 8);
 }
 
+/* A line long enough, of a known direction. */
 static bool is_line(ale_extractor_t *e, const ale_line_t *line)
 {
     const int64_t dx = (int64_t)line->start.x_um - line->end.x_um;
     const int64_t dy = (int64_t)line->start.y_um - line->end.y_um;
     if (dx * dx + dy * dy < (int64_t)e->config.min_length_um * e->config.min_length_um) {
-        e->refused[ALE_REFUSED_SHORT]++;
+        e->runs.refused[ALE_REFUSED_SHORT]++;
         return false;
     }
     if (line->var_alpha_nrad2 > MAX_SIGMA_ALPHA_NRAD * MAX_SIGMA_ALPHA_NRAD) {
-        e->refused[ALE_REFUSED_VAGUE]++;
+        e->runs.refused[ALE_REFUSED_VAGUE]++;
         return false;
     }
     return true;
 }
 
 /* A run of enough points, as smooth as its noise lets it be. */
-static bool is_wall(ale_extractor_t *e, ale_run_t *run)
+static bool is_wall(ale_run_list_t *r, ale_run_t *run)
 {
-    if (run->last + 1 - run->first < e->config.min_points) {
-        e->refused[ALE_REFUSED_FEW_POINTS]++;
+    if (run->last + 1 - run->first < r->min_points) {
+        r->refused[ALE_REFUSED_FEW_POINTS]++;
         return false;
     }
-    const ale_run_fit_t *fit = ale_fit_of_run(e, run);
-    if (fit->sse_q8 > rough_q8(e, fit)) {
-        e->refused[ALE_REFUSED_ROUGH]++;
+    const ale_run_fit_t *fit = ale_fit_of_run(&r->scan, run);
+    if (fit->sse_q8 > rough_q8(r, fit)) {
+        r->refused[ALE_REFUSED_ROUGH]++;
         return false;
     }
     return true;
 }
 
-static uint8_t end_kind(const ale_extractor_t *e, int32_t end, int32_t beyond)
+static uint8_t end_kind(const ale_prepared_scan_t *scan, int32_t end, int32_t beyond)
 {
-    if (beyond < 0 || beyond >= e->count || ale_abs64(e->beam[end] - e->beam[beyond]) > 8) {
+    const ale_points_t *p = &scan->points;
+    if (beyond < 0 || beyond >= p->count || ale_abs64(p->beam[end] - p->beam[beyond]) > ALE_MAX_GAP_BEAMS) {
         return ALE_END_LIMIT;
     }
-    const bool jump = e->jump_after[end < beyond ? end : beyond];
-    return jump && e->range_um[beyond] < e->range_um[end] ? ALE_END_OCCLUDED : ALE_END_EDGE;
+    const bool jump = scan->segments.jump_after[end < beyond ? end : beyond];
+    return jump && p->range_um[beyond] < p->range_um[end] ? ALE_END_OCCLUDED : ALE_END_EDGE;
 }
 
 /* Direction of the points' x axis in the sensor's frame. */
@@ -145,33 +143,33 @@ static void turn_line(ale_line_t *line, const frame_t *frame)
     line->end = ale_turn(line->end, frame->direction);
 }
 
-static void write_curve(ale_extractor_t *e, ale_segment_t run, const frame_t *frame, ale_features_t *out)
+static void write_curve(ale_run_list_t *r, ale_segment_t run, const frame_t *frame, ale_features_t *out)
 {
-    e->refused[ALE_REFUSED_CURVED]++;
+    r->refused[ALE_REFUSED_CURVED]++;
     if (out->curve_count == ALE_MAX_CURVES) {
-        e->refused[ALE_REFUSED_CAPACITY]++;
+        r->refused[ALE_REFUSED_CAPACITY]++;
         return;
     }
     ale_curve_t *curve = &out->curve[out->curve_count++];
-    ale_curve_fit(e, run, curve);
+    ale_curve_fit(&r->scan, run, curve);
     curve->centre = ale_turn(curve->centre, frame->direction);
 }
 
 static void write_line(ale_extractor_t *e, ale_run_t *wall, const frame_t *frame, ale_features_t *out)
 {
-    ale_run_trim(e, wall);
+    ale_run_trim(&e->runs, wall);
     const ale_segment_t run = {wall->first, wall->last};
     ale_line_t line;
-    ale_line_fit(e, run, &line);
+    ale_line_fit(&e->runs.scan, run, &line);
     if (!is_line(e, &line)) {
         return;
     }
     if (out->line_count == ALE_MAX_LINES) {
-        e->refused[ALE_REFUSED_CAPACITY]++;
+        e->runs.refused[ALE_REFUSED_CAPACITY]++;
         return;
     }
-    line.first_end = end_kind(e, run.first, run.first - 1);
-    line.last_end = end_kind(e, run.last, run.last + 1);
+    line.first_end = end_kind(&e->runs.scan, run.first, run.first - 1);
+    line.last_end = end_kind(&e->runs.scan, run.last, run.last + 1);
     turn_line(&line, frame);
     out->line[out->line_count++] = line;
 }
@@ -182,120 +180,139 @@ static void write_features(ale_extractor_t *e, uint32_t frame_bam, ale_features_
     const frame_t frame = {frame_bam, ale_direction(frame_bam)};
     out->line_count = 0;
     out->curve_count = 0;
-    for (int32_t k = 0; k < e->run_count; k++) {
-        ale_run_t *run = &e->run[k];
+    for (int32_t k = 0; k < e->runs.count; k++) {
+        ale_run_t *run = &e->runs.run[k];
         if (run->curved) {
-            write_curve(e, (ale_segment_t){run->first, run->last}, &frame, out);
-        } else if (is_wall(e, run)) {
+            write_curve(&e->runs, (ale_segment_t){run->first, run->last}, &frame, out);
+        } else if (is_wall(&e->runs, run)) {
             write_line(e, run, &frame, out);
         }
     }
-    ale_corner_find(e->step_nrad, out);
+    ale_corner_find(e->runs.scan.points.step_nrad, out);
     out->outliers = e->outliers;
-    memcpy(out->refused, e->refused, sizeof out->refused);
+    memcpy(out->refused, e->runs.refused, sizeof out->refused);
 }
 
-/* Points whose surfaces are told apart: stray ones removed, segments cut, noise measured. */
+/* Points whose surfaces are told apart: noise measured, stray points removed, segments cut. */
 static void prepare_points(ale_extractor_t *e, const ale_scan_t *scan)
 {
-    ale_points_list(e, scan);
-    ale_scan_noise_measure(e, scan);
-    ale_segment_suspect(e);
-    ale_outlier_remove_spikes(e);
-    ale_segment(e, scan);
-    if (ale_outlier_remove_strays(e)) {
-        ale_segment(e, scan);
+    ale_points_t *points = &e->runs.scan.points;
+    ale_scan_noise_t *noise = &e->runs.scan.noise;
+    ale_segments_t *segments = &e->runs.scan.segments;
+    ale_points_list(points, scan);
+    ale_scan_noise_measure(noise, &e->config.noise, points, scan->step_bam);
+    ale_segment_suspect(segments, points, noise);
+    e->runs.effort = segments->suspect_count;
+    const int32_t spikes = ale_outlier_remove_spikes(points, segments, noise);
+    ale_segment_cut(segments, points, noise);
+    const int32_t strays = ale_outlier_remove_strays(points, segments);
+    if (strays > 0) {
+        ale_segment_cut(segments, points, noise);
     }
+    e->outliers = (uint16_t)(spikes + strays);
 }
 
 /* Lowess of 1 / range, segment by segment; the points move to the smoothed ranges. */
 static void smooth_points(ale_extractor_t *e)
 {
     const ale_lowess_config_t config = {e->config.smooth_span, e->config.robust_passes, 1};
-    for (int32_t k = 0; k < e->segment_count; k++) {
-        const ale_segment_t s = e->segment[k];
-        ale_lowess(&config, &e->beam[s.first], &e->inverse_q44[s.first], s.last + 1 - s.first,
+    ale_points_t *points = &e->runs.scan.points;
+    const ale_segments_t *segments = &e->runs.scan.segments;
+    for (int32_t k = 0; k < segments->count; k++) {
+        const ale_segment_t s = segments->segment[k];
+        ale_lowess(&config, &points->beam[s.first], &points->inverse_q44[s.first], s.last + 1 - s.first,
                    &e->smooth_q44[s.first], &e->lowess);
     }
-    ale_points_place_smoothed(e);
+    ale_points_place_smoothed(points, e->smooth_q44);
 }
 
-static bool is_clutter(const ale_extractor_t *e)
+static void search_runs(ale_run_list_t *r, int32_t step_bam)
 {
-    return e->run_count > (ale_costly(e) ? ALE_MANY_RUNS / 3 : ALE_MANY_RUNS);
-}
-
-static void search_runs(ale_extractor_t *e, const ale_scan_t *scan)
-{
-    ale_runs_search(e);
-    if (ale_scan_noise_measure_shared(e, scan)) {
-        if (ale_costly(e)) {
-            ale_runs_forget_fits(e);
+    ale_runs_search(r);
+    if (ale_run_noise_measure_shared(r, step_bam)) {
+        if (ale_costly(r)) {
+            ale_run_list_forget_fits(r);
         } else {
-            ale_runs_search(e);
+            ale_runs_search(r);
         }
     }
+}
+
+static bool is_clutter(const ale_run_list_t *r)
+{
+    return r->count > (ale_costly(r) ? ALE_MANY_RUNS / 3 : ALE_MANY_RUNS);
 }
 
 /* A break that was missed spoils those beside it: once it is found, and they are placed anew, others show.
  * Not so where neighbours share an error, whose waves every further round would follow. */
-static void split_runs(ale_extractor_t *e)
+static void split_runs(ale_run_list_t *r)
 {
-    const int32_t rounds = e->shared_scale_q8 > 256 || ale_costly(e) ? 1 : MOST_ROUNDS;
+    const int32_t rounds = r->scan.noise.shared_scale_q8 > 256 || ale_costly(r) ? 1 : MOST_ROUNDS;
     bool changed = true;
-    for (int32_t round = 0; changed && round < rounds && !ale_effort_is_spent(e); round++) {
-        const bool split = ale_runs_split(e);
-        changed = ale_merge_runs(e) || split;
-        if (!ale_runs_place_again(e, round == 0 ? ALE_BREAK_FINE_STEP : ALE_BREAK_WIDE_STEP)) {
+    for (int32_t round = 0; changed && round < rounds && !ale_effort_is_spent(r); round++) {
+        const bool split = ale_runs_split(r);
+        changed = ale_merge_runs(r) || split;
+        if (!ale_runs_place_again(r, round == 0 ? ALE_BREAK_FINE_STEP : ALE_BREAK_WIDE_STEP)) {
             break; /* new breaks are placed well enough: see ale_break_find */
         }
         if (changed) {
-            ale_scan_noise_refine_own(e);
+            ale_run_noise_refine_own(r);
         }
     }
 }
 
 /* What the search found, made good on the raw points. Of clutter only the most needed, for the time is
  * bounded. */
-static void improve_runs(ale_extractor_t *e)
+static void improve_runs(ale_run_list_t *r)
 {
-    if (is_clutter(e)) {
-        ale_scan_noise_refine_own(e);
-        ale_runs_drop_short(e, e->config.min_points * CLUTTER_LONGER / 3, ALE_MANY_RUNS);
-        ale_merge_runs(e);
+    if (is_clutter(r)) {
+        ale_run_noise_refine_own(r);
+        ale_run_list_drop_short(r, r->min_points * CLUTTER_LONGER / 3, ALE_MANY_RUNS);
+        ale_merge_runs(r);
         return;
     }
-    ale_merge_runs(e);
-    ale_runs_place(e, ALE_BREAK_WIDE_STEP);
-    ale_scan_noise_refine_own(e); /* each run now has the points that are its own */
-    ale_curve_find(e, false);
-    split_runs(e);
-    if (!ale_effort_is_spent(e)) {
-        ale_curve_find(e, true);
+    ale_merge_runs(r);
+    ale_runs_place(r, ALE_BREAK_WIDE_STEP);
+    ale_run_noise_refine_own(r); /* each run now has the points that are its own */
+    ale_curve_find(r, false);
+    split_runs(r);
+    if (!ale_effort_is_spent(r)) {
+        ale_curve_find(r, true);
     }
-    if (e->shared_scale_q8 > 256 && ale_runs_split_at_steps(e)) {
-        ale_runs_place_again(e, ALE_BREAK_WIDE_STEP);
+    if (r->scan.noise.shared_scale_q8 > 256 && ale_runs_split_at_steps(r)) {
+        ale_runs_place_again(r, ALE_BREAK_WIDE_STEP);
     }
 }
 
 __attribute__((noinline)) void ale_extract_scan(ale_extractor_t *e, const ale_scan_t *scan,
                                                 const uint32_t *bearing_bam, ale_features_t *out)
 {
+    ale_prepared_scan_t *prepared = &e->runs.scan;
     const bool smoothed = e->config.smooth_span > 1;
     prepare_points(e, scan);
-    ale_points_place(e, scan, bearing_bam);
+    ale_points_place(&prepared->points, scan, bearing_bam);
     if (smoothed) {
         smooth_points(e);
     }
     ale_stage_end(&e->hook, ALE_STAGE_SMOOTH);
-    ale_moments_build(e);
-    search_runs(e, scan);
+    ale_moments_build(prepared);
+    search_runs(&e->runs, scan->step_bam);
     if (smoothed) {
-        ale_points_place(e, scan, bearing_bam);
-        ale_moments_build(e);
-        ale_runs_forget_fits(e);
+        ale_points_place(&prepared->points, scan, bearing_bam);
+        ale_moments_build(prepared);
+        ale_run_list_forget_fits(&e->runs);
     }
-    improve_runs(e);
-    write_features(e, ale_points_frame_bam(e, scan), out);
+    improve_runs(&e->runs);
+    write_features(e, ale_points_frame_bam(&prepared->points, scan), out);
     ale_stage_end(&e->hook, ALE_STAGE_EXTRACT);
+}
+
+ale_noise_t ale_extractor_noise(const ale_extractor_t *e)
+{
+    const ale_scan_noise_t *measured = &e->runs.scan.noise;
+    ale_noise_t noise = e->config.noise;
+    noise.own_um = (int32_t)ale_isqrt((uint64_t)ale_mul_shift(measured->own_mm2_q36, 1000000, 36));
+    noise.own_ppm =
+        (int32_t)ale_isqrt((uint64_t)ale_mul_shift(measured->own_relative_q36, 1000000000000, 36));
+    return noise;
 }

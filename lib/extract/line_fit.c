@@ -21,11 +21,11 @@ static int64_t dot_q30(int64_t x, int64_t y, int64_t ux_q30, int64_t uy_q30)
 }
 
 /* Where the beam of a point meets the line; the point's own foot where beam and line are almost parallel. */
-static ale_point_t end_on_line(const ale_extractor_t *e, int32_t i, const ale_line_t *line, int64_t c_q30,
-                               int64_t s_q30)
+static ale_point_t end_on_line(const ale_prepared_scan_t *scan, int32_t i, const ale_line_t *line,
+                               int64_t c_q30, int64_t s_q30)
 {
-    const int64_t x_um = ale_round_shift((int64_t)e->x_q4[i] * 1000, ALE_POINT_SHIFT);
-    const int64_t y_um = ale_round_shift((int64_t)e->y_q4[i] * 1000, ALE_POINT_SHIFT);
+    const int64_t x_um = ale_round_shift((int64_t)scan->points.x_q4[i] * 1000, ALE_POINT_SHIFT);
+    const int64_t y_um = ale_round_shift((int64_t)scan->points.y_q4[i] * 1000, ALE_POINT_SHIFT);
     const int64_t along_normal = dot_q30(x_um, y_um, c_q30, s_q30);
     if (ale_abs64(line->rho_um - along_normal) * 8 < along_normal) {
         const ale_point_t p = {(int32_t)ale_round_div(x_um * line->rho_um, along_normal),
@@ -61,10 +61,10 @@ static int64_t together_in_slope_q8(int64_t n, int64_t beams)
 /* What of the mean own variance counts in the slope, Q16, from a few points that stand for all: far points
  * see their ranges from the side, and near ones their bearings. Along the normal a constant noise is as rho^2
  * / range^2, that of the bearing as range^2 - rho^2. */
-static int64_t slope_share_q16(const ale_extractor_t *e, ale_segment_t run, const ale_spread_t *m,
+static int64_t slope_share_q16(const ale_prepared_scan_t *scan, ale_segment_t run, const ale_spread_t *m,
                                int64_t rho_um, int64_t mean_along_um, ale_direction_t normal)
 {
-    const ale_scan_noise_t *noise = &e->noise;
+    const ale_scan_noise_t *noise = &scan->noise;
     const int64_t n = m->fit.n;
     if (n < EVEN) {
         return 1 << 16;
@@ -77,12 +77,13 @@ static int64_t slope_share_q16(const ale_extractor_t *e, ale_segment_t run, cons
     int64_t most_q36 = ale_max64(even_q36, 1);
     for (int64_t k = 0; k < SAMPLES; k++) {
         const int64_t i = run.first + (2 * k + 1) * n / SAMPLES / 2;
-        const int64_t range_mm = e->range_um[i] / 1000;
+        const int64_t range_mm = scan->points.range_um[i] / 1000;
         const int64_t range2_mm2 = ale_max64(range_mm * range_mm, rho2_mm2 + 1);
         constant_q36[k] = rho2_mm2 * ale_min64(noise->own_mm2_q36 / range2_mm2, ALE_MOST_RELATIVE_Q36);
         bearing_q36[k] = (range2_mm2 - rho2_mm2) * noise->bearing_rad2_q36;
         most_q36 = ale_max64(most_q36, ale_max64(constant_q36[k], bearing_q36[k]));
-        const int64_t along_q4 = dot_q30(e->x_q4[i], e->y_q4[i], -normal.sin_q30, normal.cos_q30);
+        const int64_t along_q4 =
+            dot_q30(scan->points.x_q4[i], scan->points.y_q4[i], -normal.sin_q30, normal.cos_q30);
         const int64_t off_mm = ale_round_div(((along_q4 * 1000) >> ALE_POINT_SHIFT) - mean_along_um, 1000);
         along2_mm2[k] = off_mm * off_mm;
     }
@@ -106,32 +107,32 @@ static int64_t slope_share_q16(const ale_extractor_t *e, ale_segment_t run, cons
 /* Points at an end where another wall adjoins that may be of either: they lie within a deviation of both, if
  * the walls are at right angles. To which of them each is given depends on its error, so they tell nothing.
  */
-static int64_t doubtful_points_q8(const ale_extractor_t *e, int32_t i, int32_t beyond, int64_t sigma_um,
-                                  int64_t along_um)
+static int64_t doubtful_points_q8(const ale_prepared_scan_t *scan, int32_t i, int32_t beyond,
+                                  int64_t sigma_um, int64_t along_um)
 {
-    if (beyond < 0 || beyond >= e->count || e->jump_after[i < beyond ? i : beyond]) {
+    if (beyond < 0 || beyond >= scan->points.count || scan->segments.jump_after[i < beyond ? i : beyond]) {
         return 0;
     }
-    const int64_t across_um = ale_max64(ale_mul_nano(e->range_um[i], e->step_nrad), 1);
-    return 2 * ((sigma_um * ale_abs64(along_um)) << 8) / (across_um * e->range_um[i]);
+    const int64_t across_um = ale_max64(ale_mul_nano(scan->points.range_um[i], scan->points.step_nrad), 1);
+    return 2 * ((sigma_um * ale_abs64(along_um)) << 8) / (across_um * scan->points.range_um[i]);
 }
 
 /* The shared error of a run as far as the scan shows it, without the margin that decisions have, or as
  * configured where the scan is too small to tell. */
-static int64_t stated_shared_q8(const ale_extractor_t *e, const ale_run_fit_t *fit)
+static int64_t stated_shared_q8(const ale_prepared_scan_t *scan, const ale_run_fit_t *fit)
 {
-    if (e->shared_scale_q8 > 256) {
-        return fit->shared_q8 * e->shared_stated_q8 / e->shared_scale_q8;
+    if (scan->noise.shared_scale_q8 > 256) {
+        return fit->shared_q8 * scan->noise.shared_stated_q8 / scan->noise.shared_scale_q8;
     }
-    return e->shared_absent ? 0 : fit->shared_q8;
+    return scan->noise.shared_absent ? 0 : fit->shared_q8;
 }
 
-static void set_covariance(const ale_extractor_t *e, const ale_spread_t *m, int64_t doubtful_q8,
+static void set_covariance(const ale_prepared_scan_t *scan, const ale_spread_t *m, int64_t doubtful_q8,
                            int64_t slope_q16, int64_t mean_along_um, ale_line_t *line)
 {
     const int64_t n = line->points;
-    const int64_t beams = e->config.noise.shared_beams;
-    const int64_t shared_q8 = stated_shared_q8(e, &m->fit);
+    const int64_t beams = scan->noise.shared_beams;
+    const int64_t shared_q8 = stated_shared_q8(scan, &m->fit);
     const int64_t mean_q8 = m->fit.var_q8 + ((shared_q8 * together_in_mean_q8(n, beams)) >> 8);
     /* a point at an end has 3 / n of what is known of the slope */
     const int64_t told_q8 = (n << 8) + 3 * ale_min64(doubtful_q8, (n << 8) / 4);
@@ -147,19 +148,19 @@ static void set_covariance(const ale_extractor_t *e, const ale_spread_t *m, int6
  * beam and that of the next point, where the following beam would meet it range^2 step / rho farther: a third
  * of that squared, for each of them. Where the surface goes on, but not as a line, the end may be a beam and
  * more off. */
-static int64_t end_var_um2(const ale_extractor_t *e, int32_t i, int32_t beyond, int32_t rho_um)
+static int64_t end_var_um2(const ale_prepared_scan_t *scan, int32_t i, int32_t beyond, int32_t rho_um)
 {
-    const int64_t range_um = e->range_um[i];
-    const int64_t across_um = ale_mul_nano(range_um, e->step_nrad);
+    const int64_t range_um = scan->points.range_um[i];
+    const int64_t across_um = ale_mul_nano(range_um, scan->points.step_nrad);
     const int64_t along_um = ale_round_div(across_um * range_um, ale_max64(rho_um, 1));
     const int64_t spacing_um = ale_min64(along_um, range_um);
     const int64_t spacing2_um2 = spacing_um * spacing_um;
-    if (beyond < 0 || beyond >= e->count) {
+    if (beyond < 0 || beyond >= scan->points.count) {
         return spacing2_um2 / 3;
     }
-    const int64_t gap = ale_abs64(e->beam[beyond] - e->beam[i]);
+    const int64_t gap = ale_abs64(scan->points.beam[beyond] - scan->points.beam[i]);
     const int64_t unseen = gap <= ALE_MAX_GAP_BEAMS ? gap * gap : 1;
-    return spacing2_um2 * unseen / (e->jump_after[i < beyond ? i : beyond] ? 3 : 1);
+    return spacing2_um2 * unseen / (scan->segments.jump_after[i < beyond ? i : beyond] ? 3 : 1);
 }
 
 static int64_t along_line_um(ale_point_t p, int64_t c_q30, int64_t s_q30)
@@ -167,9 +168,9 @@ static int64_t along_line_um(ale_point_t p, int64_t c_q30, int64_t s_q30)
     return dot_q30(p.x_um, p.y_um, -s_q30, c_q30);
 }
 
-ale_run_fit_t ale_line_fit(const ale_extractor_t *e, ale_segment_t run, ale_line_t *line)
+ale_run_fit_t ale_line_fit(const ale_prepared_scan_t *scan, ale_segment_t run, ale_line_t *line)
 {
-    const ale_spread_t m = ale_moments_spread(e, run.first, run.last);
+    const ale_spread_t m = ale_moments_spread(scan, run.first, run.last);
     const int32_t double_angle = (int32_t)ale_atan2_bam(2 * m.b, m.a - m.c);
     uint32_t alpha = (uint32_t)(double_angle / 2) + ALE_BAM_QUARTER_TURN;
     const ale_direction_t normal = ale_direction(alpha);
@@ -182,25 +183,25 @@ ale_run_fit_t ale_line_fit(const ale_extractor_t *e, ale_segment_t run, ale_line
         s = -s;
         alpha += ALE_BAM_HALF_TURN;
     }
-    line->first = e->beam[run.first];
-    line->last = e->beam[run.last];
+    line->first = scan->points.beam[run.first];
+    line->last = scan->points.beam[run.last];
     line->points = (uint16_t)m.fit.n;
     line->alpha_bam = alpha;
     line->rho_um = (int32_t)rho;
-    line->start = end_on_line(e, run.first, line, c, s);
-    line->end = end_on_line(e, run.last, line, c, s);
+    line->start = end_on_line(scan, run.first, line, c, s);
+    line->end = end_on_line(scan, run.last, line, c, s);
     const int64_t mse_q8 = m.fit.sse_q8 / ale_max64(m.fit.n - 2, 1);
     line->rmse_um = (int32_t)ale_isqrt((uint64_t)um2_of_q8(mse_q8));
     const int64_t mean_along_um =
         along_line_um((ale_point_t){(int32_t)m.mean_x_um, (int32_t)m.mean_y_um}, c, s);
     const int64_t sigma_um = ale_isqrt((uint64_t)um2_of_q8(m.fit.var_q8));
     const int64_t doubtful_q8 =
-        doubtful_points_q8(e, run.first, run.first - 1, sigma_um, along_line_um(line->start, c, s)) +
-        doubtful_points_q8(e, run.last, run.last + 1, sigma_um, along_line_um(line->end, c, s));
+        doubtful_points_q8(scan, run.first, run.first - 1, sigma_um, along_line_um(line->start, c, s)) +
+        doubtful_points_q8(scan, run.last, run.last + 1, sigma_um, along_line_um(line->end, c, s));
     const int64_t slope_q16 =
-        slope_share_q16(e, run, &m, rho, mean_along_um, (ale_direction_t){(int32_t)c, (int32_t)s});
-    set_covariance(e, &m, doubtful_q8, slope_q16, mean_along_um, line);
-    line->var_start_um2 = end_var_um2(e, run.first, run.first - 1, line->rho_um);
-    line->var_end_um2 = end_var_um2(e, run.last, run.last + 1, line->rho_um);
+        slope_share_q16(scan, run, &m, rho, mean_along_um, (ale_direction_t){(int32_t)c, (int32_t)s});
+    set_covariance(scan, &m, doubtful_q8, slope_q16, mean_along_um, line);
+    line->var_start_um2 = end_var_um2(scan, run.first, run.first - 1, line->rho_um);
+    line->var_end_um2 = end_var_um2(scan, run.last, run.last + 1, line->rho_um);
     return m.fit;
 }

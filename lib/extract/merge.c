@@ -6,64 +6,64 @@
 
 enum { PENALTY = 19, SHARED_PEAK = 3, MAX_GAP_POINTS = 8 };
 
-int64_t ale_merge_ratio_q8(const ale_extractor_t *e, const ale_run_fit_t *one, const ale_run_fit_t *a,
+int64_t ale_merge_ratio_q8(const ale_scan_noise_t *noise, const ale_run_fit_t *one, const ale_run_fit_t *a,
                            const ale_run_fit_t *b, bool on_one_surface)
 {
     const int64_t n = a->n + b->n;
     const int64_t var = ale_max64(one->var_q8, (a->var_q8 * a->n + b->var_q8 * b->n) / n);
     const int64_t shared = ale_max64(one->shared_q8, (a->shared_q8 * a->n + b->shared_q8 * b->n) / n);
     const int64_t together =
-        on_one_surface ? SHARED_PEAK * ale_min64(one->n, (int64_t)2 * e->config.noise.shared_beams) : 0;
+        on_one_surface ? SHARED_PEAK * ale_min64(one->n, (int64_t)2 * noise->shared_beams) : 0;
     const int64_t gain = one->sse_q8 - a->sse_q8 - b->sse_q8;
     return gain * 256 / (PENALTY * var + shared * (one->n + together));
 }
 
 /* The ratio of the runs k and k + 1; the largest number where they may not be joined. */
-static int64_t ratio_at(ale_extractor_t *e, int32_t k)
+static int64_t ratio_at(ale_run_list_t *r, int32_t k)
 {
-    ale_run_t *a = &e->run[k];
-    ale_run_t *b = &e->run[k + 1];
+    ale_run_t *a = &r->run[k];
+    ale_run_t *b = &r->run[k + 1];
     if (a->curved || b->curved || b->first - a->last > MAX_GAP_POINTS ||
-        e->beam[b->first] - e->beam[a->last] > ALE_MAX_GAP_BEAMS) {
+        r->scan.points.beam[b->first] - r->scan.points.beam[a->last] > ALE_MAX_GAP_BEAMS) {
         return INT64_MAX;
     }
-    const ale_run_fit_t one = ale_moments_fit(e, a->first, b->last);
-    return ale_merge_ratio_q8(e, &one, ale_fit_of_run(e, a), ale_fit_of_run(e, b),
-                              ale_segment_joins(e, a->last, b->first));
+    const ale_run_fit_t one = ale_moments_fit(&r->scan, a->first, b->last);
+    return ale_merge_ratio_q8(&r->scan.noise, &one, ale_fit_of_run(&r->scan, a), ale_fit_of_run(&r->scan, b),
+                              ale_segment_joins(&r->scan.segments, a->last, b->first));
 }
 
-static void join_with_next(ale_extractor_t *e, int32_t k)
+static void join_with_next(ale_run_list_t *r, int32_t k)
 {
-    e->run[k].last = e->run[k + 1].last;
-    ale_run_changed(&e->run[k]);
-    for (int32_t i = k + 1; i + 1 < e->run_count; i++) {
-        e->run[i] = e->run[i + 1];
+    r->run[k].last = r->run[k + 1].last;
+    ale_run_changed(&r->run[k]);
+    for (int32_t i = k + 1; i + 1 < r->count; i++) {
+        r->run[i] = r->run[i + 1];
     }
-    e->run_count--;
+    r->count--;
 }
 
-bool ale_merge_runs(ale_extractor_t *e)
+bool ale_merge_runs(ale_run_list_t *r)
 {
-    const int32_t before = e->run_count;
+    const int32_t before = r->count;
     int64_t ratio[ALE_MAX_RUNS];
-    for (int32_t k = 0; k + 1 < e->run_count; k++) {
-        ratio[k] = ratio_at(e, k);
+    for (int32_t k = 0; k + 1 < r->count; k++) {
+        ratio[k] = ratio_at(r, k);
     }
-    while (e->run_count > 1) {
+    while (r->count > 1) {
         int32_t best = 0;
-        for (int32_t k = 1; k + 1 < e->run_count; k++) {
+        for (int32_t k = 1; k + 1 < r->count; k++) {
             best = ratio[k] < ratio[best] ? k : best;
         }
         if (ratio[best] >= 256) {
             break;
         }
-        join_with_next(e, best);
-        for (int32_t k = best; k + 1 < e->run_count; k++) {
+        join_with_next(r, best);
+        for (int32_t k = best; k + 1 < r->count; k++) {
             ratio[k] = ratio[k + 1];
         }
-        for (int32_t k = best > 0 ? best - 1 : 0; k <= best && k + 1 < e->run_count; k++) {
-            ratio[k] = ratio_at(e, k);
+        for (int32_t k = best > 0 ? best - 1 : 0; k <= best && k + 1 < r->count; k++) {
+            ratio[k] = ratio_at(r, k);
         }
     }
-    return e->run_count < before;
+    return r->count < before;
 }

@@ -18,17 +18,18 @@ enum {
     VAR_FLOOR_Q8 = 16 /* (0.25 mm)^2: no range is known better than its quantum of 1 mm */
 };
 
-void ale_moments_build(ale_extractor_t *e)
+void ale_moments_build(ale_prepared_scan_t *scan)
 {
     ale_moments_t total = {0};
     int64_t inverse_total = 0;
-    e->noise.own_um2_q8 = ale_min64(((e->noise.own_mm2_q36 >> 10) * 15625) >> 12, (int64_t)1 << OWN_BITS);
-    for (int32_t i = 0; i < e->count; i++) {
-        e->sum[i] = total;
-        e->inverse_sum[i] = inverse_total;
-        const int64_t x = e->x_q4[i];
-        const int64_t y = e->y_q4[i];
-        const int64_t inverse = e->inverse_q44[i];
+    scan->noise.own_um2_q8 =
+        ale_min64(((scan->noise.own_mm2_q36 >> 10) * 15625) >> 12, (int64_t)1 << OWN_BITS);
+    for (int32_t i = 0; i < scan->points.count; i++) {
+        scan->sum[i] = total;
+        scan->inverse_sum[i] = inverse_total;
+        const int64_t x = scan->points.x_q4[i];
+        const int64_t y = scan->points.y_q4[i];
+        const int64_t inverse = scan->points.inverse_q44[i];
         total.x += x;
         total.y += y;
         total.xx += x * x;
@@ -37,8 +38,8 @@ void ale_moments_build(ale_extractor_t *e)
         total.inverse2_q54 += inverse * inverse >> INVERSE2_SHIFT;
         inverse_total += inverse;
     }
-    e->sum[e->count] = total;
-    e->inverse_sum[e->count] = inverse_total;
+    scan->sum[scan->points.count] = total;
+    scan->inverse_sum[scan->points.count] = inverse_total;
 }
 
 typedef struct {
@@ -50,10 +51,10 @@ typedef struct {
 } scatter_t;
 
 /* Sums over the points first..last; the noise is left to who needs it. */
-static inline ale_moments_t sums_of(const ale_extractor_t *e, int32_t first, int32_t last)
+static inline ale_moments_t sums_of(const ale_prepared_scan_t *scan, int32_t first, int32_t last)
 {
-    const ale_moments_t *p = &e->sum[first];
-    const ale_moments_t *q = &e->sum[last + 1];
+    const ale_moments_t *p = &scan->sum[first];
+    const ale_moments_t *q = &scan->sum[last + 1];
     const ale_moments_t s = {q->x - p->x,   q->y - p->y,   q->xx - p->xx,
                              q->yy - p->yy, q->xy - p->xy, q->inverse2_q54 - p->inverse2_q54};
     return s;
@@ -142,28 +143,28 @@ fit_of(const ale_scan_noise_t *noise, int64_t n, ale_moments_t s, const scatter_
     return fit;
 }
 
-int64_t ale_moments_sse_q8(const ale_extractor_t *e, int32_t first, int32_t last)
+int64_t ale_moments_sse_q8(const ale_prepared_scan_t *scan, int32_t first, int32_t last)
 {
     const int64_t n = last + 1 - first;
-    const scatter_t m = scatter_of(n, sums_of(e, first, last));
+    const scatter_t m = scatter_of(n, sums_of(scan, first, last));
     return (m.lambda << m.shift) / n;
 }
 
-ale_run_fit_t ale_moments_fit(const ale_extractor_t *e, int32_t first, int32_t last)
+ale_run_fit_t ale_moments_fit(const ale_prepared_scan_t *scan, int32_t first, int32_t last)
 {
     const int64_t n = last + 1 - first;
-    const ale_moments_t s = sums_of(e, first, last);
+    const ale_moments_t s = sums_of(scan, first, last);
     const scatter_t m = scatter_of(n, s);
-    return fit_of(&e->noise, n, s, &m, noise_of(&e->noise, n, &s));
+    return fit_of(&scan->noise, n, s, &m, noise_of(&scan->noise, n, &s));
 }
 
-ale_spread_t ale_moments_spread(const ale_extractor_t *e, int32_t first, int32_t last)
+ale_spread_t ale_moments_spread(const ale_prepared_scan_t *scan, int32_t first, int32_t last)
 {
     const int64_t n = last + 1 - first;
-    const ale_moments_t s = sums_of(e, first, last);
+    const ale_moments_t s = sums_of(scan, first, last);
     const scatter_t m = scatter_of(n, s);
     const ale_spread_t spread = {
-        .fit = fit_of(&e->noise, n, s, &m, noise_of(&e->noise, n, &s)),
+        .fit = fit_of(&scan->noise, n, s, &m, noise_of(&scan->noise, n, &s)),
         .a = m.a,
         .b = m.b,
         .c = m.c,
@@ -174,10 +175,10 @@ ale_spread_t ale_moments_spread(const ale_extractor_t *e, int32_t first, int32_t
     return spread;
 }
 
-ale_normal_line_t ale_moments_normal_line(const ale_extractor_t *e, int32_t first, int32_t last)
+ale_normal_line_t ale_moments_normal_line(const ale_prepared_scan_t *scan, int32_t first, int32_t last)
 {
     const int64_t n = last + 1 - first;
-    const ale_moments_t s = sums_of(e, first, last);
+    const ale_moments_t s = sums_of(scan, first, last);
     const scatter_t m = scatter_of(n, s);
     const int64_t unit = (int64_t)1 << NORMAL_SHIFT;
     const int64_t nx = (m.a >= m.c ? -m.b : m.lambda - m.c) / unit;

@@ -12,39 +12,38 @@ static int32_t per_um_q36(int32_t cos_q30)
 }
 
 /* Directions of as many multiples of half a beam as the scan is wide. */
-static void cache_directions(ale_extractor_t *e, const ale_scan_t *scan)
+static void cache_directions(ale_points_t *p, const ale_scan_t *scan)
 {
-    if (e->direction_step_bam != scan->step_bam) {
-        e->directions = 0;
-        e->direction_step_bam = scan->step_bam;
+    if (p->direction_step_bam != scan->step_bam) {
+        p->directions = 0;
+        p->direction_step_bam = scan->step_bam;
     }
-    for (int32_t m = e->directions; m < scan->beams; m++) {
+    for (int32_t m = p->directions; m < scan->beams; m++) {
         const ale_direction_t d = ale_direction((uint32_t)((int64_t)m * scan->step_bam / 2));
-        e->cos_q36[m] = per_um_q36(d.cos_q30);
-        e->sin_q36[m] = per_um_q36(d.sin_q30);
+        p->cos_q36[m] = per_um_q36(d.cos_q30);
+        p->sin_q36[m] = per_um_q36(d.sin_q30);
     }
-    e->directions = (int32_t)ale_max64(e->directions, scan->beams);
+    p->directions = (int32_t)ale_max64(p->directions, scan->beams);
 }
 
-void ale_points_list(ale_extractor_t *e, const ale_scan_t *scan)
+void ale_points_list(ale_points_t *p, const ale_scan_t *scan)
 {
     const uint32_t span_um = ALE_MAX_RANGE_UM - ALE_MIN_RANGE_UM;
     uint32_t n = 0;
-    e->gap_count = 0;
+    p->gap_count = 0;
     for (uint32_t k = 0; k < scan->beams; k++) {
         const int32_t range_um = scan->range_um[k];
         if (scan->flag[k] == ALE_BEAM_VALID && (uint32_t)range_um - ALE_MIN_RANGE_UM <= span_um) {
-            e->beam[n] = (uint16_t)k;
-            e->range_um[n] = range_um;
-            e->inverse_q44[n] = (int32_t)(((int64_t)1 << 44) / range_um);
+            p->beam[n] = (uint16_t)k;
+            p->range_um[n] = range_um;
+            p->inverse_q44[n] = (int32_t)(((int64_t)1 << 44) / range_um);
             n++;
-        } else if (n > 0 && k - e->beam[n - 1] == ALE_MAX_GAP_BEAMS) {
-            e->gap_after[e->gap_count++] = (uint16_t)(n - 1);
+        } else if (n > 0 && k - p->beam[n - 1] == ALE_MAX_GAP_BEAMS) {
+            p->gap_after[p->gap_count++] = (uint16_t)(n - 1);
         }
     }
-    e->count = (uint16_t)n;
-    e->outliers = 0;
-    e->step_nrad = ale_bam_to_nrad((int32_t)ale_abs64(scan->step_bam));
+    p->count = (uint16_t)n;
+    p->step_nrad = ale_bam_to_nrad((int32_t)ale_abs64(scan->step_bam));
 }
 
 static inline int32_t coordinate_q4(int64_t range_um, int64_t per_um)
@@ -52,53 +51,63 @@ static inline int32_t coordinate_q4(int64_t range_um, int64_t per_um)
     return (int32_t)ale_round_shift(range_um * per_um, PLACE_SHIFT);
 }
 
-uint32_t ale_points_frame_bam(const ale_extractor_t *e, const ale_scan_t *scan)
+uint32_t ale_points_frame_bam(const ale_points_t *p, const ale_scan_t *scan)
 {
-    if (e->count == 0) {
+    if (p->count == 0) {
         return scan->first_bearing_bam;
     }
-    const int64_t half_beams = (int64_t)e->beam[0] + e->beam[e->count - 1];
+    const int64_t half_beams = (int64_t)p->beam[0] + p->beam[p->count - 1];
     return scan->first_bearing_bam + (uint32_t)(half_beams * scan->step_bam / 2);
 }
 
-static void place_straightened(ale_extractor_t *e, uint32_t frame_bam, const uint32_t *bearing_bam)
+static void place_straightened(ale_points_t *p, uint32_t frame_bam, const uint32_t *bearing_bam)
 {
-    for (int32_t i = 0; i < e->count; i++) {
-        const ale_direction_t d = ale_direction(bearing_bam[e->beam[i]] - frame_bam);
-        e->x_q4[i] = coordinate_q4(e->range_um[i], per_um_q36(d.cos_q30));
-        e->y_q4[i] = coordinate_q4(e->range_um[i], per_um_q36(d.sin_q30));
+    for (int32_t i = 0; i < p->count; i++) {
+        const ale_direction_t d = ale_direction(bearing_bam[p->beam[i]] - frame_bam);
+        p->x_q4[i] = coordinate_q4(p->range_um[i], per_um_q36(d.cos_q30));
+        p->y_q4[i] = coordinate_q4(p->range_um[i], per_um_q36(d.sin_q30));
     }
 }
 
-void ale_points_place(ale_extractor_t *e, const ale_scan_t *scan, const uint32_t *bearing_bam)
+void ale_points_place(ale_points_t *p, const ale_scan_t *scan, const uint32_t *bearing_bam)
 {
-    if (e->count == 0) {
+    if (p->count == 0) {
         return;
     }
     if (bearing_bam) {
-        place_straightened(e, ale_points_frame_bam(e, scan), bearing_bam);
+        place_straightened(p, ale_points_frame_bam(p, scan), bearing_bam);
         return;
     }
-    cache_directions(e, scan);
-    const int32_t middle = e->beam[0] + e->beam[e->count - 1];
+    cache_directions(p, scan);
+    const int32_t middle = p->beam[0] + p->beam[p->count - 1];
     int32_t i = 0;
-    for (; 2 * e->beam[i] < middle; i++) {
-        const int32_t m = middle - 2 * e->beam[i];
-        e->x_q4[i] = coordinate_q4(e->range_um[i], e->cos_q36[m]);
-        e->y_q4[i] = -coordinate_q4(e->range_um[i], e->sin_q36[m]);
+    for (; 2 * p->beam[i] < middle; i++) {
+        const int32_t m = middle - 2 * p->beam[i];
+        p->x_q4[i] = coordinate_q4(p->range_um[i], p->cos_q36[m]);
+        p->y_q4[i] = -coordinate_q4(p->range_um[i], p->sin_q36[m]);
     }
-    for (; i < e->count; i++) {
-        const int32_t m = 2 * e->beam[i] - middle;
-        e->x_q4[i] = coordinate_q4(e->range_um[i], e->cos_q36[m]);
-        e->y_q4[i] = coordinate_q4(e->range_um[i], e->sin_q36[m]);
+    for (; i < p->count; i++) {
+        const int32_t m = 2 * p->beam[i] - middle;
+        p->x_q4[i] = coordinate_q4(p->range_um[i], p->cos_q36[m]);
+        p->y_q4[i] = coordinate_q4(p->range_um[i], p->sin_q36[m]);
     }
 }
 
-void ale_points_place_smoothed(ale_extractor_t *e)
+void ale_points_place_smoothed(ale_points_t *p, const int32_t *smooth_q44)
 {
-    for (int32_t i = 0; i < e->count; i++) {
-        const int64_t ratio_q30 = ((int64_t)e->inverse_q44[i] << 30) / ale_max64(e->smooth_q44[i], 1);
-        e->x_q4[i] = (int32_t)ale_round_shift(e->x_q4[i] * ratio_q30, 30);
-        e->y_q4[i] = (int32_t)ale_round_shift(e->y_q4[i] * ratio_q30, 30);
+    for (int32_t i = 0; i < p->count; i++) {
+        const int64_t ratio_q30 = ((int64_t)p->inverse_q44[i] << 30) / ale_max64(smooth_q44[i], 1);
+        p->x_q4[i] = (int32_t)ale_round_shift(p->x_q4[i] * ratio_q30, 30);
+        p->y_q4[i] = (int32_t)ale_round_shift(p->y_q4[i] * ratio_q30, 30);
     }
+}
+
+int32_t ale_points_reading_direction(const ale_points_t *p, int32_t first, int32_t last)
+{
+    for (int32_t a = first, b = last; a < b; a++, b--) {
+        if (p->range_um[a] != p->range_um[b]) {
+            return p->range_um[a] < p->range_um[b] ? 1 : -1;
+        }
+    }
+    return 1;
 }

@@ -1,20 +1,62 @@
-/* From a scan to points: which beams count, where they lie, and the noise measured among them. */
+/* The points of a scan: the beams that have a value, in beam order, numbered from 0 without gaps.
+ *
+ * Points are in 1/16 mm (Q4), in a frame whose x axis lies midway between the first and the last of them, so
+ * that neither the angle at which a scan begins nor empty beams around it change any number. */
 #ifndef ALE_EXTRACT_POINTS_H
 #define ALE_EXTRACT_POINTS_H
 
-#include "extract/workspace.h"
+#include <stdbool.h>
+#include <stdint.h>
 
-/* Lists the valid beams: beam, range_um, inverse_q44, count, and where many are missing: gap_after. */
-void ale_points_list(ale_extractor_t *e, const ale_scan_t *scan);
+#include "base/limits.h"
+#include "base/scan.h"
 
-/* Direction of the x axis of the points, in the sensor's frame: midway between the first and the last point,
- * so that neither the angle at which a scan begins nor empty beams around it change any number. */
-uint32_t ale_points_frame_bam(const ale_extractor_t *e, const ale_scan_t *scan);
+/* Points are 1/16 mm: Q4. The largest product of the fits is 2 n^2 max^2 (see moments.c). */
+#define ALE_POINT_SHIFT 4
+#define ALE_POINT_MAX_Q4 ((int64_t)(ALE_MAX_RANGE_UM / 1000) << ALE_POINT_SHIFT)
+
+/* Nearer than this no scanner measures, and 2^44 / range would not fit. */
+#define ALE_MIN_RANGE_UM 16384
+
+/* Beams without a value that one surface may have. */
+#define ALE_MAX_GAP_BEAMS 8
+
+typedef struct {
+    /* Directions of the multiples of half a step, as many as were needed, kept as long as the scanner stays
+     * the same. */
+    int32_t directions;
+    int32_t direction_step_bam;
+    int32_t cos_q36[ALE_MAX_BEAMS]; /* points a micrometre of range, Q36 */
+    int32_t sin_q36[ALE_MAX_BEAMS];
+
+    int64_t step_nrad; /* from beam to beam, without sign */
+    uint16_t count;
+    uint16_t beam[ALE_MAX_BEAMS];
+    int32_t range_um[ALE_MAX_BEAMS];
+    int32_t inverse_q44[ALE_MAX_BEAMS]; /* 2^44 / range_um */
+    int32_t x_q4[ALE_MAX_BEAMS];
+    int32_t y_q4[ALE_MAX_BEAMS];
+
+    uint16_t gap_count;
+    uint16_t
+        gap_after[ALE_MAX_BEAMS / ALE_MAX_GAP_BEAMS + 1]; /* points before more missing beams than that */
+} ale_points_t;
+
+/* Lists the valid beams of a scan: all but x_q4, y_q4. O(beams). */
+void ale_points_list(ale_points_t *points, const ale_scan_t *scan);
+
+/* Direction of the x axis of the points, in the sensor's frame. */
+uint32_t ale_points_frame_bam(const ale_points_t *points, const ale_scan_t *scan);
 
 /* x_q4, y_q4 of the listed points. bearing_bam as in ale_extract_scan. O(points). */
-void ale_points_place(ale_extractor_t *e, const ale_scan_t *scan, const uint32_t *bearing_bam);
+void ale_points_place(ale_points_t *points, const ale_scan_t *scan, const uint32_t *bearing_bam);
 
-/* Moves the placed points along their beams to the smoothed ranges, 1 / e->smooth_q44. O(points). */
-void ale_points_place_smoothed(ale_extractor_t *e);
+/* Moves the placed points along their beams to the smoothed ranges, 2^44 / smooth_q44. O(points). */
+void ale_points_place_smoothed(ale_points_t *points, const int32_t *smooth_q44);
+
+/* A surface is read from its nearer end, so that both directions of a scan give the same lines: 1 when that
+ * is the first of the points first..last, else -1. O(points) where both halves are alike, else a few steps.
+ */
+int32_t ale_points_reading_direction(const ale_points_t *points, int32_t first, int32_t last);
 
 #endif

@@ -1,19 +1,51 @@
-/* The own noise of the scanner, measured in the scan itself. */
+/* The noise of a scanner, measured in the scan itself: paper II, with what the real URG-04LX adds to it. */
 #ifndef ALE_EXTRACT_SCAN_NOISE_H
 #define ALE_EXTRACT_SCAN_NOISE_H
 
-#include "extract/workspace.h"
+#include <stdbool.h>
+#include <stdint.h>
 
-/* Sets e->noise from the second differences of 1/range (zero on a straight wall but for noise), by the
- * median in octaves of the range; where the scan has too few, the configured model serves. O(points). */
-void ale_scan_noise_measure(ale_extractor_t *e, const ale_scan_t *scan);
+#include "base/noise.h"
+#include "base/scan.h"
+#include "extract/histogram.h"
+#include "extract/points.h"
 
-/* Scales the shared part of e->noise, and of the fits of e->run, to what the blocks of beams of e->run show.
- * True when there is more of it than configured: then the runs were cut too short. O(points). */
-bool ale_scan_noise_measure_shared(ale_extractor_t *e, const ale_scan_t *scan);
+/* No variance is believed to exceed (9 % of the range)^2: Q36 of the squared range. */
+#define ALE_MOST_RELATIVE_Q36 (1 << 29)
 
-/* Refines the own noise by the residuals of e->run, where no shared error was found to hide it. Where it has
- * become less, runs that were whole are tried for a break again. O(runs). */
-void ale_scan_noise_refine_own(ale_extractor_t *e);
+enum { ALE_NOISE_OCTAVES = 14 };
+
+/* Noise of this scan: variance of a range of r mm is constant_mm2 + relative * r^2. All Q36. The own part is
+ * independent from beam to beam, the shared part correlated over shared_beams. */
+typedef struct {
+    int64_t own_mm2_q36;
+    int64_t own_relative_q36;
+    int64_t own_um2_q8;    /* own_mm2, as the moments need it */
+    int64_t own_scale_q16; /* correction of both, from residuals (run_noise.h) */
+    int64_t shared_mm2_q36;
+    int64_t shared_relative_q36;
+    int64_t bearing_rad2_q36;
+    int64_t sigma_um; /* the own deviation is at most sigma_um + sigma_per_range * r */
+    int64_t sigma_per_range_q20;
+
+    /* As configured. */
+    int64_t shared_prior_mm2_q36;
+    int64_t shared_prior_relative_q36;
+    int32_t shared_beams;
+    int32_t bearing_nrad;
+
+    /* What the runs show of the shared part, in units of the configured one (run_noise.h). */
+    int64_t shared_scale_q8;  /* for decisions; beyond 256: the scan shows a shared error */
+    int64_t shared_stated_q8; /* for the covariance of lines, where a shared error shows */
+    bool shared_absent;       /* measured, and there is none */
+
+    uint16_t histogram[ALE_NOISE_OCTAVES][ALE_HISTOGRAM_BINS]; /* scratch of the measurements */
+} ale_scan_noise_t;
+
+/* Takes over the configured model, and measures the own noise: from the second differences of 1/range (zero
+ * on a straight wall but for noise), by a quantile in octaves of the range. Where the scan has too few points
+ * the configured own noise serves. step_bam: from beam to beam. O(points). */
+void ale_scan_noise_measure(ale_scan_noise_t *noise, const ale_noise_t *configured,
+                            const ale_points_t *points, int32_t step_bam);
 
 #endif

@@ -2,19 +2,39 @@
 #ifndef ALE_EXTRACT_SEGMENT_H
 #define ALE_EXTRACT_SEGMENT_H
 
-#include "extract/workspace.h"
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "extract/points.h"
+#include "extract/scan_noise.h"
+
+/* A range of points, both ends included. */
+typedef struct {
+    uint16_t first;
+    uint16_t last;
+} ale_segment_t;
+
+typedef struct {
+    uint16_t suspect_count;
+    uint16_t suspect[ALE_MAX_BEAMS]; /* points after which the range changes more than noise makes it */
+    bool unruly; /* more of them than a scan of surfaces has: what is done for it is bounded more narrowly */
+    bool jump_after[ALE_MAX_BEAMS]; /* the surface does not go on to the next point */
+    uint16_t count;
+    ale_segment_t segment[ALE_MAX_BEAMS];
+} ale_segments_t;
 
 /* Lists the suspects: points i whose range differs from the next one's by more than noise, or that are
- * followed by many beams without a value. Only there can a jump or a stray point be. Sets e->unruly.
- * O(points). */
-void ale_segment_suspect(ale_extractor_t *e);
+ * followed by many beams without a value. Only there can a jump or a stray point be. Sets unruly. O(points).
+ */
+void ale_segment_suspect(ale_segments_t *segments, const ale_points_t *points, const ale_scan_noise_t *noise);
 
-/* Sets e->segment, and e->jump_after for every point: the last point of a segment has it. A jump is a change
- * of range that neither the noise nor the incidence (the neighbouring changes) explains, or many beams
- * without a value. Looks at the suspects only. Local and the same in both directions. O(points). */
-void ale_segment(ale_extractor_t *e, const ale_scan_t *scan);
+/* Cuts the points into segments, and sets jump_after for every point: the last point of a segment has it. A
+ * jump is a change of range that neither the noise nor the incidence (the neighbouring changes) explains, or
+ * many beams without a value. Looks at the suspects only. Local and the same in both directions. O(points).
+ */
+void ale_segment_cut(ale_segments_t *segments, const ale_points_t *points, const ale_scan_noise_t *noise);
 
 /* Whether the points i and j >= i lie in one segment. O(j - i). */
-bool ale_segment_joins(const ale_extractor_t *e, int32_t i, int32_t j);
+bool ale_segment_joins(const ale_segments_t *segments, int32_t i, int32_t j);
 
 #endif

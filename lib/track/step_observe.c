@@ -2,20 +2,9 @@
 
 #include <string.h>
 
-#include "base/fixed.h"
 #include "motion/deskew.h"
 #include "observe/short_segment.h"
 #include "track/step_filter.h"
-
-/* The noise model with the beams' own noise as the extractor found it in this scan. */
-static ale_noise_t measured_noise(const ale_pipeline_t *p)
-{
-    ale_noise_t noise = p->config.extract.noise;
-    const ale_scan_noise_t *found = &p->extractor.noise;
-    noise.own_um = (int32_t)ale_isqrt((uint64_t)ale_mul_shift(found->own_mm2_q36, 1000000, 36));
-    noise.own_ppm = (int32_t)ale_isqrt((uint64_t)ale_mul_shift(found->own_relative_q36, 1000000000000, 36));
-    return noise;
-}
 
 ale_scene_t ale_observed_scene(ale_pipeline_t *p)
 {
@@ -42,7 +31,7 @@ void ale_step_observe(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t ve
     const ale_posed_scan_t from = {&o->scan, ale_observed_bearings(o), p->config.sensor};
     ale_stage_end(&p->hook, ALE_STAGE_DESKEW);
     ale_extract_scan(&p->extractor, &o->scan, from.bearing_bam, &o->features);
-    const ale_noise_t noise = measured_noise(p);
+    const ale_noise_t noise = ale_extractor_noise(&p->extractor);
     o->count =
         ale_observe_lines(&o->features, &o->scan, p->config.sensor, noise.surface_um / 2, o->observation);
     o->count += ale_observe_segments(&o->features, &from, &noise, &p->segments,

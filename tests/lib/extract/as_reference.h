@@ -17,8 +17,9 @@ namespace scene
 inline reference::ScanPoints points_of(const ale_extractor_t &e)
 {
     reference::ScanPoints points;
-    for (int i = 0; i < e.count; i++) {
-        points.push_back({e.beam[i], e.range_um[i] / 1000.0, e.x_q4[i] / 16.0, e.y_q4[i] / 16.0});
+    const ale_points_t &p = e.runs.scan.points;
+    for (int i = 0; i < p.count; i++) {
+        points.push_back({p.beam[i], p.range_um[i] / 1000.0, p.x_q4[i] / 16.0, p.y_q4[i] / 16.0});
     }
     return points;
 }
@@ -49,20 +50,21 @@ inline double step_of(const ale_scan_t &scan)
 inline reference::NoiseOfScan noise_of(const ale_extractor_t &e)
 {
     const double q36 = std::ldexp(1.0, -36);
-    return {static_cast<double>(e.noise.own_mm2_q36) * q36,
-            static_cast<double>(e.noise.own_relative_q36) * q36,
-            static_cast<double>(e.noise.own_scale_q16) / 65536,
-            static_cast<double>(e.noise.shared_mm2_q36) * q36,
-            static_cast<double>(e.noise.shared_relative_q36) * q36,
-            static_cast<double>(e.config.noise.shared_beams),
-            static_cast<double>(e.noise.bearing_rad2_q36) * q36,
-            e.shared_scale_q8 > 256
-                ? static_cast<double>(e.shared_stated_q8) / static_cast<double>(e.shared_scale_q8)
-                : 1,
-            e.shared_absent,
-            e.shared_scale_q8 > 256,
-            e.unruly,
-            ale_costly(&e)};
+    const ale_scan_noise_t &n = e.runs.scan.noise;
+    const bool shows_shared = n.shared_scale_q8 > 256;
+    return {static_cast<double>(n.own_mm2_q36) * q36,
+            static_cast<double>(n.own_relative_q36) * q36,
+            static_cast<double>(n.own_scale_q16) / 65536,
+            static_cast<double>(n.shared_mm2_q36) * q36,
+            static_cast<double>(n.shared_relative_q36) * q36,
+            static_cast<double>(n.shared_beams),
+            static_cast<double>(n.bearing_rad2_q36) * q36,
+            shows_shared ? static_cast<double>(n.shared_stated_q8) / static_cast<double>(n.shared_scale_q8)
+                         : 1,
+            n.shared_absent,
+            shows_shared,
+            e.runs.scan.segments.unruly,
+            ale_costly(&e.runs)};
 }
 
 inline reference::NoiseOfScan noise_of(const ale_noise_t &n)
@@ -76,33 +78,34 @@ inline reference::NoiseOfScan noise_of(const ale_noise_t &n)
 inline std::vector<reference::Run> segments_of(const ale_extractor_t &e)
 {
     std::vector<reference::Run> segments;
-    for (int k = 0; k < e.segment_count; k++) {
-        segments.push_back({e.segment[k].first, e.segment[k].last});
+    const ale_segments_t &cut = e.runs.scan.segments;
+    for (int k = 0; k < cut.count; k++) {
+        segments.push_back({cut.segment[k].first, cut.segment[k].last});
     }
     return segments;
 }
 
-inline std::vector<reference::Run> runs_of(const ale_extractor_t &e)
+inline std::vector<reference::Run> runs_of(const ale_run_list_t &list)
 {
     std::vector<reference::Run> runs;
-    for (int k = 0; k < e.run_count; k++) {
-        const ale_run_t &run = e.run[k];
+    for (int k = 0; k < list.count; k++) {
+        const ale_run_t &run = list.run[k];
         runs.push_back({run.first, run.last, run.curved, run.no_break, run.settled, run.no_arc});
     }
     return runs;
 }
 
-inline void set_runs(ale_extractor_t *e, const std::vector<reference::Run> &runs)
+inline void set_runs(ale_run_list_t *list, const std::vector<reference::Run> &runs)
 {
-    e->run_count = static_cast<uint16_t>(runs.size());
+    list->count = static_cast<uint16_t>(runs.size());
     for (size_t k = 0; k < runs.size(); k++) {
-        e->run[k] = {};
-        e->run[k].first = static_cast<uint16_t>(runs[k].first);
-        e->run[k].last = static_cast<uint16_t>(runs[k].last);
-        e->run[k].curved = runs[k].curved;
-        e->run[k].no_break = runs[k].no_break;
-        e->run[k].settled = runs[k].settled;
-        e->run[k].no_arc = runs[k].no_arc;
+        list->run[k] = {};
+        list->run[k].first = static_cast<uint16_t>(runs[k].first);
+        list->run[k].last = static_cast<uint16_t>(runs[k].last);
+        list->run[k].curved = runs[k].curved;
+        list->run[k].no_break = runs[k].no_break;
+        list->run[k].settled = runs[k].settled;
+        list->run[k].no_arc = runs[k].no_arc;
     }
 }
 

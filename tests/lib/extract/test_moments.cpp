@@ -4,7 +4,6 @@
 #include <cmath>
 #include <random>
 
-#include "lib/extract/scene.h"
 #include "reference/total_least_squares.h"
 
 extern "C" {
@@ -17,28 +16,30 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-// Puts points (mm) into an extractor as its stages leave them.
-void load(ale_extractor_t *e, const std::vector<Eigen::Vector2d> &points_mm)
+// Puts points (mm) into a scan as the steps before leave them.
+void load(ale_prepared_scan_t *scan, const std::vector<Eigen::Vector2d> &points_mm)
 {
-    e->count = static_cast<uint16_t>(points_mm.size());
+    ale_points_t &p = scan->points;
+    p.count = static_cast<uint16_t>(points_mm.size());
     for (size_t i = 0; i < points_mm.size(); i++) {
-        e->beam[i] = static_cast<uint16_t>(i);
-        e->x_q4[i] = static_cast<int32_t>(std::lround(points_mm[i].x() * 16));
-        e->y_q4[i] = static_cast<int32_t>(std::lround(points_mm[i].y() * 16));
-        e->range_um[i] = static_cast<int32_t>(std::lround(points_mm[i].norm() * 1000));
-        e->inverse_q44[i] = static_cast<int32_t>((int64_t{1} << 44) / e->range_um[i]);
+        p.beam[i] = static_cast<uint16_t>(i);
+        p.x_q4[i] = static_cast<int32_t>(std::lround(points_mm[i].x() * 16));
+        p.y_q4[i] = static_cast<int32_t>(std::lround(points_mm[i].y() * 16));
+        p.range_um[i] = static_cast<int32_t>(std::lround(points_mm[i].norm() * 1000));
+        p.inverse_q44[i] = static_cast<int32_t>((int64_t{1} << 44) / p.range_um[i]);
     }
-    e->noise = {};
-    e->noise.own_mm2_q36 = int64_t{25} << 36; // 5 mm
-    e->noise.own_scale_q16 = 1 << 16;
-    ale_moments_build(e);
+    scan->noise = {};
+    scan->noise.own_mm2_q36 = int64_t{25} << 36; // 5 mm
+    scan->noise.own_scale_q16 = 1 << 16;
+    scan->noise.shared_beams = ale_noise_default().shared_beams;
+    ale_moments_build(scan);
 }
 
-std::vector<Eigen::Vector2d> grid_of(const ale_extractor_t *e, int first, int last)
+std::vector<Eigen::Vector2d> grid_of(const ale_prepared_scan_t *scan, int first, int last)
 {
     std::vector<Eigen::Vector2d> points;
     for (int i = first; i <= last; i++) {
-        points.emplace_back(e->x_q4[i] / 16.0, e->y_q4[i] / 16.0);
+        points.emplace_back(scan->points.x_q4[i] / 16.0, scan->points.y_q4[i] / 16.0);
     }
     return points;
 }
@@ -64,54 +65,54 @@ std::vector<Eigen::Vector2d> noisy_wall(std::mt19937 &engine, int n, double reac
 
 TEST(Moments, SquaredResidualsOfAnyRunAgreeWithTheTwin)
 {
-    scene::extractor extractor;
+    const auto scan = std::make_unique<ale_prepared_scan_t>();
     std::mt19937 engine(1);
     for (const double reach : {500.0, 5600.0, 30000.0, 80000.0}) {
         for (int trial = 0; trial < 200; trial++) {
             const int n = 5 + static_cast<int>(engine() % 600);
-            load(extractor.get(), noisy_wall(engine, n, reach));
+            load(scan.get(), noisy_wall(engine, n, reach));
             const int first = static_cast<int>(engine() % static_cast<unsigned>(n - 4));
             const int last = first + 3 + static_cast<int>(engine() % static_cast<unsigned>(n - first - 3));
-            const auto twin = reference::total_least_squares(grid_of(extractor.get(), first, last));
-            const ale_run_fit_t fit = ale_moments_fit(extractor.get(), first, last);
+            const auto twin = reference::total_least_squares(grid_of(scan.get(), first, last));
+            const ale_run_fit_t fit = ale_moments_fit(scan.get(), first, last);
             const double points = last + 1 - first;
             // the scatter has 30 bits: its small eigenvalue is known to 2^-28 of the large one; one step of
             // the iteration for it leaves the square of their ratio
             const double bound = 0.02 * points + 4e-9 * twin.along2 + 1e-4 * twin.sse +
                                  1.5 * twin.sse * std::pow(twin.sse / twin.along2, 2);
             EXPECT_NEAR(static_cast<double>(fit.sse_q8) / 256, twin.sse, bound) << reach << " mm, " << points;
-            EXPECT_EQ(fit.sse_q8, ale_moments_sse_q8(extractor.get(), first, last));
+            EXPECT_EQ(fit.sse_q8, ale_moments_sse_q8(scan.get(), first, last));
         }
     }
 }
 
 TEST(Moments, ExpectedVarianceIsTheNoiseSeenAlongTheNormal)
 {
-    scene::extractor extractor;
+    const auto scan = std::make_unique<ale_prepared_scan_t>();
     std::mt19937 engine(2);
     for (int trial = 0; trial < 200; trial++) {
-        load(extractor.get(), noisy_wall(engine, 200, 5600));
-        const auto points = grid_of(extractor.get(), 0, 199);
+        load(scan.get(), noisy_wall(engine, 200, 5600));
+        const auto points = grid_of(scan.get(), 0, 199);
         const auto twin = reference::total_least_squares(points);
         double expected = 0;
         for (const auto &p : points) {
             expected += 25 * std::pow(twin.rho / p.norm(), 2) / 200;
         }
-        const ale_run_fit_t fit = ale_moments_fit(extractor.get(), 0, 199);
+        const ale_run_fit_t fit = ale_moments_fit(scan.get(), 0, 199);
         EXPECT_NEAR(static_cast<double>(fit.var_q8) / 256, expected, 0.03 * expected + 0.1);
     }
 }
 
 TEST(LineFit, NormalFormAgreesWithTheTwin)
 {
-    scene::extractor extractor;
+    const auto scan = std::make_unique<ale_prepared_scan_t>();
     std::mt19937 engine(3);
     for (int trial = 0; trial < 500; trial++) {
         const int n = 8 + static_cast<int>(engine() % 400);
-        load(extractor.get(), noisy_wall(engine, n, 5600));
-        const auto twin = reference::total_least_squares(grid_of(extractor.get(), 0, n - 1));
+        load(scan.get(), noisy_wall(engine, n, 5600));
+        const auto twin = reference::total_least_squares(grid_of(scan.get(), 0, n - 1));
         ale_line_t line;
-        ale_line_fit(extractor.get(), {0, static_cast<uint16_t>(n - 1)}, &line);
+        ale_line_fit(scan.get(), {0, static_cast<uint16_t>(n - 1)}, &line);
         const double alpha = line.alpha_bam * (2 * pi / 4294967296.0);
         const double sigma_alpha = 5 / std::sqrt(twin.along2);
         EXPECT_NEAR(std::remainder(alpha - twin.alpha, 2 * pi), 0, 0.01 * sigma_alpha + 1e-8);
@@ -145,14 +146,14 @@ std::vector<Eigen::Vector2d> seen_wall(std::mt19937 &engine, int n)
 // correlated.
 TEST(LineFit, CovarianceIsThatOfIndependentNoiseAlongTheLine)
 {
-    scene::extractor extractor;
+    const auto scan = std::make_unique<ale_prepared_scan_t>();
     std::mt19937 engine(4);
     for (int trial = 0; trial < 200; trial++) {
         const int n = 150;
-        load(extractor.get(), seen_wall(engine, n));
+        load(scan.get(), seen_wall(engine, n));
         ale_line_t line;
-        ale_line_fit(extractor.get(), {0, n - 1}, &line);
-        const auto points = grid_of(extractor.get(), 0, n - 1);
+        ale_line_fit(scan.get(), {0, n - 1}, &line);
+        const auto points = grid_of(scan.get(), 0, n - 1);
         const auto twin = reference::total_least_squares(points);
         const Eigen::Vector2d tangent(-std::sin(twin.alpha), std::cos(twin.alpha));
         double of_alpha = 0;
@@ -173,12 +174,12 @@ TEST(LineFit, CovarianceIsThatOfIndependentNoiseAlongTheLine)
 
 TEST(LineFit, TheEndsLieOnTheLine)
 {
-    scene::extractor extractor;
+    const auto scan = std::make_unique<ale_prepared_scan_t>();
     std::mt19937 engine(5);
     for (int trial = 0; trial < 100; trial++) {
-        load(extractor.get(), noisy_wall(engine, 60, 4000));
+        load(scan.get(), noisy_wall(engine, 60, 4000));
         ale_line_t line;
-        ale_line_fit(extractor.get(), {0, 59}, &line);
+        ale_line_fit(scan.get(), {0, 59}, &line);
         const double alpha = line.alpha_bam * (2 * pi / 4294967296.0);
         for (const ale_point_t p : {line.start, line.end}) {
             EXPECT_NEAR(p.x_um * std::cos(alpha) + p.y_um * std::sin(alpha), line.rho_um, 3.0);

@@ -32,10 +32,10 @@ struct Given {
 
 Given given(const ale_extractor_t *e)
 {
-    return {scene::points_of(*e), scene::noise_of(*e), scene::segments_of(*e), scene::runs_of(*e)};
+    return {scene::points_of(*e), scene::noise_of(*e), scene::segments_of(*e), scene::runs_of(e->runs)};
 }
 
-using Stage = std::function<void(ale_extractor_t *)>;
+using Stage = std::function<void(ale_run_list_t *)>;
 using Twin = std::function<Runs(const Given &, Decisions &)>;
 
 // Leads simulated scans to a stage and compares the runs that it leaves, and the effort that it takes, with
@@ -49,14 +49,14 @@ int compare_runs(unsigned seed, double share, const Stage &before, const Stage &
     for (unsigned k = 0; k < scans; k++) {
         const auto scan = scene::simulated_scan(k, seed);
         scene::search_runs(e, *scan);
-        before(e);
+        before(&e->runs);
         const Given input = given(e);
         Decisions decisions;
         const Runs expected = twin(input, decisions);
-        const int effort_before = e->effort;
-        stage(e);
-        const bool same_effort = e->effort - effort_before == decisions.spent();
-        agreement.compare(scene::runs_of(*e) == expected && same_effort, decisions, k);
+        const int effort_before = e->runs.effort;
+        stage(&e->runs);
+        const bool same_effort = e->runs.effort - effort_before == decisions.spent();
+        agreement.compare(scene::runs_of(e->runs) == expected && same_effort, decisions, k);
         changed += expected == input.runs ? 0 : 1;
     }
     agreement.expect_differences_below(share);
@@ -65,7 +65,7 @@ int compare_runs(unsigned seed, double share, const Stage &before, const Stage &
 
 TEST(Runs, TheSearchFindsThoseOfTheTwin)
 {
-    const auto nothing = [](ale_extractor_t *) {};
+    const auto nothing = [](ale_run_list_t *) {};
     const auto twin = [](const Given &g, Decisions &decisions) {
         return reference::search_segments(g.points, g.noise, g.segments, decisions).runs;
     };
@@ -100,10 +100,10 @@ TEST(Runs, NearlyNoBreakIsWorseThanTheBestOfAllByMoreThanAMeetingPointMayBe)
     for (unsigned k = 0; k < scans; k++) {
         const auto scan = scene::simulated_scan(k, 13);
         scene::search_runs(e, *scan);
-        ale_merge_runs(e);
+        ale_merge_runs(&e->runs);
         const Given before = given(e);
-        scene::place_runs(e);
-        const Runs placed = scene::runs_of(*e);
+        scene::place_runs(&e->runs);
+        const Runs placed = scene::runs_of(e->runs);
         for (size_t i = 0; i + 1 < placed.size(); i++) {
             if (placed[i].last == before.runs[i].last && placed[i + 1].first == before.runs[i + 1].first) {
                 continue;
@@ -133,13 +133,13 @@ TEST(Runs, BreaksAreThosePlacedAgainOfTheTwinAndTakeNoMoreEffortThanIsLeft)
 {
     for (const int effort : {0, 700, 780, 820, ALE_MOST_EFFORT, ALE_MOST_EFFORT + 1}) {
         int most = 0;
-        const auto before = [effort](ale_extractor_t *e) {
-            ale_merge_runs(e);
-            e->effort = effort;
+        const auto before = [effort](ale_run_list_t *runs) {
+            ale_merge_runs(runs);
+            runs->effort = effort;
         };
-        const auto place = [&](ale_extractor_t *e) {
-            ale_runs_place_again(e, ALE_BREAK_WIDE_STEP);
-            most = std::max(most, e->effort);
+        const auto place = [&](ale_run_list_t *runs) {
+            ale_runs_place_again(runs, ALE_BREAK_WIDE_STEP);
+            most = std::max(most, runs->effort);
         };
         const auto twin = [effort](const Given &g, Decisions &decisions) {
             const int step = reference::affordable_step(g.segments, g.runs, reference::wide_step,
@@ -168,17 +168,17 @@ TEST(Runs, ABendIsFoundNearerToItsPlaceThanTheBestJointFitIs)
         scene::see(*scan, {{2, -2, 2, y}, {2, y, 2 - 2 * std::sin(turn), y + 2 * std::cos(turn)}}, 10,
                    static_cast<unsigned>(k));
         scene::prepare_points(e, *scan);
-        scene::set_runs(e, {{0, bend + 9}, {bend + 10, e->count - 1}});
+        scene::set_runs(&e->runs, {{0, bend + 9}, {bend + 10, e->runs.scan.points.count - 1}});
         const Given before = given(e);
-        scene::place_runs(e);
+        scene::place_runs(&e->runs);
         const reference::Run &a = before.runs[0];
         const reference::Run &b = before.runs[1];
         const reference::BreakRange range =
             reference::range_between(before.points, a, b, reference::wide_step);
         const int best =
             reference::best_break(before.points, before.noise, a, b, range.lowest, range.highest);
-        placed_error += std::pow(e->beam[e->run[0].last] - bend, 2);
-        best_error += std::pow(e->beam[best] - bend, 2);
+        placed_error += std::pow(e->runs.scan.points.beam[e->runs.run[0].last] - bend, 2);
+        best_error += std::pow(e->runs.scan.points.beam[best] - bend, 2);
     }
     EXPECT_LT(placed_error, best_error / 2) << "squared beams, " << best_error;
 }
@@ -193,13 +193,13 @@ TEST(Runs, TheOuterPointsThatARunGivesUpAreThoseOfTheTwin)
         const auto scan = scene::simulated_scan(k, 17);
         scene::search_runs(e, *scan);
         const Given g = given(e);
-        for (int i = 0; i < e->run_count; i++) {
+        for (int i = 0; i < e->runs.count; i++) {
             Decisions decisions;
             const reference::Run &run = g.runs[static_cast<size_t>(i)];
             const reference::Run expected =
                 reference::trimmed_run(g.points, g.noise, run, e->config.min_points, decisions);
-            ale_run_trim(e, &e->run[i]);
-            agreement.compare(scene::runs_of(*e)[static_cast<size_t>(i)] == expected, decisions, k);
+            ale_run_trim(&e->runs, &e->runs.run[i]);
+            agreement.compare(scene::runs_of(e->runs)[static_cast<size_t>(i)] == expected, decisions, k);
             trimmed += expected == run ? 0 : 1;
         }
     }
@@ -211,15 +211,15 @@ TEST(Runs, BreaksThatTheSearchMissedAreFoundWhereTheTwinFindsThem)
 {
     // every second run is joined to the next one, so that there is something to find, and loses some points
     // at its ends, so that there is something to take in
-    const auto join = [](ale_extractor_t *e) {
+    const auto join = [](ale_run_list_t *list) {
         Runs joined;
-        const Runs runs = scene::runs_of(*e);
+        const Runs runs = scene::runs_of(*list);
         for (size_t k = 0; k < runs.size(); k += 2) {
             const reference::Run &next = runs[std::min(k + 1, runs.size() - 1)];
             const int lost = next.last - runs[k].first > 20 ? static_cast<int>(k) % 6 : 0;
             joined.push_back({runs[k].first + lost, next.last - lost});
         }
-        scene::set_runs(e, joined);
+        scene::set_runs(list, joined);
     };
     const auto twin = [](const Given &g, Decisions &decisions) {
         return reference::split_runs(g.points, g.noise, g.segments, g.runs, decisions);
@@ -230,14 +230,14 @@ TEST(Runs, BreaksThatTheSearchMissedAreFoundWhereTheTwinFindsThem)
 TEST(Merge, RunsAreJoinedAsTheTwinJoinsThem)
 {
     // every run is cut in two, so that there is something to join
-    const auto halve = [](ale_extractor_t *e) {
+    const auto halve = [](ale_run_list_t *runs) {
         Runs halves;
-        for (const reference::Run &run : scene::runs_of(*e)) {
+        for (const reference::Run &run : scene::runs_of(*runs)) {
             const int middle = (run.first + run.last) / 2;
             halves.push_back({run.first, middle});
             halves.push_back({middle + 1, run.last});
         }
-        scene::set_runs(e, halves);
+        scene::set_runs(runs, halves);
     };
     const auto twin = [](const Given &g, Decisions &decisions) {
         return reference::merged_runs(g.points, g.noise, g.segments, g.runs, decisions);
@@ -247,70 +247,16 @@ TEST(Merge, RunsAreJoinedAsTheTwinJoinsThem)
 
 TEST(Curve, CurvesAreThoseOfTheTwin)
 {
-    const auto straight = [](ale_extractor_t *e) {
-        ale_merge_runs(e);
-        scene::place_runs(e);
+    const auto straight = [](ale_run_list_t *runs) {
+        ale_merge_runs(runs);
+        scene::place_runs(runs);
     };
     for (const bool again : {false, true}) {
-        const auto find = [again](ale_extractor_t *e) { ale_curve_find(e, again); };
+        const auto find = [again](ale_run_list_t *runs) { ale_curve_find(runs, again); };
         const auto twin = [again](const Given &g, Decisions &decisions) {
             return reference::with_curves(g.points, g.noise, g.segments, g.runs, again, decisions);
         };
         EXPECT_GT(compare_runs(16, 0.02, straight, find, twin), 15) << again;
-    }
-}
-
-// Runs of random lengths, one after the other, of at most so many points.
-Runs random_runs(int most, std::mt19937 &engine)
-{
-    Runs runs;
-    std::uniform_int_distribution<int> points(ALE_MIN_RUN, most);
-    for (int at = 0; at + most <= ALE_MAX_BEAMS && runs.size() < ALE_MAX_RUNS; at = runs.back().last + 1) {
-        runs.push_back({at, at + points(engine) - 1});
-    }
-    return runs;
-}
-
-Runs mirrored(const Runs &runs)
-{
-    Runs result;
-    for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
-        result.push_back({ALE_MAX_BEAMS - 1 - run->last, ALE_MAX_BEAMS - 1 - run->first});
-    }
-    return result;
-}
-
-TEST(Runs, OfEnoughLongOnesTheShorterAndOfEquallyLongOnesTheOuterAreDropped)
-{
-    constexpr int fewest = 12;
-    constexpr int enough = 24;
-    scene::extractor extractor;
-    ale_extractor_t *e = extractor.get();
-    e->count = ALE_MAX_BEAMS;
-    const auto kept_of = [&](const Runs &runs) {
-        scene::set_runs(e, runs);
-        ale_runs_drop_short(e, fewest, enough);
-        return scene::runs_of(*e);
-    };
-    const auto rank = [](const reference::Run &run) {
-        return std::pair(run.points(), -std::abs(run.first + run.last + 1 - ALE_MAX_BEAMS));
-    };
-    std::mt19937 engine(3);
-    for (const int most : {5, 8, 12, 13, 14, 15, 16, 20, 30, 45, 90}) {
-        const Runs runs = random_runs(most, engine);
-        const Runs kept = kept_of(runs);
-        const auto long_enough = std::count_if(
-            runs.begin(), runs.end(), [](const reference::Run &run) { return run.points() >= fewest; });
-        EXPECT_GE(kept.size(), std::min<size_t>(enough, static_cast<size_t>(long_enough))) << most;
-        EXPECT_LE(kept.size(), std::min<size_t>(enough + 1, static_cast<size_t>(long_enough))) << most;
-        for (const reference::Run &run : runs) {
-            if (std::find(kept.begin(), kept.end(), run) == kept.end() && run.points() >= fewest) {
-                EXPECT_TRUE(std::all_of(kept.begin(), kept.end(), [&](const reference::Run &other) {
-                    return rank(other) > rank(run);
-                }));
-            }
-        }
-        EXPECT_EQ(kept_of(mirrored(runs)), mirrored(kept)) << most;
     }
 }
 
@@ -325,14 +271,14 @@ TEST(Runs, OfVeryFewPointsAreThoseOfTheTwin)
             ale_scan_set_range(scan.get(), static_cast<uint16_t>(k), 1000000);
         }
         scene::prepare_points(e, *scan);
-        ale_runs_search(e);
+        ale_runs_search(&e->runs);
         const Given g = given(e);
         Decisions decisions;
         Runs expected;
         if (!g.points.empty()) {
             expected = reference::search_segments(g.points, g.noise, g.segments, decisions).runs;
         }
-        EXPECT_EQ(scene::runs_of(*e), expected) << points;
+        EXPECT_EQ(scene::runs_of(e->runs), expected) << points;
     }
 }
 

@@ -34,7 +34,7 @@ TEST(Outlier, SpikesAreThoseOfTheTwin)
         const auto before = scene::points_of(*e);
         const auto twin =
             reference::without_spikes(before, scene::noise_of(*e), scene::step_of(*scan), decisions);
-        ale_outlier_remove_spikes(e);
+        scene::remove_spikes(e);
         agreement.compare(beams_of(scene::points_of(*e)) == beams_of(twin), decisions, k);
         spikes += static_cast<int>(before.size() - twin.size());
     }
@@ -57,8 +57,8 @@ TEST(Outlier, APointBesideAStepIsKept)
             return (k > 360 ? 2030 : 2000) / std::cos((k - 340) * scene::urg_step) + 3 * gauss(engine);
         });
         scene::list_points(e, *scan);
-        ale_outlier_remove_spikes(e);
-        removed += 200 - e->count;
+        scene::remove_spikes(e);
+        removed += 200 - e->runs.scan.points.count;
     }
     EXPECT_LT(removed, 170);
 }
@@ -72,14 +72,14 @@ TEST(Segment, JumpsAreThoseOfTheTwin)
     for (unsigned k = 0; k < scans; k++) {
         const auto scan = scene::simulated_scan(k, 3);
         scene::list_points(e, *scan);
-        ale_outlier_remove_spikes(e);
-        ale_segment(e, scan.get());
+        scene::remove_spikes(e);
+        scene::cut_segments(e);
         const auto points = scene::points_of(*e);
-        for (int i = 0; i + 1 < e->count; i++) {
+        for (int i = 0; i + 1 < e->runs.scan.points.count; i++) {
             reference::Decisions decisions;
             const bool twin =
                 reference::is_jump(points, scene::noise_of(*e), scene::step_of(*scan), i, decisions);
-            agreement.compare(e->jump_after[i] == twin, decisions, k);
+            agreement.compare(e->runs.scan.segments.jump_after[i] == twin, decisions, k);
             jumps += twin ? 1 : 0;
         }
     }
@@ -95,9 +95,9 @@ TEST(Segment, PiecesTooSmallForASurfaceAreThoseOfTheTwin)
     for (unsigned k = 0; k < scans; k++) {
         const auto scan = scene::simulated_scan(k, 4);
         scene::list_points(e, *scan);
-        ale_segment(e, scan.get());
+        scene::cut_segments(e);
         const auto twin = reference::without_strays(scene::points_of(*e), scene::segments_of(*e));
-        removed += ale_outlier_remove_strays(e) ? 1 : 0;
+        removed += scene::remove_strays(e) > 0 ? 1 : 0;
         EXPECT_EQ(beams_of(scene::points_of(*e)), beams_of(twin)) << "scan " << k;
     }
     EXPECT_GT(removed, 20);
@@ -113,7 +113,7 @@ TEST(Segment, TheCutsOfAnEmptyScanAndOfOnePointAreThoseOfTheTwin)
             ale_scan_set_range(scan.get(), static_cast<uint16_t>(k), 1000000);
         }
         scene::list_points(e, *scan);
-        ale_segment(e, scan.get());
+        scene::cut_segments(e);
         reference::Decisions decisions;
         EXPECT_EQ(scene::segments_of(*e),
                   reference::surface_segments(scene::points_of(*e), scene::noise_of(*e),

@@ -17,6 +17,8 @@ extern "C" {
 #include "extract/moments.h"
 #include "extract/outlier.h"
 #include "extract/points.h"
+#include "extract/run_list.h"
+#include "extract/run_noise.h"
 #include "extract/runs.h"
 #include "extract/scan_noise.h"
 #include "extract/segment.h"
@@ -84,43 +86,48 @@ ale_scan_t any_scan(Random &random)
 void extraction(Parts &parts, ale_extractor_t *e, const ale_scan_t &scan, const uint32_t *bearing_bam,
                 ale_features_t *out)
 {
-    parts.measure("points", 1, [&] { ale_points_list(e, &scan); });
-    parts.measure("noise of the beams", 1, [&] { ale_scan_noise_measure(e, &scan); });
-    parts.measure("suspects", 1, [&] { ale_segment_suspect(e); });
-    parts.measure("spikes", 1, [&] { ale_outlier_remove_spikes(e); });
-    parts.measure("segments", 1, [&] { ale_segment(e, &scan); });
-    parts.measure("stray points", 1, [&] { ale_outlier_remove_strays(e); });
-    parts.measure("segments again", 1, [&] { ale_segment(e, &scan); });
-    parts.measure("places of the points", 1, [&] { ale_points_place(e, &scan, bearing_bam); });
-    parts.measure("moments", 1, [&] { ale_moments_build(e); });
-    parts.measure("search of the runs", 1, [&] { ale_runs_search(e); });
-    parts.measure("shared noise", 1, [&] { ale_scan_noise_measure_shared(e, &scan); });
-    ale_runs_forget_fits(e);
-    parts.measure("own noise again", 1, [&] { ale_scan_noise_refine_own(e); });
-    if (e->run_count > (ale_costly(e) ? ALE_MANY_RUNS / 3 : ALE_MANY_RUNS)) {
-        ale_runs_drop_short(e, ALE_COSTLY_RUN, ALE_MANY_RUNS);
-        parts.measure("runs joined", 1, [&] { ale_merge_runs(e); });
+    ale_run_list_t *runs = &e->runs;
+    ale_points_t *points = &runs->scan.points;
+    ale_scan_noise_t *noise = &runs->scan.noise;
+    ale_segments_t *segments = &runs->scan.segments;
+    parts.measure("points", 1, [&] { ale_points_list(points, &scan); });
+    parts.measure("noise of the beams", 1,
+                  [&] { ale_scan_noise_measure(noise, &e->config.noise, points, scan.step_bam); });
+    parts.measure("suspects", 1, [&] { ale_segment_suspect(segments, points, noise); });
+    parts.measure("spikes", 1, [&] { ale_outlier_remove_spikes(points, segments, noise); });
+    parts.measure("segments", 1, [&] { ale_segment_cut(segments, points, noise); });
+    parts.measure("stray points", 1, [&] { ale_outlier_remove_strays(points, segments); });
+    parts.measure("segments again", 1, [&] { ale_segment_cut(segments, points, noise); });
+    parts.measure("places of the points", 1, [&] { ale_points_place(points, &scan, bearing_bam); });
+    parts.measure("moments", 1, [&] { ale_moments_build(&runs->scan); });
+    parts.measure("search of the runs", 1, [&] { ale_runs_search(runs); });
+    parts.measure("shared noise", 1, [&] { ale_run_noise_measure_shared(runs, scan.step_bam); });
+    ale_run_list_forget_fits(runs);
+    parts.measure("own noise again", 1, [&] { ale_run_noise_refine_own(runs); });
+    if (runs->count > (ale_costly(runs) ? ALE_MANY_RUNS / 3 : ALE_MANY_RUNS)) {
+        ale_run_list_drop_short(runs, ALE_COSTLY_RUN, ALE_MANY_RUNS);
+        parts.measure("runs joined", 1, [&] { ale_merge_runs(runs); });
     } else {
-        parts.measure("runs joined", 1, [&] { ale_merge_runs(e); });
-        parts.measure("breaks placed", 1, [&] { ale_runs_place(e, ALE_BREAK_WIDE_STEP); });
-        parts.measure("curves", 1, [&] { ale_curve_find(e, false); });
-        parts.measure("runs split", 1, [&] { ale_runs_split(e); });
-        parts.measure("runs joined again", 1, [&] { ale_merge_runs(e); });
-        parts.measure("breaks placed again", 1, [&] { ale_runs_place(e, ALE_BREAK_FINE_STEP); });
-        parts.measure("own noise, third time", 1, [&] { ale_scan_noise_refine_own(e); });
-        parts.measure("runs split again", 1, [&] { ale_runs_split(e); });
-        parts.measure("runs joined, third time", 1, [&] { ale_merge_runs(e); });
-        parts.measure("breaks placed, third time", 1, [&] { ale_runs_place(e, ALE_BREAK_WIDE_STEP); });
-        parts.measure("curves again", 1, [&] { ale_curve_find(e, true); });
+        parts.measure("runs joined", 1, [&] { ale_merge_runs(runs); });
+        parts.measure("breaks placed", 1, [&] { ale_runs_place(runs, ALE_BREAK_WIDE_STEP); });
+        parts.measure("curves", 1, [&] { ale_curve_find(runs, false); });
+        parts.measure("runs split", 1, [&] { ale_runs_split(runs); });
+        parts.measure("runs joined again", 1, [&] { ale_merge_runs(runs); });
+        parts.measure("breaks placed again", 1, [&] { ale_runs_place(runs, ALE_BREAK_FINE_STEP); });
+        parts.measure("own noise, third time", 1, [&] { ale_run_noise_refine_own(runs); });
+        parts.measure("runs split again", 1, [&] { ale_runs_split(runs); });
+        parts.measure("runs joined, third time", 1, [&] { ale_merge_runs(runs); });
+        parts.measure("breaks placed, third time", 1, [&] { ale_runs_place(runs, ALE_BREAK_WIDE_STEP); });
+        parts.measure("curves again", 1, [&] { ale_curve_find(runs, true); });
     }
-    for (int32_t k = 0; k < e->run_count; k++) {
+    for (int32_t k = 0; k < runs->count; k++) {
         ale_line_t line;
         parts.measure("a line's fit", ALE_MANY_RUNS, [&] {
-            ale_line_fit(e, {e->run[k].first, e->run[k].last}, &line);
+            ale_line_fit(&runs->scan, {runs->run[k].first, runs->run[k].last}, &line);
         });
     }
     ale_extract_scan(e, &scan, nullptr, out);
-    parts.measure("corners", 1, [&] { ale_corner_find(e->step_nrad, out); });
+    parts.measure("corners", 1, [&] { ale_corner_find(points->step_nrad, out); });
 }
 
 void looking(Parts &parts)

@@ -20,15 +20,16 @@ int figures_growth(const ale_scan_t *scan, const ale_extract_config_t *config,
     if (e != NULL && features != NULL && ale_extractor_init(e, config) == 0) {
         ale_extract_scan(e, scan, NULL, features);
         entries = 0;
-        for (int32_t last = ALE_MIN_RUN - 1; last < e->count; last++) {
-            const ale_run_fit_t fit = ale_moments_fit(e, 0, last);
+        const ale_prepared_scan_t *prepared = &e->runs.scan;
+        for (int32_t last = ALE_MIN_RUN - 1; last < prepared->points.count; last++) {
+            const ale_run_fit_t fit = ale_moments_fit(prepared, 0, last);
             const double variance = (double)fit.var_q8 / 256;
             growth[entries++] = (figures_growth_t){
-                e->beam[last],
+                prepared->points.beam[last],
                 (uint16_t)fit.n,
                 rms_mm((double)fit.sse_q8, fit.n),
-                rms_mm(variance * e->chi_low_q8[fit.n], fit.n),
-                rms_mm(variance * e->chi_high_q8[fit.n], fit.n),
+                rms_mm(variance * e->runs.chi_low_q8[fit.n], fit.n),
+                rms_mm(variance * e->runs.chi_high_q8[fit.n], fit.n),
             };
         }
     }

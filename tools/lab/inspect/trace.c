@@ -18,19 +18,20 @@ static int32_t um(int32_t q4)
 /* The extractor works in a frame that looks along the middle of its points. */
 static void copy_points(const ale_extractor_t *e, const ale_scan_t *scan, inspect_trace_t *trace)
 {
-    const ale_direction_t frame = ale_direction(ale_points_frame_bam(e, scan));
-    trace->points = e->count;
-    for (int32_t i = 0; i < e->count; i++) {
-        trace->beam[i] = e->beam[i];
-        const ale_point_t p = ale_turn((ale_point_t){um(e->x_q4[i]), um(e->y_q4[i])}, frame);
+    const ale_points_t *points = &e->runs.scan.points;
+    const ale_direction_t frame = ale_direction(ale_points_frame_bam(points, scan));
+    trace->points = points->count;
+    for (int32_t i = 0; i < points->count; i++) {
+        trace->beam[i] = points->beam[i];
+        const ale_point_t p = ale_turn((ale_point_t){um(points->x_q4[i]), um(points->y_q4[i])}, frame);
         trace->x_um[i] = p.x_um;
         trace->y_um[i] = p.y_um;
-        trace->segment_ends[i] = e->jump_after[i];
+        trace->segment_ends[i] = e->runs.scan.segments.jump_after[i];
     }
-    trace->runs = e->run_count;
-    for (int32_t k = 0; k < e->run_count; k++) {
-        trace->run[k].first = e->run[k].first;
-        trace->run[k].last = e->run[k].last;
+    trace->runs = e->runs.count;
+    for (int32_t k = 0; k < e->runs.count; k++) {
+        trace->run[k].first = e->runs.run[k].first;
+        trace->run[k].last = e->runs.run[k].last;
     }
 }
 
@@ -48,27 +49,28 @@ static void add_steps(inspect_trace_t *trace, int32_t from, int32_t direction, i
     }
 }
 
-static void search_again(ale_extractor_t *e, int32_t first, int32_t last, inspect_trace_t *trace)
+static void search_again(ale_run_list_t *runs, int32_t first, int32_t last, inspect_trace_t *trace)
 {
-    const int32_t direction = ale_reading_direction(e, first, last);
+    const int32_t direction = ale_points_reading_direction(&runs->scan.points, first, last);
     const int32_t stop = direction > 0 ? last : first;
     int32_t from = direction > 0 ? first : last;
     while ((stop - from) * direction + 1 >= ALE_MIN_RUN) {
         ale_run_fit_t fit;
-        const int32_t to = ale_break_search(e, from, stop, &fit);
+        const int32_t to = ale_break_search(runs, from, stop, &fit);
         const int32_t size = (stop - from) * direction + 1;
         add_steps(trace, from, direction, size, (to - from) * direction);
         from = to + direction;
     }
 }
 
-static void search_longest_segment(ale_extractor_t *e, inspect_trace_t *trace)
+static void search_longest_segment(ale_run_list_t *runs, inspect_trace_t *trace)
 {
     int32_t best_first = 0;
     int32_t best_last = -1;
     int32_t first = 0;
-    for (int32_t i = 0; i < e->count; i++) {
-        if (e->jump_after[i] || i + 1 == e->count) {
+    const ale_prepared_scan_t *scan = &runs->scan;
+    for (int32_t i = 0; i < scan->points.count; i++) {
+        if (scan->segments.jump_after[i] || i + 1 == scan->points.count) {
             if (i - first > best_last - best_first) {
                 best_first = first;
                 best_last = i;
@@ -77,8 +79,8 @@ static void search_longest_segment(ale_extractor_t *e, inspect_trace_t *trace)
         }
     }
     if (best_last >= best_first) {
-        e->search_fits = 0;
-        search_again(e, best_first, best_last, trace);
+        runs->search_fits = 0;
+        search_again(runs, best_first, best_last, trace);
     }
 }
 
@@ -91,10 +93,10 @@ int inspect_trace(const ale_scan_t *scan, const ale_extract_config_t *config, in
     }
     memset(trace, 0, sizeof *trace);
     ale_extract_scan(e, scan, NULL, &trace->features);
-    search_longest_segment(e, trace);
+    search_longest_segment(&e->runs, trace);
     trace->smoothed = config->smooth_span > 1;
     if (trace->smoothed) {
-        ale_points_place_smoothed(e);
+        ale_points_place_smoothed(&e->runs.scan.points, e->smooth_q44);
     }
     copy_points(e, scan, trace);
     free(e);
