@@ -51,7 +51,7 @@ static void publish_doing(ale_explore_t *explore, bool lost)
     *(doing_t *)ale_snapshot_back(explore->doing) =
         (doing_t){.state = explorer->state,
                   .lost = lost,
-                  .looks = ale_wander_is_at_it(&explorer->wander),
+                  .looks = ale_wander_is_active(&explorer->wander),
                   .request = explore->heard,
                   .cells = explorer->begun ? explorer->grid.seen : 0,
                   .refused = explorer->planner.refused_count,
@@ -113,7 +113,7 @@ static void run(ale_rt_task_t *self, void *user)
     while (!ale_rt_task_stopping(self)) {
         ale_background_wait(&explore->thread, IDLE_NS);
         hear_request(explore);
-        if (!ale_explorer_is_at_it(&explore->explorer)) {
+        if (!ale_explorer_is_active(&explore->explorer)) {
             take_corrections(explore, atomic_load_explicit(&explore->known, memory_order_acquire));
         }
         for (uint32_t ready = ale_ring_ready(explore->seen); ready > 0; ready--) {

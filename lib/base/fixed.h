@@ -1,9 +1,11 @@
 /* Integer arithmetic of the core: rounding, roots, and one portable wide multiply.
  *
  * All rounding in the project is symmetric (half away from zero) and happens here, so that a mirrored
- * scan gives the mirrored result and every machine gives the same bytes. No function has a loop whose
- * length depends on data beyond the width of its type. Undefined inputs are named; nothing traps.
- * Thread-safe: pure functions. Twin: tests/reference uses double; bounds are in tests/lib/base. */
+ * scan gives the mirrored result and every machine gives the same bytes.
+ *
+ * Pure functions of constant time: thread-safe, no error is returned, nothing traps. What an argument must
+ * keep to is said at the function; beyond it the result means nothing. Bounds: tests/lib/base/test_fixed.cpp,
+ * against double and 128-bit arithmetic. */
 #ifndef ALE_BASE_FIXED_H
 #define ALE_BASE_FIXED_H
 
@@ -30,6 +32,7 @@ static inline int64_t ale_round_div(int64_t num, int64_t den)
     return num >= 0 ? (num + den / 2) / den : -((-num + den / 2) / den);
 }
 
+/* |v|; v > INT64_MIN. */
 static inline int64_t ale_abs64(int64_t v)
 {
     return v < 0 ? -v : v;
@@ -45,12 +48,13 @@ static inline int64_t ale_max64(int64_t a, int64_t b)
     return a > b ? a : b;
 }
 
+/* v held between low and high; low <= high. */
 static inline int64_t ale_clamp64(int64_t v, int64_t low, int64_t high)
 {
     return v < low ? low : (v > high ? high : v);
 }
 
-/* Number of the highest set bit plus one; 0 for 0. Constant time. */
+/* Number of the highest set bit plus one; 0 for 0. */
 static inline unsigned ale_bit_length(uint64_t v)
 {
     return v ? 64u - (unsigned)__builtin_clzll(v) : 0;

@@ -14,7 +14,8 @@
 /* Sectors of the scan that are never used (the robot's own body). */
 #define ALE_MAX_BLIND_SECTORS 8
 
-/* Farthest range that the number formats are proved for (see geometry: Q4 millimetres in 64-bit moments). */
+/* Farthest range that the number formats are proved for: twice the squared moments of a scan of Q4
+ * millimetres fit int64 (extract/moments.c). */
 #define ALE_MAX_RANGE_UM 80000000
 
 #endif

@@ -5,23 +5,27 @@
  * an error that neighbouring beams share (most of the data sheet's 1 %; the paper names bias in section II
  * and then models none), correlated over about shared_beams beams,
  *     s_shared^2 = shared_um^2 + (shared_ppm * d)^2,
- * and a bias from surface to surface (colour, gloss), surface_um. The bearing errs by bearing_nrad. */
+ * and a bias from surface to surface (colour, gloss), surface_um. The bearing errs by bearing_nrad.
+ *
+ * Pure functions of constant time, no error. Ranges 0..ALE_MAX_RANGE_UM, in micrometres; bearings and normals
+ * in BAM, in one frame; the values of a model at most 100,000 um or ppm and 100,000,000 nrad. */
 #ifndef ALE_BASE_NOISE_H
 #define ALE_BASE_NOISE_H
 
 #include <stdint.h>
 
+/* Standard deviations. */
 typedef struct {
-    int32_t own_um;
+    int32_t own_um; /* of each beam: a constant part, and one proportional to the range */
     int32_t own_ppm;
-    int32_t shared_um;
+    int32_t shared_um; /* of neighbouring beams together */
     int32_t shared_ppm;
-    int32_t shared_beams;
-    int32_t surface_um;
+    int32_t shared_beams; /* after so many the correlation has fallen to 1/e; at least 1 */
+    int32_t surface_um;   /* of a whole surface */
     int32_t bearing_nrad;
 } ale_noise_t;
 
-/* The URG-04LX as measured on recordings (see tools/README.md, ale-calibrate). */
+/* The URG-04LX as measured on recordings, by `ale-calibrate noise`. */
 ale_noise_t ale_noise_default(void);
 
 /* Variance of a range's own error, um^2. */
@@ -30,7 +34,7 @@ int64_t ale_noise_own_var_um2(const ale_noise_t *noise, int32_t range_um);
 /* Variance of a range's error that its neighbours share, um^2. */
 int64_t ale_noise_shared_var_um2(const ale_noise_t *noise, int32_t range_um);
 
-/* Covariance (7) of a measured point, own error and bearing error: xx, xy, yy in um^2. */
+/* Covariance (7) of a measured point, own error and bearing error: xx, xy, yy in um^2, written whole. */
 void ale_noise_point_cov(const ale_noise_t *noise, int32_t range_um, uint32_t bearing_bam,
                          int64_t cov_um2[3]);
 

@@ -2,7 +2,9 @@
  *
  * A pose maps a point of its own frame to the frame it is given in:  p' = R(theta) p + (x, y), with
  * R = [cos -sin; sin cos] (the paper's (29) prints the transpose). Micrometres and BAM.
- * Pure functions, constant time; positions must stay within +-2147 m (not checked). */
+ *
+ * Pure functions of constant time, no error. Results must stay within +-2147 m of the origin along each axis,
+ * which is not checked, but by ale_pose_between. */
 #ifndef ALE_BASE_POSE_H
 #define ALE_BASE_POSE_H
 
@@ -21,6 +23,7 @@ typedef struct {
     uint32_t theta_bam;
 } ale_pose_t;
 
+/* The point turned about the origin, rounded to the micrometre. */
 ale_point_t ale_rotate(ale_point_t p, uint32_t angle_bam);
 
 /* The same for many points: by the angle whose cosine and sine are given. */

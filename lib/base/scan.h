@@ -5,7 +5,9 @@
  *   time of beam k    = stamp_us + (k - stamp_beam) * beam_time_ns / 1000
  *
  * stamp_beam may lie outside 0..beams-1: the URG-04LX stamps its step 0, 44 steps before the first beam.
- * beam_time_ns 0 means that the whole scan was taken at its stamp. */
+ * beam_time_ns 0 means that the whole scan was taken at its stamp.
+ *
+ * The scan is the caller's; no function keeps a pointer, returns an error or allocates. */
 #ifndef ALE_BASE_SCAN_H
 #define ALE_BASE_SCAN_H
 
@@ -38,12 +40,13 @@ typedef struct {
     uint8_t code[ALE_MAX_BEAMS]; /* the device's raw error code where it gave one, else 0 */
 } ale_scan_t;
 
+/* Bearing of a beam in the sensor's frame, BAM; any beam, also outside 0..beams-1. Constant time. */
 static inline uint32_t ale_scan_bearing(const ale_scan_t *scan, int32_t beam)
 {
     return scan->first_bearing_bam + (uint32_t)beam * (uint32_t)scan->step_bam;
 }
 
-/* Time of a beam relative to the stamp, in microseconds, rounded. */
+/* Time of a beam relative to the stamp, in microseconds, rounded; it must fit int32. Constant time. */
 int32_t ale_scan_beam_offset_us(const ale_scan_t *scan, int32_t beam);
 
 /* A sector of bearings (sensor frame) that is never used: from..to counter-clockwise. */
@@ -52,15 +55,17 @@ typedef struct {
     uint32_t to_bam;
 } ale_sector_t;
 
-/* Flags every beam whose bearing lies in one of the sectors as ALE_BEAM_BLIND. O(beams * count). */
+/* Flags every beam whose bearing lies in one of the sectors as ALE_BEAM_BLIND, with range 0. The sectors are
+ * read during the call alone. O(beams * count). */
 void ale_scan_mask(ale_scan_t *scan, const ale_sector_t *sectors, uint32_t count);
 
 /* The meaning of a range value in mm of the URG-04LX, error codes below 20 included (SCIP 2.0 table for
- * this model): sets range, flag and code of one beam. Values from 20 to range_min are TOO_NEAR, beyond
- * range_max NO_RETURN. */
+ * this model): sets range, flag and code of one beam, 0..ALE_MAX_BEAMS-1. Values from 20 on are ranges, as in
+ * ale_scan_set_range; negative ones count as code 0. value_mm below 2^31 / 1000. Constant time. */
 void ale_scan_set_urg(ale_scan_t *scan, uint16_t beam, int32_t value_mm);
 
-/* A range of any other sensor: 0, negative and from range_max on: NO_RETURN; below range_min: TOO_NEAR. */
+/* A range of any other sensor, for beam 0..ALE_MAX_BEAMS-1: 0, negative and from range_max on NO_RETURN;
+ * below range_min TOO_NEAR; of these the range is 0. Constant time. */
 void ale_scan_set_range(ale_scan_t *scan, uint16_t beam, int32_t range_um);
 
 #endif

@@ -3,7 +3,7 @@
  * An angle is a uint32 in BAM, 2^32 to a turn: it wraps by itself, and one step of the URG-04LX
  * (360/1024 degrees) is exactly 2^22. Differences are taken as int32 (ale_bam_diff): -half..half turn.
  * cos and sin are Q30 from a table of 1024 steps to a turn (the URG's steps lie on its entries)
- * and a short series between them; odd and even symmetry is exact. Pure functions, constant time.
+ * and a short series between them; odd and even symmetry is exact. Pure functions of constant time, no error.
  * Twin and bounds: tests/lib/base/test_trig.cpp (sin, cos within 2 units of Q30; atan2 within 3 BAM). */
 #ifndef ALE_BASE_TRIG_H
 #define ALE_BASE_TRIG_H
@@ -17,14 +17,17 @@
 #define ALE_BAM_PER_DEGREE 11930465
 #define ALE_BAM_PER_MRAD 683565
 
+/* a - b, -half..half turn. */
 static inline int32_t ale_bam_diff(uint32_t a_bam, uint32_t b_bam)
 {
     return (int32_t)(a_bam - b_bam);
 }
 
+/* Q30: -2^30..2^30, within 2 units. */
 int32_t ale_cos_q30(uint32_t angle_bam);
 int32_t ale_sin_q30(uint32_t angle_bam);
 
+/* A unit vector, or a rotation. */
 typedef struct {
     int32_t cos_q30;
     int32_t sin_q30;

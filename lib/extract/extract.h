@@ -7,7 +7,7 @@
  *       for (i = 0; i < features.line_count; i++) ... features.line[i].rho_um ...
  *   }
  *
- * No function allocates, keeps a pointer that it is given, or reads a clock. One extractor serves one thread
+ * No function allocates, reads a clock, or keeps a pointer but that of the hook. One extractor serves one thread
  * at a time; extractors share nothing. */
 #ifndef ALE_EXTRACT_EXTRACT_H
 #define ALE_EXTRACT_EXTRACT_H
@@ -17,16 +17,8 @@
 #include "base/noise.h"
 #include "base/scan.h"
 #include "base/stage.h"
+#include "extract/config.h"
 #include "extract/features.h"
-
-typedef struct {
-    ale_noise_t noise;     /* each deviation 0..100,000 um, ppm; shared_beams 1..ALE_MAX_BEAMS;
-                            * bearing_nrad 0..100,000,000 */
-    uint16_t min_points;   /* fewest beams of a line, 5..ALE_MAX_BEAMS */
-    int32_t min_length_um; /* shortest line, from 0 on */
-    uint16_t smooth_span;  /* beams of the lowess window, odd, 1..31; 1: not smoothed */
-    uint8_t robust_passes; /* upper bound of bisquare passes, 0..8 */
-} ale_extract_config_t;
 
 /* The settings that serve all scanners tried: noise of the URG-04LX, lines of 9 beams and 140 mm, not
  * smoothed. Constant time, no error. */

@@ -3,7 +3,10 @@
 #ifndef ALE_EXTRACT_WORKSPACE_H
 #define ALE_EXTRACT_WORKSPACE_H
 
-#include "extract/extract.h"
+#include <stdint.h>
+
+#include "base/stage.h"
+#include "extract/config.h"
 #include "extract/lowess.h"
 #include "extract/run_list.h"
 

@@ -22,22 +22,22 @@ enum { STEPS = sizeof before / sizeof before[0] };
 void ale_clearance_init(ale_clearance_t *clearance)
 {
     memset(clearance->to_occupied_cm, ALE_CLEARANCE_FAR_CM, sizeof clearance->to_occupied_cm);
-    memset(clearance->to_unseen_cm, 0, sizeof clearance->to_unseen_cm);
+    memset(clearance->to_unknown_cm, 0, sizeof clearance->to_unknown_cm);
 }
 
-/* An unseen cell with at least three unseen ones around it. */
-static bool is_unseen_patch(const ale_grid_t *grid, ale_cell_t cell)
+/* An unknown cell with at least three unknown ones around it. */
+static bool is_unknown_patch(const ale_grid_t *grid, ale_cell_t cell)
 {
-    if (!ale_grid_is_unseen(grid, cell)) {
+    if (!ale_grid_is_unknown(grid, cell)) {
         return false;
     }
-    int32_t unseen = -1; /* itself */
+    int32_t unknown = -1; /* itself */
     for (int32_t dy = -1; dy <= 1; dy++) {
         for (int32_t dx = -1; dx <= 1; dx++) {
-            unseen += ale_grid_is_unseen(grid, (ale_cell_t)((int32_t)cell + dy * ALE_GRID_SIDE + dx));
+            unknown += ale_grid_is_unknown(grid, (ale_cell_t)((int32_t)cell + dy * ALE_GRID_SIDE + dx));
         }
     }
-    return unseen >= PATCH_NEIGHBOURS;
+    return unknown >= PATCH_NEIGHBOURS;
 }
 
 static uint8_t through_neighbours(const uint8_t cm[], ale_cell_t cell, int32_t sign)
@@ -45,8 +45,8 @@ static uint8_t through_neighbours(const uint8_t cm[], ale_cell_t cell, int32_t s
     int32_t least = cm[cell];
     for (int32_t k = 0; k < STEPS; k++) {
         const int32_t offset = sign * (before[k].y * ALE_GRID_SIDE + before[k].x);
-        const int32_t way = cm[(int32_t)cell + offset] + before[k].cm;
-        least = way < least ? way : least;
+        const int32_t through = cm[(int32_t)cell + offset] + before[k].cm;
+        least = through < least ? through : least;
     }
     return (uint8_t)least;
 }
@@ -90,11 +90,11 @@ void ale_clearance_update(ale_clearance_t *clearance, const ale_grid_t *grid, al
         for (int32_t x = part.first_x; x <= part.last_x; x++) {
             const ale_cell_t cell = (ale_cell_t)(y * ALE_GRID_SIDE + x);
             clearance->to_occupied_cm[cell] = ale_grid_is_occupied(grid, cell) ? 0 : ALE_CLEARANCE_FAR_CM;
-            clearance->to_unseen_cm[cell] = is_unseen_patch(grid, cell) ? 0 : ALE_CLEARANCE_FAR_CM;
+            clearance->to_unknown_cm[cell] = is_unknown_patch(grid, cell) ? 0 : ALE_CLEARANCE_FAR_CM;
         }
     }
     spread_forward(clearance->to_occupied_cm, part);
     spread_backward(clearance->to_occupied_cm, part);
-    spread_forward(clearance->to_unseen_cm, part);
-    spread_backward(clearance->to_unseen_cm, part);
+    spread_forward(clearance->to_unknown_cm, part);
+    spread_backward(clearance->to_unknown_cm, part);
 }

@@ -8,9 +8,9 @@
 /* Counted in scans, ten a second. */
 enum { PLAN_EVERY = 5, STALL_STEPS = 80, STUCK_STEPS = 10, BACKING_STEPS = 15 };
 enum { SURE_PLANS = 4, COMFORT_CM = 15, UM_PER_CM = 10000 };
-#define CARROT_UM 700000
+#define LOOKAHEAD_UM 700000
 #define TIGHT_AHEAD_UM 400000
-#define GOT_ON_UM 100000
+#define PROGRESS_UM 100000
 #define HOME_UM 20000
 #define HOME_NEAR_UM 400000
 enum { HOME_NEAR_CELLS = HOME_NEAR_UM / ALE_GRID_CELL_UM };
@@ -40,7 +40,7 @@ void ale_explorer_init(ale_explorer_t *explorer, const ale_explorer_config_t *co
     explorer->state = ALE_EXPLORER_OFF;
 }
 
-bool ale_explorer_is_at_it(const ale_explorer_t *explorer)
+bool ale_explorer_is_active(const ale_explorer_t *explorer)
 {
     return explorer->state != ALE_EXPLORER_OFF && explorer->state != ALE_EXPLORER_FINISHED;
 }
@@ -49,17 +49,17 @@ void ale_explorer_request(ale_explorer_t *explorer, bool on)
 {
     if (!on) {
         explorer->state = ALE_EXPLORER_OFF;
-    } else if (!ale_explorer_is_at_it(explorer)) {
+    } else if (!ale_explorer_is_active(explorer)) {
         explorer->state = ALE_EXPLORER_EXPLORING;
         explorer->begun = false;
         ale_wander_begin(&explorer->wander);
     }
 }
 
-static void got_on(ale_explorer_t *explorer)
+static void note_progress(ale_explorer_t *explorer)
 {
-    explorer->anchor = (ale_point_t){explorer->pose.x_um, explorer->pose.y_um};
-    explorer->steps_at_anchor = 0;
+    explorer->progress_at = (ale_point_t){explorer->pose.x_um, explorer->pose.y_um};
+    explorer->steps_without_progress = 0;
 }
 
 static void begin(ale_explorer_t *explorer, const ale_estimate_t *estimate)
@@ -89,10 +89,10 @@ static void begin(ale_explorer_t *explorer, const ale_estimate_t *estimate)
     explorer->steps_stuck = 0;
     explorer->steps_back = 0;
     explorer->begun = true;
-    got_on(explorer);
+    note_progress(explorer);
 }
 
-/* What was all seen may have gaps now that the pieces lie where they belong. */
+/* What was seen completely may have gaps now that its parts lie where they belong. */
 static void draw_again(ale_explorer_t *explorer)
 {
     const ale_follower_t *follower = &explorer->config.follower;
@@ -154,7 +154,7 @@ static void predict_pose(ale_explorer_t *explorer, const ale_estimate_t *estimat
     explorer->pose = ale_pose_compose(estimate->map, ale_motion_sweep(velocity, ahead_us));
 }
 
-/* Where the way ahead stays closed although the map says it is open, a step back shows more of it. */
+/* Where the path ahead stays closed although the map says it is open, a step back shows more of it. */
 static ale_velocity_t back_off(ale_explorer_t *explorer, ale_velocity_t wanted, const ale_scan_t *scan)
 {
     const ale_follower_t *follower = &explorer->config.follower;
@@ -180,7 +180,7 @@ static int64_t distance_um(ale_point_t a, ale_point_t b)
     return ale_isqrt((uint64_t)(dx * dx + dy * dy));
 }
 
-/* A moment's noise may close a way: that nothing is left must be seen several times. */
+/* Noise may close a path for a moment: that nothing is left must be found several times. */
 static void plan_exploring(ale_explorer_t *explorer, ale_point_t robot)
 {
     if (ale_planner_explore(&explorer->planner, &explorer->grid, robot, explorer->goal, &explorer->route)) {
@@ -192,7 +192,7 @@ static void plan_exploring(ale_explorer_t *explorer, ale_point_t robot)
     explorer->plans_without_goal++;
     if (explorer->plans_without_goal >= SURE_PLANS) {
         explorer->state = ALE_EXPLORER_RETURNING;
-        got_on(explorer);
+        note_progress(explorer);
     }
 }
 
@@ -200,7 +200,7 @@ static void plan(ale_explorer_t *explorer)
 {
     const ale_point_t robot = {explorer->pose.x_um, explorer->pose.y_um};
     explorer->steps_since_plan = 0;
-    ale_planner_look(&explorer->planner, &explorer->grid);
+    ale_planner_update(&explorer->planner, &explorer->grid);
     if (explorer->state == ALE_EXPLORER_EXPLORING) {
         plan_exploring(explorer, robot);
     }
@@ -211,14 +211,14 @@ static void plan(ale_explorer_t *explorer)
     }
 }
 
-/* A robot that does not get on gives its goal up; on the way home it asks for the way anew and says so. */
+/* A robot without progress gives its goal up; on the way home it plans the path anew and is BLOCKED. */
 static void watch_progress(ale_explorer_t *explorer)
 {
     const ale_point_t robot = {explorer->pose.x_um, explorer->pose.y_um};
-    explorer->steps_at_anchor++;
-    if (distance_um(robot, explorer->anchor) > GOT_ON_UM) {
-        got_on(explorer);
-    } else if (explorer->steps_at_anchor > STALL_STEPS) {
+    explorer->steps_without_progress++;
+    if (distance_um(robot, explorer->progress_at) > PROGRESS_UM) {
+        note_progress(explorer);
+    } else if (explorer->steps_without_progress > STALL_STEPS) {
         const bool exploring = explorer->state == ALE_EXPLORER_EXPLORING;
         const bool given_up = exploring && explorer->goal != ALE_GRID_NONE &&
                               ale_planner_refuse(&explorer->planner, explorer->goal, explorer->scan);
@@ -226,7 +226,7 @@ static void watch_progress(ale_explorer_t *explorer)
             given_up ? ALE_EXPLORER_EXPLORING : (exploring ? ALE_EXPLORER_RETURNING : ALE_EXPLORER_BLOCKED);
         explorer->goal = ALE_GRID_NONE;
         explorer->steps_since_plan = PLAN_EVERY;
-        got_on(explorer);
+        note_progress(explorer);
     }
 }
 
@@ -236,14 +236,14 @@ static ale_velocity_t drive_route(ale_explorer_t *explorer, const ale_scan_t *sc
     if (explorer->route.count == 0) {
         return standing;
     }
-    const ale_point_t carrot =
-        ale_planner_carrot(&explorer->planner, &explorer->grid, &explorer->route, robot, CARROT_UM);
-    const int64_t way_um = ale_max64((int64_t)explorer->route.cost * UM_PER_CM, ALE_GRID_CELL_UM);
+    const ale_point_t lookahead =
+        ale_planner_lookahead(&explorer->planner, &explorer->grid, &explorer->route, robot, LOOKAHEAD_UM);
+    const int64_t path_um = ale_max64((int64_t)explorer->route.cost * UM_PER_CM, ALE_GRID_CELL_UM);
     ale_follower_t follower = explorer->config.follower;
     if (ale_planner_is_tight(&explorer->planner, &explorer->route, TIGHT_AHEAD_UM)) {
         follower.speed_um_s = (int32_t)ale_min64(follower.speed_um_s, follower.shape.blind_um_s);
     }
-    return back_off(explorer, ale_follow(&follower, explorer->pose, carrot, way_um, scan), scan);
+    return back_off(explorer, ale_follow(&follower, explorer->pose, lookahead, path_um, scan), scan);
 }
 
 static ale_velocity_t drive_home(ale_explorer_t *explorer, const ale_scan_t *scan)
@@ -291,12 +291,12 @@ static ale_velocity_t drive(ale_explorer_t *explorer, const ale_scan_t *scan)
 
 void ale_explorer_correct(ale_explorer_t *explorer, const ale_correction_t *correction)
 {
-    if (!ale_explorer_is_at_it(explorer) || !explorer->begun || correction->epoch != explorer->epoch) {
+    if (!ale_explorer_is_active(explorer) || !explorer->begun || correction->epoch != explorer->epoch) {
         return;
     }
     const ale_pose_t shift = ale_correction_at(correction, explorer->scan);
     explorer->home = ale_pose_compose(ale_correction_at(correction, explorer->home_scan), explorer->home);
-    explorer->anchor = ale_pose_apply(shift, explorer->anchor);
+    explorer->progress_at = ale_pose_apply(shift, explorer->progress_at);
     explorer->pose = ale_pose_compose(shift, explorer->pose);
     ale_planner_correct(&explorer->planner, &explorer->grid, correction);
     if (ale_kept_scans_correct(&explorer->kept, correction)) {
@@ -305,24 +305,24 @@ void ale_explorer_correct(ale_explorer_t *explorer, const ale_correction_t *corr
     }
 }
 
-/* Where it will be then, nobody knows: the way is planned anew. */
-static ale_velocity_t find_itself(ale_explorer_t *explorer, const ale_scan_t *scan)
+/* Where it will be then, nobody knows: the path is planned anew. */
+static ale_velocity_t move_while_lost(ale_explorer_t *explorer, const ale_scan_t *scan)
 {
     explorer->steps_since_plan = PLAN_EVERY;
     explorer->steps_stuck = 0;
     explorer->steps_back = 0;
-    got_on(explorer);
+    note_progress(explorer);
     return ale_wander_step(&explorer->wander, &explorer->config.follower, scan);
 }
 
 ale_velocity_t ale_explorer_step(ale_explorer_t *explorer, const ale_scan_t *scan,
                                  const ale_estimate_t *estimate, int64_t now_us)
 {
-    if (!ale_explorer_is_at_it(explorer)) {
+    if (!ale_explorer_is_active(explorer)) {
         return standing;
     }
     if (estimate->state == ALE_STATE_LOST) {
-        return find_itself(explorer, scan);
+        return move_while_lost(explorer, scan);
     }
     ale_wander_begin(&explorer->wander);
     if (!explorer->begun || estimate->epoch != explorer->epoch) {

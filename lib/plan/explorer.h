@@ -5,14 +5,16 @@
  *   velocity = ale_explorer_step(explorer, &scan, &estimate, now_us);      every scan
  *
  *   OFF -- on --> EXPLORING -- nothing left to see --> RETURNING -- at the start --> TURNING --> FINISHED
- *                   any of them -- off --> OFF;  a way home that stays closed --> BLOCKED, until it opens
- *                   any of them but OFF and FINISHED -- the past has moved --> EXPLORING
+ *                   any of them -- off --> OFF;  a path home that stays closed --> BLOCKED, until it opens
+ *                   any of them but OFF and FINISHED -- loops moved the map --> EXPLORING
  *
  * The grid begins anew with every "on" and with every new map; when loops have moved the map, it is drawn
- * again from the scans kept. While the pose is lost the robot stands, then looks for a place that it can tell
- * (wander.h), and goes on once it has found itself. Goals that it cannot get to are given up and counted. One
- * owner thread, never the estimate task: a step in which ways are planned takes some 10 ms of a PC, and the
- * structure 31 MB. No allocation, no clock, every loop bounded by the grid's capacity. */
+ * again from the scans kept. While the pose is lost the robot stands, then drives to where it can be told
+ * (wander.h), and goes on once it is found. Goals that it cannot get to are given up and counted.
+ *
+ * No function fails or allocates; every loop is bounded by the grid's capacity. The memory is the caller's:
+ * sizeof(ale_explorer_t), some 30 MB. One owner thread, never the estimate task: a step in which paths are
+ * planned takes some 10 ms of a PC. Lengths um, velocities um/s and urad/s. */
 #ifndef ALE_PLAN_EXPLORER_H
 #define ALE_PLAN_EXPLORER_H
 
@@ -21,13 +23,15 @@
 #include "plan/kept_scans.h"
 #include "plan/planner.h"
 #include "plan/wander.h"
-#include "track/pipeline.h"
+#include "track/correction.h"
+#include "track/estimate.h"
 
 typedef struct {
     ale_follower_t follower; /* shape, mounting, speeds */
-    int32_t clearance_um;    /* room that planned ways keep beyond width and margin */
+    int32_t clearance_um;    /* room that planned paths keep beyond width and margin; 0 or more */
 } ale_explorer_config_t;
 
+/* The robot of robot_shape.h with its scanner in the middle. */
 ale_explorer_config_t ale_explorer_default_config(void);
 
 typedef enum {
@@ -51,10 +55,10 @@ typedef struct {
     uint32_t steps_since_plan;
     uint32_t plans_without_goal;
     ale_route_t route;
-    ale_cell_t goal;    /* of the way before, ALE_GRID_NONE: none */
-    ale_point_t anchor; /* where the robot was when it last got on */
-    uint32_t steps_at_anchor;
-    uint32_t steps_stuck; /* the way ahead is closed */
+    ale_cell_t goal;         /* of the path before, ALE_GRID_NONE: none */
+    ale_point_t progress_at; /* where the robot last made progress */
+    uint32_t steps_without_progress;
+    uint32_t steps_stuck; /* the path ahead is closed */
     uint32_t steps_back;  /* still to be driven backwards */
     ale_wander_t wander;  /* while the pose is lost */
     ale_grid_t grid;
@@ -63,21 +67,24 @@ typedef struct {
     ale_straight_scan_t straightened;
 } ale_explorer_t;
 
+/* Off, with nothing known. The configuration is copied. Constant time. */
 void ale_explorer_init(ale_explorer_t *explorer, const ale_explorer_config_t *config);
 
 /* Neither off nor finished. */
-bool ale_explorer_is_at_it(const ale_explorer_t *explorer);
+bool ale_explorer_is_active(const ale_explorer_t *explorer);
 
-/* On: begins anew, unless it is at it; off: stops. */
+/* On: begins anew, unless it is active; off: stops. Constant time; the grid is cleared by the next step. */
 void ale_explorer_request(ale_explorer_t *explorer, bool on);
 
 /* Loops have moved the map, and the next estimate is of the map as it is now: grid, home and all that it
  * remembers move with it. Each correction once, in order; one made for another map is ignored, and so are all
- * while it is off or finished. */
+ * while it is off or finished. The correction is read during the call alone. O(ALE_KEPT_SCANS), and part of a
+ * second where the grid has to be drawn again. */
 void ale_explorer_correct(ale_explorer_t *explorer, const ale_correction_t *correction);
 
 /* One scan (blind sectors masked) with its estimate; now_us, of the same clock, is when the velocity will be
- * in force. Returns what to drive; all zero when there is nothing to do. */
+ * in force. Returns what to drive; all zero when there is nothing to do. scan and estimate are read during
+ * the call alone. O(beams * reach / cell), every fifth step O(cells seen). */
 ale_velocity_t ale_explorer_step(ale_explorer_t *explorer, const ale_scan_t *scan,
                                  const ale_estimate_t *estimate, int64_t now_us);
 

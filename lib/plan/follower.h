@@ -1,5 +1,5 @@
 /* Heads for a point: turns towards it first, then goes, the faster the straighter it lies ahead, and never
- * faster than lets it stop before what the scanner sees. */
+ * faster than lets it stop before what the scanner sees. Pure functions, no error. */
 #ifndef ALE_PLAN_FOLLOWER_H
 #define ALE_PLAN_FOLLOWER_H
 
@@ -22,9 +22,9 @@ typedef struct {
 /* The turn rate that brings the robot's heading to theta_bam. Constant time. */
 int32_t ale_turn_towards(const ale_follower_t *follower, uint32_t heading_bam, uint32_t theta_bam);
 
-/* What to drive towards `to` (map frame) from `pose`, where the robot is now, with room `way_um` left to the
- * end of the way, where it is to stand. scan: the newest one. O(beams). */
-ale_velocity_t ale_follow(const ale_follower_t *follower, ale_pose_t pose, ale_point_t to, int64_t way_um,
+/* What to drive towards `to` (map frame) from `pose`, where the robot is now, with `path_um` left to the
+ * end of the path, where it is to stand. scan: the newest one. O(beams). */
+ale_velocity_t ale_follow(const ale_follower_t *follower, ale_pose_t pose, ale_point_t to, int64_t path_um,
                           const ale_scan_t *scan);
 
 #endif

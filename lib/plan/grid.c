@@ -89,7 +89,7 @@ ale_grid_part_t ale_grid_take_changed(ale_grid_t *grid)
     return changed;
 }
 
-/* Free, unseen, perhaps occupied, occupied. */
+/* Free, unknown, perhaps occupied, occupied. */
 static int32_t kind_of(int8_t evidence)
 {
     return evidence < 0 ? -1 : (evidence > 0) + (evidence > ALE_GRID_HIT);
@@ -179,7 +179,7 @@ static void note_place(ale_grid_t *grid, ale_point_t p)
                                p.y_um + (k / 3 - 1) * ALE_GRID_CELL_UM};
         const ale_cell_t cell = ale_grid_cell(grid, q);
         if (cell != ALE_GRID_NONE) {
-            grid->stood_in[cell / 32] |= UINT32_C(1) << (cell % 32);
+            grid->visited[cell / 32] |= UINT32_C(1) << (cell % 32);
         }
     }
 }

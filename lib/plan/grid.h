@@ -9,7 +9,8 @@
  * second hit on occupied (one alone may be a mixed pixel). A beam that ends in a cell counts more than one
  * that passes and comes before it, evidence is bounded, and a cell changes once a scan: what moves away is
  * forgotten after 1.5 s of looking at it. What lies beyond the square is never seen.
- * One owner thread; no allocation, every loop bounded. */
+ * One owner thread; no allocation, every loop bounded; no function fails or keeps a pointer. The memory is
+ * the caller's. */
 #ifndef ALE_PLAN_GRID_H
 #define ALE_PLAN_GRID_H
 
@@ -19,7 +20,7 @@
 #include "base/pose.h"
 #include "base/scan.h"
 
-/* 51.2 m square: a floor of a house. The outermost cells stay unseen, so that every cell looked at has its
+/* 51.2 m square: a floor of a house. The outermost cells stay unknown, so that every cell looked at has its
  * neighbours. */
 enum { ALE_GRID_SIDE = 1024, ALE_GRID_CELLS = ALE_GRID_SIDE * ALE_GRID_SIDE, ALE_GRID_RIM = 3 };
 #define ALE_GRID_CELL_UM 50000
@@ -46,15 +47,14 @@ typedef struct {
     uint32_t seen;           /* cells seen */
     uint8_t scan;            /* number of the scan being added, 1..255 */
     int8_t evidence[ALE_GRID_CELLS];
-    uint32_t
-        stood_in[ALE_GRID_CELLS / 32];  /* a bit a cell: the robot's centre has been there, or beside it */
-    uint8_t changed_in[ALE_GRID_CELLS]; /* the scan that changed it last */
+    uint32_t visited[ALE_GRID_CELLS / 32]; /* a bit a cell: the robot's centre has been there, or beside it */
+    uint8_t changed_in[ALE_GRID_CELLS];    /* the scan that changed it last */
 } ale_grid_t;
 
-/* Everything unseen. centre: middle of the square, map frame, |x|, |y| up to 1 km. O(cells). */
+/* Everything unknown. centre: middle of the square, map frame, |x|, |y| up to 1 km. O(cells). */
 void ale_grid_init(ale_grid_t *grid, ale_point_t centre);
 
-/* Everything unseen again, at the same place: to be drawn anew. What had been seen counts as changed.
+/* Everything unknown again, at the same place: to be drawn anew. What had been seen counts as changed.
  * O(cells). */
 void ale_grid_clear(ale_grid_t *grid);
 
@@ -73,10 +73,10 @@ void ale_grid_add_scan(ale_grid_t *grid, const ale_scan_t *scan, const uint32_t 
  * where that scan does not say otherwise. O(radius^2). */
 void ale_grid_add_disc(ale_grid_t *grid, ale_point_t p, int32_t radius_um);
 
-/* The part with changes, which begins anew. */
+/* The part with changes, which begins anew. Constant time. */
 ale_grid_part_t ale_grid_take_changed(ale_grid_t *grid);
 
-/* The cell that holds p, ALE_GRID_NONE outside the rim; the middle of a cell, map frame. */
+/* The cell that holds p, ALE_GRID_NONE outside the rim; the middle of a cell, map frame. Constant time. */
 ale_cell_t ale_grid_cell(const ale_grid_t *grid, ale_point_t p);
 ale_point_t ale_grid_middle(const ale_grid_t *grid, ale_cell_t cell);
 
@@ -90,13 +90,13 @@ static inline bool ale_grid_is_occupied(const ale_grid_t *grid, ale_cell_t cell)
     return grid->evidence[cell] > ALE_GRID_HIT;
 }
 
-/* Where it was it may go again. */
-static inline bool ale_grid_was_stood_in(const ale_grid_t *grid, ale_cell_t cell)
+/* Where the robot was it may go again. */
+static inline bool ale_grid_was_visited(const ale_grid_t *grid, ale_cell_t cell)
 {
-    return ((grid->stood_in[cell / 32] >> (cell % 32)) & 1U) != 0;
+    return ((grid->visited[cell / 32] >> (cell % 32)) & 1U) != 0;
 }
 
-static inline bool ale_grid_is_unseen(const ale_grid_t *grid, ale_cell_t cell)
+static inline bool ale_grid_is_unknown(const ale_grid_t *grid, ale_cell_t cell)
 {
     return grid->evidence[cell] == 0;
 }

@@ -91,7 +91,7 @@ static void unpack(const ale_kept_scan_t *one, ale_straight_scan_t *out)
 }
 
 /* Straight from one place to the next, cell by cell, without the first. */
-static void draw_way(ale_grid_t *grid, ale_pose_t from, ale_pose_t to, int32_t radius_um)
+static void draw_path(ale_grid_t *grid, ale_pose_t from, ale_pose_t to, int32_t radius_um)
 {
     const int64_t dx_um = (int64_t)to.x_um - from.x_um;
     const int64_t dy_um = (int64_t)to.y_um - from.y_um;
@@ -111,7 +111,7 @@ void ale_kept_scans_draw(ale_kept_scans_t *kept, ale_pose_t sensor, int32_t radi
         ale_kept_scan_t *one = &kept->scan[k];
         unpack(one, spare);
         ale_grid_add_scan(grid, &spare->scan, spare->bearing_bam, ale_pose_compose(one->robot, sensor));
-        draw_way(grid, kept->scan[k > 0 ? k - 1 : 0].robot, one->robot, radius_um);
+        draw_path(grid, kept->scan[k > 0 ? k - 1 : 0].robot, one->robot, radius_um);
         one->drawn = one->robot;
     }
 }

@@ -8,7 +8,7 @@
  *
  * One is kept for every 10 cm driven or eighth of a radian turned. When there is no room every other one is
  * dropped, and from then on those kept lie twice as far apart. One owner thread; no allocation, every loop
- * bounded by ALE_KEPT_SCANS. */
+ * bounded by ALE_KEPT_SCANS. No function fails or keeps a pointer; the memory is the caller's. */
 #ifndef ALE_PLAN_KEPT_SCANS_H
 #define ALE_PLAN_KEPT_SCANS_H
 
@@ -45,6 +45,7 @@ typedef struct {
     uint32_t bearing_bam[ALE_MAX_BEAMS];
 } ale_straight_scan_t;
 
+/* None kept. Constant time. */
 void ale_kept_scans_clear(ale_kept_scans_t *kept);
 
 /* A scan as ale_grid_add_scan takes it, seen while the robot was at `robot` (map frame); number: that of its

@@ -22,7 +22,7 @@ void ale_planner_init(ale_planner_t *planner, const ale_planner_config_t *config
     ale_clearance_init(&planner->clearance);
 }
 
-void ale_planner_look(ale_planner_t *planner, ale_grid_t *grid)
+void ale_planner_update(ale_planner_t *planner, ale_grid_t *grid)
 {
     ale_clearance_update(&planner->clearance, grid, ale_grid_take_changed(grid));
 }
@@ -40,7 +40,7 @@ static bool near_an_end(const search_t *search, ale_cell_t cell)
            (search->end != ALE_GRID_NONE && within(cell, search->end, END_CELLS));
 }
 
-/* Less than the body wants: enough in a passage, near an end of the way, or where the robot has been before.
+/* Less than the body wants: enough in a passage, near an end of the path, or where the robot has been before.
  */
 static bool is_enough(const search_t *search, ale_cell_t cell, int32_t room_cm)
 {
@@ -49,7 +49,7 @@ static bool is_enough(const search_t *search, ale_cell_t cell, int32_t room_cm)
         return true;
     }
     return (room_cm >= config->squeeze_cm && near_an_end(search, cell)) ||
-           (room_cm >= config->squeeze_cm - STOOD_SLACK_CM && ale_grid_was_stood_in(search->grid, cell));
+           (room_cm >= config->squeeze_cm - STOOD_SLACK_CM && ale_grid_was_visited(search->grid, cell));
 }
 
 /* What a step into the cell costs, as a factor on its length; 0: no room. */
@@ -101,15 +101,15 @@ static bool is_refused(const ale_planner_t *planner, ale_cell_t cell)
 static bool is_worth_seeing(const ale_planner_t *planner, ale_cell_t cell)
 {
     const int32_t room_cm = planner->clearance.to_occupied_cm[cell];
-    const int32_t unseen_cm = planner->clearance.to_unseen_cm[cell];
+    const int32_t unknown_cm = planner->clearance.to_unknown_cm[cell];
     const int32_t see_cm = planner->config.see_cm;
     const bool worth = room_cm >= planner->config.body_cm
-                           ? unseen_cm <= see_cm
-                           : room_cm >= planner->config.tight_cm && unseen_cm <= see_cm / 2;
+                           ? unknown_cm <= see_cm
+                           : room_cm >= planner->config.tight_cm && unknown_cm <= see_cm / 2;
     return worth && !is_refused(planner, cell);
 }
 
-/* The way's cells beyond the route's room are left out: they are counted first, from the goal back. */
+/* The path's cells beyond the route's room are left out: they are counted first, from the goal back. */
 static void trace(const ale_wavefront_t *front, ale_cell_t start, ale_cell_t goal, ale_route_t *route)
 {
     uint32_t length = 1;
@@ -241,7 +241,7 @@ static uint32_t cells_within(const ale_route_t *route, int32_t reach_um)
     return reach < route->count - 1 ? reach : route->count - 1;
 }
 
-/* The least room of the way's cells up to the last one, and no more than body_cm. */
+/* The least room of the path's cells up to the last one, and no more than body_cm. */
 static int32_t room_up_to(const ale_planner_t *planner, const ale_route_t *route, uint32_t last)
 {
     int32_t room_cm = planner->config.body_cm;
@@ -257,8 +257,8 @@ bool ale_planner_is_tight(const ale_planner_t *planner, const ale_route_t *route
     return room_up_to(planner, route, cells_within(route, reach_um)) < planner->config.body_cm;
 }
 
-ale_point_t ale_planner_carrot(const ale_planner_t *planner, const ale_grid_t *grid, const ale_route_t *route,
-                               ale_point_t robot, int32_t reach_um)
+ale_point_t ale_planner_lookahead(const ale_planner_t *planner, const ale_grid_t *grid,
+                                  const ale_route_t *route, ale_point_t robot, int32_t reach_um)
 {
     for (uint32_t k = cells_within(route, reach_um); k > 1; k--) {
         const ale_point_t p = ale_grid_middle(grid, route->cell[k]);

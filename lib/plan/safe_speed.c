@@ -12,7 +12,7 @@ static int64_t square(int64_t v)
     return v * v;
 }
 
-static int64_t straight_way_um(int64_t x, int64_t y, int64_t radius_um)
+static int64_t straight_distance_um(int64_t x, int64_t y, int64_t radius_um)
 {
     if (x <= 0 || ale_abs64(y) >= radius_um) {
         return INT64_MAX;
@@ -23,7 +23,7 @@ static int64_t straight_way_um(int64_t x, int64_t y, int64_t radius_um)
 /* Forward and to the left round (0, turn_um). The triangle centre of turning, robot at contact, point has the
  * sides turn, distance and radius; its angle at the centre from the half-angle formula, which is stable where
  * the arc is flat. */
-static int64_t arc_way_um(int64_t x, int64_t y, int64_t radius_um, int64_t turn_um)
+static int64_t arc_distance_um(int64_t x, int64_t y, int64_t radius_um, int64_t turn_um)
 {
     const int64_t distance_um = ale_isqrt((uint64_t)(square(x) + square(turn_um - y)));
     const int64_t off_um = distance_um - turn_um;
@@ -39,29 +39,30 @@ static int64_t arc_way_um(int64_t x, int64_t y, int64_t radius_um, int64_t turn_
     return ale_mul_div(nrad, turn_um, 1000000000);
 }
 
-int64_t ale_way_to_contact_um(ale_point_t p, int32_t radius_um, int32_t speed_um_s, int32_t turn_urad_s)
+int64_t ale_distance_to_contact_um(ale_point_t p, int32_t radius_um, int32_t speed_um_s, int32_t turn_urad_s)
 {
     const int64_t x = speed_um_s < 0 ? -(int64_t)p.x_um : p.x_um;
     if (square(p.x_um) + square(p.y_um) < square(radius_um)) {
         return x > 0 ? 0 : INT64_MAX;
     }
     if (ale_abs64(speed_um_s) * UNIT_PPM >= ale_abs64(turn_urad_s) * STRAIGHT_UM) {
-        return straight_way_um(x, p.y_um, radius_um);
+        return straight_distance_um(x, p.y_um, radius_um);
     }
     const int64_t turn_um =
         ale_round_div((int64_t)speed_um_s * UNIT_PPM * (turn_urad_s < 0 ? -1 : 1), ale_abs64(turn_urad_s));
-    return arc_way_um(x, turn_um < 0 ? -(int64_t)p.y_um : p.y_um, radius_um, ale_abs64(turn_um));
+    return arc_distance_um(x, turn_um < 0 ? -(int64_t)p.y_um : p.y_um, radius_um, ale_abs64(turn_um));
 }
 
-int32_t ale_stopping_speed_um_s(int64_t way_um, const ale_robot_shape_t *shape)
+int32_t ale_stopping_speed_um_s(int64_t distance_um, const ale_robot_shape_t *shape)
 {
     const int64_t farthest_um = (int64_t)1 << 31;
     const int64_t lost_um_s = ale_mul_div(shape->deceleration_um_s2, shape->reaction_us, UNIT_PPM);
-    const int64_t braking = 2 * ale_min64(way_um, farthest_um) * shape->deceleration_um_s2;
+    const int64_t braking = 2 * ale_min64(distance_um, farthest_um) * shape->deceleration_um_s2;
     return (int32_t)ale_clamp64(ale_isqrt((uint64_t)(square(lost_um_s) + braking)) - lost_um_s, 0, INT32_MAX);
 }
 
-/* Does the scanner look where the robot goes: at least half of the beams about that way say something. */
+/* Does the scanner look where the robot goes: at least half of the beams about that direction say something.
+ */
 static bool looks_ahead(const ale_scan_t *scan, const ale_pose_t *sensor, bool backward)
 {
     const uint32_t ahead_bam = (backward ? ALE_BAM_HALF_TURN : 0u) - sensor->theta_bam;
@@ -115,17 +116,18 @@ static int32_t free_radius_um(const ale_scan_t *scan, const ale_pose_t *sensor,
     return (int32_t)ale_max64(radius_um, ale_isqrt((uint64_t)nearest2));
 }
 
-static int64_t free_way_um(const ale_scan_t *scan, const ale_pose_t *sensor, int32_t radius_um,
-                           int32_t speed_um_s, int32_t turn_urad_s)
+static int64_t free_distance_um(const ale_scan_t *scan, const ale_pose_t *sensor, int32_t radius_um,
+                                int32_t speed_um_s, int32_t turn_urad_s)
 {
-    int64_t way_um = INT64_MAX;
+    int64_t distance_um = INT64_MAX;
     ale_point_t p;
     for (int32_t k = 0; k < scan->beams; k++) {
         if (obstacle_at(scan, k, sensor, &p)) {
-            way_um = ale_min64(way_um, ale_way_to_contact_um(p, radius_um, speed_um_s, turn_urad_s));
+            distance_um =
+                ale_min64(distance_um, ale_distance_to_contact_um(p, radius_um, speed_um_s, turn_urad_s));
         }
     }
-    return way_um;
+    return distance_um;
 }
 
 int32_t ale_safe_speed_um_s(const ale_scan_t *scan, const ale_pose_t *sensor, const ale_robot_shape_t *shape,
@@ -135,8 +137,8 @@ int32_t ale_safe_speed_um_s(const ale_scan_t *scan, const ale_pose_t *sensor, co
         return 0;
     }
     const int32_t radius_um = free_radius_um(scan, sensor, shape);
-    const int64_t way_um = free_way_um(scan, sensor, radius_um, wanted_um_s, wanted_urad_s);
-    int64_t safe_um_s = ale_stopping_speed_um_s(way_um, shape);
+    const int64_t distance_um = free_distance_um(scan, sensor, radius_um, wanted_um_s, wanted_urad_s);
+    int64_t safe_um_s = ale_stopping_speed_um_s(distance_um, shape);
     if (!looks_ahead(scan, sensor, wanted_um_s < 0)) {
         safe_um_s = ale_min64(safe_um_s, shape->blind_um_s);
     }

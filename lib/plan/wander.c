@@ -13,12 +13,12 @@ void ale_wander_begin(ale_wander_t *wander)
     *wander = (ale_wander_t){.steps = 0};
 }
 
-bool ale_wander_is_at_it(const ale_wander_t *wander)
+bool ale_wander_is_active(const ale_wander_t *wander)
 {
     return wander->steps < LONGEST_STEPS;
 }
 
-/* One way round only: a robot that looks left and right in turn stays in a corner. */
+/* It turns in one direction only: a robot that looks left and right in turn stays in a corner. */
 static ale_velocity_t drive_about(ale_wander_t *wander, const ale_follower_t *follower,
                                   const ale_scan_t *scan)
 {
@@ -35,7 +35,7 @@ ale_velocity_t ale_wander_step(ale_wander_t *wander, const ale_follower_t *follo
 {
     const int64_t turn_urad_s = ale_max64(1, follower->turn_urad_s / HALF);
     const int64_t round_steps = ale_min64(ROUND_URAD_STEPS / turn_urad_s, LONGEST_STEPS);
-    if (!ale_wander_is_at_it(wander)) {
+    if (!ale_wander_is_active(wander)) {
         return (ale_velocity_t){0, 0};
     }
     wander->steps++;

@@ -6,8 +6,9 @@
  *   standing 3 s -- turning once round -- straight on where there is room, else turning until there is --
  *   standing from 3 min on
  *
- * Nothing but the newest scan is asked: grid and pose are not to be trusted. A building of equal rooms is
- * told apart by the way into the next one (track/relocation.h). One owner. */
+ * Nothing but the newest scan is used: grid and pose are not to be trusted. Equal rooms of a building are
+ * told apart by the path into the next one (relocate/relocation.h). Steps are scans, ten a second. No error,
+ * nothing is kept of what is passed. One owner. */
 #ifndef ALE_PLAN_WANDER_H
 #define ALE_PLAN_WANDER_H
 
@@ -21,10 +22,11 @@ typedef struct {
     bool turning;   /* to where there is room */
 } ale_wander_t;
 
+/* From the beginning. Constant time. */
 void ale_wander_begin(ale_wander_t *wander);
 
-/* Whether it still tries. */
-bool ale_wander_is_at_it(const ale_wander_t *wander);
+/* Whether it still tries: for three minutes. Constant time. */
+bool ale_wander_is_active(const ale_wander_t *wander);
 
 /* What to drive after this scan, at most half as fast as the follower may. O(beams). */
 ale_velocity_t ale_wander_step(ale_wander_t *wander, const ale_follower_t *follower, const ale_scan_t *scan);

@@ -62,6 +62,17 @@ def test_the_example_builds_against_an_installed_tree_and_prints_lines(installed
     assert printed.count("corner at") == len(expected.corners)
 
 
+def test_every_installed_header_stands_alone(installed, tmp_path):
+    folder = installed / "include/ale"
+    headers = sorted(path.relative_to(folder) for path in folder.rglob("*.h"))
+    for header in headers:
+        source = tmp_path / "alone.c"
+        source.write_text(f'#include "{header}"\n#include "{header}"\nint main(void) {{ return 0; }}\n')
+        run("cc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", *pkg_config(installed, "--cflags"), source)
+    for header in ("ale.h", "track/pipeline.h", "track/odometry_sample.h"):
+        assert folder / header in (folder / path for path in headers), header
+
+
 def test_the_example_says_what_is_missing(installed, tmp_path):
     program = compiled(ROOT / "tools/library/examples/lines.c", tmp_path / "lines", installed)
     done = subprocess.run([program], input="", capture_output=True, text=True, check=False,

@@ -11,8 +11,6 @@ install: all install-service ## install programs, library, headers, types and th
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/ale-slam $(DESTDIR)$(PREFIX)/share/java
 	install -m 755 $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin
 	cp -P $(OLDER_NAMES) $(DESTDIR)$(PREFIX)/bin
-	for h in lib/track/pipeline.h lib/motion/odometry_sample.h; do \
-	    install -D -m 644 $$h $(DESTDIR)$(PREFIX)/include/ale/$${h#lib/} || exit 1; done
 	install -m 644 $(wildcard lib/messages/*.lcm) $(DESTDIR)$(PREFIX)/share/ale-slam
 	install -m 644 $(BUILD)/ale-lcmtypes.jar $(DESTDIR)$(PREFIX)/share/java
 

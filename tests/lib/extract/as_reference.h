@@ -8,6 +8,7 @@
 #include "reference/scan_points.h"
 
 extern "C" {
+#include "extract/extract.h"
 #include "extract/workspace.h"
 }
 

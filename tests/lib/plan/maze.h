@@ -37,7 +37,7 @@ inline std::unique_ptr<ale_grid_t> empty()
     return grid;
 }
 
-// '#' occupied, '.' free, ' ' unseen; the first line is the northernmost. Each character is `scale` cells
+// '#' occupied, '.' free, ' ' unknown; the first line is the northernmost. Each character is `scale` cells
 // wide.
 inline std::unique_ptr<ale_grid_t> drawn(const std::vector<std::string> &lines, int scale)
 {

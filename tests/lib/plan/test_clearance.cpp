@@ -70,8 +70,8 @@ TEST(Clearance, ChangesTakenOneByOneGiveWhatAllAtOnceGives)
         for (int x = maze::left - 40; x < maze::left + 160; x++) {
             ASSERT_EQ(clearance->to_occupied_cm[y * ALE_GRID_SIDE + x],
                       whole->to_occupied_cm[y * ALE_GRID_SIDE + x]);
-            ASSERT_EQ(clearance->to_unseen_cm[y * ALE_GRID_SIDE + x],
-                      whole->to_unseen_cm[y * ALE_GRID_SIDE + x]);
+            ASSERT_EQ(clearance->to_unknown_cm[y * ALE_GRID_SIDE + x],
+                      whole->to_unknown_cm[y * ALE_GRID_SIDE + x]);
         }
     }
 }
@@ -85,10 +85,10 @@ TEST(Clearance, AnUnseenPatchCountsAndAGapBetweenBeamsDoesNot)
     const auto clearance = fresh();
     ale_clearance_update(clearance.get(), grid.get(), grid->changed);
     const auto to_unseen = [&](int x, int y) {
-        return clearance->to_unseen_cm[(maze::bottom + y) * ALE_GRID_SIDE + maze::left + x];
+        return clearance->to_unknown_cm[(maze::bottom + y) * ALE_GRID_SIDE + maze::left + x];
     };
     EXPECT_EQ(to_unseen(22, 2), 0);
     EXPECT_EQ(to_unseen(20, 2), 10);
     EXPECT_GT(to_unseen(8, 2), 10) << "two cells are a gap";
-    EXPECT_EQ(to_unseen(0, 2), 5) << "what lies beyond all that was seen is unseen";
+    EXPECT_EQ(to_unseen(0, 2), 5) << "what lies beyond all that was seen is unknown";
 }

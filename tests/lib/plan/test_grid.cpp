@@ -148,7 +148,7 @@ TEST(Grid, OneHitMayBeAMixedPixelTwoAreAWall)
     add(*grid, scan, {0, 0, 0});
     EXPECT_FALSE(ale_grid_is_occupied(grid.get(), cell));
     EXPECT_FALSE(ale_grid_is_free(grid.get(), cell));
-    EXPECT_FALSE(ale_grid_is_unseen(grid.get(), cell));
+    EXPECT_FALSE(ale_grid_is_unknown(grid.get(), cell));
     add(*grid, scan, {0, 0, 0});
     EXPECT_TRUE(ale_grid_is_occupied(grid.get(), cell));
 }

@@ -78,7 +78,7 @@ std::unique_ptr<ale_correction_t> back_to_the_truth()
 // nothing.
 struct Difference {
     double wrong = 0;
-    double unseen = 0;
+    double unknown = 0;
 };
 
 Difference between(const ale_grid_t &truth, const ale_grid_t &other)
@@ -91,11 +91,11 @@ Difference between(const ale_grid_t &truth, const ale_grid_t &other)
             continue;
         }
         known++;
-        d.unseen += ale_grid_is_unseen(&other, cell);
+        d.unknown += ale_grid_is_unknown(&other, cell);
         d.wrong += is_free ? ale_grid_is_occupied(&other, cell) : ale_grid_is_free(&other, cell);
     }
     d.wrong /= known;
-    d.unseen /= known;
+    d.unknown /= known;
     return d;
 }
 
@@ -112,7 +112,7 @@ TEST(KeptScans, AGridDrawnAgainIsTheOneThatTheTrueWayWouldHaveDrawn)
     walk.draw();
     const Difference after = between(*walk.truth, *walk.tracked);
     EXPECT_LT(after.wrong, 0.01);
-    EXPECT_LT(after.unseen, 0.005);
+    EXPECT_LT(after.unknown, 0.005);
 }
 
 TEST(KeptScans, WhereTheRobotDroveItWasFree)
@@ -126,7 +126,7 @@ TEST(KeptScans, WhereTheRobotDroveItWasFree)
         const ale_pose_t pose = convert::pose(room::path(0.1 * number));
         const ale_cell_t cell = ale_grid_cell(walk.tracked.get(), {pose.x_um, pose.y_um});
         EXPECT_TRUE(ale_grid_is_free(walk.tracked.get(), cell)) << number;
-        EXPECT_TRUE(ale_grid_was_stood_in(walk.tracked.get(), cell)) << number;
+        EXPECT_TRUE(ale_grid_was_visited(walk.tracked.get(), cell)) << number;
     }
 }
 

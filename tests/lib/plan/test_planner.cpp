@@ -22,7 +22,7 @@ struct Floor {
         : lines(drawing), grid(maze::drawn(drawing, scale)), planner(std::make_unique<ale_planner_t>())
     {
         ale_planner_init(planner.get(), &config);
-        ale_planner_look(planner.get(), grid.get());
+        ale_planner_update(planner.get(), grid.get());
     }
 
     ale_point_t at(char c) const
@@ -147,7 +147,7 @@ TEST(Planner, TheOpenEndIsWhatIsExplored)
     ASSERT_TRUE(floor.explore('A'));
     const ale_point_t goal = ale_grid_middle(floor.grid.get(), floor.route.goal);
     EXPECT_GT(goal.x_um, floor.at('C').x_um + 4000000);
-    EXPECT_LE(floor.planner->clearance.to_unseen_cm[floor.route.goal], small_robot.see_cm);
+    EXPECT_LE(floor.planner->clearance.to_unknown_cm[floor.route.goal], small_robot.see_cm);
     EXPECT_EQ(floor.route.count, static_cast<uint32_t>(ALE_ROUTE_CELLS)) << "the way's beginning";
     EXPECT_NEAR(floor.route.cost, (goal.x_um - floor.at('A').x_um) * 1e-4, 60);
 }
@@ -196,9 +196,9 @@ TEST(Planner, TheCarrotIsAsFarAheadAsTheStraightLineIsClear)
     Floor floor(two_rooms);
     ASSERT_TRUE(floor.go('A', 'B'));
     const ale_point_t robot = floor.at('A');
-    const ale_point_t carrot =
-        ale_planner_carrot(floor.planner.get(), floor.grid.get(), &floor.route, robot, 700000);
-    const double reach = std::hypot(carrot.x_um - robot.x_um, carrot.y_um - robot.y_um);
+    const ale_point_t lookahead =
+        ale_planner_lookahead(floor.planner.get(), floor.grid.get(), &floor.route, robot, 700000);
+    const double reach = std::hypot(lookahead.x_um - robot.x_um, lookahead.y_um - robot.y_um);
     EXPECT_GT(reach, 500000);
     EXPECT_LT(reach, 1000000);
 
@@ -206,7 +206,7 @@ TEST(Planner, TheCarrotIsAsFarAheadAsTheStraightLineIsClear)
     const ale_point_t there = ale_grid_middle(floor.grid.get(), at_door);
     ASSERT_TRUE(ale_planner_go(floor.planner.get(), floor.grid.get(), there, floor.at('B'), &floor.route));
     const ale_point_t next =
-        ale_planner_carrot(floor.planner.get(), floor.grid.get(), &floor.route, there, 3000000);
+        ale_planner_lookahead(floor.planner.get(), floor.grid.get(), &floor.route, there, 3000000);
     for (int k = 0; k <= 50; k++) {
         const ale_point_t p = {there.x_um + (next.x_um - there.x_um) / 50 * k,
                                there.y_um + (next.y_um - there.y_um) / 50 * k};

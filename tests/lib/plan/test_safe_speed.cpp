@@ -102,7 +102,7 @@ TEST(WayToContact, IsThatOfARobotThatWalksTheArc)
         }
         const double once_round = w == 0 ? 4 : std::fmin(4, 2 * reference::pi * std::fabs(v / w));
         const int64_t got_um =
-            ale_way_to_contact_um(core(p), convert::um(radius), convert::um(v), convert::um(w));
+            ale_distance_to_contact_um(core(p), convert::um(radius), convert::um(v), convert::um(w));
         const auto truth = walked_to_contact(p, radius, v, w, once_round);
         if (truth) {
             contacts++;
@@ -120,9 +120,9 @@ TEST(WayToContact, IsThatOfARobotThatWalksTheArc)
 TEST(WayToContact, AFlatArcIsAsGoodAsAStraightLine)
 {
     const ale_point_t p = {5000000, 100000};
-    const int64_t straight_um = ale_way_to_contact_um(p, 250000, 500000, 0);
+    const int64_t straight_um = ale_distance_to_contact_um(p, 250000, 500000, 0);
     for (int32_t w = -8; w <= 8; w++) {
-        EXPECT_NEAR(static_cast<double>(ale_way_to_contact_um(p, 250000, 500000, w)),
+        EXPECT_NEAR(static_cast<double>(ale_distance_to_contact_um(p, 250000, 500000, w)),
                     static_cast<double>(straight_um), 100)
             << w;
     }
@@ -131,19 +131,19 @@ TEST(WayToContact, AFlatArcIsAsGoodAsAStraightLine)
 TEST(WayToContact, APointInsideTheDiscBlocksTheWayTowardsItAndLeavesTheWayBack)
 {
     const ale_point_t p = {150000, 50000};
-    EXPECT_EQ(ale_way_to_contact_um(p, 250000, 300000, 0), 0);
-    EXPECT_EQ(ale_way_to_contact_um(p, 250000, 300000, 700000), 0);
-    EXPECT_EQ(ale_way_to_contact_um(p, 250000, -300000, 0), INT64_MAX);
+    EXPECT_EQ(ale_distance_to_contact_um(p, 250000, 300000, 0), 0);
+    EXPECT_EQ(ale_distance_to_contact_um(p, 250000, 300000, 700000), 0);
+    EXPECT_EQ(ale_distance_to_contact_um(p, 250000, -300000, 0), INT64_MAX);
 }
 
 TEST(StoppingSpeed, UsesUpTheWayWithReactionAndBraking)
 {
     const ale_robot_shape_t shape = ale_robot_shape_default();
-    for (int64_t way_um = 0; way_um < 6000000; way_um += 12345) {
-        const double v = ale_stopping_speed_um_s(way_um, &shape) * 1e-6;
+    for (int64_t distance_um = 0; distance_um < 6000000; distance_um += 12345) {
+        const double v = ale_stopping_speed_um_s(distance_um, &shape) * 1e-6;
         const double used = v * shape.reaction_us * 1e-6 + v * v / (2 * shape.deceleration_um_s2 * 1e-6);
-        EXPECT_LE(used, static_cast<double>(way_um) * 1e-6 + 1e-9);
-        EXPECT_GE(used, static_cast<double>(way_um) * 1e-6 - 1e-5);
+        EXPECT_LE(used, static_cast<double>(distance_um) * 1e-6 + 1e-9);
+        EXPECT_GE(used, static_cast<double>(distance_um) * 1e-6 - 1e-5);
     }
     EXPECT_GT(ale_stopping_speed_um_s(INT64_MAX, &shape), 10000000);
 }

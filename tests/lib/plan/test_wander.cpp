@@ -86,12 +86,12 @@ TEST_F(Wander, GivesUpAfterThreeMinutesAndBeginsAnewWhenItIsLostAgain)
 {
     const ale_scan_t seen = scan();
     for (int k = 0; k < 1800; k++) {
-        EXPECT_TRUE(ale_wander_is_at_it(&wander_));
+        EXPECT_TRUE(ale_wander_is_active(&wander_));
         ale_wander_step(&wander_, &follower_, &seen);
     }
-    EXPECT_FALSE(ale_wander_is_at_it(&wander_));
+    EXPECT_FALSE(ale_wander_is_active(&wander_));
     const ale_velocity_t velocity = ale_wander_step(&wander_, &follower_, &seen);
     EXPECT_TRUE(velocity.speed_um_s == 0 && velocity.turn_urad_s == 0);
     ale_wander_begin(&wander_);
-    EXPECT_TRUE(ale_wander_is_at_it(&wander_));
+    EXPECT_TRUE(ale_wander_is_active(&wander_));
 }

@@ -41,7 +41,7 @@ sim::World mounted(sim::World world, const ale_pose_t &sensor)
 Place said_of(const ale_grid_t &grid, sim::Point p)
 {
     const ale_cell_t cell = ale_grid_cell(&grid, {sim::micrometres(p.x), sim::micrometres(p.y)});
-    if (cell == ALE_GRID_NONE || ale_grid_is_unseen(&grid, cell)) {
+    if (cell == ALE_GRID_NONE || ale_grid_is_unknown(&grid, cell)) {
         return Place::unseen;
     }
     return ale_grid_is_free(&grid, cell) ? Place::free : Place::occupied;
