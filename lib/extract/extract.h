@@ -7,8 +7,8 @@
  *       for (i = 0; i < features.line_count; i++) ... features.line[i].rho_um ...
  *   }
  *
- * No function allocates, reads a clock, or keeps a pointer but that of the hook. One extractor serves one thread
- * at a time; extractors share nothing. */
+ * No function allocates, reads a clock, or keeps a pointer but the hook's. One extractor serves one thread at
+ * a time; extractors share nothing. */
 #ifndef ALE_EXTRACT_EXTRACT_H
 #define ALE_EXTRACT_EXTRACT_H
 
