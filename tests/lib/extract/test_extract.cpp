@@ -418,8 +418,8 @@ TEST(Extract, SearchBreaksSplitsAndCurvesTogetherSpendNoMoreThanTheirBound)
         const auto scan = empty_scan();
         see(*scan, ring_of_chords(seed, 26), seed % 2 == 0 ? 10 : 15, seed);
         extract(*scan);
-        most = std::max(most, extract.get()->effort);
-        beyond += extract.get()->effort > ALE_MOST_EFFORT ? 1 : 0;
+        most = std::max(most, extract.get()->runs.effort);
+        beyond += extract.get()->runs.effort > ALE_MOST_EFFORT ? 1 : 0;
     }
     EXPECT_GT(beyond, 100) << "the rooms are too simple";
     EXPECT_LT(most, ALE_MOST_EFFORT * 7 / 4);
