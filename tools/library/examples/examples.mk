@@ -6,7 +6,7 @@ $(SHARED_LIBRARY): $(LIB_SOURCES) $(wildcard lib/*.h lib/*/*.h lib/*/*/*.h)
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 -D_GNU_SOURCE $(OPT) -fPIC -shared -Ilib $(LIB_SOURCES) -o $@
 
-PUBLIC_HEADERS = lib/ale.h $(wildcard lib/base/*.h) lib/track/pipeline.h
+PUBLIC_HEADERS = lib/ale.h $(wildcard lib/base/*.h) $(addprefix lib/track/,pipeline.h keyframe.h correction.h scan_observation.h)
 INCLUDE = $(DESTDIR)$(PREFIX)/include/ale
 
 .PHONY: library install-library
