@@ -66,6 +66,7 @@ $(TEST_SHARED): $(call test_objects,$(TEST_SHARED_SOURCES) $(TEST_WORLD_SOURCES)
 	$(archive)
 
 include tests/rtai/rtai.mk
+include tests/proofs/wcet/wcet.mk
 TEST_ARCHIVES = $(TEST_SHARED) $(FIRMWARE_ARCHIVES)
 $(BUILD)/tests/tools/%: $(TEST_OBJ)/tests/tools/%.cpp.o $(BUILD)/libale_tool_parts.a $(BUILD)/libale_tools.a $(TEST_ARCHIVES)
 	$(call link,-lgtest_main -lgtest)

@@ -3,9 +3,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "lab/bench/extractor.hpp"
+#include "lab/bench/lines/extractors.hpp"
 #include "lab/bench/simulate.hpp"
-#include "lab/bench/textbook/textbook.hpp"
+#include "lab/bench/lines/textbook/textbook.hpp"
 
 extern "C" {
 #include "extract/lowess.h"

@@ -1,11 +1,11 @@
-#include "lab/bench/wcet_bound.hpp"
+#include "proofs/wcet/bound.hpp"
 
 #include <algorithm>
 #include <memory>
 
 #include "lab/bench/random.hpp"
-#include "lab/bench/wcet_crowd.hpp"
-#include "lab/bench/wcet_scans.hpp"
+#include "proofs/wcet/crowd.hpp"
+#include "proofs/wcet/scans.hpp"
 
 extern "C" {
 #include "base/trig.h"

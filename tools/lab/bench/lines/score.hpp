@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "lab/bench/extractor.hpp"
+#include "lab/bench/lines/extraction.hpp"
 #include "lab/bench/truth.hpp"
 
 namespace bench

@@ -1,6 +1,6 @@
-#include "lab/bench/wcet_crowd.hpp"
+#include "proofs/wcet/crowd.hpp"
 
-#include "lab/bench/wcet_scans.hpp"
+#include "proofs/wcet/scans.hpp"
 
 extern "C" {
 #include "base/trig.h"

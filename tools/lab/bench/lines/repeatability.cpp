@@ -1,4 +1,4 @@
-#include "lab/bench/repeatability.hpp"
+#include "lab/bench/lines/repeatability.hpp"
 
 #include <algorithm>
 #include <set>

@@ -17,11 +17,11 @@
 #include <valgrind/callgrind.h>
 
 #include "common/command_line/command_line.h"
-#include "lab/bench/instruction_counter.hpp"
-#include "lab/bench/random.hpp"
-#include "lab/bench/wcet_bound.hpp"
-#include "lab/bench/wcet_scans.hpp"
 #include "common/log/log_reader.h"
+#include "lab/bench/random.hpp"
+#include "proofs/wcet/bound.hpp"
+#include "proofs/wcet/instruction_counter.hpp"
+#include "proofs/wcet/scans.hpp"
 
 namespace
 {

@@ -2,7 +2,7 @@
 // application": its binary search for the end of a line, with the threshold of the RMSE held at one value as
 // plain split and merge would have it. The listing's errors are corrected: after a rejection the search goes
 // on, the line ends at the last guess that was accepted, and where none was only one point is left out.
-#include "lab/bench/textbook/textbook.hpp"
+#include "lab/bench/lines/textbook/textbook.hpp"
 
 namespace bench::textbook
 {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lab/bench/instruction_counter.hpp"
+#include "proofs/wcet/instruction_counter.hpp"
 
 namespace bench
 {

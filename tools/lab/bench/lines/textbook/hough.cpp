@@ -1,7 +1,7 @@
 // R. O. Duda, P. E. Hart, "Use of the Hough transformation to detect lines and curves in pictures", Comm. ACM
 // 15(1), 1972: every point votes for all lines through it; the line with most votes is taken with its
 // points, whose votes are withdrawn, and so on.
-#include "lab/bench/textbook/textbook.hpp"
+#include "lab/bench/lines/textbook/textbook.hpp"
 
 namespace bench::textbook
 {

@@ -1,4 +1,4 @@
-#include "lab/bench/score.hpp"
+#include "lab/bench/lines/score.hpp"
 
 #include <algorithm>
 #include <map>

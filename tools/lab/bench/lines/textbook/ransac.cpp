@@ -1,7 +1,7 @@
 // M. A. Fischler, R. C. Bolles, "Random sample consensus", Comm. ACM 24(6), 1981: within each cluster the
 // line of two random points that most others agree with, again and again on what is left.
+#include "lab/bench/lines/textbook/textbook.hpp"
 #include "lab/bench/random.hpp"
-#include "lab/bench/textbook/textbook.hpp"
 
 namespace bench::textbook
 {

@@ -2,11 +2,11 @@
 // extractors find what is plain to see.
 #include <gtest/gtest.h>
 
-#include "lab/bench/extractor.hpp"
-#include "lab/bench/repeatability.hpp"
-#include "lab/bench/score.hpp"
+#include "lab/bench/lines/extractors.hpp"
+#include "lab/bench/lines/repeatability.hpp"
+#include "lab/bench/lines/score.hpp"
+#include "lab/bench/lines/textbook/textbook.hpp"
 #include "lab/bench/suite.hpp"
-#include "lab/bench/textbook/textbook.hpp"
 
 namespace
 {

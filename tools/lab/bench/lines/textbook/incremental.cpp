@@ -1,5 +1,5 @@
 // Incremental, also called line tracking: points are added while the line stays good.
-#include "lab/bench/textbook/textbook.hpp"
+#include "lab/bench/lines/textbook/textbook.hpp"
 
 namespace bench::textbook
 {

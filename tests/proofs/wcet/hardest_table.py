@@ -13,7 +13,8 @@ import subprocess
 import sys
 import tempfile
 
-from callgrind import instructions
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tools/lab/bench"))
+from callgrind import instructions  # noqa: E402
 
 
 def instructions_a_scan(build, log, scans):

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "lab/bench/extractor.hpp"
+#include "lab/bench/lines/extraction.hpp"
 
 extern "C" {
 #include "base/scan.h"

@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <limits>
 
-#include "lab/bench/textbook/textbook.hpp"
+#include "lab/bench/lines/textbook/textbook.hpp"
 
 namespace bench::textbook
 {

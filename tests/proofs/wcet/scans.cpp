@@ -1,4 +1,4 @@
-#include "lab/bench/wcet_scans.hpp"
+#include "proofs/wcet/scans.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include <algorithm>
 
+#include "lab/bench/lines/textbook/textbook.hpp"
 #include "lab/bench/simulate.hpp"
-#include "lab/bench/textbook/textbook.hpp"
 
 namespace bench::textbook
 {

@@ -2,7 +2,7 @@
 // form of G. A. Borges, M.-J. Aldon (2004).
 #include <vector>
 
-#include "lab/bench/textbook/textbook.hpp"
+#include "lab/bench/lines/textbook/textbook.hpp"
 
 namespace bench::textbook
 {

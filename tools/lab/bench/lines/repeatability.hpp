@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "lab/bench/extractor.hpp"
+#include "lab/bench/lines/extraction.hpp"
 
 namespace bench
 {

@@ -9,10 +9,11 @@
 #include <stdexcept>
 
 #include "common/command_line/command_line.h"
-#include "lab/bench/repeatability.hpp"
-#include "lab/bench/score.hpp"
-#include "lab/bench/suite.hpp"
 #include "common/log/log_reader.h"
+#include "lab/bench/lines/extractors.hpp"
+#include "lab/bench/lines/repeatability.hpp"
+#include "lab/bench/lines/score.hpp"
+#include "lab/bench/suite.hpp"
 
 namespace
 {

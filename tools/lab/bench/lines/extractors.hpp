@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lab/bench/geometry.hpp"
+#include "lab/bench/lines/extraction.hpp"
 
 extern "C" {
 #include "base/scan.h"
@@ -14,19 +14,6 @@ extern "C" {
 
 namespace bench
 {
-
-struct Line {
-    int first = 0; // beams, inclusive
-    int last = 0;
-    NormalForm form; // rho >= 0
-    Point start = Point::Zero();
-    Point end = Point::Zero();
-};
-
-struct Extraction {
-    std::vector<Line> lines;
-    std::vector<Point> corners;
-};
 
 struct Extractor {
     std::string name;     // one word, for options

@@ -1,11 +1,11 @@
-#include "lab/bench/extractor.hpp"
+#include "lab/bench/lines/extractors.hpp"
 
 #include <cstdlib>
 #include <memory>
 #include <stdexcept>
 
-#include "lab/bench/score.hpp"
-#include "lab/bench/textbook/textbook.hpp"
+#include "lab/bench/lines/score.hpp"
+#include "lab/bench/lines/textbook/textbook.hpp"
 
 extern "C" {
 #include "extract/extract.h"
