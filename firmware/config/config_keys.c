@@ -57,7 +57,7 @@ const ale_config_key_t ale_config_keys[] = {
     {"odometry", "lag_us", NUMBER(pipeline.odometry_lag_us, 0, -100000, 300000),
      "Odometry is younger than the scans by so many microseconds: a first guess, refined while running."},
     {"odometry", "distance_factor", NUMBER(pipeline.odometry_distance_factor_ppm, 6, 500000, 2000000),
-     "Systematic errors of the wheels, as ale-mounting finds them: true way of a metre counted,"},
+     "Systematic errors of the wheels, as ale-calibrate wheels finds them: true way of a metre counted,"},
     {"odometry", "turn_factor", NUMBER(pipeline.odometry_turn_factor_ppm, 6, 500000, 2000000),
      "true turn of a radian counted,"},
     {"odometry", "turn_bias", NUMBER(pipeline.odometry_turn_bias_urad_m, 6, -1000000, 1000000),

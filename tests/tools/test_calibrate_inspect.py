@@ -115,6 +115,15 @@ def test_a_scan_is_drawn_with_its_lines_corners_and_search(log):
     assert done.stdout.count("#2ca02c") > 3 and done.stdout.count("#d62728") > 3
 
 
+def test_the_sizes_of_what_a_caller_provides_are_a_table():
+    done = run("ale-inspect", "--sizes")
+    assert (done.returncode, done.stderr) == (0, "")
+    sizes = {name: int(size) for name, size in re.findall(r"^\| `(ale_\w+_t)` \| (\d+) \| `.+` \| .+ \|$", done.stdout, re.M)}
+    assert len(sizes) == len(done.stdout.splitlines()) - 2
+    assert sizes["ale_extractor_t"] < sizes["ale_pipeline_t"], "the tracker holds an extractor"
+    assert {"ale_scan_t", "ale_features_t", "ale_map_t", "ale_keyframe_t"} < set(sizes)
+
+
 def test_a_configuration_changes_what_is_decided(log, tmp_path):
     config = tmp_path / "robot.ini"
     config.write_text("[extract]\nmin_points = 400\n")

@@ -5,7 +5,7 @@
 #   drivers/**/*.c       -> libale_drivers.a    with the generated LCM types
 #   firmware/**/*.c      -> libale_firmware.a   all but main.c; main.c -> ale-slamd; one realtime/rt_$(RT).c (rtai.mk)
 #   tools/common/*/*     -> libale_tools.a      linked to every tool
-#   tools/GROUP/NAME/*   -> ale-NAME            page/ beside them is embedded
+#   tools/GROUP/NAME/**  -> ale-NAME            page/ beside them is embedded
 #
 # Dependencies point down only: the include paths of each floor name only what lies below it.
 
@@ -182,8 +182,11 @@ programs: $(PROGRAMS) $(OLDER_NAMES)
 $(BUILD)/bin/ale-slamd: $(OBJ)/firmware/main.c.o $(FIRMWARE_ARCHIVES)
 	$(call link)
 
+# All of a program, its main too: sources of its folder and of the folders in it.
+sources_of = $(wildcard $(addprefix $(1)/,*.c *.cpp */*.c */*.cpp))
+
 define program
-$(BUILD)/bin/ale-$(notdir $(1)): $$(call objects,$$(wildcard $(1)/*.c $(1)/*.cpp)) $$(if $$(wildcard $(1)/page/*),$$(OBJ)/$(1)/page.o) $$(ARCHIVES)
+$(BUILD)/bin/ale-$(notdir $(1)): $$(call objects,$$(call sources_of,$(1))) $$(if $$(wildcard $(1)/page/*),$$(OBJ)/$(1)/page.o) $$(ARCHIVES)
 	$$(call link)
 $$(OBJ)/$(1)/page.cpp: $$(wildcard $(1)/page/*) tools/make/embed.py
 	@mkdir -p $$(@D)

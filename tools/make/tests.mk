@@ -13,8 +13,8 @@ SHARED_DATA = $(abspath ../shared)
 export ALE_SHARED = $(if $(wildcard $(SHARED_DATA)/data),$(SHARED_DATA))
 export ALE_BUILD = $(abspath $(BUILD))
 
-# Tools whose parts are tested: everything of tools/NAME but its main.
-TOOL_PARTS = $(foreach t,$(TOOL_FOLDERS),$(filter-out %/main.c %/main.cpp,$(wildcard $(t)/*.c $(t)/*.cpp)))
+# Tools whose parts are tested: everything of tools/GROUP/NAME but its main.
+TOOL_PARTS = $(foreach t,$(TOOL_FOLDERS),$(filter-out %/main.c %/main.cpp,$(call sources_of,$(t))))
 $(BUILD)/libale_tool_parts.a: $(call objects,$(TOOL_PARTS))
 	$(archive)
 

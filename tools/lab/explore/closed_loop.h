@@ -12,7 +12,7 @@
 #include "common/export/trajectory.h"
 #include "lab/explore/score.h"
 #include "lab/replay/loops.h"
-#include "lab/sim/world_source.h"
+#include "lab/sim/world/world_source.h"
 
 extern "C" {
 #include "config/config.h"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "lab/sim/world_source.h"
+#include "lab/sim/world/world_source.h"
 
 extern "C" {
 #include "config/config.h"

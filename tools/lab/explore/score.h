@@ -8,7 +8,7 @@
 
 #include <functional>
 
-#include "lab/sim/world.h"
+#include "lab/sim/world/world.h"
 
 namespace explore
 {

@@ -8,7 +8,7 @@
 
 #include <lcm/lcm.h>
 
-#include "lab/sim/robot.h"
+#include "lab/sim/world/robot.h"
 
 extern "C" {
 #include "lcm/bus.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lab/sim/scanner.h"
+#include "lab/sim/device/scanner.h"
 
 namespace sim
 {

@@ -14,7 +14,7 @@
 #include "lab/sim/out_file.h"
 #include "lab/sim/simulator.h"
 #include "lab/sim/units.h"
-#include "lab/sim/world_source.h"
+#include "lab/sim/world/world_source.h"
 #include "lab/sim/write_log.h"
 
 namespace

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "lab/sim/simulator.h"
-#include "lab/sim/world_source.h"
+#include "lab/sim/world/world_source.h"
 
 namespace sim
 {

@@ -10,10 +10,10 @@
 
 #include "lab/sim/bus.h"
 #include "lab/sim/clock.h"
+#include "lab/sim/device/scip_device.h"
 #include "lab/sim/faults.h"
 #include "lab/sim/line.h"
 #include "lab/sim/pty.h"
-#include "lab/sim/scip_device.h"
 #include "lab/sim/source.h"
 
 namespace sim

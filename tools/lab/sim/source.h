@@ -7,7 +7,7 @@
 #include <optional>
 #include <variant>
 
-#include "lab/sim/scanner.h"
+#include "lab/sim/device/scanner.h"
 
 namespace sim
 {

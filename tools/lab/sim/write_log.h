@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "lab/sim/world_source.h"
+#include "lab/sim/world/world_source.h"
 
 namespace sim
 {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "lab/sim/ray_cast.h"
+#include "lab/sim/world/ray_cast.h"
 
 namespace sim
 {

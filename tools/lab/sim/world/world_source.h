@@ -3,9 +3,9 @@
 #ifndef ALE_LAB_SIM_WORLD_SOURCE_H
 #define ALE_LAB_SIM_WORLD_SOURCE_H
 
-#include "lab/sim/journey.h"
-#include "lab/sim/sensor_noise.h"
 #include "lab/sim/source.h"
+#include "lab/sim/world/journey.h"
+#include "lab/sim/world/sensor_noise.h"
 
 namespace sim
 {

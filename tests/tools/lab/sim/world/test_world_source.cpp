@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "lab/sim/world_source.h"
+#include "lab/sim/world/world_source.h"
 
 namespace
 {

@@ -1,4 +1,4 @@
-#include "lab/sim/scip_device.h"
+#include "lab/sim/device/scip_device.h"
 
 #include <algorithm>
 #include <functional>

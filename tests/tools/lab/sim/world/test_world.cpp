@@ -4,7 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "lab/sim/world.h"
+#include "lab/sim/world/world.h"
 
 namespace
 {

@@ -1,10 +1,10 @@
-#include "lab/sim/journey.h"
+#include "lab/sim/world/journey.h"
 
 #include <algorithm>
 #include <memory>
 #include <utility>
 
-#include "lab/sim/route.h"
+#include "lab/sim/world/route.h"
 
 namespace sim
 {

@@ -1,4 +1,4 @@
-#include "lab/sim/walker.h"
+#include "lab/sim/world/walker.h"
 
 namespace sim
 {

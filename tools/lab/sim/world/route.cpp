@@ -1,4 +1,4 @@
-#include "lab/sim/route.h"
+#include "lab/sim/world/route.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "lab/sim/ray_cast.h"
+#include "lab/sim/world/ray_cast.h"
 
 namespace sim
 {

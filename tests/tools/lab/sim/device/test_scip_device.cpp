@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "lab/sim/scip_device.h"
+#include "lab/sim/device/scip_device.h"
 
 namespace
 {

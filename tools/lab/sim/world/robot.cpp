@@ -1,4 +1,4 @@
-#include "lab/sim/robot.h"
+#include "lab/sim/world/robot.h"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 #include "lab/explore/scan_of_turn.h"
 #include "lab/replay/loops.h"
 #include "lab/sim/units.h"
-#include "lab/sim/world_source.h"
+#include "lab/sim/world/world_source.h"
 
 extern "C" {
 #include "config/config.h"

@@ -1,4 +1,4 @@
-#include "lab/sim/world.h"
+#include "lab/sim/world/world.h"
 
 #include <cerrno>
 #include <charconv>

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "lab/sim/robot.h"
+#include "lab/sim/world/robot.h"
 
 namespace sim
 {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "lab/bench/random.hpp"
-#include "lab/sim/ray_cast.h"
+#include "lab/sim/world/ray_cast.h"
 
 namespace
 {

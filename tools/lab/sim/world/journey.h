@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "lab/sim/robot.h"
-#include "lab/sim/wheel_odometry.h"
-#include "lab/sim/world.h"
+#include "lab/sim/world/robot.h"
+#include "lab/sim/world/wheel_odometry.h"
+#include "lab/sim/world/world.h"
 
 namespace sim
 {

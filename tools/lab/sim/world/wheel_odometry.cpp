@@ -1,4 +1,4 @@
-#include "lab/sim/wheel_odometry.h"
+#include "lab/sim/world/wheel_odometry.h"
 
 namespace sim
 {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "lab/sim/geometry.h"
-#include "lab/sim/walker.h"
+#include "lab/sim/world/walker.h"
 
 namespace sim
 {

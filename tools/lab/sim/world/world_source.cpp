@@ -1,4 +1,4 @@
-#include "lab/sim/world_source.h"
+#include "lab/sim/world/world_source.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "lab/sim/sensor_noise.h"
+#include "lab/sim/world/sensor_noise.h"
 
 #include <algorithm>
 #include <iterator>

@@ -16,8 +16,8 @@
 #include <string_view>
 #include <vector>
 
-#include "lab/sim/scanner.h"
-#include "lab/sim/scip_reply.h"
+#include "lab/sim/device/scanner.h"
+#include "lab/sim/device/scip_reply.h"
 
 extern "C" {
 #include "scanner/urg/scip_request.h"

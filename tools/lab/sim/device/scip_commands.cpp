@@ -1,5 +1,5 @@
 /* The commands of ScipDevice that only report or set something, and the whole of SCIP 1.1. */
-#include "lab/sim/scip_device.h"
+#include "lab/sim/device/scip_device.h"
 
 #include <algorithm>
 #include <cstdio>
