@@ -113,7 +113,7 @@ def headings(page):
 
 def check_paths(text, readme, tree):
     for words in quoted(visible(text)):
-        if not re.fullmatch(r"(?!\.\./)[\w.*+-]+(/[\w.*+-]+)*/?", words):
+        if not re.fullmatch(r"(?!\.\./)[\w.*+-]+(/[\w.*+-]+)*/?", words) or re.search(r"/[A-Z]{2,}(/|$)", words):
             continue
         first = words.split("/")[0]
         if first in TOP and "/" in words:
