@@ -10,6 +10,10 @@
 
 #include "lib/motion/room.h"
 
+extern "C" {
+#include "map/line_map.h"
+}
+
 namespace map_against_room
 {
 

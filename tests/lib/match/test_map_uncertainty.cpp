@@ -6,8 +6,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "lib/motion/convert.h"
 #include "lib/map/walls.h"
+#include "lib/motion/convert.h"
 
 extern "C" {
 #include "match/map_uncertainty.h"

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/motion/convert.h"
 #include "lib/map/walls.h"
+#include "lib/motion/convert.h"
 
 extern "C" {
 #include "match/scan_to_map.h"

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/motion/convert.h"
 #include "lib/map/walls.h"
+#include "lib/motion/convert.h"
 
 extern "C" {
 #include "match/association.h"

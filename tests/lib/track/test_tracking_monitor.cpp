@@ -268,7 +268,8 @@ TEST(TrackingMonitor, APoseThatTheMapDoesNotHoldIsWhereTheMapGoesOnUnlessTheLast
     EXPECT_FALSE(ale_tracking_may_reanchor(&t, &fit));
 }
 
-TEST(TrackingMonitor, WhatIsNotWhereAPoseOfLittleCertaintyPutsItIsNoNewPlaceButLostUnlessWheelsToldOrNothingIsMapped)
+TEST(TrackingMonitor,
+     WhatIsNotWhereAPoseOfLittleCertaintyPutsItIsNoNewPlaceButLostUnlessWheelsToldOrNothingIsMapped)
 {
     struct {
         bool counted;

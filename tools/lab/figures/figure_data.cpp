@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "lab/bench/lines/extractors.hpp"
-#include "lab/bench/simulate.hpp"
 #include "lab/bench/lines/textbook/textbook.hpp"
+#include "lab/bench/simulate.hpp"
 
 extern "C" {
 #include "extract/lowess.h"

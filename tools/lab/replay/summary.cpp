@@ -77,8 +77,8 @@ void print_loops(const ale_mapper_statistics_t &loops, int64_t longest_ns)
             stderr,
             "ale-replay: loops: %u closed, %u undone; of %u places seen again %u known, %u unclear; %u "
             "keyframes, longest correction %.1f ms\n",
-            loops.loops, loops.contradicted, loops.candidates, loops.recognised, loops.unclear, loops.keyframes,
-            static_cast<double>(longest_ns) * 1e-6);
+            loops.loops, loops.contradicted, loops.candidates, loops.recognised, loops.unclear,
+            loops.keyframes, static_cast<double>(longest_ns) * 1e-6);
     }
 }
 

@@ -9,8 +9,8 @@
 #include <poll.h>
 
 #include "common/command_line/wrong_use.h"
-#include "operator/bridge/frame.h"
 #include "common/feed/lcm_feed.h"
+#include "operator/bridge/frame.h"
 
 namespace bridge
 {

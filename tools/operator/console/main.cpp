@@ -14,10 +14,10 @@
 #include <unistd.h>
 
 #include "common/command_line/command_line.h"
+#include "common/feed/lcm_feed.h"
 #include "operator/console/board.h"
 #include "operator/console/commander.h"
 #include "operator/console/http_address.h"
-#include "common/feed/lcm_feed.h"
 #include "operator/console/robot_watch.h"
 #include "operator/console/web_server.h"
 

@@ -10,10 +10,10 @@
 #include "ale/pose_t.hpp"
 #include "ale/scan_t.hpp"
 #include "ale/status_t.hpp"
-#include "operator/console/board.h"
-#include "operator/console/commander.h"
 #include "common/feed/lcm_feed.h"
 #include "common/feed/map_parts.h"
+#include "operator/console/board.h"
+#include "operator/console/commander.h"
 #include "operator/console/window_watch.h"
 
 namespace console

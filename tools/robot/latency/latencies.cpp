@@ -24,13 +24,13 @@ void check_times(const ale::pose_t &pose)
     feed::check(pose);
     feed::require(pose.utime > 0 && pose.utime < INT64_MAX / 2, "no time of measurement");
     feed::require(plausible(pose.arrival_utime - pose.first_beam_utime),
-                     "a scan that arrived before it began");
+                  "a scan that arrived before it began");
     feed::require(plausible(pose.utime + pose.age_us - pose.arrival_utime),
-                     "a pose that was sent before its scan arrived");
+                  "a pose that was sent before its scan arrived");
     for (size_t k = 0; k < stages; k++) {
         feed::require(pose.stage_ns[k] >= 0 && pose.stage_start_ns[k] >= 0 &&
-                             pose.stage_end_ns[k] >= pose.stage_start_ns[k],
-                         "a stage that ended before it began");
+                          pose.stage_end_ns[k] >= pose.stage_start_ns[k],
+                      "a stage that ended before it began");
     }
 }
 

@@ -8,9 +8,9 @@
 
 extern "C" {
 #include "lcm/bus.h"
+#include "realtime/clock.h"
 #include "scanner/scanner.h"
 #include "store/recording.h"
-#include "realtime/clock.h"
 }
 
 namespace record
