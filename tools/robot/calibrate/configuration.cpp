@@ -15,7 +15,7 @@ std::string name_of_log(const std::string &path)
     constexpr size_t longest = 60;
     std::string name = std::filesystem::path(path).filename().string();
     if (name.size() > longest) {
-        name = name.substr(0, longest - 3) + "...";
+        name.replace(longest - 3, std::string::npos, "...");
     }
     for (char &c : name) {
         c = c < ' ' || c > '~' ? '?' : c;
