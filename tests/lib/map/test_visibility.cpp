@@ -149,7 +149,7 @@ TEST(Visibility, AgreesWithGeometryInRandomScenes)
     std::uniform_real_distribution<double> unit(-1, 1);
     Tally points;
     Tally walls;
-    for (int n = 0; n < 1500; n++) {
+    for (int n = 0; n < 2500; n++) {
         const reference::Pose from(unit(rng), unit(rng), pi * unit(rng));
         const double side = pi * unit(rng);
         const double away = 3.2 + 3 * unit(rng);
