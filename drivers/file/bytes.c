@@ -1,5 +1,6 @@
 #include "file/bytes.h"
 
+#include <bzlib.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -70,6 +71,17 @@ static const char *read_path(const char *path, buffer_t *buffer)
     return wrong;
 }
 
+/* The part of a buffer that a library with 32-bit counts takes in one step. */
+static unsigned step_size(size_t left)
+{
+    return left < UINT32_MAX ? (unsigned)left : UINT32_MAX;
+}
+
+static bool is_bzip2(const uint8_t *bytes, size_t count)
+{
+    return count >= 4 && memcmp(bytes, "BZh", 3) == 0 && bytes[3] >= '1' && bytes[3] <= '9';
+}
+
 static bool is_gzip(const uint8_t *bytes, size_t count)
 {
     return count >= 2 && bytes[0] == 0x1f && bytes[1] == 0x8b;
@@ -85,11 +97,10 @@ static const char *inflate_step(z_stream *stream, const uint8_t *end, buffer_t *
     }
     const size_t room = out->capacity - out->count;
     stream->next_out = out->at + out->count;
-    stream->avail_out = (uInt)(room < UINT32_MAX ? room : UINT32_MAX);
+    stream->avail_out = step_size(room);
     const uInt before = stream->avail_out;
     if (stream->avail_in == 0) {
-        const size_t left = (size_t)(end - stream->next_in);
-        stream->avail_in = (uInt)(left < UINT32_MAX ? left : UINT32_MAX);
+        stream->avail_in = step_size((size_t)(end - stream->next_in));
     }
     const int status = inflate(stream, Z_NO_FLUSH);
     out->count += before - stream->avail_out;
@@ -117,14 +128,53 @@ static const char *gunzip(const uint8_t *bytes, size_t count, buffer_t *out, boo
     return wrong;
 }
 
+/* One bzip2 stream; *bytes and *count: what is behind it. */
+static const char *bunzip2_stream(const uint8_t **bytes, size_t *count, buffer_t *out, bool *cut_short)
+{
+    bz_stream stream = {0};
+    if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) {
+        return "not enough memory";
+    }
+    const char *wrong = NULL;
+    int status = BZ_OK;
+    while (!wrong && status == BZ_OK && !(*count == 0 && stream.avail_out > 0)) {
+        wrong = make_room(out);
+        if (!wrong) {
+            const unsigned room = step_size(out->capacity - out->count);
+            const unsigned given = step_size(*count);
+            stream.next_in = (char *)(uintptr_t)*bytes;
+            stream.avail_in = given;
+            stream.next_out = (char *)out->at + out->count;
+            stream.avail_out = room;
+            status = BZ2_bzDecompress(&stream);
+            out->count += room - stream.avail_out;
+            *bytes += given - stream.avail_in;
+            *count -= given - stream.avail_in;
+        }
+    }
+    *cut_short = !wrong && status != BZ_STREAM_END;
+    BZ2_bzDecompressEnd(&stream);
+    return wrong;
+}
+
+static const char *bunzip2(const uint8_t *bytes, size_t count, buffer_t *out, bool *cut_short)
+{
+    const char *wrong = NULL;
+    while (!wrong && !*cut_short && is_bzip2(bytes, count)) {
+        wrong = bunzip2_stream(&bytes, &count, out, cut_short);
+    }
+    return wrong;
+}
+
 const char *ale_bytes_from_memory(ale_bytes_t *out, const uint8_t *bytes, size_t count)
 {
     *out = (ale_bytes_t){.at = bytes, .count = count};
-    if (!is_gzip(bytes, count)) {
+    if (!is_gzip(bytes, count) && !is_bzip2(bytes, count)) {
         return NULL;
     }
     buffer_t plain = {0};
-    const char *wrong = gunzip(bytes, count, &plain, &out->cut_short);
+    const char *wrong = is_gzip(bytes, count) ? gunzip(bytes, count, &plain, &out->cut_short)
+                                              : bunzip2(bytes, count, &plain, &out->cut_short);
     if (wrong) {
         free(plain.at);
         return wrong;

@@ -26,14 +26,33 @@ static void rewind_log(ale_log_t *log)
     log->scan_waiting = false;
 }
 
+/* Odometry from one place of a log: the lines of the scans, or records of its own. */
+typedef struct {
+    uint64_t count;
+    bool changes;
+    ale_pose_t first;
+} odometry_survey_t;
+
 typedef struct {
     uint64_t forward;  /* steps of the stamps ahead */
     uint64_t standing; /* and all others */
     int64_t last_stamp_us;
-    bool odometry;
-    bool odometry_changes;
-    ale_pose_t first_odometry;
+    odometry_survey_t of_scans;
+    odometry_survey_t of_records;
 } survey_t;
+
+static bool poses_differ(const ale_pose_t *a, const ale_pose_t *b)
+{
+    return a->x_um != b->x_um || a->y_um != b->y_um || a->theta_bam != b->theta_bam;
+}
+
+static void survey_odometry(odometry_survey_t *survey, const ale_pose_t *pose)
+{
+    if (survey->count++ == 0) {
+        survey->first = *pose;
+    }
+    survey->changes |= poses_differ(pose, &survey->first);
+}
 
 static void survey_record(survey_t *survey, const ale_log_record_t *record, bool first_scan)
 {
@@ -44,17 +63,26 @@ static void survey_record(survey_t *survey, const ale_log_record_t *record, bool
         survey->standing += !first_scan && !ahead;
         survey->last_stamp_us = event->stamp_us;
     }
-    if (event->kind != ALE_LOG_ODOMETRY && !record->with_odometry) {
-        return;
+    if (event->kind == ALE_LOG_ODOMETRY) {
+        survey_odometry(&survey->of_records, &event->odometry.pose);
+    } else if (record->with_odometry) {
+        survey_odometry(&survey->of_scans, &event->odometry.pose);
     }
-    if (!survey->odometry) {
-        survey->odometry = true;
-        survey->first_odometry = event->odometry.pose;
-    }
-    const ale_pose_t *first = &survey->first_odometry;
-    const ale_pose_t *pose = &event->odometry.pose;
-    survey->odometry_changes |=
-        pose->x_um != first->x_um || pose->y_um != first->y_um || pose->theta_bam != first->theta_bam;
+}
+
+/* Which odometry is the robot's. Where the lines of the scans have one, records beside them are not used:
+ * their stamps belong to another clock. Lines that never change beside records that do were left empty. */
+static void choose_odometry(ale_log_t *log, const survey_t *survey)
+{
+    const odometry_survey_t *scans = &survey->of_scans;
+    const odometry_survey_t *records = &survey->of_records;
+    const bool between =
+        scans->count > 0 && records->count > 0 && poses_differ(&scans->first, &records->first);
+    const bool changes = scans->changes || records->changes || between;
+    log->info.has_odometry =
+        (scans->count > 0 || records->count > 0) && (changes || log->format->constant_odometry);
+    log->use_odometry_of_records = !scans->changes;
+    log->use_odometry_of_scans = scans->changes || !records->changes || scans->count < 2;
 }
 
 /* Reads the log once for what only the whole of it tells. */
@@ -71,7 +99,7 @@ static int survey_log(ale_log_t *log, ale_log_error_t *error)
         return -1;
     }
     log->stamps_of_use = log->format->stamped && survey.forward >= survey.standing;
-    log->info.has_odometry = survey.odometry && (survey.odometry_changes || log->format->constant_odometry);
+    choose_odometry(log, &survey);
     rewind_log(log);
     return 0;
 }
@@ -188,11 +216,12 @@ int ale_log_next(ale_log_t *log, ale_log_event_t *event)
     }
     while (log->format->next(log, &log->record)) {
         const ale_log_kind_t kind = log->record.event.kind;
-        const bool odometry = kind == ALE_LOG_ODOMETRY || log->record.with_odometry;
-        if (!stamp_record(log) || (kind == ALE_LOG_ODOMETRY && !log->info.has_odometry)) {
+        const bool used = log->info.has_odometry && (kind == ALE_LOG_ODOMETRY ? log->use_odometry_of_records
+                                                                              : log->use_odometry_of_scans);
+        if (!stamp_record(log) || (kind == ALE_LOG_ODOMETRY && !used)) {
             continue;
         }
-        if (odometry && log->info.has_odometry) {
+        if (used && (kind == ALE_LOG_ODOMETRY || log->record.with_odometry)) {
             log->scan_waiting = kind == ALE_LOG_SCAN;
             return hand_out_odometry(log, event);
         }

@@ -1,4 +1,4 @@
-/* Recorded logs of any known format, told by content, plain or gzip, as one stream of events.
+/* Recorded logs of any known format, told by content, plain, gzip or bzip2, as one stream of events.
  *
  *   ale_log_t *log;  ale_log_error_t error;
  *   if (ale_log_open(&log, path, &error) < 0) ... error.message names file, line and what ...

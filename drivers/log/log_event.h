@@ -43,7 +43,7 @@ typedef struct {
     uint64_t too_many_beams; /* scans with more than ALE_MAX_BEAMS beams: skipped */
     uint64_t bytes_read;     /* of the unpacked log, for progress */
     uint64_t bytes_total;
-    bool cut_short; /* a gzip file that ends early or is damaged: what came before was read */
+    bool cut_short; /* a packed file that ends early or is damaged: what came before was read */
 } ale_log_statistics_t;
 
 #endif

@@ -5,7 +5,7 @@
 
 CROSS = aarch64 armhf s390x
 CROSS_BUILD = $(BUILD)/cross
-CROSS_LIBRARIES = zlib1g-dev libpng-dev libinih-dev
+CROSS_LIBRARIES = zlib1g-dev libbz2-dev libpng-dev libinih-dev
 
 triple_aarch64 = aarch64-linux-gnu
 triple_armhf = arm-linux-gnueabihf
@@ -24,7 +24,7 @@ $(addprefix cross-,$(CROSS)): cross-%: $(CROSS_BUILD)/%/libraries/ready
 	$(Q)$(MAKE) --no-print-directory BUILD=$(CROSS_BUILD)/$* \
 	    CC="$(CCACHE)$(triple_$*)-gcc" CXX="$(CCACHE)$(triple_$*)-g++" AR=$(triple_$*)-ar \
 	    CFLAGS="-isystem $(<D)/usr/include" CXXFLAGS="-isystem $(<D)/usr/include -Wno-psabi" \
-	    LDFLAGS="-static -L$(<D)/usr/lib/$(triple_$*) -Wl,--gc-sections" LIBRARIES="-lpng -lz -linih -lm" \
+	    LDFLAGS="-static -L$(<D)/usr/lib/$(triple_$*) -Wl,--gc-sections" LIBRARIES="-lpng -lz -lbz2 -linih -lm" \
 	    $(CROSS_BUILD)/$*/bin/ale-replay
 
 cross: programs ## the same bytes from aarch64, armhf and s390x, emulated

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <bzlib.h>
 #include <zlib.h>
 
 extern "C" {
@@ -115,6 +116,16 @@ inline std::string gzip(const std::string &plain)
     deflate(&stream, Z_FINISH);
     out.resize(stream.total_out);
     deflateEnd(&stream);
+    return out;
+}
+
+inline std::string bzip2(const std::string &plain)
+{
+    std::string out(plain.size() + plain.size() / 100 + 700, '\0');
+    auto size = static_cast<unsigned>(out.size());
+    BZ2_bzBuffToBuffCompress(out.data(), &size, const_cast<char *>(plain.data()),
+                             static_cast<unsigned>(plain.size()), 1, 0, 0);
+    out.resize(size);
     return out;
 }
 

@@ -130,6 +130,27 @@ TEST(Carmen, OdomLinesAreEventsOfTheirOwn)
     EXPECT_EQ(log.odometry()[1].stamp_us, 1500000);
 }
 
+TEST(Carmen, OdomLinesBesideScansThatHaveOdometryAreNotUsed)
+{
+    const auto log = read_bytes("ODOM 0 0 0 0 0 0 1 h 1\n" + flaser(3, "0 0 0 0 0 0 1.1 h 1") +
+                                "ODOM 0.4 0 0 0 0 0 0.5 h 1\nODOM 0.5 0 0 0 0 0 2 h 1\n" +
+                                flaser(3, "0.4 0 0 0.4 0 0 2.1 h 1"));
+    ASSERT_EQ(log.odometry().size(), 2U);
+    EXPECT_EQ(log.odometry()[0].stamp_us, 1100000);
+    EXPECT_EQ(log.odometry()[1].pose.x_um, 400000);
+    EXPECT_EQ(log.odometry()[1].stamp_us, 2100000);
+    EXPECT_EQ(log.scans().size(), 2U);
+}
+
+TEST(Carmen, ColumnsLeftEmptyBesideOdomLinesAreNotUsed)
+{
+    const auto log = read_bytes("ODOM 1 0 0 0 0 0 1 h 1\n" + flaser(3, "0 0 0 0 0 0 1.1 h 1") +
+                                "ODOM 1.5 0 0 0 0 0 2 h 1\n" + flaser(3, "0 0 0 0 0 0 2.1 h 1"));
+    ASSERT_EQ(log.odometry().size(), 2U);
+    EXPECT_EQ(log.odometry()[0].pose.x_um, 1000000);
+    EXPECT_EQ(log.odometry()[1].pose.x_um, 1500000);
+}
+
 TEST(Carmen, TheOffsetParameterIsTheMounting)
 {
     const auto log =

@@ -6,6 +6,7 @@
 #include "files.hpp"
 #include "log_text.hpp"
 
+using ale_test::bzip2;
 using ale_test::error_of;
 using ale_test::gzip;
 using ale_test::read_bytes;
@@ -72,6 +73,41 @@ TEST_F(LogFile, AGzipFileThatWasCutYieldsWhatCameBefore)
     EXPECT_GT(log.scans().size(), 500U);
     EXPECT_LT(log.scans().size(), 1500U);
     EXPECT_TRUE(log.statistics.cut_short);
+}
+
+TEST_F(LogFile, Bzip2IsUnpackedStreamAfterStream)
+{
+    std::mt19937 random(5);
+    std::string text;
+    for (int k = 0; k < 30000; k++) {
+        text += "FLASER 3 1 2 3 0 0 0 0 0 " + std::to_string(random()) + " " + std::to_string(k) + " h 1\n";
+    }
+    const auto plain = read_bytes(text);
+    const auto packed = read_file(write("a.clf.bz2", bzip2(text)));
+    EXPECT_EQ(packed.scans().size(), 30000U);
+    EXPECT_EQ(packed.scans().back().stamp_us, plain.scans().back().stamp_us);
+    EXPECT_EQ(packed.statistics.bytes_total, text.size());
+    EXPECT_FALSE(packed.statistics.cut_short);
+    EXPECT_EQ(read_bytes(bzip2(scan_line) + bzip2(scan_line)).scans().size(), 2U);
+}
+
+TEST_F(LogFile, ABzip2FileThatWasCutOrDamagedYieldsWhatCameBefore)
+{
+    std::mt19937 random(3);
+    std::string text;
+    for (int k = 0; k < 20000; k++) {
+        text += "FLASER 3 1 2 3 0 0 0 0 0 " + std::to_string(random()) + " " + std::to_string(k) + " h 1\n";
+    }
+    const std::string packed = bzip2(text);
+    const auto cut = read_bytes(packed.substr(0, packed.size() / 2));
+    EXPECT_GT(cut.scans().size(), 1000U);
+    EXPECT_LT(cut.scans().size(), 20000U);
+    EXPECT_TRUE(cut.statistics.cut_short);
+    std::string damaged = packed;
+    damaged[packed.size() / 2] = static_cast<char>(damaged[packed.size() / 2] ^ 0x55);
+    const auto read = read_bytes(damaged);
+    EXPECT_GT(read.scans().size(), 1000U);
+    EXPECT_TRUE(read.statistics.cut_short);
 }
 
 TEST_F(LogFile, WhatIsNoLogIsRefusedWithTheReason)
