@@ -243,9 +243,14 @@ void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estima
     pipeline->looked = false;
     if (pipeline->started) {
         const ale_pose_t before = pipeline->motion.pose;
-        if (ale_pipeline_predict_by_wheels(pipeline, &pipeline->motion, stamp_us, &wheels)) {
+        const bool counted = ale_pipeline_predict_by_wheels(pipeline, &pipeline->motion, stamp_us, &wheels);
+        if (counted) {
             ale_scale_error_predict(&pipeline->scale_error, before, pipeline->motion.pose,
                                     ale_wheel_scale_error_ppm(&pipeline->scale));
+        }
+        if (pipeline->monitor.state == ALE_STATE_LOST) {
+            ale_relocation_follow(&pipeline->relocation, ale_pose_between(before, pipeline->motion.pose),
+                                  counted);
         }
         ale_smooth_follow(&pipeline->smooth, pipeline->motion.pose);
         ale_tracking_skip(&pipeline->monitor, &pipeline->motion);

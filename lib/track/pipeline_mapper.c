@@ -124,6 +124,7 @@ void ale_pipeline_relocate(ale_pipeline_t *p, ale_pose_t pose)
     ale_tracking_found(&p->monitor);
     p->map.near_radius_um = 0;
     ale_update_restart(p);
+    ale_relocation_clear(&p->relocation);
     p->moved = true;
     p->broken = true;
 }

@@ -137,6 +137,31 @@ TEST(Relocation, ARobotThatDrivesOnFastFindsItselfToo)
     }
 }
 
+// The places that are kept move on with the robot through scans that were damaged on the line.
+TEST(Relocation, ARobotOfWhichThreeScansInFourAreDroppedFindsItselfToo)
+{
+    const auto map = map_of(room::l_shape());
+    const auto fast = [](double t) { return room::path(2.5 * t); };
+    for (const double start : {1.0, 2.0, 3.0, 4.0}) {
+        Robot robot;
+        ale_pipeline_load_map(robot.pipeline.get(), map.get(), 1, {0, 0, 0}, false);
+        int found_at = -1;
+        for (int k = 0; k < 240 && found_at < 0; k++) {
+            const double t = start + 0.1 * k;
+            robot.count(t, fast);
+            if (k % 4 == 0) {
+                robot.see(room::l_shape(), t, fast);
+            } else {
+                ale_pipeline_dropped(robot.pipeline.get(), std::llround(t * 1e6), &robot.last);
+            }
+            found_at = robot.last.state != ALE_STATE_LOST ? k : -1;
+        }
+        EXPECT_GT(found_at, 0) << start;
+        const reference::Pose truth = room::since_start(room::path(1), fast(start + 0.1 * found_at));
+        EXPECT_LT((convert::pose(robot.last.map) - truth).head<2>().norm(), 0.1) << start;
+    }
+}
+
 TEST(Relocation, WhereTwoPlacesFitItSaysLostForAsLongAsThatLasts)
 {
     const auto map = map_of(rectangle());
