@@ -17,8 +17,8 @@ typedef struct {
     bool cut_short; /* a packed stream that ends early or is damaged: what came before it is here */
 } ale_bytes_t;
 
-/* Reads the file (or pipe), unpacking gzip and bzip2 by content. NULL and *out, the caller's to give back with
- * ale_bytes_free; or what is wrong in a few words: the system's (not there, no rights, ...), "is a
+/* Reads the file (or pipe), unpacking gzip and bzip2 by content. NULL and *out, the caller's to give back
+ * with ale_bytes_free; or what is wrong in a few words: the system's (not there, no rights, ...), "is a
  * directory", "too large", "not enough memory". Damage is no error: see cut_short. */
 const char *ale_bytes_read_file(ale_bytes_t *out, const char *path);
 

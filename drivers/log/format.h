@@ -52,7 +52,7 @@ struct ale_log {
     bool stamps_of_use;
     bool use_odometry_of_scans;   /* that their own lines state, */
     bool use_odometry_of_records; /* and that of lines or chunks beside them */
-    bool scan_waiting; /* record.event is a scan whose odometry was handed out */
+    bool scan_waiting;            /* record.event is a scan whose odometry was handed out */
     ale_log_record_t record;
 };
 

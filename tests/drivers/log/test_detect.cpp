@@ -80,7 +80,8 @@ TEST_F(LogFile, Bzip2IsUnpackedStreamAfterStream)
     std::mt19937 random(5);
     std::string text;
     for (int k = 0; k < 30000; k++) {
-        text += "FLASER 3 1 2 3 0 0 0 0 0 " + std::to_string(random() % 1000) + " " + std::to_string(k) + " h 1\n";
+        text += "FLASER 3 1 2 3 0 0 0 0 0 " + std::to_string(random() % 1000) + " " + std::to_string(k) +
+                " h 1\n";
     }
     const auto plain = read_bytes(text);
     const auto packed = read_file(write("a.clf.bz2", bzip2(text)));
@@ -96,7 +97,8 @@ TEST_F(LogFile, ABzip2FileThatWasCutOrDamagedYieldsWhatCameBefore)
     std::mt19937 random(3);
     std::string text;
     for (int k = 0; k < 20000; k++) {
-        text += "FLASER 3 1 2 3 0 0 0 0 0 " + std::to_string(random() % 1000) + " " + std::to_string(k) + " h 1\n";
+        text += "FLASER 3 1 2 3 0 0 0 0 0 " + std::to_string(random() % 1000) + " " + std::to_string(k) +
+                " h 1\n";
     }
     const std::string packed = bzip2(text);
     const auto cut = read_bytes(packed.substr(0, packed.size() / 2));

@@ -18,7 +18,8 @@ namespace
 constexpr char usage[] =
     "usage: ale-replay LOG [options]\n"
     "Runs a recorded log through the code of the firmware, as fast as it goes.\n"
-    "LOG: CARMEN, rover, .scan or Odometry/Laser text, .scip recording, LCM event log; plain, gzip or bzip2.\n"
+    "LOG: CARMEN, rover, .scan or Odometry/Laser text, .scip recording, LCM event log; plain, gzip or "
+    "bzip2.\n"
     "  --features F.jsonl      lines, corners and curves of every scan\n"
     "  --poses F.jsonl         both poses, covariance and state at every scan\n"
     "  --trajectory F.tum      map pose at every scan, with all corrections\n"

@@ -65,7 +65,8 @@ void print_summary(const std::string &path, const LogReader &log, const ReplayCo
             too_large, log.last_error().c_str());
     }
     if (statistics.cut_short) {
-        std::fprintf(stderr, "ale-replay: %s: the packed file is cut short or damaged; read what came before\n",
+        std::fprintf(stderr,
+                     "ale-replay: %s: the packed file is cut short or damaged; read what came before\n",
                      path.c_str());
     }
 }
