@@ -142,7 +142,7 @@ static const char *bunzip2_stream(const uint8_t **bytes, size_t *count, buffer_t
         if (!wrong) {
             const unsigned room = step_size(out->capacity - out->count);
             const unsigned given = step_size(*count);
-            stream.next_in = (char *)(uintptr_t)*bytes;
+            stream.next_in = (char *)*bytes; /* the library reads it only */
             stream.avail_in = given;
             stream.next_out = (char *)out->at + out->count;
             stream.avail_out = room;
