@@ -76,8 +76,8 @@ bool ale_pipeline_seen(const ale_pipeline_t *pipeline, ale_seen_t *out);
 void ale_pipeline_copy_map(const ale_pipeline_t *pipeline, ale_map_t *out);
 
 /* Starts from a known map, lost until found; known: the robot is said to be at this pose, which is looked at
- * first and believed once a scan fits the map there. number: what keyframes and sightings of this map say in
- * `loaded`, not 0; whoever loads more than one numbers them. */
+ * first and believed once a scan fits the map there. number: what keyframes and scan observations of this map
+ * say in `loaded`, not 0; whoever loads more than one numbers them. */
 void ale_pipeline_load_map(ale_pipeline_t *pipeline, const ale_map_t *map, uint32_t number, ale_pose_t pose,
                            bool known);
 

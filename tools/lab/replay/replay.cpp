@@ -71,7 +71,7 @@ class Replay
     std::optional<Loops> loops_;
     std::optional<ObservationRecord> record_; /* when a map is asked for that may be drawn anew */
     std::unique_ptr<ale_map_t> known_;        /* loaded; until the record knows it */
-    std::unique_ptr<ale_scan_observation_t> sighting_ = std::make_unique<ale_scan_observation_t>();
+    std::unique_ptr<ale_scan_observation_t> observation_ = std::make_unique<ale_scan_observation_t>();
     std::vector<ScanPose> track_;
     StageClock clock_;
     ReplayCounts counts_;
@@ -199,12 +199,12 @@ void Replay::put_estimate(const ale_estimate_t &estimate)
     if (loops_) {
         loops_->after_scan(pipeline_.get(), estimate);
     }
-    if (record_ && ale_pipeline_scan_observation(pipeline_.get(), sighting_.get())) {
+    if (record_ && ale_pipeline_scan_observation(pipeline_.get(), observation_.get())) {
         if (known_) {
-            record_->set_prior_map(sighting_->epoch, *known_);
+            record_->set_prior_map(observation_->epoch, *known_);
             known_.reset();
         }
-        record_->add(*sighting_);
+        record_->add(*observation_);
     }
     counts_.weak += estimate.state == ALE_STATE_WEAK;
     counts_.lost += estimate.state == ALE_STATE_LOST;
