@@ -94,24 +94,22 @@ static ale_registered_t register_to_scan(ale_pipeline_t *p, const ale_prediction
     };
 }
 
-/* Length of what the last scan confirms of this one at a pose, less what it denies; of how much in all. */
-static int64_t balance_um(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t pose, int64_t *shown_um)
+/* What the last scan says of this one if it was taken from a pose. */
+static ale_testimony_t testimony_at(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t pose)
 {
     const ale_slack_t slack = {SLACK_UM, 0, false};
     const ale_seen_t seen = ale_pipeline_seen_from(p, before, pose);
-    const ale_testimony_t testimony = ale_witness_hear(&p->witness, &seen, slack);
-    *shown_um = testimony.shown_um;
-    return testimony.confirmed_um - testimony.denied_um;
+    return ale_witness_hear(&p->witness, &seen, slack);
 }
 
 /* Whether the last scan confirms so much more of this one at the registered pose than where the map puts it
  * that what the map says was found by chance. */
 static bool is_preferred(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t registered, ale_pose_t fitted)
 {
-    int64_t shown_um;
-    int64_t fitted_shown_um;
-    const int64_t there_um = balance_um(p, before, registered, &shown_um);
-    return PREFER_PARTS * (there_um - balance_um(p, before, fitted, &fitted_shown_um)) > shown_um;
+    const ale_testimony_t there = testimony_at(p, before, registered);
+    const ale_testimony_t here = testimony_at(p, before, fitted);
+    return PREFER_PARTS * (there.confirmed_um - there.denied_um - (here.confirmed_um - here.denied_um)) >
+           there.shown_um;
 }
 
 /* What the earlier scan says instead of the prediction. */
