@@ -69,7 +69,9 @@ static void take_reply(scip_t *scip, const ale_scip_event_t *event)
     }
     if ((strcmp(event->echo, "PP") == 0 || strcmp(event->echo, "V") == 0) &&
         ale_urg_geometry_valid(&scip->identity.geometry)) {
-        ale_urg_stream_describe(&scip->stream, &scip->identity.geometry);
+        ale_urg_played_t played = scip->identity.played;
+        played.zero_us = ALE_URG_PLAYED_ZERO_UNKNOWN;
+        ale_urg_stream_describe(&scip->stream, &scip->identity.geometry, &played);
     }
 }
 

@@ -24,6 +24,7 @@ typedef struct {
      * times time_scale. */
     int64_t (*now_us)(void *user);
     void *now_user;
+    int64_t utime_offset_us; /* by which the clock of messages is ahead of now_us */
 } ale_scanner_config_t;
 
 typedef enum {
@@ -72,6 +73,7 @@ typedef struct {
     int64_t clock_offset_us;    /* sensor's clock to host's, at the last scan */
     int32_t clock_rate_ppb;     /* sensor's clock against host's */
     int32_t scan_period_us;     /* measured */
+    int32_t silence_ms;         /* time without a scan after which the sensor counts as silent */
 } ale_scanner_health_t;
 
 #endif

@@ -39,6 +39,7 @@ static ale_scanner_config_t scanner_config(const ale_config_t *config, const ale
         .tap_user = exchange->recorder,
         .now_us = robot_clock,
         .now_user = (void *)clock,
+        .utime_offset_us = clock->offset_us,
     };
 }
 

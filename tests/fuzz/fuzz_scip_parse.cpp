@@ -109,7 +109,7 @@ class Reader
     void follow(const ale_scip_event_t &event)
     {
         if (ale_urg_geometry_valid(&identity_.geometry)) {
-            ale_urg_stream_describe(&stream_, &identity_.geometry);
+            ale_urg_stream_describe(&stream_, &identity_.geometry, &identity_.played);
         }
         if (event.has_request && !ale_scip_request_same_ranges(&event.request, &stream_.request)) {
             ale_urg_stream_begin(&stream_, &event.request);

@@ -143,6 +143,7 @@ def test_the_trajectory_is_the_way_driven(room_log, tmp_path, odometry):
         assert pose["scan"] == k and len(pose["cov"]) == 9 and len(pose["information"]) == 6
         assert pose["state"] in (0, 1, 2) and {"x", "y", "theta", "map_x", "map_y", "map_theta", "lag_us"} <= set(pose)
         assert pose["map_x"] == live[k][1]
+        assert list(pose.items())[-3:] == [("map_id", 0), ("maps", 1), ("wheel_fault", "fine")]
 
 
 def test_the_frame_of_the_laser_is_ahead_of_the_robots(room_log, tmp_path):

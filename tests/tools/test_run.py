@@ -1,16 +1,20 @@
 """`make run`: the whole chain from the orchestrator's side."""
+import math
 import os
 import pathlib
 import re
 import shutil
 import signal
 import subprocess
+import sys
 
 import pytest
 
-from at_hand import BINARIES
+from at_hand import BINARIES, WORLDS
 
 RUN = pathlib.Path("tools/make/run.py")
+LOG_SPEEDS = (40, 20, 10)
+SAME_END_M = 0.01
 SPEEDS = (4, 2, 1)  # slower where the machine is too busy to send or to hear all of it
 WORLD = """# a room and a half, and a short way
 -1 -1 3 -1
@@ -74,6 +78,83 @@ def test_a_short_drive_goes_through_the_whole_chain(build, world):
     x, y = map(float, lines[-1].split()[1:3])
     assert (x, y) == pytest.approx((2.2, 0.6), abs=0.05)
     assert programs_of(build) == []
+
+
+def uneven(stamp, k):
+    """Stamps as logs have them: a scan now and then, pauses, steps back, a queue that was emptied."""
+    pauses = 2.7 * (k // 40) + (9 if k >= 100 else 0)
+    return 3 * stamp + pauses + {3: 0.21, 11: -0.43, 19: -0.4999}.get(k % 23, 0.000137 * (k % 7))
+
+
+def write_uneven_log(path):
+    """A drive through the home of which only every third scan was recorded."""
+    whole = path.with_suffix(".whole")
+    subprocess.run([BINARIES / "ale-sim", "--world", WORLDS / "home.world", "--write-log", whole], check=True,
+                   capture_output=True)
+    lines = whole.read_text(encoding="utf-8").splitlines()
+    kept = [line.split() for line in lines if line.startswith("ROBOTLASER1")][::3]
+    for k, words in enumerate(kept):
+        words[-3] = words[-1] = f"{uneven(float(words[-3]), k):.6f}"
+    path.write_text("\n".join(["# beam_time_us 97.65625 stamp_beam 340", *map(" ".join, kept)]) + "\n", encoding="utf-8")
+    return len(kept)
+
+
+def end_of(trajectory):
+    return tuple(map(float, trajectory.read_text().splitlines()[-1].split()[1:3]))
+
+
+def test_an_uneven_log_ends_over_the_line_where_its_replay_ends(build, tmp_path):
+    log = tmp_path / "uneven.log"
+    scans = write_uneven_log(log)
+    for speed in LOG_SPEEDS:
+        running = start(build, "--log", log, "--speed", speed)
+        out, err = running.communicate(timeout=300)
+        if running.returncode == 0:
+            break
+        assert "is too fast for this computer" in err, err
+    assert running.returncode == 0, out + err
+    assert f"{scans} scans sent, {scans} poses came" in out
+    assert re.search(rf"{scans} poses, 0 missing, 0 predicted", out)
+    assert "silent" not in (build / "run" / "ale-slamd.log").read_text()
+    replayed = tmp_path / "replayed.tum"
+    subprocess.run([BINARIES / "ale-replay", log, "--trajectory-live", replayed], check=True, capture_output=True)
+    assert math.dist(end_of(build / "run" / "trajectory.tum"), end_of(replayed)) < SAME_END_M
+    assert "the drive ends where ale-replay ends" in out
+
+
+def held_up(build):
+    """A build folder whose firmware stands still for half a second, again and again, as on a computer that is too slow."""
+    folder = build.parent / "slow"
+    (folder / "bin").mkdir(parents=True)
+    for program in BINARIES.resolve().iterdir():
+        (folder / "bin" / program.name).symlink_to(program)
+    (folder / "bin" / "ale-slamd").unlink()
+    wrapper = folder / "bin" / "ale-slamd"
+    wrapper.write_text(f"""#!{sys.executable}
+import signal, subprocess, sys, time
+firmware = subprocess.Popen([{str((BINARIES / "ale-slamd").resolve())!r}, *sys.argv[1:]])
+over = []
+signal.signal(signal.SIGTERM, lambda *_: over.append(True))
+while not over and firmware.poll() is None:
+    time.sleep(0.5)
+    firmware.send_signal(signal.SIGSTOP)
+    time.sleep(0.5)
+    firmware.send_signal(signal.SIGCONT)
+firmware.terminate()
+sys.exit(firmware.wait())
+""")
+    wrapper.chmod(0o755)
+    return folder
+
+
+def test_a_speed_that_the_computer_cannot_follow_is_said(build, world):
+    world.write_text(WORLD + "# via 0 0\n# via 2.2 0.6\n")
+    running = start(held_up(build), "--world", world, "--speed", 20)
+    out, err = running.communicate(timeout=300)
+    assert running.returncode == 1, out + err
+    assert len(err.splitlines()) == 1
+    assert re.search(r"20 times the speed is too fast for this computer: .*[1-9]\d* .*Try SPEED=10$", err.strip()), err
+    assert programs_of(build.parent / "slow") == []
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

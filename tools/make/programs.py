@@ -152,8 +152,10 @@ def last_number(pattern, lines):
 class Tally:
     """Poses as ale-watch counts them, once a second."""
 
-    def __init__(self, watch):
+    def __init__(self, watch, pause_seconds=0):
+        """pause_seconds: as long as it may be that no scan is due."""
         self.watch = watch
+        self.stall_seconds = STALL_SECONDS + pause_seconds
         self.before = 0
         self.changed = time.monotonic()
 
@@ -161,12 +163,18 @@ class Tally:
     def poses(self):
         return last_number(r"poses +(\d+)", self.watch.lines) or 0
 
-    def require_progress(self):
-        now = time.monotonic()
+    def rests(self, seconds):
+        """No new pose for so long."""
+        self._look()
+        return time.monotonic() - self.changed > seconds
+
+    def _look(self):
         if self.poses != self.before:
-            self.before, self.changed = self.poses, now
-        elif now - self.changed > STALL_SECONDS:
-            raise Failure(f"no new pose for {STALL_SECONDS} s, after {self.before}; see {self.watch.log.parent}")
+            self.before, self.changed = self.poses, time.monotonic()
+
+    def require_progress(self):
+        if self.rests(self.stall_seconds):
+            raise Failure(f"no new pose for {self.stall_seconds:.0f} s, after {self.before}; see {self.watch.log.parent}")
 
 
 def positive(text):

@@ -84,20 +84,21 @@ static int32_t *number_of(ale_urg_geometry_t *geometry, const char *key)
     return NULL;
 }
 
-void ale_urg_identity_line(ale_urg_identity_t *identity, const char *text, bool sum_right)
+/* A number of the geometry. DMIN begins the parameters: what was said before of a recording no longer holds.
+ */
+static void take_number(ale_urg_identity_t *identity, int32_t *number, const char *value)
 {
-    identity->warnings += !sum_right;
-    if (strlen(text) <= KEY || text[KEY] != ':') {
-        return;
+    if (number == &identity->geometry.range_min_mm) {
+        identity->played = (ale_urg_played_t){0};
     }
-    const char *value = text + KEY + 1;
-    int32_t *number = number_of(&identity->geometry, text);
-    if (number != NULL) {
-        if (sum_right && !read_number(value, number)) {
-            identity->warnings++;
-        }
-    } else if (strncmp(text, "MODL", KEY) == 0 ||
-               (strncmp(text, "PROD", KEY) == 0 && identity->device.model[0] == '\0')) {
+    identity->warnings += !read_number(value, number);
+}
+
+/* What is shown even under a wrong sum. */
+static void take_text(ale_urg_identity_t *identity, const char *text, const char *value)
+{
+    if (strncmp(text, "MODL", KEY) == 0 ||
+        (strncmp(text, "PROD", KEY) == 0 && identity->device.model[0] == '\0')) {
         snprintf(identity->device.model, sizeof identity->device.model, "%s", value);
     } else if (strncmp(text, "FIRM", KEY) == 0) {
         snprintf(identity->device.firmware, sizeof identity->device.firmware, "%s", value);
@@ -106,6 +107,23 @@ void ale_urg_identity_line(ale_urg_identity_t *identity, const char *text, bool 
         snprintf(identity->device.serial, sizeof identity->device.serial, "%s", value);
     } else if (strncmp(text, "STAT", KEY) == 0) {
         snprintf(identity->status, sizeof identity->status, "%s", value);
+    }
+}
+
+void ale_urg_identity_line(ale_urg_identity_t *identity, const char *text, bool sum_right)
+{
+    identity->warnings += !sum_right;
+    if (strlen(text) <= KEY || text[KEY] != ':') {
+        return;
+    }
+    const char *value = text + KEY + 1;
+    int32_t *number = number_of(&identity->geometry, text);
+    if (number == NULL && strncmp(text, "PLAY", KEY) != 0) {
+        take_text(identity, text, value);
+    } else if (sum_right && number != NULL) {
+        take_number(identity, number, value);
+    } else if (sum_right) {
+        identity->warnings += !ale_urg_played_parse(value, &identity->played);
     }
 }
 

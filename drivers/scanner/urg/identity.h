@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "scanner/scanner_types.h"
+#include "scanner/urg/played.h"
 
 typedef struct {
     int32_t range_min_mm;   /* DMIN */
@@ -22,7 +23,8 @@ typedef struct {
     ale_scanner_identity_t device; /* MODL, or PROD until that is known; FIRM; SERI */
     char status[128];              /* STAT */
     ale_urg_geometry_t geometry;
-    uint32_t warnings; /* lines with a wrong sum or an unreadable value */
+    ale_urg_played_t played; /* PLAY; all zero: this is no recording */
+    uint32_t warnings;       /* lines with a wrong sum or an unreadable value */
 } ale_urg_identity_t;
 
 /* Empty texts and the geometry of the URG-04LX's data sheet. */

@@ -138,7 +138,9 @@ static ale_urg_action_t set_baud(ale_urg_t *urg, int32_t baud)
 static void tell_stream(ale_urg_t *urg, uint32_t what)
 {
     if ((what & ALE_URG_STREAM_DESCRIBE) != 0) {
-        ale_urg_stream_describe(&urg->stream, &urg->dialogue.identity.geometry);
+        ale_urg_played_t played = urg->dialogue.identity.played;
+        played.zero_us -= urg->config.utime_offset_us;
+        ale_urg_stream_describe(&urg->stream, &urg->dialogue.identity.geometry, &played);
     }
     if ((what & ALE_URG_STREAM_FORGET_CLOCK) != 0) {
         ale_urg_stream_forget_clock(&urg->stream);
@@ -279,6 +281,13 @@ static void tap_received(const ale_urg_t *urg, const uint8_t *bytes, uint32_t co
     }
 }
 
+/* Time without a scan after which the stream counts as dead. */
+static int32_t silence_ms(const ale_urg_t *urg)
+{
+    const int32_t played_ms = urg->stream.played.silence_ms;
+    return played_ms > 0 ? played_ms : ale_urg_frames_silence_ms(ale_urg_stream_turn_us(&urg->stream));
+}
+
 static void take_scan(ale_urg_t *urg, const ale_scip_event_t *event)
 {
     ale_scanner_health_t *h = &urg->health;
@@ -287,12 +296,13 @@ static void take_scan(ale_urg_t *urg, const ale_scip_event_t *event)
     h->clock_offset_us = urg->stream.clock.offset_us;
     h->clock_rate_ppb = urg->stream.clock.rate_ppb;
     h->scan_period_us = urg->stream.period_us;
+    h->silence_ms = silence_ms(urg);
     if (ale_urg_frames_proved(&urg->frames)) {
         urg->open_failures = 0;
         ale_urg_dialogue_proved(&urg->dialogue);
     }
     if (ale_urg_dialogue_scan(&urg->dialogue)) {
-        set_deadline(urg, ale_urg_frames_silence_ms(ale_urg_stream_turn_us(&urg->stream)));
+        set_deadline(urg, h->silence_ms);
     }
     tell_state(urg);
 }

@@ -353,7 +353,8 @@ static ale_urg_action_t on_start(ale_urg_dialogue_t *d, const ale_scip_event_t *
 {
     if (strcmp(reply->status, "00") == 0) {
         d->phase = ALE_PHASE_WARM_UP;
-        return (ale_urg_action_t){.wait_ms = ALE_URG_FIRST_SCAN_MS};
+        const int64_t wait_ms = ale_max64(ALE_URG_FIRST_SCAN_MS, d->identity.played.silence_ms);
+        return (ale_urg_action_t){.wait_ms = (int32_t)wait_ms};
     }
     snprintf(d->reason, sizeof d->reason, "the sensor refuses to measure: status %s", reply->status);
     return act(ALE_URG_FAIL, d->reason);

@@ -19,11 +19,13 @@ void ale_urg_stream_init(ale_urg_stream_t *stream, bool reversed)
     stream->reversed = reversed;
     ale_urg_identity_t identity;
     ale_urg_identity_init(&identity);
-    ale_urg_stream_describe(stream, &identity.geometry);
+    ale_urg_stream_describe(stream, &identity.geometry, &identity.played);
 }
 
-void ale_urg_stream_describe(ale_urg_stream_t *stream, const ale_urg_geometry_t *geometry)
+void ale_urg_stream_describe(ale_urg_stream_t *stream, const ale_urg_geometry_t *geometry,
+                             const ale_urg_played_t *played)
 {
+    stream->played = *played;
     const bool known = memcmp(&stream->geometry, geometry, sizeof *geometry) == 0;
     if (!known) {
         stream->geometry = *geometry;
@@ -90,6 +92,23 @@ static void account_for_gap(ale_urg_stream_t *stream, int64_t interval_us)
     follow_period(stream, interval_us, turns);
 }
 
+static bool is_played(const ale_urg_stream_t *stream)
+{
+    return stream->played.silence_ms > 0;
+}
+
+/* Best known time of a frame that cannot be used. */
+static int64_t time_of_lost(const ale_urg_stream_t *stream, const ale_scip_event_t *event)
+{
+    const bool clock_known = stream->played.zero_us != ALE_URG_PLAYED_ZERO_UNKNOWN;
+    if (is_played(stream) && event->stamp_known && clock_known) {
+        return ale_urg_played_us(&stream->played, event->stamp_ms, event->first_us);
+    }
+    return event->stamp_known && stream->clock.started
+               ? ale_sensor_clock_host_us(&stream->clock, event->stamp_ms)
+               : event->first_us - ale_urg_period_us(&stream->geometry);
+}
+
 static ale_frame_t lose(ale_urg_stream_t *stream, const ale_scip_event_t *event)
 {
     const bool timed = event->stamp_known && stream->clock.started;
@@ -98,8 +117,7 @@ static ale_frame_t lose(ale_urg_stream_t *stream, const ale_scip_event_t *event)
     }
     stream->losses++;
     stream->loss_waits = true;
-    stream->loss_stamp_us = timed ? ale_sensor_clock_host_us(&stream->clock, event->stamp_ms)
-                                  : event->first_us - ale_urg_period_us(&stream->geometry);
+    stream->loss_stamp_us = time_of_lost(stream, event);
     return ALE_FRAME_LOST;
 }
 
@@ -129,6 +147,37 @@ static bool time_of_stamped(ale_urg_stream_t *stream, const ale_scip_event_t *ev
     return true;
 }
 
+/* The same of a frame of a recording. Its scans keep a distance of a tick: the same stamp is the same scan.
+ */
+static bool time_of_played(ale_urg_stream_t *stream, const ale_scip_event_t *event, int64_t *stamp_us)
+{
+    ale_urg_played_t *played = &stream->played;
+    if (played->zero_us == ALE_URG_PLAYED_ZERO_UNKNOWN) {
+        const int64_t counted_us = (int64_t)event->stamp_ms * played->tick_us;
+        played->zero_us = event->first_us - ale_urg_period_us(&stream->geometry) - counted_us;
+    }
+    *stamp_us = ale_urg_played_us(played, event->stamp_ms, event->first_us);
+    return !stream->continuous || *stamp_us != stream->last_stamp_us;
+}
+
+static bool time_of(ale_urg_stream_t *stream, const ale_scip_event_t *event, int64_t *stamp_us)
+{
+    if (!event->stamp_known) {
+        *stamp_us = time_of_unstamped(stream, event);
+        return true;
+    }
+    return is_played(stream) ? time_of_played(stream, event, stamp_us)
+                             : time_of_stamped(stream, event, stamp_us);
+}
+
+static void fill(ale_urg_stream_t *stream, const ale_scip_event_t *event, int64_t stamp_us)
+{
+    ale_urg_fill_scan(&stream->geometry, event, stamp_us, stream->period_us, stream->reversed, &stream->scan);
+    if (is_played(stream) && event->stamp_known) {
+        ale_urg_played_place(&stream->played, &event->request, stamp_us, stream->reversed, &stream->scan);
+    }
+}
+
 ale_frame_t ale_urg_stream_take(ale_urg_stream_t *stream, const ale_scip_event_t *event)
 {
     if (event->kind == ALE_SCIP_LOST) {
@@ -138,15 +187,13 @@ ale_frame_t ale_urg_stream_take(ale_urg_stream_t *stream, const ale_scip_event_t
         return ALE_FRAME_FOREIGN;
     }
     int64_t stamp_us = 0;
-    if (!event->stamp_known) {
-        stamp_us = time_of_unstamped(stream, event);
-    } else if (!time_of_stamped(stream, event, &stamp_us)) {
+    if (!time_of(stream, event, &stamp_us)) {
         return ALE_FRAME_REPEATED;
     }
     stream->continuous = event->stamp_known;
     stream->losses = 0;
     stream->last_stamp_us = stamp_us;
-    ale_urg_fill_scan(&stream->geometry, event, stamp_us, stream->period_us, stream->reversed, &stream->scan);
+    fill(stream, event, stamp_us);
     stream->scan_waits = true;
     return ALE_FRAME_SCAN;
 }

@@ -3,7 +3,7 @@
  * driver feeds it from the port, a reader of recordings from a file.
  *
  *   ale_urg_stream_init(&stream, reversed);
- *   ale_urg_stream_describe(&stream, &identity.geometry);
+ *   ale_urg_stream_describe(&stream, &identity.geometry, &identity.played);
  *   ale_urg_stream_begin(&stream, &request);                     when the stream is (re)started
  *   ale_urg_stream_take(&stream, &event);                        for each SCAN or LOST of the parser
  *   while ((kind = ale_urg_stream_next(&stream, &scan)) != ALE_SCANNER_IDLE) ...
@@ -31,6 +31,7 @@ typedef enum {
 typedef struct {
     bool reversed;
     ale_urg_geometry_t geometry;
+    ale_urg_played_t played;
     ale_scip_request_t request;
     ale_sensor_clock_t clock;
     int32_t period_us; /* of one turn, measured */
@@ -50,8 +51,10 @@ typedef struct {
 
 void ale_urg_stream_init(ale_urg_stream_t *stream, bool reversed);
 
-/* Takes the sensor's numbers; they must be valid (ale_urg_geometry_valid). */
-void ale_urg_stream_describe(ale_urg_stream_t *stream, const ale_urg_geometry_t *geometry);
+/* Takes the sensor's numbers, which must be valid (ale_urg_geometry_valid), and what it says of a recording.
+ * Of a played one every stamp is right as it is: neither its gaps nor its steps back say anything. */
+void ale_urg_stream_describe(ale_urg_stream_t *stream, const ale_urg_geometry_t *geometry,
+                             const ale_urg_played_t *played);
 
 /* A stream with this request begins: gaps in the stamps before it are no losses. */
 void ale_urg_stream_begin(ale_urg_stream_t *stream, const ale_scip_request_t *request);

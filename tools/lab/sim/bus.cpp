@@ -35,6 +35,7 @@ OdometryOut::OdometryOut(const std::string &url)
 void OdometryOut::publish(int64_t utime, const Pose &pose)
 {
     const ale_odometry_t sample = {utime, core_pose(pose)};
+    ale_bus_send_exact_odometry(bus_.get(), &sample);
     ale_bus_send_odometry(bus_.get(), &sample);
 }
 

@@ -13,8 +13,10 @@ namespace sim
 class Clock
 {
   public:
+    /* The speed counts in millionths, as in the firmware. */
     explicit Clock(double speed)
-        : speed_(speed), start_us_(read(CLOCK_MONOTONIC)), start_utime_us_(read(CLOCK_REALTIME))
+        : speed_(std::round(speed * 1e6) / 1e6L), start_us_(read(CLOCK_MONOTONIC)),
+          start_utime_us_(read(CLOCK_REALTIME))
     {
     }
 
@@ -29,7 +31,7 @@ class Clock
     /* How long the host has to wait for that much simulated time. */
     int64_t host_duration_us(int64_t simulated_us) const
     {
-        return static_cast<int64_t>(std::ceil(static_cast<double>(simulated_us) / speed_));
+        return static_cast<int64_t>(std::ceil(static_cast<long double>(simulated_us) / speed_));
     }
     /* What messages carry: the time of day, times the speed. A receiver that counts the same way agrees
      * without any exchange. */
@@ -50,7 +52,7 @@ class Clock
         return static_cast<int64_t>(std::llround(static_cast<long double>(us) * speed_));
     }
 
-    double speed_;
+    long double speed_;
     int64_t start_us_;
     int64_t start_utime_us_;
 };

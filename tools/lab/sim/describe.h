@@ -3,10 +3,14 @@
 #define ALE_LAB_SIM_DESCRIBE_H
 
 #include <cstdint>
+#include <optional>
 #include <string>
-#include <vector>
 
 #include "lab/sim/device/scanner.h"
+
+extern "C" {
+#include "base/noise.h"
+}
 
 namespace sim
 {
@@ -15,7 +19,7 @@ struct Description {
     std::string origin; /* for people */
     bool has_sensor = false;
     Pose sensor;
-    std::vector<BlindSector> blind;
+    std::optional<ale_noise_t> noise; /* nothing: that of a URG-04LX */
     bool has_odometry = false;
     int64_t lag_us = 0;
 };

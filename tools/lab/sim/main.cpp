@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/command_line/interrupt.h"
+#include "common/log/log_noise.h"
 #include "lab/sim/bus.h"
 #include "lab/sim/describe.h"
 #include "lab/sim/log_source.h"
@@ -45,7 +46,9 @@ void describe(const sim::Options &options)
         description.has_sensor = info.has_sensor;
         description.sensor = {sim::metres(info.sensor.x_um), sim::metres(info.sensor.y_um),
                               sim::radians(info.sensor.theta_bam)};
-        description.blind = log.blind();
+        if (!info.urg_noise) {
+            description.noise = ale::noise_of_log(info);
+        }
         description.has_odometry = info.has_odometry && options.odometry;
         description.lag_us = info.lag_prior_us;
     }
@@ -93,7 +96,7 @@ void play(const sim::Options &options)
     } else if (!options.world.empty()) {
         source = std::make_unique<sim::WorldSource>(world_of(options), options.world_source);
     } else {
-        source = std::make_unique<sim::LogSource>(options.log, options.once);
+        source = std::make_unique<sim::LogSource>(options.log, options.once, options.simulator.speed);
     }
     std::unique_ptr<sim::OdometryOut> odometry;
     if (options.odometry) {

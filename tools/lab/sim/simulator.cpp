@@ -20,9 +20,9 @@ constexpr int64_t farewell_host_us = 500000;
 constexpr int64_t longest_farewell_host_us = 10000000;
 constexpr int64_t farewell_look_host_us = 50000;
 
-ScipDevice::Options device_options(const SimulatorOptions &options, const Faults &faults)
+ScipDevice::Options device_options(const SimulatorOptions &options, const Faults &faults, const Clock &clock)
 {
-    return {options.protocol, options.command_interval_us, faults.wrap_us()};
+    return {options.protocol, options.command_interval_us, faults.wrap_us(), clock.utime(0), options.speed};
 }
 
 } // namespace
@@ -30,8 +30,9 @@ ScipDevice::Options device_options(const SimulatorOptions &options, const Faults
 Simulator::Simulator(Source &source, const SimulatorOptions &options, OdometryOut *odometry, DriveIn *drive,
                      std::FILE *truth)
     : source_(source), odometry_(odometry), drive_(drive), truth_(truth), clock_(options.speed),
-      faults_(options.faults, options.seed), device_(source.scanner(), device_options(options, faults_)),
-      pty_(options.link), line_(options.baud_limit)
+      faults_(options.faults, options.seed),
+      device_(source.scanner(), device_options(options, faults_, clock_)), pty_(options.link),
+      line_(options.baud_limit)
 {
 }
 

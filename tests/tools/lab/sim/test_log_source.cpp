@@ -1,6 +1,7 @@
 // A recorded log played: scans in their steps, paced by the stamps, odometry in between.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
@@ -59,16 +60,68 @@ TEST_F(Played, beams_lie_in_the_steps_of_their_bearings)
     EXPECT_EQ(played[0].value_mm[382], 19);
 }
 
-TEST_F(Played, stamps_pace_the_scans_and_wild_steps_are_a_tenth_of_a_second)
+TEST_F(Played, stamps_are_those_of_the_log_and_pace_the_scans)
 {
     write(urg_line(10.0) + urg_line(10.13) + urg_line(10.2) + urg_line(10.1) + urg_line(10.25) +
-          urg_line(99) + urg_line(99.1));
+          urg_line(29.75));
     sim::LogSource source(path, true);
     std::vector<int64_t> starts;
+    std::vector<int64_t> stamps;
     for (const sim::Turn &turn : turns(source)) {
         starts.push_back(turn.start_us);
+        stamps.push_back(turn.recorded_us);
     }
-    EXPECT_EQ(starts, (std::vector<int64_t>{0, 130000, 200000, 300000, 450000, 550000, 650000}));
+    EXPECT_EQ(stamps, (std::vector<int64_t>{0, 130000, 200000, 100000, 250000, 19750000}));
+    EXPECT_TRUE(std::is_sorted(starts.begin(), starts.end()))
+        << "a scanner sends in the order in which it measures";
+    EXPECT_EQ(starts[1], 130000);
+    EXPECT_EQ(starts[5], 19750000);
+    ASSERT_TRUE(source.scanner().recorded);
+    EXPECT_EQ(source.scanner().recorded->longest_gap_us, 19500000);
+}
+
+TEST_F(Played, a_clock_that_was_set_and_a_long_pause_are_three_seconds)
+{
+    write(urg_line(10.0) + urg_line(99) + urg_line(99.1) + urg_line(97) + urg_line(97.1));
+    sim::LogSource source(path, true);
+    std::vector<int64_t> stamps;
+    for (const sim::Turn &turn : turns(source)) {
+        stamps.push_back(turn.recorded_us);
+    }
+    EXPECT_EQ(stamps, (std::vector<int64_t>{0, 3000000, 3100000, 6100000, 6200000}));
+}
+
+TEST_F(Played, equal_stamps_keep_a_microsecond)
+{
+    write(urg_line(10.0) + urg_line(10.0) + urg_line(10.1));
+    sim::LogSource source(path, true);
+    const auto played = turns(source);
+    EXPECT_EQ(played[1].recorded_us, 1);
+    EXPECT_EQ(played[2].recorded_us, 100000);
+}
+
+TEST_F(Played, scans_and_odometry_go_out_in_the_order_of_the_log)
+{
+    const auto odom = [](double t) {
+        char text[100];
+        std::snprintf(text, sizeof text, "ODOM %.3f 0 0 0 0 0 %.3f sim %.3f\n", t, t, t);
+        return std::string(text);
+    };
+    const auto blank = [](double t) { return urg_line(t, "1 1 1", 0); };
+    write(odom(9.9) + blank(10.0) + odom(10.02) + odom(10.08) + blank(10.1) + odom(10.0) + blank(10.3));
+    sim::LogSource source(path, true, 20);
+    std::string order;
+    int64_t before_us = -1000000;
+    while (source.due_us()) {
+        EXPECT_GE(*source.due_us(), before_us);
+        before_us = *source.due_us();
+        const sim::Event event = source.next();
+        order += std::holds_alternative<sim::Turn>(event) ? 's' : 'o';
+        if (source.due_us() && std::holds_alternative<sim::Turn>(event)) {
+            EXPECT_GT(*source.due_us(), before_us) << "what follows a scan does not overtake it";
+        }
+    }
+    EXPECT_EQ(order, "osoosos");
 }
 
 TEST_F(Played, odometry_of_a_line_has_the_scans_time_and_comes_before_it)

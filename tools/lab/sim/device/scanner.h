@@ -3,6 +3,7 @@
 #define ALE_LAB_SIM_SCANNER_H
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,18 @@
 
 namespace sim
 {
+
+/* How the scans of a recording lie in bearing and time. SCIP has no word for it: PP says it in a line of its
+ * own. */
+struct Recorded {
+    int64_t longest_gap_us = 0; /* between two scans */
+    int32_t stamp_step = 0;     /* that the stamps belong to */
+    int32_t step_ns = 0;        /* from step to step; 0: a scan was taken at once */
+    int32_t origin_bam = 0;     /* bearing of step 0 */
+    int32_t step_bam = 0;
+    int32_t blind_before = 0; /* steps before this one, and from the other on, look at the robot itself */
+    int32_t blind_from = 0;
+};
 
 /* The values of a real URG-04LX, firmware 3.1.04. Steps count counter-clockwise from the right rear. */
 struct Scanner {
@@ -25,6 +38,7 @@ struct Scanner {
     int32_t front_step = 384;  /* AFRT */
     int32_t end_step = 768;    /* the last step that may be asked for */
     int32_t rpm = 600;         /* SCAN */
+    std::optional<Recorded> recorded;
 
     int64_t period_us() const
     {
@@ -41,12 +55,6 @@ struct Scanner {
     }
 };
 
-/* Bearings that see the robot itself, degrees counter-clockwise. */
-struct BlindSector {
-    double from = 0;
-    double to = 0;
-};
-
 /* Code of a step that is outside the field of view. */
 constexpr int32_t not_a_step = 19;
 
@@ -54,6 +62,7 @@ constexpr int32_t not_a_step = 19;
 struct Turn {
     uint32_t number = 0;
     int64_t start_us = 0;          /* passage of step 0: the device's stamp */
+    int64_t recorded_us = 0;       /* stamp of a recording: the scanner's clock may have been set back */
     std::vector<int32_t> value_mm; /* of steps 0..end_step, error codes included */
 };
 

@@ -47,16 +47,19 @@ Reply ScipDevice::identity(const std::string &echo) const
 
 Reply ScipDevice::parameters(const std::string &echo) const
 {
-    return ReplyWriter(echo, "00")
-        .info("MODL", scanner_.model)
+    ReplyWriter writer(echo, "00");
+    writer.info("MODL", scanner_.model)
         .info("DMIN", scanner_.min_mm)
         .info("DMAX", scanner_.max_mm)
         .info("ARES", scanner_.turn_steps)
         .info("AMIN", scanner_.first_step)
         .info("AMAX", scanner_.last_step)
         .info("AFRT", scanner_.front_step)
-        .info("SCAN", scanner_.rpm)
-        .reply();
+        .info("SCAN", scanner_.rpm);
+    if (scanner_.recorded) {
+        writer.info("PLAY", played());
+    }
+    return writer.reply();
 }
 
 Reply ScipDevice::condition(const std::string &echo) const

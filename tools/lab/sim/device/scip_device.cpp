@@ -4,6 +4,10 @@
 #include <functional>
 #include <map>
 
+extern "C" {
+#include "scanner/urg/played.h"
+}
+
 namespace sim
 {
 
@@ -15,6 +19,8 @@ constexpr size_t longest_string = 16;
 constexpr uint32_t clock_mask = 0xffffff;
 constexpr int64_t clock_span_us = 16777216000;
 constexpr int32_t factory_baud = 19200;
+constexpr int32_t recorded_tick_us = 1; /* 24 bits of them come round in 17 s */
+constexpr int64_t slack_ms = 1000;      /* by which a recording's scan may come later than by its stamp */
 
 bool all_of_string_allowed(const std::string &text)
 {
@@ -76,6 +82,35 @@ uint32_t ScipDevice::clock_ms(int64_t at_us) const
     return static_cast<uint32_t>(since_us / 1000) & clock_mask;
 }
 
+/* A recording's stamps count in finer ticks and from time 0 of now_us, whatever happens to the device. */
+uint32_t ScipDevice::stamp_of(const Turn &turn, int64_t device_start_us) const
+{
+    if (!scanner_.recorded) {
+        return clock_ms(device_start_us);
+    }
+    const int64_t at_us = device_start_us - turn.start_us + turn.recorded_us;
+    return static_cast<uint32_t>(at_us / recorded_tick_us) & clock_mask;
+}
+
+std::string ScipDevice::played() const
+{
+    const Recorded &recorded = *scanner_.recorded;
+    const auto host_slack_ms = static_cast<int64_t>(static_cast<double>(slack_ms) * options_.speed);
+    ale_urg_played_t played = {};
+    played.silence_ms = static_cast<int32_t>(recorded.longest_gap_us / 1000 + slack_ms + host_slack_ms);
+    played.zero_us = options_.utime_zero_us;
+    played.tick_us = recorded_tick_us;
+    played.stamp_step = recorded.stamp_step;
+    played.step_ns = recorded.step_ns;
+    played.origin_bam = recorded.origin_bam;
+    played.step_bam = recorded.step_bam;
+    played.blind_before = recorded.blind_before;
+    played.blind_from = recorded.blind_from;
+    char text[ALE_URG_PLAYED_TEXT];
+    ale_urg_played_format(&played, text);
+    return text;
+}
+
 void ScipDevice::receive(std::string_view bytes, int64_t now_us)
 {
     for (const char c : bytes) {
@@ -121,7 +156,7 @@ std::vector<Reply> ScipDevice::turn(const Turn &turn, int64_t device_start_us)
         return {};
     }
     last_turn_ = turn;
-    last_stamp_ms_ = clock_ms(device_start_us);
+    last_stamp_ = stamp_of(turn, device_start_us);
     std::vector<Reply> replies;
     if (waiting_) {
         const Waiting waiting = *waiting_;
@@ -175,7 +210,7 @@ Reply ScipDevice::ranges(const ale_scip_request_t &request, const std::string &e
     }
     ReplyWriter writer(echo, status);
     if (request.protocol == ALE_SCIP_2) {
-        writer.stamp(last_stamp_ms_);
+        writer.stamp(last_stamp_);
     }
     return writer.values(request.protocol, values, request.characters).reply(last_turn_->start_us);
 }

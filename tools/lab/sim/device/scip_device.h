@@ -39,6 +39,8 @@ class ScipDevice
         Protocol protocol = Protocol::scip2;
         int64_t command_interval_us = 0;       /* commands are served at most so often */
         std::optional<int64_t> clock_wraps_us; /* the millisecond counter passes 2^24 at this time */
+        int64_t utime_zero_us = 0; /* for recordings: the clock of messages at time 0 of now_us, */
+        double speed = 1;          /* which runs so much faster than the host's */
     };
 
     ScipDevice(const Scanner &scanner, const Options &options);
@@ -82,6 +84,8 @@ class ScipDevice
 
     void boot(int protocol, int64_t now_us);
     uint32_t clock_ms(int64_t at_us) const;
+    uint32_t stamp_of(const Turn &turn, int64_t device_start_us) const;
+    std::string played() const;
     void set_laser(bool on);
     Reply execute(const std::string &line);
     Reply execute_scip1(const std::string &line);
@@ -120,7 +124,7 @@ class ScipDevice
     std::optional<Turn> last_turn_;  /* measured whole since the laser is on */
     std::string line_;
     std::deque<std::string> commands_;
-    uint32_t last_stamp_ms_ = 0;
+    uint32_t last_stamp_ = 0;
     bool line_too_long_ = false;
     bool laser_ = false;
     bool time_mode_ = false;
