@@ -1,25 +1,13 @@
 #include "common/log/robot_config.h"
 
 #include "common/command_line/robot_files.h"
+#include "common/log/log_noise.h"
 
 namespace ale
 {
 
 namespace
 {
-
-/* SICK LMS 2xx and the like, by their data sheet: 5 mm (one sigma) and steps of 10 mm of each beam's own,
- * up to 15 mm of systematic error. */
-ale_noise_t noise_of_large_scanners()
-{
-    ale_noise_t noise = ale_noise_default();
-    noise.own_um = 6000;
-    noise.own_ppm = 0;
-    noise.shared_um = 5000;
-    noise.shared_ppm = 0;
-    noise.surface_um = 8000;
-    return noise;
-}
 
 void load(ale_config_t &config, const RobotOptions &options, const char *recorded)
 {
@@ -37,9 +25,7 @@ void load(ale_config_t &config, const RobotOptions &options, const char *recorde
 ale_config_t robot_config(const RobotOptions &options, const ale_log_info_t &info, const char *recorded)
 {
     ale_config_t config = ale_config_default();
-    if (!info.urg_noise) {
-        config.pipeline.extract.noise = noise_of_large_scanners();
-    }
+    config.pipeline.extract.noise = noise_of_log(info);
     if (info.has_sensor) {
         config.pipeline.sensor = info.sensor;
     }

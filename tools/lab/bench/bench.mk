@@ -25,6 +25,28 @@ bench-slam: ## localisation and mapping as tables, beside the best of other syst
 	@$(MAKE) --no-print-directory -s programs
 	@$(PYTHON) tools/lab/bench/slam_table.py --build $(BUILD) --seeds $(BENCH_SLAM_SEEDS) $(addprefix --only ,$(ONLY))
 
+# The same drives with faults in wheels, scans or place (faults/spoil.py).
+FAULTS_SEEDS ?= 1,2,3
+KINDS ?=
+ODOMETRY ?= on
+CARRIED ?= 0
+EACH ?=
+JOBS ?= 2
+.PHONY: bench-faults
+bench-faults: ## drives on which something goes wrong, as tables: long (FAULTS_SEEDS=1,2,3; ONLY=home,office; KINDS=gap,dark-8; ODOMETRY=off; CARRIED=100; EACH=1; JOBS=2)
+	@tools/make/deps.sh tools/make/packages-build.txt tools/make/packages-test.txt
+	@$(MAKE) --no-print-directory -s $(BUILD)/bin/ale-replay $(BUILD)/bin/ale-sim
+	@$(PYTHON) tools/lab/bench/faults/faults_table.py --build $(BUILD) --seeds $(FAULTS_SEEDS) $(addprefix --only ,$(ONLY)) $(addprefix --kinds ,$(KINDS)) \
+		--odometry $(ODOMETRY) --carried $(CARRIED) --jobs $(JOBS) $(if $(EACH),--each)
+
+LOG ?=
+RELATIONS ?=
+.PHONY: bench-published
+bench-published: ## the published benchmark, all relations, beside others (ONLY=aces; LOG=path RELATIONS=path: your own recording)
+	@tools/make/deps.sh tools/make/packages-build.txt tools/make/packages-test.txt
+	@$(MAKE) --no-print-directory -s $(BUILD)/bin/ale-replay $(BUILD)/bin/ale-sim
+	@$(PYTHON) tools/lab/bench/published_table.py --build $(BUILD) $(addprefix --only ,$(ONLY)) $(addprefix --log ,$(LOG)) $(addprefix --relations ,$(RELATIONS))
+
 POSES ?= 100
 .PHONY: relocalise
 relocalise: programs ## lost at random places of every bundled world, with a saved map (POSES=100)

@@ -57,13 +57,18 @@ def at_times(times, truth):
         np.interp(times, known, np.unwrap(headings))
 
 
+def aligned_errors(places, true_places):
+    """How far each place (complex) is off after the best rigid alignment."""
+    here, there = places - places.mean(), true_places - true_places.mean()
+    turn = np.angle(np.sum(there * here.conj()))
+    return np.abs(here * np.exp(1j * turn) - there)
+
+
 def trajectory_error(path, truth_path):
     """ATE after the best rigid alignment, mm, and relative error over one second, mm and degrees: root mean squares."""
     times, places, headings = read_tum(path)
     true_places, true_headings = at_times(times, read_tum(truth_path))
-    here, there = places - places.mean(), true_places - true_places.mean()
-    turn = np.sum(there * here.conj())
-    ate = np.sqrt(np.mean(np.abs(here * turn / abs(turn) - there) ** 2))
+    ate = np.sqrt(np.mean(aligned_errors(places, true_places) ** 2))
     after = np.searchsorted(times, times + 1 - 1e-6)
     first = np.flatnonzero(after < len(times))
     last = after[first]
@@ -108,9 +113,10 @@ class Bench:
         return live, final, f"{float(mean):.2f}, {float(longest):.2f}"
 
     def drive(self, world, seed):
-        """A simulated drive through a world of the tree, as a log, and its truth."""
+        """A simulated drive through a world of the tree, or a file, as a log, and its truth."""
+        plan = ROOT / f"tools/lab/worlds/{world}.world" if world in WORLDS else world
         log, truth = self.folder / "drive.log", self.folder / "truth.tum"
-        subprocess.run([self.build / "bin/ale-sim", "--world", ROOT / f"tools/lab/worlds/{world}.world", "--seed", seed,
+        subprocess.run([self.build / "bin/ale-sim", "--world", plan, "--seed", seed,
                         "--write-log", log, "--truth", truth], check=True, stdout=subprocess.DEVNULL)
         return log, truth
 
