@@ -180,6 +180,18 @@ static void tell_lost_realtime(const ale_daemon_t *daemon)
     }
 }
 
+/* What the computer, or a simulator that ran faster than it, left undone. */
+static void tell_shortfall(const ale_daemon_t *daemon)
+{
+    const ale_shortfall_t s = ale_estimator_shortfall(daemon->estimator);
+    if (s.overloaded > 0 || s.corrections_late > 0) {
+        fprintf(stderr,
+                "ale-slamd: this computer did not keep up: %u of %u scans set aside for newer ones, %u "
+                "corrections of the map late\n",
+                s.overloaded, s.scans, s.corrections_late);
+    }
+}
+
 void ale_daemon_stop(ale_daemon_t *daemon)
 {
     ale_drive_stop(daemon->drive);
@@ -192,6 +204,9 @@ void ale_daemon_stop(ale_daemon_t *daemon)
     ale_explore_stop(daemon->exchange.explore);
     ale_recorder_stop(daemon->recorder);
     ale_persistence_stop(daemon->persistence);
+    if (daemon->estimator) {
+        tell_shortfall(daemon);
+    }
     ale_estimator_destroy(daemon->estimator);
     if (daemon->exchange_open) {
         ale_exchange_close(&daemon->exchange);

@@ -6,7 +6,7 @@ import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / folder) for folder in ("tests/tools", "tests/tree", "tools/library/python", "tools/lab/bench",
-                                                   "tools/lab/figures")]
+                                                   "tools/lab/bench/faults", "tools/lab/figures")]
 
 from lcm_url import NoMulticast, ensure_multicast  # noqa: E402
 

@@ -8,12 +8,13 @@
 #include <string.h>
 
 #include <lcmtypes_ale_drive_t.h>
+#include <lcmtypes_ale_odometry_exact_t.h>
 #include <lcmtypes_bot_core_planar_lidar_t.h>
 #include <lcmtypes_bot_core_pose_t.h>
 
 #include "lcm/convert.h"
 
-enum { MAX_HANDLED = 64, MAX_WAITING = 256, MESSAGE_BYTES = 16384 };
+enum { MAX_HANDLED = 64, MAX_WAITING = 256, MESSAGE_BYTES = 16384, FARTHEST_UM = 2000000000 };
 
 struct ale_bus {
     lcm_t *lcm;
@@ -21,11 +22,13 @@ struct ale_bus {
     uint64_t unsent;
     ale_bus_odometry_t take_odometry;
     void *odometry_user;
+    int64_t exact_utime; /* of the last sample that came exactly */
     ale_bus_command_t take_command;
     void *command_user;
     ale_features_buffer_t features;
     ale_scan_buffer_t scan;
     ale_map_buffer_t map;
+    ale_pieces_buffer_t pieces;
     ale_status_buffer_t status;
     float bot_ranges[ALE_MAX_BEAMS];
     uint8_t bytes[MESSAGE_BYTES];
@@ -78,6 +81,14 @@ int ale_bus_send_pose(ale_bus_t *bus, const ale_pose_report_t *report)
                       lcmtypes_ale_pose_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
 }
 
+int ale_bus_send_tracking(ale_bus_t *bus, const ale_estimate_t *estimate)
+{
+    lcmtypes_ale_tracking_t message;
+    ale_convert_tracking(estimate, &message);
+    return send_bytes(bus, ALE_CHANNEL_TRACKING,
+                      lcmtypes_ale_tracking_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
+}
+
 int ale_bus_send_features(ale_bus_t *bus, const ale_features_t *features, int64_t utime, uint32_t scan,
                           ale_pose_t sensor)
 {
@@ -104,6 +115,14 @@ int ale_bus_send_map_part(ale_bus_t *bus, const ale_map_t *map, int64_t utime, i
                       lcmtypes_ale_map_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
 }
 
+int ale_bus_send_map_pieces(ale_bus_t *bus, const ale_map_t *map, int64_t utime, int16_t part)
+{
+    lcmtypes_ale_map_pieces_t message;
+    ale_convert_map_pieces(map, utime, part, &bus->pieces, &message);
+    return send_bytes(bus, ALE_CHANNEL_MAP_PIECES,
+                      lcmtypes_ale_map_pieces_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
+}
+
 int ale_bus_send_status(ale_bus_t *bus, const ale_status_report_t *report)
 {
     lcmtypes_ale_status_t message;
@@ -118,6 +137,16 @@ int ale_bus_send_odometry(ale_bus_t *bus, const ale_odometry_t *sample)
     ale_convert_odometry(sample, &message);
     return send_bytes(bus, ALE_CHANNEL_ODOMETRY,
                       lcmtypes_ale_odometry_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
+}
+
+int ale_bus_send_exact_odometry(ale_bus_t *bus, const ale_odometry_t *sample)
+{
+    const lcmtypes_ale_odometry_exact_t message = {.utime = sample->stamp_us,
+                                                   .x_um = sample->pose.x_um,
+                                                   .y_um = sample->pose.y_um,
+                                                   .theta_bam = (int32_t)sample->pose.theta_bam};
+    return send_bytes(bus, ALE_CHANNEL_ODOMETRY_EXACT,
+                      lcmtypes_ale_odometry_exact_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
 }
 
 int ale_bus_send_drive(ale_bus_t *bus, int64_t utime, int32_t v_um_s, int32_t w_urad_s)
@@ -183,6 +212,30 @@ static void take_odometry(const lcm_recv_buf_t *received, const char *channel, v
         bus->refused++;
         return;
     }
+    if (sample.stamp_us != bus->exact_utime) {
+        bus->take_odometry(bus->odometry_user, &sample);
+    }
+}
+
+static bool is_beyond(int32_t um)
+{
+    return um < -FARTHEST_UM || um > FARTHEST_UM;
+}
+
+static void take_exact_odometry(const lcm_recv_buf_t *received, const char *channel, void *user)
+{
+    (void)channel;
+    ale_bus_t *bus = user;
+    lcmtypes_ale_odometry_exact_t message;
+    if (lcmtypes_ale_odometry_exact_t_decode(received->data, 0, (int)received->data_size, &message) < 0 ||
+        message.utime <= 0 || is_beyond(message.x_um) || is_beyond(message.y_um)) {
+        bus->refused++;
+        return;
+    }
+    const ale_odometry_t sample = {
+        .stamp_us = message.utime,
+        .pose = {.x_um = message.x_um, .y_um = message.y_um, .theta_bam = (uint32_t)message.theta_bam}};
+    bus->exact_utime = message.utime;
     bus->take_odometry(bus->odometry_user, &sample);
 }
 
@@ -197,7 +250,9 @@ int ale_bus_on_odometry(ale_bus_t *bus, ale_bus_odometry_t take, void *user)
 {
     bus->take_odometry = take;
     bus->odometry_user = user;
-    return subscribe(bus, ALE_CHANNEL_ODOMETRY, take_odometry);
+    return subscribe(bus, ALE_CHANNEL_ODOMETRY_EXACT, take_exact_odometry) < 0
+               ? -1
+               : subscribe(bus, ALE_CHANNEL_ODOMETRY, take_odometry);
 }
 
 static void take_command(const lcm_recv_buf_t *received, const char *channel, void *user)

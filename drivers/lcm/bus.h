@@ -20,11 +20,14 @@
 #include "lcm/url.h"
 
 #define ALE_CHANNEL_POSE "ALE_POSE"
+#define ALE_CHANNEL_TRACKING "ALE_TRACKING"
 #define ALE_CHANNEL_FEATURES "ALE_FEATURES"
 #define ALE_CHANNEL_SCAN "ALE_SCAN"
 #define ALE_CHANNEL_MAP "ALE_MAP"
+#define ALE_CHANNEL_MAP_PIECES "ALE_MAP_PIECES"
 #define ALE_CHANNEL_STATUS "ALE_STATUS"
 #define ALE_CHANNEL_ODOMETRY "ALE_ODOMETRY"
+#define ALE_CHANNEL_ODOMETRY_EXACT "ALE_ODOMETRY_EXACT"
 #define ALE_CHANNEL_COMMAND "ALE_COMMAND"
 #define ALE_CHANNEL_DRIVE "ALE_DRIVE"
 #define ALE_CHANNEL_BOT_LIDAR "LASER" /* bot_core, when asked for */
@@ -45,13 +48,16 @@ void ale_bus_close(ale_bus_t *bus);
 /* Sends one message; reports as in report.h. Each: 0, or -1 when the message was too long for the bus or the
  * system refused it (counted: ale_bus_unsent). Nobody hears: no error. */
 int ale_bus_send_pose(ale_bus_t *bus, const ale_pose_report_t *report);
+int ale_bus_send_tracking(ale_bus_t *bus, const ale_estimate_t *estimate);
 int ale_bus_send_features(ale_bus_t *bus, const ale_features_t *features, int64_t utime, uint32_t scan,
                           ale_pose_t sensor);
 int ale_bus_send_scan(ale_bus_t *bus, const ale_scan_t *scan, int64_t utime, uint32_t number,
                       ale_pose_t sensor);
 int ale_bus_send_map_part(ale_bus_t *bus, const ale_map_t *map, int64_t utime, int16_t part);
+int ale_bus_send_map_pieces(ale_bus_t *bus, const ale_map_t *map, int64_t utime, int16_t part);
 int ale_bus_send_status(ale_bus_t *bus, const ale_status_report_t *report);
 int ale_bus_send_odometry(ale_bus_t *bus, const ale_odometry_t *sample);
+int ale_bus_send_exact_odometry(ale_bus_t *bus, const ale_odometry_t *sample); /* then the other, for all */
 int ale_bus_send_drive(ale_bus_t *bus, int64_t utime, int32_t v_um_s, int32_t w_urad_s);
 
 /* A signed command (command/operator.h makes it). */
@@ -61,8 +67,9 @@ int ale_bus_send_command(ale_bus_t *bus, const uint8_t *bytes, size_t count);
 int ale_bus_send_bot_lidar(ale_bus_t *bus, const ale_scan_t *scan, int64_t utime);
 int ale_bus_send_bot_pose(ale_bus_t *bus, const ale_pose_report_t *report);
 
-/* Odometry as it arrives, checked; sample->stamp_us is the message's utime. What is not what it should be is
- * refused and counted. 0, or -1: LCM cannot subscribe (memory, threads). */
+/* Odometry as it arrives, checked; of a sample that came exactly, too, only that. sample->stamp_us is the
+ * message's utime. What is not what it should be is refused and counted. 0, or -1: LCM cannot subscribe
+ * (memory, threads). */
 typedef void (*ale_bus_odometry_t)(void *user, const ale_odometry_t *sample);
 int ale_bus_on_odometry(ale_bus_t *bus, ale_bus_odometry_t take, void *user);
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/fixed.h"
+#include "lcm/wheel_words.h"
 
 #define RADIANS_PER_BAM 1.4629180792671596e-9
 #define INFORMATION_PER_SI (1e6 / 1048576.0) /* 2^20 per 1/mm^2 or 1/mrad^2, to 1/m^2 or 1/rad^2 */
@@ -81,6 +82,19 @@ void ale_convert_pose(const ale_pose_report_t *report, lcmtypes_ale_pose_t *mess
     memcpy(message->stage_ns, report->stage_ns, sizeof message->stage_ns);
     memcpy(message->stage_start_ns, report->stage_start_ns, sizeof message->stage_start_ns);
     memcpy(message->stage_end_ns, report->stage_end_ns, sizeof message->stage_end_ns);
+}
+
+void ale_convert_tracking(const ale_estimate_t *estimate, lcmtypes_ale_tracking_t *message)
+{
+    *message = (lcmtypes_ale_tracking_t){
+        .utime = estimate->stamp_us,
+        .scan = (int32_t)estimate->scan,
+        .map_id = (int32_t)estimate->map_id,
+        .maps = estimate->maps,
+        .wheel_fault = (int8_t)estimate->wheel_fault,
+        .wheel_word = (char *)ale_wheel_fault_word(estimate->wheel_fault),
+        .wheel_faults = (int32_t)estimate->wheel_faults,
+    };
 }
 
 static void convert_line(const ale_line_t *line, lcmtypes_ale_line_t *message)
@@ -242,6 +256,40 @@ void ale_convert_map(const ale_map_t *map, int64_t utime, int16_t part, ale_map_
     }
     for (int k = 0; k < message->num_corners; k++) {
         convert_map_corner(&map->corner[first_corner + k], &buffer->corner[k]);
+    }
+}
+
+static bool is_apart(const ale_map_line_t *line)
+{
+    return line->map_id != 0;
+}
+
+int16_t ale_map_pieces_parts(const ale_map_t *map)
+{
+    int apart = 0;
+    for (int k = 0; k < map->line_count; k++) {
+        apart += is_apart(&map->line[k]);
+    }
+    return (int16_t)ale_max64((apart + ALE_PIECES_PART_LINES - 1) / ALE_PIECES_PART_LINES, 1);
+}
+
+void ale_convert_map_pieces(const ale_map_t *map, int64_t utime, int16_t part, ale_pieces_buffer_t *buffer,
+                            lcmtypes_ale_map_pieces_t *message)
+{
+    int before = part * ALE_PIECES_PART_LINES; /* lines of the parts before this one */
+    *message = (lcmtypes_ale_map_pieces_t){
+        .utime = utime,
+        .version = (int32_t)map->version,
+        .part = part,
+        .parts = ale_map_pieces_parts(map),
+        .line_id = buffer->line_id,
+        .map_id = buffer->map_id,
+    };
+    for (int k = 0; k < map->line_count && message->num_lines < ALE_PIECES_PART_LINES; k++) {
+        if (is_apart(&map->line[k]) && before-- <= 0) {
+            buffer->line_id[message->num_lines] = (int32_t)map->line[k].id;
+            buffer->map_id[message->num_lines++] = (int32_t)map->line[k].map_id;
+        }
     }
 }
 

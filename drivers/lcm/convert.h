@@ -5,16 +5,19 @@
 #define ALE_LCM_CONVERT_H
 
 #include <lcmtypes_ale_features_t.h>
+#include <lcmtypes_ale_map_pieces_t.h>
 #include <lcmtypes_ale_map_t.h>
 #include <lcmtypes_ale_odometry_t.h>
 #include <lcmtypes_ale_pose_t.h>
 #include <lcmtypes_ale_scan_t.h>
 #include <lcmtypes_ale_status_t.h>
+#include <lcmtypes_ale_tracking_t.h>
 
 #include "lcm/report.h"
 
-/* Lines and corners of one part of a map: with its header it stays below 1400 bytes. */
-enum { ALE_MAP_PART_LINES = 36, ALE_MAP_PART_CORNERS = 44 };
+/* Lines and corners of one part of a map, and lines of one part of its pieces: with its header each stays
+ * below 1400 bytes. */
+enum { ALE_MAP_PART_LINES = 36, ALE_MAP_PART_CORNERS = 44, ALE_PIECES_PART_LINES = 160 };
 
 typedef struct {
     lcmtypes_ale_line_t line[ALE_MAX_LINES];
@@ -32,6 +35,11 @@ typedef struct {
 } ale_map_buffer_t;
 
 typedef struct {
+    int32_t line_id[ALE_PIECES_PART_LINES];
+    int32_t map_id[ALE_PIECES_PART_LINES];
+} ale_pieces_buffer_t;
+
+typedef struct {
     char *name[ALE_STATUS_COUNTERS];
     int64_t value[ALE_STATUS_COUNTERS];
 } ale_status_buffer_t;
@@ -42,6 +50,9 @@ uint32_t ale_from_radians(double angle);  /* any finite angle */
 int32_t ale_from_metres(double metres);   /* saturates at +-2147 m */
 
 void ale_convert_pose(const ale_pose_report_t *report, lcmtypes_ale_pose_t *message);
+
+/* estimate->stamp_us is already a utime. */
+void ale_convert_tracking(const ale_estimate_t *estimate, lcmtypes_ale_tracking_t *message);
 
 /* Features of scan number `scan` at `utime`; `sensor` is the mounting. */
 void ale_convert_features(const ale_features_t *features, int64_t utime, uint32_t scan, ale_pose_t sensor,
@@ -55,6 +66,10 @@ void ale_convert_scan(const ale_scan_t *scan, int64_t utime, uint32_t number, al
 /* Part 0..parts-1: corners and lines in the order of the map, lines first. */
 void ale_convert_map(const ale_map_t *map, int64_t utime, int16_t part, ale_map_buffer_t *buffer,
                      lcmtypes_ale_map_t *message);
+
+/* Part 0..parts-1 of the lines that are in other maps than the first, in the order of the map. */
+void ale_convert_map_pieces(const ale_map_t *map, int64_t utime, int16_t part, ale_pieces_buffer_t *buffer,
+                            lcmtypes_ale_map_pieces_t *message);
 
 /* The message points into the report. */
 void ale_convert_status(const ale_status_report_t *report, ale_status_buffer_t *buffer,

@@ -24,6 +24,9 @@ typedef struct {
 /* ALE_MAP: number of parts that a map needs, at least 1. */
 int16_t ale_map_parts(const ale_map_t *map);
 
+/* ALE_MAP_PIECES: number of parts for its lines that are in other maps than the first, at least 1. */
+int16_t ale_map_pieces_parts(const ale_map_t *map);
+
 enum { ALE_STATUS_STAGES = ALE_STAGES + 1, ALE_STATUS_COUNTERS = 48 };
 
 enum { ALE_ANSWER_BYTES = 160 }; /* of an answer in words, with its end */

@@ -32,7 +32,9 @@ struct ale_estimator {
     bool keep_scans;
     uint32_t overloaded;
     uint32_t late;
+    uint32_t corrections_late;
     uint32_t answered;
+    uint32_t next_scan; /* by the pipeline's count, which corrections go by */
     uint32_t odometry_taken;
     bool corrected; /* since the last answer, by: */
     ale_pose_t correction;
@@ -103,6 +105,13 @@ void ale_estimator_destroy(ale_estimator_t *estimator)
     }
 }
 
+ale_shortfall_t ale_estimator_shortfall(const ale_estimator_t *estimator)
+{
+    return (ale_shortfall_t){.scans = estimator->answered,
+                             .overloaded = estimator->overloaded,
+                             .corrections_late = estimator->corrections_late};
+}
+
 void ale_estimator_load_map(ale_estimator_t *estimator, const ale_map_t *map, const ale_pose_t *pose)
 {
     const ale_pose_t unknown = {0};
@@ -130,6 +139,7 @@ static void take_corrections(ale_estimator_t *estimator)
         if (!ale_pipeline_correct(estimator->pipeline, correction)) {
             return;
         }
+        estimator->corrections_late += correction->due < estimator->next_scan;
         estimator->correction = correction->shift[correction->count - 1].shift;
         estimator->corrected = true;
         ale_ring_release(corrections);
@@ -199,8 +209,10 @@ static void answer(ale_estimator_t *estimator, const ale_scan_record_t *record, 
     estimator->map_waits = estimator->map_waits || result->estimate.map_changed;
     result->overloaded = estimator->overloaded;
     result->late = estimator->late;
+    result->corrections_late = estimator->corrections_late;
     result->odometry_taken = estimator->odometry_taken;
     result->answered = estimator->answered++;
+    estimator->next_scan = result->estimate.scan + 1;
     result->corrected = estimator->corrected;
     result->correction = estimator->correction;
     estimator->corrected = false;

@@ -22,6 +22,15 @@ typedef struct ale_estimator ale_estimator_t;
 ale_estimator_t *ale_estimator_create(const ale_config_t *config, ale_exchange_t *exchange);
 void ale_estimator_destroy(ale_estimator_t *estimator);
 
+/* What the computer was too slow for, since the start; when the task no longer runs. */
+typedef struct {
+    uint32_t scans; /* answered in all */
+    uint32_t overloaded;
+    uint32_t corrections_late; /* of the map, taken at a later scan than the one that they name */
+} ale_shortfall_t;
+
+ale_shortfall_t ale_estimator_shortfall(const ale_estimator_t *estimator);
+
 /* Before the task runs: a known map to start from. pose: where the robot is in it; NULL: that is to be found.
  */
 void ale_estimator_load_map(ale_estimator_t *estimator, const ale_map_t *map, const ale_pose_t *pose);

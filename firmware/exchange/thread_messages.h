@@ -27,13 +27,14 @@ typedef struct {
     int32_t stage_start_ns[ALE_STAGES]; /* first start and last end of each stage after the arrival, real */
     int32_t stage_end_ns[ALE_STAGES];   /* time; 0: it did not run */
     int32_t total_ns;
-    uint32_t overloaded;     /* scans set aside since the start, for newer ones */
-    uint32_t late;           /* scans answered after their deadline, since the start */
-    uint32_t answered;       /* scans answered before this one, since the start: its number in `scans` */
-    uint32_t odometry_taken; /* samples of `odometry` known to this answer, since the start */
-    bool corrected;          /* the map was corrected before this answer: */
-    ale_pose_t correction;   /* how the robot moved with it */
-    bool has_scan;           /* a scan stands behind it: features and scan are set */
+    uint32_t overloaded;       /* scans set aside since the start, for newer ones */
+    uint32_t corrections_late; /* of the map, since the start */
+    uint32_t late;             /* scans answered after their deadline, since the start */
+    uint32_t answered;         /* scans answered before this one, since the start: its number in `scans` */
+    uint32_t odometry_taken;   /* samples of `odometry` known to this answer, since the start */
+    bool corrected;            /* the map was corrected before this answer: */
+    ale_pose_t correction;     /* how the robot moved with it */
+    bool has_scan;             /* a scan stands behind it: features and scan are set */
     ale_features_t features;
     ale_scan_t scan; /* only when scans are published */
 } ale_result_t;
@@ -45,10 +46,10 @@ typedef struct {
     ale_map_t map;
 } ale_loaded_map_t;
 
-/* The map as it was drawn anew. */
+/* The map that the robot is in as it was drawn anew. */
 typedef struct {
     uint32_t epoch; /* 0: nothing was drawn yet */
-    ale_map_t map;
+    ale_map_t map;  /* its lines name the map that they are in */
 } ale_drawn_map_t;
 
 typedef enum {

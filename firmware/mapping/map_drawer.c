@@ -54,6 +54,15 @@ static void take(ale_map_drawer_t *drawer)
     }
 }
 
+/* What is drawn is the map that the robot is in: that of the last keyframe. */
+static void name_map(ale_map_t *map, const ale_mapper_poses_t *poses)
+{
+    const uint32_t map_id = poses->count > 0 ? poses->pose[poses->count - 1].map_id : 0;
+    for (uint16_t k = 0; k < map->line_count; k++) {
+        map->line[k].map_id = map_id;
+    }
+}
+
 static void draw(ale_map_drawer_t *drawer)
 {
     ale_exchange_t *exchange = drawer->exchange;
@@ -65,6 +74,7 @@ static void draw(ale_map_drawer_t *drawer)
     const int64_t start_ns = ale_rt_now_ns();
     ale_drawn_map_t *drawn = ale_snapshot_back(exchange->drawn_map);
     if (ale_live_map_build(drawer->live, poses, &drawn->map)) {
+        name_map(&drawn->map, poses);
         drawn->epoch = poses->epoch;
         ale_snapshot_publish(exchange->drawn_map);
     }

@@ -6,7 +6,7 @@
 #include "graph/mapper.h"
 #include "system/background.h"
 
-#define LOOK_NS 20000000
+#define LOOK_US 20000 /* of the robot's clock: a correction is due a few scans after its keyframe */
 
 struct ale_mapper_thread {
     ale_exchange_t *exchange;
@@ -91,9 +91,10 @@ static void work_off(ale_mapper_thread_t *thread)
 static void run(ale_rt_task_t *self, void *user)
 {
     ale_mapper_thread_t *thread = user;
+    const int64_t look_ns = ale_clock_real_ns(&thread->exchange->clock, LOOK_US);
     while (!ale_rt_task_stopping(self)) {
         work_off(thread);
-        ale_background_wait(&thread->thread, LOOK_NS);
+        ale_background_wait(&thread->thread, look_ns);
     }
 }
 

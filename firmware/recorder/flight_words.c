@@ -28,17 +28,18 @@ ale_flight_result_t ale_flight_result(const ale_result_t *result)
 uint32_t ale_flight_decision(const ale_flight_result_t *result, char text[ALE_FLIGHT_MAX_PAYLOAD])
 {
     const ale_estimate_t *e = &result->estimate;
-    const int length =
-        snprintf(text, ALE_FLIGHT_MAX_PAYLOAD,
-                 "scan=%" PRIu32 " stamp_us=%" PRId64 " state=%u predicted=%d lines=%u corners=%u"
-                 " matched_lines=%u matched_corners=%u x_um=%" PRId32 " y_um=%" PRId32 " theta_bam=%" PRIu32
-                 " map_x_um=%" PRId32 " map_y_um=%" PRId32 " map_theta_bam=%" PRIu32 " var_xx_um2=%" PRId64
-                 " var_yy_um2=%" PRId64 " var_tt_nrad2=%" PRId64 " lag_us=%" PRId32 " odometry=%" PRIu32
-                 " overloaded=%" PRIu32 " late=%" PRIu32 "\n",
-                 e->scan, e->stamp_us, e->state, e->predicted, result->lines, result->corners,
-                 e->matched_lines, e->matched_corners, e->smooth.x_um, e->smooth.y_um, e->smooth.theta_bam,
-                 e->map.x_um, e->map.y_um, e->map.theta_bam, e->cov[0], e->cov[4], e->cov[8], e->lag_us,
-                 result->odometry_taken, result->overloaded, result->late);
+    const int length = snprintf(
+        text, ALE_FLIGHT_MAX_PAYLOAD,
+        "scan=%" PRIu32 " stamp_us=%" PRId64 " state=%u predicted=%d lines=%u corners=%u"
+        " matched_lines=%u matched_corners=%u x_um=%" PRId32 " y_um=%" PRId32 " theta_bam=%" PRIu32
+        " map_x_um=%" PRId32 " map_y_um=%" PRId32 " map_theta_bam=%" PRIu32 " var_xx_um2=%" PRId64
+        " var_yy_um2=%" PRId64 " var_tt_nrad2=%" PRId64 " lag_us=%" PRId32 " odometry=%" PRIu32
+        " overloaded=%" PRIu32 " late=%" PRIu32 " map_id=%" PRIu32
+        " maps=%u wheel_fault=%u wheel_faults=%" PRIu32 "\n",
+        e->scan, e->stamp_us, e->state, e->predicted, result->lines, result->corners, e->matched_lines,
+        e->matched_corners, e->smooth.x_um, e->smooth.y_um, e->smooth.theta_bam, e->map.x_um, e->map.y_um,
+        e->map.theta_bam, e->cov[0], e->cov[4], e->cov[8], e->lag_us, result->odometry_taken,
+        result->overloaded, result->late, e->map_id, e->maps, e->wheel_fault, e->wheel_faults);
     return (uint32_t)length;
 }
 

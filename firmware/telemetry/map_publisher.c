@@ -14,14 +14,20 @@ void ale_map_publisher_init(ale_map_publisher_t *publisher, ale_exchange_t *exch
     publisher->drawn = false;
     publisher->begun = false;
     publisher->shown.version = 0;
+    publisher->pieces_parts = 0;
     publisher->next_part = 0;
     publisher->next_ns = 0;
     publisher->next_whole_ns = 0;
 }
 
+static int16_t parts_of(const ale_map_publisher_t *publisher)
+{
+    return (int16_t)(publisher->pieces_parts + ale_map_parts(&publisher->sent));
+}
+
 bool ale_map_publisher_is_busy(const ale_map_publisher_t *publisher)
 {
-    return publisher->begun && publisher->next_part < ale_map_parts(&publisher->shown);
+    return publisher->begun && publisher->next_part < parts_of(publisher);
 }
 
 const ale_map_t *ale_map_publisher_map(const ale_map_publisher_t *publisher)
@@ -50,11 +56,32 @@ static const ale_map_t *another_map(ale_map_publisher_t *publisher, uint32_t epo
     return !other ? NULL : drawn ? &drawing->map : tracked;
 }
 
+/* So that no wall of the tracker's has the number of one that was drawn. */
+#define OF_TRACKER 0x40000000U
+
+/* The drawing has no wall of the other maps, and the tracker no other of this one. */
+static void add_other_maps(ale_map_t *drawing, const ale_map_t *tracked)
+{
+    const uint32_t drawn_map = drawing->line_count > 0 ? drawing->line[0].map_id : 0;
+    for (uint16_t k = 0; k < tracked->line_count && drawing->line_count < ALE_MAP_MAX_LINES; k++) {
+        if (tracked->line[k].map_id != drawn_map) {
+            ale_map_line_t *line = &drawing->line[drawing->line_count++];
+            *line = tracked->line[k];
+            line->id |= OF_TRACKER;
+        }
+    }
+}
+
 static void show(ale_map_publisher_t *publisher, const ale_map_t *map)
 {
     const uint32_t version = publisher->shown.version + 1;
     publisher->shown = *map;
     publisher->shown.version = version;
+    publisher->sent = publisher->shown;
+    if (publisher->drawn) {
+        add_other_maps(&publisher->sent, ale_map_publisher_tracked(publisher));
+    }
+    publisher->pieces_parts = ale_map_pieces_parts(&publisher->sent);
     publisher->begun = true;
 }
 
@@ -73,12 +100,24 @@ static void begin(ale_map_publisher_t *publisher, uint32_t epoch, int64_t now_ns
     }
 }
 
+/* The pieces first: who has the whole map knows by then which walls are apart. */
+static void send_part(ale_map_publisher_t *publisher, int64_t utime)
+{
+    const int16_t part = publisher->next_part++;
+    if (part < publisher->pieces_parts) {
+        ale_bus_send_map_pieces(publisher->bus, &publisher->sent, utime, part);
+    } else {
+        ale_bus_send_map_part(publisher->bus, &publisher->sent, utime,
+                              (int16_t)(part - publisher->pieces_parts));
+    }
+}
+
 static void send_burst(ale_map_publisher_t *publisher)
 {
     const ale_clock_t *clock = &publisher->exchange->clock;
     const int64_t utime = ale_clock_to_utime(clock, ale_clock_now_us(clock));
     for (int k = 0; k < PARTS_AT_ONCE && ale_map_publisher_is_busy(publisher); k++) {
-        ale_bus_send_map_part(publisher->bus, &publisher->shown, utime, publisher->next_part++);
+        send_part(publisher, utime);
     }
 }
 

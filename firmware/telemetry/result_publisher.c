@@ -5,7 +5,15 @@
 #include "operator/explore_thread.h"
 #include "recorder/recorder.h"
 
-/* A pose that was lost or came late is worth a flight recording. */
+/* The robot has lost its map, also when it goes on in a new one; or wheels began to lie. */
+static bool is_new_trouble(const ale_statistics_t *before, const ale_estimate_t *estimate)
+{
+    const bool lost = before->state != ALE_STATE_LOST && estimate->state == ALE_STATE_LOST;
+    return before->poses > 0 &&
+           (lost || estimate->maps > before->maps || estimate->wheel_faults > before->wheel_faults);
+}
+
+/* Trouble, or a pose that came late, is worth a flight recording. */
 static void record_result(const ale_result_publisher_t *publisher, const ale_result_t *result)
 {
     ale_recorder_t *recorder = publisher->exchange->recorder;
@@ -15,8 +23,7 @@ static void record_result(const ale_result_publisher_t *publisher, const ale_res
                                 result->correction);
     }
     ale_recorder_result(recorder, result);
-    if (statistics->poses > 0 && statistics->state != ALE_STATE_LOST &&
-        result->estimate.state == ALE_STATE_LOST) {
+    if (is_new_trouble(statistics, &result->estimate)) {
         ale_recorder_trigger(recorder, ALE_RECORD_FAULT);
     }
     if (result->late != statistics->late) {
@@ -38,6 +45,7 @@ static void send_pose(ale_result_publisher_t *publisher, const ale_result_t *res
     memcpy(report.stage_start_ns, result->stage_start_ns, sizeof report.stage_start_ns);
     memcpy(report.stage_end_ns, result->stage_end_ns, sizeof report.stage_end_ns);
     ale_bus_send_pose(publisher->bus, &report);
+    ale_bus_send_tracking(publisher->bus, &report.estimate);
     const int64_t latency_us = ale_clock_now_us(clock) - result->arrival_us;
     ale_statistics_add(&publisher->statistics, result, ale_clock_real_ns(clock, latency_us));
     if (publisher->config->publish_bot_core) {

@@ -1,5 +1,5 @@
-/* Sends what came of each scan: pose, features and scan over LCM; the scan to those who drive by it; all of
- * it to the flight recorder. For the telemetry thread. */
+/* Sends what came of each scan: pose, tracking, features and scan over LCM; the scan to those who drive by
+ * it; all of it to the flight recorder. For the telemetry thread. */
 #ifndef ALE_FIRMWARE_TELEMETRY_RESULT_PUBLISHER_H
 #define ALE_FIRMWARE_TELEMETRY_RESULT_PUBLISHER_H
 

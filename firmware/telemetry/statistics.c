@@ -6,8 +6,12 @@ void ale_statistics_add(ale_statistics_t *statistics, const ale_result_t *result
 {
     statistics->poses++;
     statistics->overloaded = result->overloaded;
+    statistics->corrections_late = result->corrections_late;
     statistics->late = result->late;
     statistics->state = result->estimate.state;
+    statistics->maps = result->estimate.maps;
+    statistics->wheel_fault = result->estimate.wheel_fault;
+    statistics->wheel_faults = result->estimate.wheel_faults;
     if (!result->has_scan) {
         return;
     }
@@ -54,7 +58,10 @@ void ale_statistics_counters(const ale_statistics_t *statistics, const ale_scann
     count(report, "reopens", health->reopens);
     count(report, "hardware_faults", health->hardware_faults);
     count(report, "identity_warnings", health->identity_warnings);
+    count(report, "maps", statistics->maps);
+    count(report, "wheel_faults", statistics->wheel_faults);
     count(report, "overloaded", statistics->overloaded);
+    count(report, "corrections_late", statistics->corrections_late);
     count(report, "scan_ring_full", ale_ring_refused(exchange->scans));
     count(report, "result_ring_full", ale_ring_refused(exchange->results));
     count(report, "odometry", ale_ring_committed(exchange->odometry));

@@ -12,7 +12,11 @@ typedef struct {
     ale_durations_t latency;                  /* last byte of a scan to its pose on the wire */
     uint32_t poses;
     uint32_t overloaded;
+    uint32_t corrections_late;
     uint32_t late;
+    uint32_t wheel_faults; /* so often they began to */
+    uint8_t wheel_fault;   /* ale_wheel_fault_t, of the newest pose */
+    uint8_t maps;          /* that are not joined */
     uint8_t state;
 } ale_statistics_t; /* all zero: nothing yet */
 
@@ -22,7 +26,8 @@ void ale_statistics_add(ale_statistics_t *statistics, const ale_result_t *result
 /* Fills times, counts and state of the report. */
 void ale_statistics_report(const ale_statistics_t *statistics, ale_status_report_t *report);
 
-/* Fills the report's counters: what the line, the driver, the rings and the bus lost, and why.
+/* Fills the report's counters: what the line, the driver, the rings and the bus lost, and why;
+ * maps that are not joined, faults of the wheels.
  * bus_refused: messages that came in and were not what they should be; bus_unsent: that could not go out. */
 void ale_statistics_counters(const ale_statistics_t *statistics, const ale_scanner_health_t *health,
                              const ale_exchange_t *exchange, uint64_t bus_refused, uint64_t bus_unsent,

@@ -17,7 +17,8 @@ void ale_status_publisher_send(ale_status_publisher_t *publisher)
     report->realtime = publisher->realtime.realtime;
     memcpy(report->realtime_detail, publisher->realtime.text, sizeof report->realtime_detail);
     ale_statistics_report(publisher->statistics, report);
-    ale_supervisor_report(publisher->health, ale_clock_now_us(clock), report);
+    ale_supervisor_report(publisher->health, ale_clock_now_us(clock), publisher->statistics->wheel_fault,
+                          report);
     ale_statistics_counters(publisher->statistics, publisher->health, publisher->exchange,
                             ale_bus_refused(publisher->bus), ale_bus_unsent(publisher->bus), report);
     ale_commands_report(publisher->commands, &report->operation);

@@ -1,6 +1,10 @@
 #include "telemetry/supervisor.h"
 
 #include <stdio.h>
+#include <string.h>
+
+#include "base/fixed.h"
+#include "lcm/wheel_words.h"
 
 #define SILENT_US 1000000
 
@@ -53,14 +57,40 @@ bool ale_supervisor_watch(ale_supervisor_t *supervisor, const ale_scanner_health
     return true;
 }
 
-void ale_supervisor_report(const ale_scanner_health_t *health, int64_t now_us, ale_status_report_t *report)
+bool ale_supervisor_watch_wheels(ale_supervisor_t *supervisor, uint8_t wheel_fault,
+                                 char line[ALE_SUPERVISOR_LINE])
+{
+    if (supervisor->wheel_fault == wheel_fault) {
+        return false;
+    }
+    supervisor->wheel_fault = wheel_fault;
+    snprintf(line, ALE_SUPERVISOR_LINE, "wheels: %s", ale_wheel_fault_word(wheel_fault));
+    return true;
+}
+
+static void say_wheels(uint8_t wheel_fault, ale_status_report_t *report)
+{
+    if (wheel_fault != ALE_WHEELS_FINE) {
+        const size_t length = strlen(report->driver_state);
+        snprintf(report->driver_state + length, sizeof report->driver_state - length, "; wheels: %s",
+                 ale_wheel_fault_word(wheel_fault));
+    }
+}
+
+void ale_supervisor_report(const ale_scanner_health_t *health, int64_t now_us, uint8_t wheel_fault,
+                           ale_status_report_t *report)
 {
     const bool running = health->state == ALE_SCANNER_STREAMING || health->state == ALE_SCANNER_POLLING;
-    const bool silent = running && health->scans > 0 && now_us - health->last_scan_us > SILENT_US;
+    const int64_t silence_us = ale_max64(SILENT_US, (int64_t)health->silence_ms * 1000);
+    const bool silent = running && health->scans > 0 && now_us - health->last_scan_us > silence_us;
+    const bool scans_come = running && !silent;
     const char *words = silent ? "silent" : words_for(health->state);
-    snprintf(report->driver_state, sizeof report->driver_state, "%s%s%s", words,
-             running && !silent ? "" : ": ", running && !silent ? "" : health->status);
+    snprintf(report->driver_state, sizeof report->driver_state, "%s%s%s", words, scans_come ? "" : ": ",
+             scans_come ? "" : health->status);
+    if (scans_come) {
+        say_wheels(wheel_fault, report);
+    }
     snprintf(report->device, sizeof report->device, "%s %s", health->identity.model, health->identity.serial);
     report->scans = (uint32_t)(health->scans + health->scans_lost);
-    report->scan_period_us = running && !silent ? health->scan_period_us : 0;
+    report->scan_period_us = scans_come ? health->scan_period_us : 0;
 }

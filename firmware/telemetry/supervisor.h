@@ -1,5 +1,5 @@
-/* Watches the scanner's health and puts it into words: for ALE_STATUS always, for people only when it
- * changes. Pure: health and time come in, texts go out. */
+/* Watches the scanner's health, and what scans say of the wheels, and puts it into words: for ALE_STATUS
+ * always, for people only when it changes. Pure: health and time come in, texts go out. */
 #ifndef ALE_FIRMWARE_TELEMETRY_SUPERVISOR_H
 #define ALE_FIRMWARE_TELEMETRY_SUPERVISOR_H
 
@@ -17,7 +17,8 @@ typedef enum {
 
 typedef struct {
     ale_link_t link;
-} ale_supervisor_t; /* all zero: just started */
+    uint8_t wheel_fault; /* ale_wheel_fault_t */
+} ale_supervisor_t;      /* all zero: just started */
 
 enum { ALE_SUPERVISOR_LINE = 320 };
 
@@ -25,7 +26,13 @@ enum { ALE_SUPERVISOR_LINE = 320 };
 bool ale_supervisor_watch(ale_supervisor_t *supervisor, const ale_scanner_health_t *health,
                           char line[ALE_SUPERVISOR_LINE]);
 
-/* Fills driver_state, device, scans and scan_period_us of the report. now_us: clock of the health. */
-void ale_supervisor_report(const ale_scanner_health_t *health, int64_t now_us, ale_status_report_t *report);
+/* The same for the wheels: ale_wheel_fault_t of the newest pose. */
+bool ale_supervisor_watch_wheels(ale_supervisor_t *supervisor, uint8_t wheel_fault,
+                                 char line[ALE_SUPERVISOR_LINE]);
+
+/* Fills driver_state, device, scans and scan_period_us of the report. now_us: clock of the health. While
+ * scans come, driver_state says what they say of the wheels, too: "streaming; wheels: stalled". */
+void ale_supervisor_report(const ale_scanner_health_t *health, int64_t now_us, uint8_t wheel_fault,
+                           ale_status_report_t *report);
 
 #endif

@@ -69,6 +69,15 @@ static void watch_scanner(ale_telemetry_t *telemetry)
     }
 }
 
+static void watch_wheels(ale_telemetry_t *telemetry)
+{
+    char line[ALE_SUPERVISOR_LINE];
+    const ale_statistics_t *statistics = &telemetry->results.statistics;
+    if (ale_supervisor_watch_wheels(&telemetry->supervisor, statistics->wheel_fault, line)) {
+        ale_logger_log(telemetry->logger, line);
+    }
+}
+
 static void take_command(void *user, const uint8_t *bytes, size_t count)
 {
     ale_telemetry_t *telemetry = user;
@@ -104,6 +113,7 @@ static void work(ale_telemetry_t *telemetry)
 {
     ale_result_publisher_work(&telemetry->results, ale_commands_publish_scan(telemetry->commands));
     watch_scanner(telemetry);
+    watch_wheels(telemetry);
     const int64_t now_ns = ale_rt_now_ns();
     ale_map_publisher_work(&telemetry->map, telemetry->results.epoch, now_ns);
     ale_commands_work(telemetry->commands);

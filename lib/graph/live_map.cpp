@@ -5,6 +5,7 @@ extern "C" {
 #include <algorithm>
 #include <map>
 #include <new>
+#include <optional>
 
 #include "graph/walls/line_ids.h"
 #include "graph/walls/map_rebuild.h"
@@ -42,10 +43,20 @@ bool is_thinned(const ale_mapper_poses_t &poses, const ale::RecordedScan &scan)
     return is_past && !keyframe_of(poses, scan);
 }
 
-// By the corrected pose of its keyframe; as tracked if the mapper does not have that keyframe yet.
-ale_pose_t pose_of(const ale_mapper_poses_t &poses, const ale::RecordedScan &scan)
+// The map that the robot is in.
+uint32_t present_map(const ale_mapper_poses_t &poses)
+{
+    return poses.count > 0 ? poses.pose[poses.count - 1].map_id : uint32_t{ALE_FIRST_MAP};
+}
+
+// By the corrected pose of its keyframe; as tracked if the mapper does not have that keyframe yet. None: of
+// another map than the robot is in.
+std::optional<ale_pose_t> pose_of(const ale_mapper_poses_t &poses, const ale::RecordedScan &scan)
 {
     const ale_mapper_pose_t *keyframe = keyframe_of(poses, scan);
+    if (keyframe && keyframe->map_id != present_map(poses)) {
+        return std::nullopt;
+    }
     return keyframe ? ale_pose_compose(ale_pose_shift(keyframe->smooth, keyframe->pose), scan.smooth)
                     : scan.tracked;
 }
@@ -113,8 +124,10 @@ void limit_memory(ale::ObservationRecord &record)
 void build(ale_live_map &live, const ale_mapper_poses_t &poses, ale_map_t *out)
 {
     live.record.remove([&](const ale::RecordedScan &scan) { return is_thinned(poses, scan); });
+    const auto prior =
+        present_map(poses) == ALE_FIRST_MAP ? ale::PriorWalls::counted : ale::PriorWalls::left_out;
     ale::rebuild_map(
-        live.record, [&](const ale::RecordedScan &scan) { return pose_of(poses, scan); }, out);
+        live.record, [&](const ale::RecordedScan &scan) { return pose_of(poses, scan); }, out, prior);
     live.ids.assign(out);
 }
 

@@ -38,7 +38,8 @@ int ale_live_map_set_prior_map(ale_live_map_t *live, uint32_t epoch, const ale_m
  * left out. O(recorded scans). */
 int ale_live_map_add(ale_live_map_t *live, const ale_scan_observation_t *observation);
 
-/* Rebuilds the map with the keyframes where the mapper now places them, and fills *out; a line that was in
+/* Rebuilds the map that the robot is in, with the keyframes where the mapper now places them, and fills *out;
+ * what was seen in other maps waits until they join. A line that was in
  * the last map keeps its id. False: no lines, the mapper is at another epoch, or out of memory; *out may then
  * hold anything. Work: see rebuild_map. */
 bool ale_live_map_build(ale_live_map_t *live, const ale_mapper_poses_t *poses, ale_map_t *out);

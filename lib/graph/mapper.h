@@ -40,6 +40,8 @@ typedef struct {
     uint32_t contradicted; /* rejected: the graph disagreed */
     uint32_t loops;        /* accepted */
     uint32_t refused;      /* keyframes lost because memory ran out */
+    uint32_t maps;         /* among the keyframes held that have not joined another */
+    uint32_t joins;        /* of maps, by the tracker or here */
 } ale_mapper_statistics_t;
 
 /* A keyframe as the graph now places it. */
@@ -47,6 +49,7 @@ typedef struct {
     uint32_t scan;
     ale_pose_t smooth; /* of the keyframe, odometry frame */
     ale_pose_t pose;   /* map frame, corrected by all loops so far */
+    uint32_t map_id;   /* of that map, after all joins so far; nothing ties the frames of two maps */
 } ale_mapper_pose_t;
 
 /* All keyframes of a map that are held. */
@@ -69,7 +72,8 @@ int ale_mapper_set_prior_map(ale_mapper_t *mapper, uint32_t epoch, const ale_map
 
 /* Adds a keyframe and searches for loops. One of a new epoch starts a new graph; one of the same epoch must
  * be of a later scan. 0, or -1: out of memory; it is counted in `refused`, and the graph starts anew with the
- * next keyframe. Work: three loop searches and 30 iterations of the graph at most. */
+ * next keyframe. Work: three loop searches and 40 iterations of the graph at most;
+ * while there are several maps, two places of another one searched besides (MapJoiner::drive). */
 int ale_mapper_add(ale_mapper_t *mapper, const ale_keyframe_t *keyframe);
 
 /* Adds the lines of a scan after the last keyframe, sensor's frame; `sensor` is the sensor's pose on the
@@ -84,11 +88,13 @@ void ale_mapper_add_walls(ale_mapper_t *mapper, const ale_pose_t *smooth, const 
 bool ale_mapper_refine(ale_mapper_t *mapper);
 
 /* Fills *out with the moves of the keyframes since the last correction; each correction must be applied, in
- * order. False: no keyframe has moved by more than 5 mm or 1 mrad, or out of memory; *out may
+ * order. One that joins two maps moves nothing else; until a keyframe tells that it is applied, no other
+ * follows. False: no keyframe has moved by more than 5 mm or 1 mrad, or out of memory; *out may
  * then hold anything. O(keyframes). */
 bool ale_mapper_correction(ale_mapper_t *mapper, ale_correction_t *out);
 
-/* Counts since the epoch began; `refused` since the mapper was created. O(1). */
+/* Counts since the epoch began; `refused` since the mapper was created.
+ * O(keyframes * changes of the map). */
 ale_mapper_statistics_t ale_mapper_statistics(const ale_mapper_t *mapper);
 
 /* Keyframe k of those held, in order of their scans; k < statistics.keyframes. O(1). */

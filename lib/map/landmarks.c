@@ -56,7 +56,7 @@ int32_t ale_landmarks_find(const ale_landmarks_t *landmarks, ale_point_t p, uint
         const uint32_t first = first_of_set(cx + i % 3 - 1, cy + i / 3 - 1);
         for (uint32_t k = first; k < first + ALE_LANDMARK_WAYS; k++) {
             const ale_landmark_t *m = &landmarks->landmark[k];
-            const int64_t d = m->seen ? distance2(m->p, p) : INT64_MAX;
+            const int64_t d = m->seen > 0 && m->map == landmarks->selected ? distance2(m->p, p) : INT64_MAX;
             if (d < least && faces(m, normal_bam, is_point)) {
                 least = d;
                 best = (int32_t)k;
@@ -78,6 +78,15 @@ void ale_landmarks_add(ale_landmarks_t *landmarks, const ale_landmark_t *landmar
     *place = *landmark;
 }
 
+void ale_landmarks_give_up(ale_landmarks_t *landmarks, uint8_t map)
+{
+    for (uint32_t i = 0; i < ALE_LANDMARK_SETS * ALE_LANDMARK_WAYS; i++) {
+        if (landmarks->landmark[i].map == map) {
+            landmarks->landmark[i].seen = 0;
+        }
+    }
+}
+
 void ale_landmark_observe(ale_landmark_t *landmark, ale_point_t p, uint32_t normal_bam, int64_t var_um2,
                           uint32_t scan)
 {
@@ -90,5 +99,4 @@ void ale_landmark_observe(ale_landmark_t *landmark, ale_point_t p, uint32_t norm
         ale_max64(landmark->var_um2 - ale_mul_shift(gain_q30, landmark->var_um2, 30), VAR_FLOOR_UM2);
     landmark->seen = (uint16_t)ale_min64(landmark->seen + 1, UINT16_MAX);
     landmark->last_scan = scan;
-    landmark->missed = 0;
 }

@@ -20,12 +20,13 @@ typedef struct {
     int64_t var_um2; /* along the normal; of a point feature in every direction */
     uint16_t seen;   /* 0: the place is free */
     uint8_t is_point;
-    uint8_t missed;
+    uint8_t map;   /* that it belongs to: see atlas.h */
     uint32_t born; /* scan that saw it first */
 } ale_landmark_t;
 
 typedef struct {
     ale_landmark_t landmark[ALE_LANDMARK_SETS * ALE_LANDMARK_WAYS];
+    uint8_t selected; /* the map whose landmarks are found */
 } ale_landmarks_t;
 
 void ale_landmarks_clear(ale_landmarks_t *landmarks);
@@ -37,6 +38,9 @@ int32_t ale_landmarks_find(const ale_landmarks_t *landmarks, ale_point_t p, uint
 
 /* Adds a landmark, replacing the least seen of a full set. Constant work. */
 void ale_landmarks_add(ale_landmarks_t *landmarks, const ale_landmark_t *landmark);
+
+/* Removes those of a map. O(capacity). */
+void ale_landmarks_give_up(ale_landmarks_t *landmarks, uint8_t map);
 
 /* Kalman update by an independent observation with its variance, no lower than (3 mm)^2. */
 void ale_landmark_observe(ale_landmark_t *landmark, ale_point_t p, uint32_t normal_bam, int64_t var_um2,

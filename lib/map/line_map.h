@@ -20,7 +20,8 @@ typedef struct {
     int64_t var_alpha_nrad2;
     int64_t cov_alpha_rho;
     int64_t var_rho_um2;
-    uint32_t seen; /* scans that support it */
+    uint32_t seen;   /* scans that support it */
+    uint32_t map_id; /* of the map that it is in, as in ale_estimate_t; not kept in files */
 } ale_map_line_t;
 
 typedef struct {

@@ -21,8 +21,26 @@ void ale_local_map_clear(ale_local_map_t *map)
     map->version = 0;
     map->refused = 0;
     map->near_radius_um = 0;
+    map->selected = 0;
     ale_landmarks_clear(&map->landmarks);
     ale_map_corners_clear(&map->corners);
+}
+
+void ale_local_map_select(ale_local_map_t *map, uint8_t number)
+{
+    map->near_radius_um = map->selected == number ? map->near_radius_um : 0;
+    map->selected = map->landmarks.selected = map->corners.selected = number;
+}
+
+void ale_local_map_give_up(ale_local_map_t *map, uint8_t number)
+{
+    for (uint16_t i = map->count; i > 0; i--) {
+        if (map->wall[i - 1].map == number) {
+            ale_local_map_remove(map, (uint16_t)(i - 1));
+        }
+    }
+    ale_landmarks_give_up(&map->landmarks, number);
+    ale_map_corners_give_up(&map->corners, number);
 }
 
 int32_t ale_local_map_bucket(uint32_t normal_bam)
@@ -63,7 +81,8 @@ static void list_near(ale_local_map_t *map)
     uint16_t found = 0;
     uint16_t size[ALE_MAP_DIRECTIONS] = {0};
     for (uint16_t i = 0; i < map->count; i++) {
-        if (is_near(&map->wall[i], map->near_centre, map->near_radius_um)) {
+        if (map->wall[i].map == map->selected &&
+            is_near(&map->wall[i], map->near_centre, map->near_radius_um)) {
             map->chosen[found++] = i;
             size[ale_local_map_bucket(map->wall[i].normal_bam)]++;
         }
@@ -149,6 +168,7 @@ uint16_t ale_local_map_add(ale_local_map_t *map, const ale_wall_t *wall)
     }
     map->wall[index] = *wall;
     map->wall[index].id = map->next_id++;
+    map->wall[index].map = map->selected;
     map->near_radius_um = 0;
     return index;
 }

@@ -50,9 +50,17 @@ typedef struct {
     uint16_t candidate_first[ALE_MAP_DIRECTIONS + 1];
     ale_point_t near_centre;
     int32_t near_radius_um; /* 0: to be made anew */
+    uint8_t selected;       /* the map whose walls and landmarks are found, and that new ones belong to */
 } ale_local_map_t;
 
 void ale_local_map_clear(ale_local_map_t *map);
+
+/* From here on walls and landmarks of this map alone are found, and what is added belongs to it (see
+ * atlas.h). ale_local_map_approach must follow. O(1). */
+void ale_local_map_select(ale_local_map_t *map, uint8_t number);
+
+/* Removes all walls, landmarks and corners of a map. O(map). */
+void ale_local_map_give_up(ale_local_map_t *map, uint8_t number);
 
 /* Prepares the list of walls that a sensor at `centre` with this reach can see. O(1) as a rule, O(map)
  * when the robot has gone a metre or walls came and went. */

@@ -15,6 +15,20 @@ void ale_map_corners_clear(ale_map_corners_t *corners)
 {
     corners->count = 0;
     corners->refused = 0;
+    corners->selected = 0;
+}
+
+void ale_map_corners_give_up(ale_map_corners_t *corners, uint8_t map)
+{
+    uint16_t kept = 0;
+    for (uint16_t i = 0; i < corners->count; i++) {
+        if (corners->map[i] != map) {
+            corners->corner[kept] = corners->corner[i];
+            corners->born[kept] = corners->born[i];
+            corners->map[kept++] = corners->map[i];
+        }
+    }
+    corners->count = kept;
 }
 
 /* The corner in the map's frame; the covariance turned from the sensor's frame: R C R^T. */
@@ -57,8 +71,9 @@ static void list_around(ale_map_corners_t *corners, const ale_map_corner_t scan[
     }
     for (uint16_t i = 0; i < corners->count && corners->around_count < ALE_CORNERS_AROUND; i++) {
         const ale_point_t p = corners->corner[i].p;
-        if ((int64_t)box[0].x_um - p.x_um < REACH_UM && (int64_t)p.x_um - box[1].x_um < REACH_UM &&
-            (int64_t)box[0].y_um - p.y_um < REACH_UM && (int64_t)p.y_um - box[1].y_um < REACH_UM) {
+        if (corners->map[i] == corners->selected && (int64_t)box[0].x_um - p.x_um < REACH_UM &&
+            (int64_t)p.x_um - box[1].x_um < REACH_UM && (int64_t)box[0].y_um - p.y_um < REACH_UM &&
+            (int64_t)p.y_um - box[1].y_um < REACH_UM) {
             corners->around[corners->around_count++] = i;
         }
     }
@@ -117,6 +132,7 @@ static void add(ale_map_corners_t *corners, const ale_map_corner_t *c, uint32_t 
     }
     corners->corner[place] = *c;
     corners->born[place] = scan;
+    corners->map[place] = corners->selected;
     if (corners->around_count < ALE_CORNERS_AROUND) {
         corners->around[corners->around_count++] = (uint16_t)place;
     }

@@ -22,6 +22,8 @@ enum {
 typedef struct {
     ale_map_corner_t corner[ALE_MAP_MAX_CORNERS];
     uint32_t born[ALE_MAP_MAX_CORNERS]; /* scan that saw it first, or ALE_BORN_BEFORE */
+    uint8_t map[ALE_MAP_MAX_CORNERS];   /* that it belongs to: see atlas.h */
+    uint8_t selected;                   /* the map whose corners are found */
     uint16_t count;
     uint32_t refused;
 
@@ -31,6 +33,9 @@ typedef struct {
 } ale_map_corners_t;
 
 void ale_map_corners_clear(ale_map_corners_t *corners);
+
+/* Removes those of a map. O(corners). */
+void ale_map_corners_give_up(ale_map_corners_t *corners, uint8_t map);
 
 /* Updates by the first ALE_CORNERS_PER_SCAN corners of a scan; sensor: its pose in the map. grow false: no
  * new corners. A full map replaces corners that were seen once, else the new one is refused. Returns how many

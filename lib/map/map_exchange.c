@@ -7,7 +7,7 @@
 
 enum { SHORTEST_UM = 1000, NRAD_PER_URAD = 1000, NRAD2_PER_URAD2 = 1000000 };
 
-static ale_map_line_t line_of(const ale_wall_t *w)
+static ale_map_line_t line_of(const ale_wall_t *w, const ale_atlas_t *atlas)
 {
     return (ale_map_line_t){.id = w->id,
                             .start = ale_wall_point(w, w->start_um),
@@ -15,17 +15,18 @@ static ale_map_line_t line_of(const ale_wall_t *w)
                             .var_alpha_nrad2 = w->var_angle_urad2 * NRAD2_PER_URAD2,
                             .cov_alpha_rho = w->cov_um_urad * NRAD_PER_URAD,
                             .var_rho_um2 = w->var_offset_um2,
-                            .seen = w->seen};
+                            .seen = w->seen,
+                            .map_id = atlas->id[w->map]};
 }
 
-void ale_map_export(const ale_local_map_t *map, ale_map_t *out)
+void ale_map_export(const ale_local_map_t *map, const ale_atlas_t *atlas, ale_map_t *out)
 {
     memset(out, 0, sizeof *out);
     out->version = map->version;
     out->refused = map->refused + map->corners.refused;
     for (uint16_t i = 0; i < map->count; i++) {
         if (map->wall[i].seen >= ALE_MAP_CONFIRMED) {
-            out->line[out->line_count++] = line_of(&map->wall[i]);
+            out->line[out->line_count++] = line_of(&map->wall[i], atlas);
         }
     }
     for (uint16_t i = 0; i < map->corners.count; i++) {
@@ -67,6 +68,7 @@ void ale_map_import(ale_local_map_t *map, const ale_map_t *from)
     memcpy(map->corners.corner, from->corner, map->corners.count * sizeof from->corner[0]);
     for (uint16_t i = 0; i < map->corners.count; i++) {
         map->corners.born[i] = ALE_BORN_BEFORE;
+        map->corners.map[i] = map->selected;
     }
     map->version = from->version + 1;
 }

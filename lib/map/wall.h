@@ -46,6 +46,7 @@ typedef struct {
     uint32_t seen;      /* scans that supported it */
     uint32_t last_scan; /* of the last one that did */
     uint16_t missed;    /* scans that saw through it since */
+    uint8_t map;        /* that it belongs to: see atlas.h */
 } ale_wall_t;
 
 /* Errors of an observation against a wall, observation minus wall, at t along the wall. */

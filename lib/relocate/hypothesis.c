@@ -173,7 +173,7 @@ static bool next_candidate(ale_search_t *s, const query_t *q, uint32_t round, in
     for (; *pairs > 0 && s->rounds == round; --*pairs) {
         const ale_wall_t *wall_a = &q->map->wall[s->first];
         const ale_wall_t *wall_b = &q->map->wall[s->second];
-        if (is_too_short(wall_a, q->a)) {
+        if (wall_a->map != q->map->selected || is_too_short(wall_a, q->a)) {
             next_first(s, count);
             continue;
         }
@@ -182,7 +182,7 @@ static bool next_candidate(ale_search_t *s, const query_t *q, uint32_t round, in
         next_pair(s, count);
         const int32_t in_map_bam = enclosed(wall_a->normal_bam, wall_b->normal_bam);
         if (ale_abs64(ale_bam_diff((uint32_t)in_map_bam, (uint32_t)angle_bam)) < PAIR_ANGLE_BAM &&
-            !is_too_short(wall_b, q->b)) {
+            wall_b->map == q->map->selected && !is_too_short(wall_b, q->b)) {
             return true;
         }
     }

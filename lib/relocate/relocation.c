@@ -52,6 +52,8 @@ void ale_relocation_clear(ale_relocation_t *relocation)
     relocation->count = 0;
     relocation->next = 0;
     relocation->next_wall = 0;
+    relocation->scans = 0;
+    relocation->known_for = 0;
 }
 
 static bool is_same(ale_pose_t a, ale_pose_t b)
@@ -110,6 +112,7 @@ static void add_proposal(ale_relocation_t *r, const ale_scene_t *scene, const al
 {
     const ale_pose_t to_now = ale_pose_between(ale_trail_newest(&r->trail)->from, (ale_pose_t){0, 0, 0});
     ale_place_t place = {.pose = ale_pose_compose(h->pose, to_now),
+                         .entered = r->scans,
                          .score_q8 = (int32_t)(h->score_um * 256 / h->shown_um)};
     if (place.score_q8 < SCORE_LEAST_Q8 || is_known(r, place.pose)) {
         return;
@@ -194,7 +197,7 @@ static int64_t violated_um(const ale_local_map_t *map, const ale_posed_scan_t *m
     for (uint32_t i = 0; i < asked; i++) {
         *next = (uint16_t)(*next + 1 < map->count ? *next + 1 : 0);
         const ale_wall_t *wall = &map->wall[*next];
-        if (is_far(wall, from.sensor, mounted->scan->range_max_um)) {
+        if (wall->map != map->selected || is_far(wall, from.sensor, mounted->scan->range_max_um)) {
             continue;
         }
         if (ale_wall_visibility(wall, &from) == ALE_VISIBILITY_VIOLATED) {
@@ -344,6 +347,7 @@ bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const 
                   const ale_motion_t *predicted, ale_fit_t *fit)
 {
     ale_place_t *place = answer(relocation);
+    relocation->scans++;
     if (!place) {
         propose(relocation, scene);
         fit_some(relocation, scene, mounted, predicted, fit);
@@ -357,6 +361,7 @@ bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const 
         place->scans = 0;
         return false;
     }
+    relocation->known_for = relocation->scans - place->entered;
     ale_register_associate(scene, fit);
     ale_register_weigh(scene, fit);
     return true;

@@ -1,5 +1,7 @@
 #include "track/correction.h"
 
+#include <stddef.h>
+
 #include "base/fixed.h"
 #include "base/trig.h"
 
@@ -29,29 +31,61 @@ ale_pose_t ale_correction_at(const ale_correction_t *correction, uint32_t scan)
     return low > 0 ? correction->shift[low - 1].shift : (ale_pose_t){0, 0, 0};
 }
 
-static void correct_wall(ale_wall_t *wall, ale_pose_t shift)
+ale_pose_t ale_correction_in(const ale_correction_t *correction, uint32_t scan, const ale_moved_map_t *moved)
+{
+    const ale_pose_t shift = ale_correction_at(correction, scan);
+    const bool before = correction->shift[correction->count - 1].scan < moved->to_scan;
+    if (!before || scan < moved->from_scan || scan >= moved->to_scan) {
+        return shift;
+    }
+    const ale_pose_t back = ale_pose_between(moved->shift, (ale_pose_t){0, 0, 0});
+    return ale_pose_compose(ale_pose_compose(moved->shift, shift), back);
+}
+
+static bool is_news(ale_point_t way, ale_pose_t shift)
+{
+    return ale_abs64(way.x_um) > MOVED_UM || ale_abs64(way.y_um) > MOVED_UM ||
+           ale_abs64((int32_t)shift.theta_bam) > MOVED_BAM;
+}
+
+static void move_wall(ale_wall_t *wall, ale_pose_t shift)
 {
     const ale_point_t before = wall->anchor;
     wall->anchor = ale_pose_apply(shift, wall->anchor);
     ale_wall_set_normal(wall, wall->normal_bam + shift.theta_bam);
-    const ale_point_t way = ale_minus(wall->anchor, before);
-    if (ale_abs64(way.x_um) > MOVED_UM || ale_abs64(way.y_um) > MOVED_UM ||
-        ale_abs64((int32_t)shift.theta_bam) > MOVED_BAM) {
+    if (is_news(ale_minus(wall->anchor, before), shift)) {
         wall->var_offset_um2 += LOOP_OFFSET_UM2;
         wall->var_angle_urad2 += LOOP_ANGLE_URAD2;
     }
 }
 
-/* Marks are found by where they lie: all are entered anew. */
-static void correct_marks(ale_landmarks_t *landmarks, const ale_correction_t *correction,
-                          ale_landmarks_t *spare)
+/* By what something moves that was first seen in a scan: a correction, or a join. */
+typedef struct {
+    const ale_correction_t *correction; /* NULL: the join */
+    const ale_moved_map_t *moved;
+    const ale_local_map_join_t *join;
+} move_t;
+
+static ale_pose_t shift_of(const move_t *move, uint32_t born, uint8_t *map)
+{
+    if (move->correction) {
+        return ale_correction_in(move->correction, born, move->moved);
+    }
+    const bool joins = *map == move->join->from;
+    *map = joins ? move->join->into : *map;
+    return joins ? move->join->shift : (ale_pose_t){0, 0, 0};
+}
+
+/* Landmarks are found by where they lie: all are entered anew. */
+static void move_landmarks(ale_landmarks_t *landmarks, const move_t *move, ale_landmarks_t *spare)
 {
     *spare = *landmarks;
     ale_landmarks_clear(landmarks);
+    landmarks->selected = spare->selected;
     for (uint32_t i = 0; i < ALE_LANDMARK_SETS * ALE_LANDMARK_WAYS; i++) {
         ale_landmark_t landmark = spare->landmark[i];
         if (landmark.seen > 0) {
-            const ale_pose_t shift = ale_correction_at(correction, landmark.born);
+            const ale_pose_t shift = shift_of(move, landmark.born, &landmark.map);
             landmark.p = ale_pose_apply(shift, landmark.p);
             landmark.normal_bam += shift.theta_bam;
             ale_landmarks_add(landmarks, &landmark);
@@ -59,22 +93,38 @@ static void correct_marks(ale_landmarks_t *landmarks, const ale_correction_t *co
     }
 }
 
-static void correct_corners(ale_map_corners_t *corners, const ale_correction_t *correction)
+static void move_corners(ale_map_corners_t *corners, const move_t *move)
 {
     for (uint32_t i = 0; i < corners->count; i++) {
-        const ale_pose_t shift = ale_correction_at(correction, corners->born[i]);
+        const ale_pose_t shift = shift_of(move, corners->born[i], &corners->map[i]);
         corners->corner[i].p = ale_pose_apply(shift, corners->corner[i].p);
         corners->corner[i].bisector_bam += shift.theta_bam;
     }
 }
 
-void ale_local_map_correct(ale_local_map_t *map, const ale_correction_t *correction, ale_landmarks_t *spare)
+static void move_map(ale_local_map_t *map, const move_t *move, ale_landmarks_t *spare)
 {
     for (uint32_t i = 0; i < map->count; i++) {
-        correct_wall(&map->wall[i], ale_correction_at(correction, map->wall[i].born));
+        move_wall(&map->wall[i], shift_of(move, map->wall[i].born, &map->wall[i].map));
     }
-    correct_marks(&map->landmarks, correction, spare);
-    correct_corners(&map->corners, correction);
+    move_landmarks(&map->landmarks, move, spare);
+    move_corners(&map->corners, move);
     map->near_radius_um = 0;
     map->version++;
+}
+
+void ale_local_map_correct(ale_local_map_t *map, const ale_correction_t *correction,
+                           const ale_moved_map_t *moved, ale_landmarks_t *spare)
+{
+    move_map(map, &(move_t){correction, moved, NULL}, spare);
+}
+
+void ale_local_map_join(ale_local_map_t *map, const ale_local_map_join_t *join, ale_landmarks_t *spare)
+{
+    for (uint32_t i = 0; i < map->count; i++) {
+        if (map->wall[i].map == join->from) {
+            map->wall[i].map_uncertainty = join->map_uncertainty;
+        }
+    }
+    move_map(map, &(move_t){NULL, NULL, join}, spare);
 }

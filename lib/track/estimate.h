@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "base/pose.h"
+#include "motion/wheel_monitor.h"
 
 typedef enum { ALE_STATE_LOST = 0, ALE_STATE_WEAK = 1, ALE_STATE_GOOD = 2 } ale_state_t;
 
@@ -29,6 +30,10 @@ typedef struct {
     uint8_t state;  /* ale_state_t */
     bool predicted; /* no scan stood behind this pose */
     bool map_changed;
+    uint8_t maps;          /* that are not joined, this one counted */
+    uint8_t wheel_fault;   /* ale_wheel_fault_t: what the wheels do wrong at present */
+    uint32_t map_id;       /* of the map that the map pose is in; 0: the first, or the loaded one */
+    uint32_t wheel_faults; /* so often they began to */
 } ale_estimate_t;
 
 #endif

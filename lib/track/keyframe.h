@@ -1,6 +1,7 @@
 /* A keyframe: a scan worth remembering, handed from the estimate task to the mapper, whole and by value.
  *
- * One is taken when the robot has gone on by half a metre or turned by half a radian and is not lost. */
+ * One is taken when the robot has gone on by half a metre or turned by half a radian, and where maps begin
+ * and join. */
 #ifndef ALE_TRACK_KEYFRAME_H
 #define ALE_TRACK_KEYFRAME_H
 
@@ -10,6 +11,7 @@
 #include "base/pose.h"
 #include "base/scan.h"
 #include "extract/extract.h"
+#include "map/atlas.h"
 #include "track/pipeline.h"
 
 enum { ALE_KEYFRAME_STEP_UM = 500000, ALE_KEYFRAME_TURN_MRAD = 500 };
@@ -22,7 +24,9 @@ struct ale_keyframe {
     int64_t stamp_us;
     ale_pose_t smooth; /* relative motion is measured by this: no correction is in it */
     ale_pose_t map;
-    bool broken; /* lost, or put elsewhere, since the keyframe before: smooth does not tie them */
+    uint32_t map_id;     /* of the map that this pose is in; 0: the first, or the loaded one */
+    ale_map_join_t join; /* the last join of two maps; all that was in the one moved before this keyframe */
+    bool broken; /* put elsewhere, or in another map, since the keyframe before: smooth does not tie them */
     bool weak;   /* part of the pose rests on the prediction alone */
     ale_pose_t sensor;
     ale_scan_t taken;

@@ -99,6 +99,7 @@ static void update_landmark(ale_landmarks_t *landmarks, const ale_observation_t 
                                                            .normal_bam = normal_bam,
                                                            .var_um2 = var_um2,
                                                            .is_point = is_point,
+                                                           .map = landmarks->selected,
                                                            .seen = 1,
                                                            .last_scan = context->scan,
                                                            .born = context->scan});

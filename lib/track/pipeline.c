@@ -6,6 +6,7 @@
 #include "base/fixed.h"
 #include "map/map_exchange.h"
 #include "match/uncertainty.h"
+#include "track/maps.h"
 #include "track/pipeline_state.h"
 #include "track/step_filter.h"
 #include "track/step_observe.h"
@@ -13,11 +14,7 @@
 #include "track/step_search.h"
 #include "track/step_track.h"
 
-enum {
-    START_SPEED_MM_S = 300,
-    START_TURN_MRAD_S = 500,
-    CLAIM_SCANS = 30 /* that may still show that the robot is where it is said to be */
-};
+enum { START_SPEED_MM_S = 300, START_TURN_MRAD_S = 500 };
 
 uint32_t ale_pipeline_size(void)
 {
@@ -55,6 +52,7 @@ static void reset_motion(ale_pipeline_t *p)
                            c->odometry_turn_bias_urad_m);
     ale_lag_init(&p->lag, c->odometry_lag_us);
     ale_wheel_scale_init(&p->scale, &noise);
+    ale_wheel_monitor_init(&p->wheel_monitor);
     ale_process_noise_init(&p->process_noise[0]);
     ale_process_noise_init(&p->process_noise[1]);
     ale_timestamp_filter_init(&p->timestamp_filter);
@@ -72,6 +70,7 @@ static void place(ale_pipeline_t *p, ale_pose_t pose)
 static void reset_map(ale_pipeline_t *p)
 {
     ale_local_map_clear(&p->map);
+    ale_atlas_init(&p->atlas);
     p->decay.next = 0;
     p->map_uncertainty = (ale_map_uncertainty_t){0};
     p->drifted_um = 0;
@@ -93,6 +92,11 @@ void ale_pipeline_reset(ale_pipeline_t *p)
     ale_filter_clear(p);
     ale_relocation_clear(&p->relocation);
     p->claims = 0;
+    p->claim = ALE_CLAIM_NONE;
+    p->next_claim = ALE_CLAIM_NEAR;
+    p->joined = false;
+    p->begun = 0;
+    p->moved_map = (ale_moved_map_t){0, 0, {0, 0, 0}};
     p->scans = 0;
     p->determined = true;
     p->started = false;
@@ -149,12 +153,14 @@ static void conclude(ale_pipeline_t *p, const ale_tracked_t *tracked)
     p->speed_known = tracked->speed_known;
     p->slips = tracked->slips;
     p->kept = tracked->kept;
+    p->watched_us = tracked->kept ? tracked->fit.motion.stamp_us : p->watched_us;
 }
 
 static void observe(ale_pipeline_t *p, const ale_scan_t *scan, const int32_t velocity[ALE_AXES])
 {
     ale_step_observe(p, scan, velocity);
     ale_filter_begin(p);
+    p->voted = false;
     p->looked = true;
 }
 
@@ -166,27 +172,34 @@ static void begin(ale_pipeline_t *p, const ale_scan_t *scan)
     const ale_tracked_t tracked = ale_step_track_first(p);
     conclude(p, &tracked);
     p->started = p->observed.count > 0;
+    p->watched_us = p->motion.stamp_us;
 }
 
-static void search(ale_pipeline_t *p, const ale_prediction_t *prediction)
+/* A robot that knows nothing of where it is goes by the prediction, until a scan shows enough to begin a map
+ * with. */
+static void track(ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
-    ale_fit_t fit = p->fit;
-    const bool found = ale_step_search(p, prediction, &fit);
-    p->motion = found ? fit.motion : prediction->ways.believed;
-    p->fit = fit;
-    p->speed_known = false;
-    p->broken = true;
+    if (p->monitor.state != ALE_STATE_LOST) {
+        const ale_tracked_t tracked = ale_step_track(p, prediction);
+        conclude(p, &tracked);
+    } else {
+        p->motion = prediction->ways.believed;
+        p->kept = false;
+    }
+    if (p->monitor.state == ALE_STATE_LOST && ale_maps_may_begin(p)) {
+        ale_maps_begin(p);
+        const ale_tracked_t tracked = ale_step_track_first(p);
+        conclude(p, &tracked);
+    }
 }
 
 static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
 {
     const ale_prediction_t prediction = ale_step_predict(p, scan->stamp_us);
     observe(p, scan, prediction.ways.believed.velocity);
-    if (p->monitor.state == ALE_STATE_LOST) {
-        search(p, &prediction);
-    } else {
-        const ale_tracked_t tracked = ale_step_track(p, &prediction);
-        conclude(p, &tracked);
+    track(p, &prediction);
+    if (!ale_maps_is_home(p)) {
+        ale_step_search(p, &prediction);
     }
     advance_smooth(p, &prediction);
     if (p->kept) {
@@ -222,8 +235,13 @@ static void answer(ale_pipeline_t *p, int64_t stamp_us, bool predicted, uint32_t
     out->lag_us = p->lag.lag_us;
     out->state =
         (uint8_t)(p->determined || p->monitor.state == ALE_STATE_LOST ? p->monitor.state : ALE_STATE_WEAK);
+    out->state = ale_maps_is_home(p) ? out->state : ALE_STATE_LOST;
     out->predicted = predicted;
     out->map_changed = p->map.version != version;
+    out->map_id = ale_atlas_map_id(&p->atlas);
+    out->maps = (uint8_t)ale_atlas_maps(&p->atlas);
+    out->wheel_fault = (uint8_t)p->wheel_monitor.fault;
+    out->wheel_faults = p->wheel_monitor.faults;
 }
 
 void ale_pipeline_scan(ale_pipeline_t *pipeline, const ale_scan_t *scan, ale_estimate_t *out)
@@ -248,7 +266,7 @@ void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estima
             ale_scale_error_predict(&pipeline->scale_error, before, pipeline->motion.pose,
                                     ale_wheel_scale_error_ppm(&pipeline->scale));
         }
-        if (pipeline->monitor.state == ALE_STATE_LOST) {
+        if (!ale_maps_is_home(pipeline)) {
             ale_relocation_follow(&pipeline->relocation, ale_pose_between(before, pipeline->motion.pose),
                                   counted);
         }
@@ -287,7 +305,7 @@ const ale_features_t *ale_pipeline_features(const ale_pipeline_t *pipeline)
 
 void ale_pipeline_copy_map(const ale_pipeline_t *pipeline, ale_map_t *out)
 {
-    ale_map_export(&pipeline->map, out);
+    ale_map_export(&pipeline->map, &pipeline->atlas, out);
 }
 
 void ale_pipeline_load_map(ale_pipeline_t *pipeline, const ale_map_t *map, uint32_t number, ale_pose_t pose,
@@ -297,7 +315,6 @@ void ale_pipeline_load_map(ale_pipeline_t *pipeline, const ale_map_t *map, uint3
     ale_map_import(&pipeline->map, map);
     pipeline->loaded = number;
     place(pipeline, pose);
-    pipeline->monitor.state = ALE_STATE_LOST;
-    pipeline->claims = known ? CLAIM_SCANS : 0;
+    ale_maps_lose(pipeline, known ? ALE_CLAIM_SAID : ALE_CLAIM_NONE);
     pipeline->started = pipeline->map.count > 0;
 }

@@ -48,8 +48,8 @@ bool ale_pipeline_keyframe(ale_pipeline_t *pipeline, ale_keyframe_t *out);
 
 /* For the mapper, which draws the map anew: what the scan last handed over has shown (see
  * scan_observation.h). Copies at most sizeof(ale_scan_observation_t). False, and *out is untouched: there was
- * no scan, the robot is lost or may be, no keyframe was taken since it was put elsewhere, or the map is
- * frozen. */
+ * no scan, the robot is in no map or may not be where its pose says, no keyframe was taken since it was put
+ * elsewhere, or the map is frozen. */
 bool ale_pipeline_scan_observation(const ale_pipeline_t *pipeline, ale_scan_observation_t *out);
 
 /* From the mapper, between two scans: map and map pose move as loops have shown; the smooth pose does not.
@@ -57,8 +57,8 @@ bool ale_pipeline_scan_observation(const ale_pipeline_t *pipeline, ale_scan_obse
  * * log count). */
 bool ale_pipeline_correct(ale_pipeline_t *pipeline, const ale_correction_t *correction);
 
-/* "You are here", within about 0.4 m and 0.2 rad: the map stays, the map pose is put there, state weak until
- * scans agree. */
+/* "You are here", within about 0.4 m and 0.2 rad: the map stays, the map pose is put there. The robot is
+ * lost, in a new map, until a scan fits there or it is found elsewhere. */
 void ale_pipeline_relocate(ale_pipeline_t *pipeline, ale_pose_t pose);
 
 /* Pure localisation: while frozen the map stays byte for byte as it is, corrections apart. */
@@ -69,7 +69,7 @@ const ale_features_t *ale_pipeline_features(const ale_pipeline_t *pipeline);
 
 /* The scan last handed over as it was straightened and taken into account (see seen.h), at its map pose;
  * borrowed until the next one is handed over. False, and *out untouched: the last answer had no scan, or
- * nobody knows where it was taken (the robot is lost, or may soon be said to be). */
+ * nobody knows where it was taken (the robot is in no map, or scans deny its pose). */
 bool ale_pipeline_seen(const ale_pipeline_t *pipeline, ale_seen_t *out);
 
 /* The map as it stands: walls and corners worth showing. Copies at most sizeof(ale_map_t). */

@@ -6,6 +6,7 @@
 #include "base/trig.h"
 #include "track/correction.h"
 #include "track/keyframe.h"
+#include "track/maps.h"
 #include "track/pipeline.h"
 #include "track/pipeline_state.h"
 #include "track/scan_observation.h"
@@ -14,8 +15,6 @@
 enum {
     LOOP_SIGMA_UM = 30000, /* how well a corrected pose lies to the walls that it comes back to */
     LOOP_SIGMA_URAD = 10000,
-    SHOWN_SIGMA_UM = 200000, /* how well a person shows where the robot stands */
-    SHOWN_SIGMA_URAD = 100000,
     MOVED_UM = 5000,
     MOVED_BAM = 2 * ALE_BAM_PER_MRAD
 };
@@ -34,7 +33,7 @@ bool ale_pipeline_keyframe(ale_pipeline_t *p, ale_keyframe_t *out)
     if (!p->started || !p->looked || p->monitor.state == ALE_STATE_LOST) {
         return false;
     }
-    if (p->keyframes > 0 && !p->broken && !has_gone_on(p)) {
+    if (p->keyframes > 0 && !p->broken && !p->joined && !has_gone_on(p)) {
         return false;
     }
     out->epoch = p->epoch;
@@ -44,6 +43,8 @@ bool ale_pipeline_keyframe(ale_pipeline_t *p, ale_keyframe_t *out)
     out->stamp_us = p->still.scan.stamp_us;
     out->smooth = p->smooth.pose;
     out->map = p->motion.pose;
+    out->map_id = ale_atlas_map_id(&p->atlas);
+    out->join = p->atlas.join;
     out->broken = p->broken;
     out->weak = p->monitor.state != ALE_STATE_GOOD;
     out->sensor = p->config.sensor;
@@ -55,6 +56,7 @@ bool ale_pipeline_keyframe(ale_pipeline_t *p, ale_keyframe_t *out)
     p->keyframe_scan = out->scan;
     p->keyframes++;
     p->broken = false;
+    p->joined = false;
     return true;
 }
 
@@ -110,9 +112,16 @@ bool ale_pipeline_correct(ale_pipeline_t *p, const ale_correction_t *correction)
     if (!ours || correction->due > p->scans) {
         return !ours;
     }
-    ale_local_map_correct(&p->map, correction, &p->spare_landmarks);
-    correct_robot(p, correction->shift[correction->count - 1].shift);
     p->corrections++;
+    if (correction->joins && ale_atlas_find(&p->atlas, correction->joined_map_id) == ALE_NO_MAP) {
+        return true; /* it has joined another one by itself */
+    }
+    const ale_shift_t *last = &correction->shift[correction->count - 1];
+    ale_local_map_correct(&p->map, correction, &p->moved_map, &p->spare_landmarks);
+    correct_robot(p, ale_correction_in(correction, last->scan, &p->moved_map));
+    if (correction->joins) {
+        ale_maps_joined(p, correction->joined_map_id, correction->into_map_id);
+    }
     return true;
 }
 
@@ -120,13 +129,9 @@ void ale_pipeline_relocate(ale_pipeline_t *p, ale_pose_t pose)
 {
     p->motion.pose = pose;
     ale_smooth_hold(&p->smooth, pose);
-    ale_motion_widen(&p->motion, SHOWN_SIGMA_UM, SHOWN_SIGMA_URAD);
-    ale_tracking_found(&p->monitor);
-    p->map.near_radius_um = 0;
+    ale_maps_lose(p, ALE_CLAIM_SAID);
     ale_update_restart(p);
-    ale_relocation_clear(&p->relocation);
     p->moved = true;
-    p->broken = true;
 }
 
 void ale_pipeline_freeze_map(ale_pipeline_t *p, bool frozen)

@@ -11,10 +11,12 @@
 
 #include "base/stage.h"
 #include "extract/workspace.h"
+#include "map/atlas.h"
 #include "map/local_map.h"
 #include "map/map_decay.h"
 #include "match/map_uncertainty.h"
 #include "match/odometry_scale_error.h"
+#include "match/pose_vote.h"
 #include "match/scan_to_map.h"
 #include "match/scan_to_scan.h"
 #include "motion/lag.h"
@@ -23,10 +25,12 @@
 #include "motion/smooth_pose.h"
 #include "motion/timestamp_filter.h"
 #include "motion/wheel_factors.h"
+#include "motion/wheel_monitor.h"
 #include "motion/wheels.h"
 #include "observe/observation.h"
 #include "observe/short_segment.h"
 #include "relocate/relocation.h"
+#include "track/correction.h"
 #include "track/evidence/carried.h"
 #include "track/evidence/elders.h"
 #include "track/evidence/overview.h"
@@ -60,6 +64,13 @@ typedef struct {
     uint32_t count;
 } ale_static_scene_t;
 
+/* What is claimed of where a robot is that begins a new map. */
+typedef enum {
+    ALE_CLAIM_NONE, /* it may be anywhere */
+    ALE_CLAIM_NEAR, /* around where its pose says */
+    ALE_CLAIM_SAID  /* there, as somebody says: one scan that fits is enough */
+} ale_claim_t;
+
 struct ale_pipeline {
     ale_pipeline_config_t config;
     ale_stage_hook_t hook;
@@ -79,6 +90,9 @@ struct ale_pipeline {
     /* associate, solve: workspaces */
     ale_scan_match_t scan_match;
     ale_fit_t other; /* of the same scan, from another pose */
+    ale_pose_vote_t vote;
+    bool voted;     /* on the scan at hand: one vote a scan */
+    ale_fit_t best; /* of the places of the vote */
 
     /* monitor */
     ale_tracking_monitor_t monitor;
@@ -93,16 +107,22 @@ struct ale_pipeline {
 
     /* search */
     ale_relocation_t relocation;
-    uint16_t claims; /* scans that may still show that the robot is where it is said to be */
+    ale_claim_t next_claim; /* what the next map begins with */
+    ale_claim_t claim;      /* what the robot's map has begun with, */
+    uint16_t claims;        /* and so many scans may still show it */
 
     /* update */
     ale_local_map_t map;
+    ale_atlas_t atlas;         /* whose walls those are */
+    uint32_t begun;            /* the scan that began the robot's map, */
+    ale_moved_map_t moved_map; /* and the last map that moved to join another one */
     ale_map_decay_t decay;
     ale_map_uncertainty_t map_uncertainty; /* around the robot */
     ale_scale_error_t scale_error;
     int64_t drifted_um; /* since a scan last determined every direction */
     ale_lag_t lag;
     ale_wheel_scale_t scale;
+    ale_wheel_monitor_t wheel_monitor;
     ale_process_noise_t process_noise[2]; /* without wheels, with wheels */
 
     /* conclude: what a scan came to */
@@ -110,12 +130,13 @@ struct ale_pipeline {
     ale_smooth_t smooth;
     ale_fit_t fit; /* of the last scan that was fitted */
     uint16_t matched_corners;
-    bool determined;  /* every direction, by the last scan */
-    bool speed_known; /* a scan determined it, and the robot has gone on evenly since */
-    bool slips;       /* the last time that wheels could have slipped they did */
-    bool kept;        /* the last scan that was tracked is the one that the next is compared with */
-    bool looked;      /* the last answer had a scan */
-    bool started;     /* the first scan has set the origin */
+    bool determined;    /* every direction, by the last scan */
+    bool speed_known;   /* a scan determined it, and the robot has gone on evenly since */
+    bool slips;         /* the last time that wheels could have slipped they did */
+    bool kept;          /* the last scan that was tracked is the one that the next is compared with */
+    bool looked;        /* the last answer had a scan */
+    int64_t watched_us; /* when a scan last told where the robot is */
+    bool started;       /* the first scan has set the origin */
     uint32_t scans;
 
     /* commands, and what passes to the mapper: pipeline_mapper.c */
@@ -127,6 +148,7 @@ struct ale_pipeline {
     uint32_t keyframe_scan;
     ale_pose_t keyframe_smooth;
     bool broken; /* since the last keyframe: see ale_keyframe_t */
+    bool joined; /* since the last keyframe, two maps have */
     bool moved;  /* the map pose was put elsewhere: how it settles there is no displacement of the robot */
     ale_landmarks_t spare_landmarks;
 };

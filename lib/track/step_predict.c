@@ -47,6 +47,7 @@ ale_prediction_t ale_step_predict(ale_pipeline_t *p, int64_t stamp_us)
     const int64_t dt_us = instant_us - p->motion.stamp_us;
     ale_motion_t predicted = p->motion;
     const bool counted = ale_pipeline_predict_by_wheels(p, &predicted, instant_us, &prediction.wheels);
+    prediction.counted = counted;
     prediction.ways =
         counted ? hypotheses(p, &predicted) : (ale_ways_t){.believed = predicted, .rival = predicted};
     prediction.dt_us =

@@ -12,7 +12,8 @@ enum { ALE_SCAN_PERIOD_MAX_US = 2000000 }; /* scans farther apart say nothing of
 typedef struct {
     ale_motion_t before;       /* where the last scan has left the robot */
     ale_ways_t ways;           /* motion hypotheses for the scan at hand */
-    ale_wheel_motion_t wheels; /* what they say, where ways.counted */
+    bool counted;              /* wheels tell what the robot has gone since the last scan: */
+    ale_wheel_motion_t wheels; /* this */
     int64_t dt_us;             /* since the last scan; the usual period where the stamps are not credible */
 } ale_prediction_t;
 

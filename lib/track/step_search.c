@@ -1,52 +1,111 @@
 #include "track/step_search.h"
 
+#include <stddef.h>
+
+#include "base/fixed.h"
+#include "base/trig.h"
+#include "track/maps.h"
 #include "track/step_associate.h"
 #include "track/step_observe.h"
-#include "track/step_update.h"
+#include "track/step_recover.h"
 
 enum {
     WHOLE_MAP_UM = 2000000000, /* a reach beyond any map */
-    SEARCH_SIGMA_UM = 100000,
-    SEARCH_SIGMA_URAD = 50000
+    SAID_SIGMA_UM = 100000,
+    SAID_SIGMA_URAD = 50000,
+    EXPECTED_UM = 500000, /* of where the prediction has put the robot: there less will do */
+    EXPECTED_BAM = 350 * ALE_BAM_PER_MRAD,
+    EXPECTED_LEAST_UM = 2000000,
+    LAID_LEAST_UM = 10000000,   /* of walls of the one map that lie on the other, */
+    LAID_PERCENT = 90,          /* and the part of them */
+    LAID_WALL_MOST_UM = 2000000 /* that one of them counts for */
 };
 
-/* Where the robot is said to be is tried with every other scan, for a while. */
+static const ale_gate_t laid_gate = {100000, 100000, 1000, 0};
+
+/* What is claimed is tried with every other scan, for a while. */
 static bool is_claim_due(ale_pipeline_t *p)
 {
     p->claims = (uint16_t)(p->claims > 0 ? p->claims - 1 : 0);
     return p->claims % 2 == 1;
 }
 
-static bool is_where_claimed(ale_pipeline_t *p, const ale_motion_t *predicted, ale_fit_t *fit)
+/* Whether the robot's own map lies on the selected one when the robot is at this pose of that. Each wall
+ * counts once: many scans from one place show no more than one does. */
+static bool is_laid_on(const ale_pipeline_t *p, ale_pose_t there, uint32_t within)
 {
-    ale_motion_t there = *predicted;
-    ale_motion_widen(&there, SEARCH_SIGMA_UM, SEARCH_SIGMA_URAD);
+    const ale_viewpoint_t shift = ale_viewpoint(ale_pose_shift(p->motion.pose, there));
+    int32_t work = ALE_ASSOCIATION_WORK;
+    int64_t shown_um = 0;
+    int64_t explained_um = 0;
+    for (uint16_t i = 0; i < p->map.count; i++) {
+        const ale_wall_t *wall = &p->map.wall[i];
+        if (wall->map == p->atlas.current && wall->seen >= ALE_MAP_CONFIRMED &&
+            wall->last_scan + within > p->scans) {
+            const ale_observation_t as_seen = {.centre = wall->anchor,
+                                               .normal_bam = wall->normal_bam,
+                                               .start_um = wall->start_um,
+                                               .end_um = wall->end_um,
+                                               .var_offset_um2 = wall->var_offset_um2,
+                                               .var_angle_urad2 = wall->var_angle_urad2};
+            const ale_association_t a = ale_associate(&p->map, &as_seen, &shift, NULL, &laid_gate, &work);
+            const int64_t length_um = ale_min64(ale_observation_length_um(&as_seen), LAID_WALL_MOST_UM);
+            shown_um += length_um;
+            explained_um += a.wall == ALE_NO_WALL ? 0 : ale_min64(a.error.overlap_um, length_um);
+        }
+    }
+    const bool expected = ale_are_near(p->motion.pose, there, EXPECTED_UM, EXPECTED_BAM);
+    return explained_um > (expected ? EXPECTED_LEAST_UM : LAID_LEAST_UM) &&
+           explained_um * 100 > shown_um * LAID_PERCENT;
+}
+
+static bool is_where_said(ale_pipeline_t *p, ale_fit_t *fit)
+{
+    ale_motion_t there = p->motion;
+    ale_motion_widen(&there, SAID_SIGMA_UM, SAID_SIGMA_URAD);
     ale_pipeline_fit(p, &there, WHOLE_MAP_UM, fit);
     return ale_tracking_confirms(fit);
 }
 
-static bool is_found(ale_pipeline_t *p, const ale_motion_t *predicted, ale_fit_t *fit)
+/* Near where the robot was last known to be. */
+static bool is_where_claimed(ale_pipeline_t *p, ale_fit_t *fit)
+{
+    if (p->claim == ALE_CLAIM_SAID && is_where_said(p, fit)) {
+        return true;
+    }
+    if (p->voted || !ale_recover_in_region(p, p->motion.pose)) {
+        return false;
+    }
+    *fit = p->best;
+    return is_laid_on(p, fit->motion.pose, p->scans + 1);
+}
+
+static bool is_found(ale_pipeline_t *p, ale_fit_t *fit)
 {
     const ale_point_t anywhere = {0, 0};
     ale_local_map_approach(&p->map, anywhere, WHOLE_MAP_UM);
     const ale_scene_t scene = ale_observed_scene(p);
     const ale_posed_scan_t mounted = {&p->observed.scan, ale_observed_bearings(&p->observed),
                                       p->config.sensor};
-    return ale_relocate(&p->relocation, &scene, &mounted, predicted, fit) && ale_tracking_accepts(fit);
+    if (!ale_relocate(&p->relocation, &scene, &mounted, &p->motion, fit) || !ale_tracking_accepts(fit)) {
+        return false;
+    }
+    /* all that was seen while the place was known; or the last part of it, where the other map begins there
+     */
+    const uint32_t scans = p->relocation.known_for;
+    return is_laid_on(p, fit->motion.pose, scans) || is_laid_on(p, fit->motion.pose, scans / 2);
 }
 
-bool ale_step_search(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_fit_t *fit)
+void ale_step_search(ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
-    const ale_motion_t *predicted = &prediction->ways.believed;
-    ale_relocation_follow(&p->relocation, ale_pose_between(prediction->before.pose, predicted->pose),
-                          prediction->ways.counted);
-    const bool found = is_claim_due(p) ? is_where_claimed(p, predicted, fit) : is_found(p, predicted, fit);
+    const bool followed = p->monitor.state != ALE_STATE_LOST && !p->monitor.contradicted;
+    ale_relocation_follow(&p->relocation, ale_pose_between(prediction->before.pose, p->motion.pose),
+                          followed || prediction->ways.counted);
+    ale_local_map_select(&p->map, ALE_FIRST_MAP);
+    const bool found = is_claim_due(p) ? is_where_claimed(p, &p->other) : is_found(p, &p->other);
+    ale_local_map_select(&p->map, p->atlas.current);
     if (found) {
-        p->claims = 0;
-        ale_relocation_clear(&p->relocation);
-        ale_tracking_found(&p->monitor);
-        ale_update_restart(p);
+        ale_maps_join(p, ALE_FIRST_MAP, &p->other);
+        p->fit = p->other;
     }
-    ale_stage_end(&p->hook, ALE_STAGE_MATCH);
-    return found;
 }

@@ -5,6 +5,7 @@
 #include "track/step_filter.h"
 #include "track/step_monitor.h"
 #include "track/step_observe.h"
+#include "track/step_recover.h"
 #include "track/step_update.h"
 
 enum { EVEN_US = 250000 /* a scan that comes later says nothing of a speed */ };
@@ -34,13 +35,54 @@ static bool is_speed_known(const ale_pipeline_t *p, const ale_prediction_t *pred
     return observability->determined || (p->speed_known && even);
 }
 
+static ale_scene_verdict_t lose(ale_pipeline_t *p, ale_claim_t claim)
+{
+    ale_tracking_lose(&p->monitor);
+    p->next_claim = claim;
+    return ALE_SCENE_CHANGED;
+}
+
+/* What a scan that the prediction does not explain, or that nobody watched, comes to. */
+static ale_scene_verdict_t recover(ale_pipeline_t *p, const ale_prediction_t *prediction,
+                                   ale_scene_verdict_t verdict, ale_ways_t *ways, ale_fit_t *fit)
+{
+    const ale_recovery_t recovery = ale_step_recover(p, prediction, verdict, ways, fit);
+    if (recovery == ALE_RECOVER_MOVED) {
+        ale_tracking_found(&p->monitor);
+    }
+    if (recovery == ALE_RECOVER_MOVED || recovery == ALE_RECOVER_NEAR) {
+        p->monitor.contradicted = false;
+        return ALE_SCENE_KNOWN;
+    }
+    const bool unsure = verdict == ALE_SCENE_STRANGE && !ways->counted;
+    const bool refuted = verdict == ALE_SCENE_CHANGED || recovery == ALE_RECOVER_OPEN || unsure;
+    return refuted && ale_recover_is_unwatched(p, prediction) ? lose(p, ALE_CLAIM_NEAR) : verdict;
+}
+
+/* The scan is believed where the prediction has led to, or where else it fits better; after a time in which
+ * nobody watched it must fit. */
+static ale_scene_verdict_t judge(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_ways_t *ways,
+                                 ale_fit_t *fit)
+{
+    const ale_scene_verdict_t verdict = ale_step_monitor(p, prediction, ways->counted, fit);
+    const bool doubtful =
+        ale_recover_is_unwatched(p, prediction) || ale_tracking_doubts(fit) || verdict == ALE_SCENE_CHANGED;
+    if (p->observed.count == 0 || !doubtful) {
+        return verdict;
+    }
+    if (ale_recover_may_be_anywhere(p, prediction)) {
+        return lose(p, ALE_CLAIM_NONE);
+    }
+    return recover(p, prediction, verdict, ways, fit);
+}
+
 ale_tracked_t ale_step_track(ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
     ale_tracked_t tracked = {.slips = p->slips};
     ale_fit_t *fit = &tracked.fit;
-    const ale_ways_t ways = ale_step_associate(p, prediction, fit);
+    ale_ways_t ways = ale_step_associate(p, prediction, fit);
     ale_step_solve(p, fit);
-    const ale_scene_verdict_t verdict = ale_step_monitor(p, prediction, ways.counted, fit);
+    const ale_scene_verdict_t verdict = judge(p, prediction, &ways, fit);
     tracked.kept = filter(p, verdict, prediction, &ways.believed, fit);
 
     const ale_scale_error_t scale_error = p->scale_error;

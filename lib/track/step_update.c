@@ -57,6 +57,10 @@ void ale_update_learn(ale_pipeline_t *p, const ale_prediction_t *prediction, con
     ale_process_noise_learn(&p->process_noise[ways->counted], &ways->believed, &fit->motion);
     if (p->config.use_odometry && dt_us > 0 && dt_us <= ALE_SCAN_PERIOD_MAX_US &&
         ale_information_determines(&fit->information, LEARN_DETERMINED_UM)) {
+        if (prediction->counted) {
+            ale_wheel_monitor_compare(&p->wheel_monitor, prediction->wheels.displacement,
+                                      ale_pose_between(prediction->before.pose, fit->motion.pose));
+        }
         learn_wheels(p, prediction, ways->counted, before, &fit->motion);
     }
 }
@@ -71,7 +75,7 @@ void ale_update_reanchor(ale_pipeline_t *p, ale_fit_t *fit)
 
 uint16_t ale_update_map(ale_pipeline_t *p, const ale_fit_t *fit, bool grow)
 {
-    if (p->frozen) {
+    if (p->frozen && p->atlas.current == ALE_FIRST_MAP) {
         return p->matched_corners;
     }
     const ale_pose_t sensor = ale_pose_compose(fit->motion.pose, p->config.sensor);
@@ -93,4 +97,7 @@ ale_visibility_counts_t ale_update_decay(ale_pipeline_t *p, ale_pose_t robot)
 void ale_update_restart(ale_pipeline_t *p)
 {
     p->scale_error = (ale_scale_error_t){0, 0};
+    p->map_uncertainty = (ale_map_uncertainty_t){0};
+    p->drifted_um = 0;
+    p->decay.next = 0;
 }

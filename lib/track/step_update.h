@@ -31,7 +31,7 @@ uint16_t ale_update_map(ale_pipeline_t *p, const ale_fit_t *fit, bool grow);
 /* Asks the near walls that were not matched whether they are there; those that are not decay. */
 ale_visibility_counts_t ale_update_decay(ale_pipeline_t *p, ale_pose_t robot);
 
-/* The robot was found or put elsewhere: the scale of the wheels has not brought it there. */
+/* The robot is in another map: what wheels and walls have made of the last one is void. */
 void ale_update_restart(ale_pipeline_t *p);
 
 #endif

@@ -171,6 +171,12 @@ void ale_tracking_found(ale_tracking_monitor_t *monitor)
     monitor->empty_scans = 0;
 }
 
+void ale_tracking_lose(ale_tracking_monitor_t *monitor)
+{
+    monitor->misfits = MISFITS_UNTIL_LOST;
+    monitor->contradicted = true;
+}
+
 ale_state_t ale_tracking_skip(ale_tracking_monitor_t *monitor, const ale_motion_t *predicted)
 {
     if (monitor->state != ALE_STATE_LOST) {

@@ -33,6 +33,16 @@ def test_every_scan_sent_is_answered_by_one_pose(drive):
     assert all(later.utime > earlier.utime for earlier, later in zip(poses, poses[1:]))
 
 
+def test_every_pose_is_told_to_be_in_the_first_map_with_wheels_that_are_right(drive):
+    told = drive.listener.messages["ALE_TRACKING"]
+    assert [(one.scan, one.utime) for one in told] == [(pose.scan, pose.utime) for pose in drive.listener.poses]
+    assert {(one.map_id, one.maps, one.wheel_fault, one.wheel_word) for one in told} == {(0, 1, 0, "fine")}
+    assert drive.listener.counters()["maps"] == 1 and drive.listener.counters()["wheel_faults"] == 0
+    pieces = drive.listener.messages["ALE_MAP_PIECES"]
+    assert {piece.version for piece in pieces} == {part.version for part in drive.listener.map_parts}
+    assert sum(piece.num_lines for piece in pieces) == 0
+
+
 def test_the_pose_follows_the_truth(drive):
     metres, radians, count = trajectory_error(drive.listener.poses, Truth(drive.truth_path))
     print(f"error {metres * 1000:.1f} mm, {math.degrees(radians):.2f} degrees over {count} scans")

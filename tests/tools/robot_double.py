@@ -1,7 +1,7 @@
 """A robot that is not there: publishes over LCM what the firmware would, driving a circle in two rooms.
 
     robot = RobotDouble(url)
-    robot.step()          # one scan: pose, features, scan; the map and the status with the first one
+    robot.step()          # one scan: pose, tracking, features, scan; the map and the status with the first one
     robot.drive(scans)    # so many
 """
 import math
@@ -23,6 +23,7 @@ BEAM_TIME = 97.656e-6
 STAMP_BEAM = -44
 RADIUS, OMEGA, SCANS_A_SECOND = 0.7, 0.3, 10  # of its circle
 MAP_LINES_A_PART = 7
+WHEELS = ["fine", "contradict", "stalled", "reversed", "late", "scale"]
 
 
 def cast(x, y, bearing):
@@ -54,6 +55,7 @@ class RobotDouble:
         self.scan = 0
         self.state = 2
         self.driver = "streaming"
+        self.map_id, self.maps, self.wheels = 0, 1, "fine"
         self.who_drives = ""
         self.answer = ("", 0, "")  # operator, counter and result of the last command
 
@@ -74,6 +76,7 @@ class RobotDouble:
         elif self.scan % 10 == 0:
             self.publish_status()
         self.publish_pose()
+        self.publish_tracking()
         self.publish_features()
         self.publish_scan()
         self.scan += 1
@@ -104,6 +107,13 @@ class RobotDouble:
 
     def publish_pose(self):
         self.bus.publish("ALE_POSE", self.pose().encode())
+
+    def publish_tracking(self):
+        tracking = ale.tracking_t()
+        tracking.scan, tracking.map_id, tracking.maps = self.scan, self.map_id, self.maps
+        tracking.wheel_word, tracking.wheel_fault = self.wheels, WHEELS.index(self.wheels)
+        tracking.wheel_faults = 0 if self.wheels == "fine" else 1
+        self.bus.publish("ALE_TRACKING", tracking.encode())
 
     def publish_features(self):
         features = ale.features_t()
@@ -156,6 +166,14 @@ class RobotDouble:
     def publish_map(self, version=1):
         for part in self.map_parts(version):
             self.bus.publish("ALE_MAP", part.encode())
+
+    def publish_pieces(self, walls, map_id=1, version=1):
+        """Those walls are in another map, not joined."""
+        pieces = ale.map_pieces_t()
+        pieces.version, pieces.part, pieces.parts = version, 0, 1
+        pieces.line_id, pieces.map_id = list(walls), [map_id] * len(walls)
+        pieces.num_lines = len(walls)
+        self.bus.publish("ALE_MAP_PIECES", pieces.encode())
 
     def publish_status(self):
         status = ale.status_t()

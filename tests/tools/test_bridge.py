@@ -133,6 +133,14 @@ def test_poses_cross_whole_and_in_order_and_scans_thinned(sides, ends):
     assert counted["thinned"] == 60 - len(scans)
 
 
+def test_every_pose_has_its_tracking_and_every_map_its_pieces_with_it(sides, ends):
+    robot, operator = sides
+    for channel in ("ALE_TRACKING", "ALE_MAP_PIECES"):
+        for k in range(20):  # at once: nothing of it is thinned
+            robot.bus.publish(channel, bytes([k]) * 40)
+        wait_until(lambda: operator.on(channel) == [bytes([k]) * 40 for k in range(20)], 180, channel)
+
+
 def test_commands_go_to_the_robot_and_nothing_else_does(sides, ends):
     robot, operator = sides
     operator.bus.publish("ALE_ODOMETRY", b"not for the robot")

@@ -179,6 +179,30 @@ def test_the_map_is_whole_only_with_all_its_parts(console, robot):
     assert sorted((l["x1"], l["y1"], l["x2"], l["y2"]) for l in received["lines"]) == sorted(WALLS)
 
 
+def test_which_walls_are_in_another_map_is_told_before_or_after_them(console, robot):
+    watching = WebSocket(console.url)
+    watching.wait_for("hello")
+
+    def apart(message):
+        return sorted(line["id"] for line in message["lines"] if line.get("map_id") == 1)
+    robot.publish_pieces([1, 3], version=1)
+    robot.publish_map(version=1)
+    assert apart(watching.wait_for("map", lambda m: m["version"] == 1)) == [1, 3]
+    robot.publish_map(version=2)
+    assert apart(watching.wait_for("map", lambda m: m["version"] == 2)) == []
+    robot.publish_pieces([2], version=2)
+    assert apart(watching.wait_for("map", lambda m: m["version"] == 2)) == [2]
+
+
+def test_the_map_and_the_wheels_of_every_pose_arrive(console, robot):
+    watching = WebSocket(console.url)
+    watching.wait_for("hello")
+    robot.map_id, robot.maps, robot.wheels = 3, 2, "reversed"
+    robot.publish_tracking()
+    tracking = watching.wait_for("tracking")
+    assert (tracking["map_id"], tracking["maps"], tracking["wheels"], tracking["wheel_faults"]) == (3, 2, "reversed", 1)
+
+
 def test_scan_and_features_keep_their_geometry(console, robot):
     watching = WebSocket(console.url)
     watching.wait_for("hello")
@@ -198,7 +222,7 @@ def test_who_comes_late_gets_map_status_and_the_whole_trail(console, robot):
     robot.drive(40)
     first.wait_for("pose", lambda pose: pose["scan"] == 39)
     late = WebSocket(console.url)
-    wanted = {"map", "status", "trail", "pose", "features", "scan"}
+    wanted = {"map", "status", "trail", "pose", "tracking", "features", "scan"}
     while wanted:
         message = late.next()
         late.got()
@@ -271,13 +295,14 @@ def empty_scan():
 def hostile_messages():
     """Bytes that no honest robot sends: cut, with counts beyond reason, with numbers that are none."""
     whole = {"ALE_POSE": ale.pose_t(), "ALE_FEATURES": ale.features_t(), "ALE_SCAN": empty_scan(),
-             "ALE_MAP": ale.map_t(), "ALE_STATUS": ale.status_t()}
+             "ALE_MAP": ale.map_t(), "ALE_STATUS": ale.status_t(), "ALE_TRACKING": ale.tracking_t(),
+             "ALE_MAP_PIECES": ale.map_pieces_t()}
     for channel, message in whole.items():
         data = message.encode()
         yield channel, b""
         yield channel, data[:-1]
         yield channel, b"\0" * len(data)
-    counts = {"ALE_FEATURES": 8 + 8 + 4 + 12, "ALE_SCAN": 8 + 8 + 4 * 10, "ALE_MAP": 8 + 8 + 4 + 4}
+    counts = {"ALE_FEATURES": 8 + 8 + 4 + 12, "ALE_SCAN": 8 + 8 + 4 * 10, "ALE_MAP": 8 + 8 + 4 + 4, "ALE_MAP_PIECES": 8 + 8 + 4 + 4}
     for channel, offset in counts.items():
         for count in (-1, 1 << 20, 0x7FFFFFFF):
             data = bytearray(whole[channel].encode())

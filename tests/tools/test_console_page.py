@@ -127,6 +127,41 @@ def test_what_the_scanner_reports_stands_over_the_map_in_plain_words(page, robot
     page.wait_for("document.getElementById('advice').hidden")
 
 
+def test_a_map_that_is_not_joined_is_told_and_drawn_apart(page, robot, pulse):
+    page.wait_for("document.getElementById('map-lines').textContent === '12'")
+    page.wait_for("document.getElementById('maps').textContent === 'one'")
+    assert page.run("return document.getElementById('apart').hidden")
+    before = pixels(page, "apart")["count"]
+    robot.map_id, robot.maps = 1, 2
+    robot.publish_pieces(range(5))  # the walls of the first room
+    page.wait_for("document.getElementById('state-text').textContent === 'new map, not joined yet'")
+    page.wait_for("document.getElementById('advice').textContent.includes('until the robot knows a place again (2 in all).')")
+    assert page.text("maps") == "new map, not joined yet"
+    page.wait_for("!document.getElementById('apart').hidden")
+    let_the_camera_glide(page)
+    assert pixels(page, "apart")["count"] > before + 500, "the second room, in which no line of the scan lies over them"
+    robot.map_id = 0  # it has found back, into the map of the other walls
+    page.wait_for("document.getElementById('state-text').textContent === '2 maps, not joined'")
+    let_the_camera_glide(page)
+    assert pixels(page, "apart")["count"] < before + 100, "now the first room is apart, and the second is not"
+    robot.publish_pieces([])
+    robot.publish_map()
+    robot.maps = 1
+    page.wait_for("document.getElementById('advice').hidden && document.getElementById('apart').hidden")
+
+
+def test_wheels_that_are_not_believed_are_told_in_plain_words(page, robot, pulse):
+    page.wait_for("document.getElementById('wheels').textContent === 'fine'")
+    robot.wheels = "stalled"
+    page.wait_for("document.getElementById('advice').textContent.includes("
+                  "'Wheels not believed: they tell nothing while the robot moves.')")
+    assert page.text("wheels") == "stalled: they tell nothing while the robot moves (once so far)"
+    robot.driver = "silent"
+    page.wait_for("document.querySelectorAll('#advice p').length === 2")
+    robot.wheels, robot.driver = "fine", "streaming"
+    page.wait_for("document.getElementById('advice').hidden")
+
+
 def test_a_lost_link_shows_within_a_second(page, robot):
     def shown():
         pulse = Pulse(0.1, robot.step)
@@ -345,6 +380,8 @@ def test_numbers_and_codes_are_put_in_words(page):
           codes: [w.codesInWords([]), w.codesInWords([[0, 3], [0x81, 4], [2, 1]]), w.codesInWords([[18, 2], [11, 1]])],
           advice: [["streaming", null], ["streaming", [23, 0.7]], ["silent", null], ["no scanner: /dev/ttyACM0: No such file", null]]
             .map(([driver, stain]) => w.adviceOnScanner(driver, stain)),
+          maps: [null, [0, 1], [0, 3], [4, 1]].map((t) => w.mapsInWords(t && {map_id: t[0], maps: t[1]})[0]),
+          trouble: [["maps", 1], ["maps", 2], ["odometry", 9], ["wheel_faults", 1]].map(([name, value]) => w.isTrouble({name, value})),
           drops: w.countDrops([{name: "scans_lost", value: 2}, {name: "odometry", value: 90}, {name: "overloaded", value: 1}]),
         }));""")
     assert words["small"] == "0.000 m" and words["nothing"] == "–"
@@ -355,4 +392,6 @@ def test_numbers_and_codes_are_put_in_words(page):
     assert words["advice"][1].startswith("The scanner's window may be dirty: 23 beams 40° to the left give no range")
     assert "cable" in words["advice"][2]
     assert words["advice"][3].startswith("No scanner (/dev/ttyACM0: No such file). Look at its cable")
+    assert words["maps"] == ["", "", "3 maps, not joined", "new map, not joined yet"]
+    assert words["trouble"] == [False, True, False, True]
     assert words["drops"] == 3

@@ -156,3 +156,16 @@ def test_the_walls_of_the_map_are_in_the_picture(lcm_url, robot, tmp_path):
     robot.drive(3)
     assert watch.end()[0] == 0
     assert path.read_text().count("WALLS") >= len(WALLS)
+
+
+def test_a_map_that_is_not_joined_is_said_and_another_colour_in_the_picture(lcm_url, robot, tmp_path):
+    path = tmp_path / "map.svg"
+    watch = Watch(lcm_url, "--map", path)
+    robot.map_id, robot.maps, robot.wheels = 1, 2, "late"
+    robot.publish_pieces([5, 6, 7])
+    robot.drive(3)
+    watch.lines_until("new map, not joined yet  wheels: late")
+    assert watch.end(signal.SIGTERM)[0] == 0
+    groups = {group.get("id"): len(group) for group in ElementTree.parse(path).getroot() if group.get("id")}
+    assert groups["apart"] == 3 and groups["walls"] == len(WALLS) - 3
+    assert ">not joined<" in path.read_text()

@@ -42,6 +42,10 @@ class LikelihoodField
         return cell < 0 ? 0 : static_cast<double>(at(likelihood_, cell));
     }
 
+    // The same with the best likelihood of each cell, the one `stride` cells farther along each axis and
+    // both: a bound for the four. Where no cell is farther, the cell's own. O(cells).
+    LikelihoodField pooled(int stride) const;
+
     // Adds to (2 steps + 1)^2 sums, row by row, the likelihood of p displaced by -steps..steps times
     // `stride` cells along each axis. O(steps^2).
     void add_likelihoods_around(const Eigen::Vector2d &p, int steps, int stride,

@@ -12,6 +12,8 @@ namespace
 
 constexpr double gap_m = 0.15; // of a cycle
 constexpr double gap_rad = 0.035;
+constexpr double near_m = 0.05; // of a recognised place
+constexpr double near_rad = 0.015;
 // Accuracy of a match, however many points it has.
 constexpr double least_variance_m2 = 0.01 * 0.01;
 constexpr double least_variance_rad2 = 0.003 * 0.003;
@@ -29,6 +31,12 @@ Loop loop_from_match(const LoopMatch &match, int from, int to)
 GraphEdge edge_of(const Loop &loop)
 {
     return {loop.from, loop.to, loop.measured, loop.information, true};
+}
+
+bool is_near(const Pose &tracked, const Pose &matched)
+{
+    const Pose off = between(tracked, matched);
+    return length(off.x, off.y) < near_m && std::abs(off.theta) < near_rad;
 }
 
 bool is_acceptable(const LoopMatch &match, double in_view)

@@ -31,6 +31,10 @@ Loop loop_from_match(const LoopMatch &match, int from, int to);
 // The loop as a robust edge of the graph.
 GraphEdge edge_of(const Loop &loop);
 
+// Whether a match lies so near to the tracked pose that the tracker has recognised the place, more accurately
+// than the match. O(1).
+bool is_near(const Pose &tracked, const Pose &matched);
+
 // Whether overlap and ambiguity suffice. in_view: part of the points that could be seen from the place, 0..1.
 bool is_acceptable(const LoopMatch &match, double in_view = 1);
 

@@ -5,9 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "graph/loops/likelihood_field.h"
-#include "graph/loops/pairwise_match.h"
-#include "graph/loops/place_candidates.h"
+#include "graph/loops/odometry.h"
 #include "graph/loops/submap.h"
 #include "graph/optimise/thinning.h"
 #include "graph/walls/building_direction.h"
@@ -18,61 +16,23 @@ namespace ale
 namespace
 {
 
-constexpr size_t loop_candidates = 3;
-constexpr double loop_reach_m = 2.5;      // of places, beside drift
-constexpr double drift_per_metre = 0.008; // of the guess
-constexpr double drift_rad_per_metre = 0.002;
-constexpr double max_window_m = 2.0;
-constexpr double max_window_rad = 0.35;
-constexpr int submap_nodes = 6; // to each side of the place
-constexpr int present_nodes = 2 * submap_nodes;
-constexpr SubmapExtent submap_there{submap_nodes, submap_nodes};
-constexpr SubmapExtent submap_here{2, 0};
-constexpr SubmapExtent corners_there{2, 2};
+constexpr int present_nodes = 2 * visit_nodes;
 constexpr size_t confirmations_when_clear = 1;
 constexpr size_t confirmations_when_sparse = 3;
 constexpr size_t confirmations_when_near = 2;
-// A match this near to the tracked pose: the tracker has recognised the place, more accurately than the
-// match.
-constexpr double near_m = 0.05;
-constexpr double near_rad = 0.015;
-// Accuracy of the tracker there.
-constexpr double recognised_m = 0.015;
-constexpr double recognised_rad = 0.004;
 constexpr size_t pending_loops = 12;
 constexpr int optimise_iterations = 10;
 constexpr int straighten_rounds = 2;
 // All that one keyframe may cause: a loop for each candidate, or one and the building constraint.
 constexpr int iterations_a_keyframe = optimise_iterations * (1 + straighten_rounds);
-static_assert(iterations_a_keyframe >= optimise_iterations * static_cast<int>(loop_candidates));
+static_assert(iterations_a_keyframe >= optimise_iterations * static_cast<int>(most_visits));
 constexpr size_t straighten_every = 8; // keyframes
-constexpr int neighbours_back = 2;     // nodes
 constexpr double most_chi2 = 30;       // of an accepted loop after optimisation
-// Factors on the errors of an odometry edge that was extrapolated, or is unknown.
-constexpr double weak_factor = 3;
-constexpr double broken_factor = 50;
-
-// Information of the tracked motion between neighbouring nodes.
-Eigen::Matrix3d motion_information(const Pose &motion, const Node &to)
-{
-    const double distance = length(motion.x, motion.y);
-    const double turn = std::abs(motion.theta);
-    const double factor = to.broken ? broken_factor : (to.weak ? weak_factor : 1);
-    const double sigma_m = factor * (0.004 + 0.008 * distance + 0.004 * turn);
-    const double sigma_rad = factor * (0.0015 + 0.002 * distance + 0.004 * turn);
-    return information_from_deviations(sigma_m, sigma_rad);
-}
-
-bool is_near(const Pose &guess, const Pose &matched)
-{
-    const Pose off = between(guess, matched);
-    return length(off.x, off.y) < near_m && std::abs(off.theta) < near_rad;
-}
-
-bool is_recognised(const Pose &guess, const LoopMatch &match, double overlap)
-{
-    return match.found && match.overlap >= overlap && is_near(guess, match.pose);
-}
+// Accuracy of a join that no match confirms, and how far a match may lie from it.
+constexpr double join_m = 0.05;
+constexpr double join_rad = 0.02;
+constexpr double join_gate_m = 0.20;
+constexpr double join_gate_rad = 0.08;
 
 } // namespace
 
@@ -80,9 +40,8 @@ LoopCloser::LoopCloser(size_t capacity) : capacity_(std::max(capacity, least_cap
 {
     nodes_.resize(capacity_); // touched
     nodes_.clear();
-    graph_.reserve(capacity_, capacity_ * (1 + loop_candidates));
-    neighbours_.resize(capacity_ * neighbours_back); // touched
-    neighbours_.clear();
+    graph_.reserve(capacity_, capacity_ * (1 + most_visits));
+    neighbours_.reserve(capacity_);
 }
 
 bool LoopCloser::add(Node node, const Pose &motion)
@@ -99,14 +58,16 @@ bool LoopCloser::add(Node node, const Pose &motion)
     nodes_.push_back(std::move(node));
     added_++;
     link_to_previous(motion);
-    match_neighbours();
-    bool moved = false;
+    neighbours_.add(nodes_, graph_);
     iterations_left_ = iterations_a_keyframe;
-    for (const int candidate : candidates()) {
+    bool moved = tie_joined_map();
+    for (const int candidate : earlier_visits(nodes_, graph_.poses())) {
         moved = evaluate_candidate(candidate) || moved;
     }
-    moved = (prior_ && match_prior_map()) || moved;
-    return straighten() || moved;
+    moved = (prior_ && present_map() == ALE_FIRST_MAP && match_prior_map()) || moved;
+    moved = straighten() || moved;
+    joiner_.drive(nodes_, graph_.poses());
+    return moved;
 }
 
 void LoopCloser::add_walls(const Pose &smooth, const std::vector<WallDirection> &walls)
@@ -126,6 +87,12 @@ bool LoopCloser::refine()
 {
     if (refined_ || nodes_.size() < 2) {
         return false;
+    }
+    if (!search_ && joiner_.refine(nodes_, graph_.poses())) {
+        if (joiner_.found()) {
+            make_found_join();
+        }
+        return true;
     }
     if (!search_) {
         search_.emplace(&nodes_, graph_);
@@ -151,20 +118,19 @@ bool LoopCloser::refine()
 bool LoopCloser::straighten()
 {
     if (iterations_left_ < straighten_rounds * optimise_iterations ||
-        added_ < straightened_at_ + straighten_every ||
-        !has_heading_drift(building_constraint_from_walls(nodes_, graph_.poses()), graph_.poses())) {
+        added_ < straightened_at_ + straighten_every || !has_heading_drift(building(), graph_.poses())) {
         return false;
     }
     straightened_at_ = added_;
     const PoseGraph before = graph_;
     for (int round = 0; round < straighten_rounds; round++) {
-        graph_.set_building_constraint(building_constraint_from_walls(nodes_, graph_.poses()));
+        graph_.set_building_constraint(building());
         if (!optimise()) {
             graph_ = before;
             return false;
         }
     }
-    if (neighbours_contradict_building()) {
+    if (neighbours_.contradict_building(nodes_, graph_, present_map())) {
         graph_ = before; // no drift: the building is bent
         return false;
     }
@@ -178,7 +144,7 @@ bool LoopCloser::match_prior_map()
 {
     const int here = static_cast<int>(nodes_.size()) - 1;
     const Pose guess = graph_.poses().back();
-    const auto match = prior_->find(submap_around(nodes_, graph_.poses(), here, submap_here), guess);
+    const auto match = prior_->find(submap_around(nodes_, graph_.poses(), here, visit_here), guess);
     if (!match) {
         return false;
     }
@@ -198,44 +164,63 @@ bool LoopCloser::match_prior_map()
 
 bool LoopCloser::optimise()
 {
-    const GraphReport report = graph_.optimise(optimise_iterations);
+    const GraphReport report = optimise_map(present_map());
     iterations_left_ -= report.iterations;
     return report.solved;
 }
 
-// Removes the most redundant node of a full graph. Kept are the first node, which holds the map, the nodes of
-// the present visit, and those of loops that wait for confirmation.
+// Other maps stay as they are: nothing ties them to this one.
+GraphReport LoopCloser::optimise_map(uint32_t map_id)
+{
+    graph_.hold(nodes_outside(map_id));
+    const GraphReport report = graph_.optimise(optimise_iterations);
+    graph_.hold({});
+    return report;
+}
+
+// Which nodes may go for others: not the first, which holds the map, nor those of the present visit and of
+// loops that wait for confirmation; nor, if that leaves any, the first node of a map, from which on its walls
+// move with it.
+std::vector<bool> LoopCloser::removable_nodes() const
+{
+    std::vector<bool> removable(nodes_.size(), true);
+    const auto keep = [&removable](int k) { removable[static_cast<size_t>(k)] = false; };
+    keep(0);
+    std::fill(removable.end() - present_nodes, removable.end(), false);
+    for (const Loop &loop : pending_) {
+        keep(loop.from);
+        keep(loop.to);
+    }
+    const std::vector<bool> with_beginnings = removable;
+    for (const GraphEdge &edge : graph_.edges()) {
+        if (edge.guessed) {
+            keep(edge.to);
+        }
+    }
+    const bool any = std::find(removable.begin(), removable.end(), true) != removable.end();
+    return any ? removable : with_beginnings;
+}
+
+// Removes the most redundant node of a full graph.
 void LoopCloser::make_room()
 {
     if (nodes_.size() < capacity_) {
         return;
     }
-    std::vector<bool> removable(nodes_.size(), true);
-    removable.front() = false;
-    std::fill(removable.end() - present_nodes, removable.end(), false);
-    for (const Loop &loop : pending_) {
-        removable[static_cast<size_t>(loop.from)] = removable[static_cast<size_t>(loop.to)] = false;
-    }
-    const std::optional<size_t> redundant = most_redundant(graph_.poses(), removable);
+    const std::optional<size_t> redundant = most_redundant(graph_.poses(), removable_nodes());
     if (!redundant) {
         return; // cannot happen: least_capacity exceeds what is kept
     }
     const int k = static_cast<int>(*redundant);
     nodes_.erase(nodes_.begin() + k);
-    graph_.remove_pose(k, static_cast<int>(loop_candidates));
+    graph_.remove_pose(k, static_cast<int>(most_visits));
     const auto move_up = [k](int *node) { *node -= *node > k ? 1 : 0; };
     for (Loop &loop : pending_) {
         move_up(&loop.from);
         move_up(&loop.to);
     }
-    const auto ends_there = [k](const NeighbourMatch &pair) {
-        return pair.match.from == k || pair.match.to == k;
-    };
-    neighbours_.erase(std::remove_if(neighbours_.begin(), neighbours_.end(), ends_there), neighbours_.end());
-    for (NeighbourMatch &pair : neighbours_) {
-        move_up(&pair.match.from);
-        move_up(&pair.match.to);
-    }
+    neighbours_.remove_node(k);
+    joiner_.remove_node(k);
     statistics_.thinned++;
 }
 
@@ -246,6 +231,9 @@ void LoopCloser::reset()
     prior_.reset();
     pending_.clear();
     neighbours_.clear();
+    maps_.clear();
+    joined_at_.reset();
+    joiner_.reset();
     search_.reset();
     refinement_.reset();
     refined_ = false;
@@ -260,60 +248,20 @@ void LoopCloser::mark_handed_out()
     }
 }
 
+BuildingConstraint LoopCloser::building() const
+{
+    return building_constraint_from_walls(nodes_, graph_.poses(), {WallSource::keyframes, present_map()});
+}
+
 void LoopCloser::link_to_previous(const Pose &motion)
 {
     const int k = static_cast<int>(nodes_.size()) - 1;
-    const Node &here = nodes_.back();
     if (k == 0) {
         graph_.add_pose(motion);
         return;
     }
     graph_.add_pose(compose(graph_.poses().back(), motion));
-    graph_.add_edge({k - 1, k, motion, motion_information(motion, here), false});
-}
-
-void LoopCloser::match_neighbours()
-{
-    const int here = static_cast<int>(nodes_.size()) - 1;
-    const LikelihoodField field(nodes_.back().points);
-    for (int there = std::max(0, here - neighbours_back); there < here; there++) {
-        const Pose guess = between(graph_.poses(), here, there);
-        if (const auto match = match_pair(field, at(nodes_, there).points, guess)) {
-            const GraphEdge edge{here, there, match->pose, match->information, true};
-            neighbours_.push_back({edge, graph_.misfit(edge)});
-        }
-    }
-}
-
-bool LoopCloser::neighbours_contradict_building() const
-{
-    double misfit = 0;
-    double tracked = 0;
-    for (const NeighbourMatch &pair : neighbours_) {
-        misfit += graph_.misfit(pair.match);
-        tracked += pair.misfit;
-    }
-    const bool drifted = true; // else straighten() would not have been called
-    return matches_contradict(misfit, tracked, neighbours_.size(), drifted);
-}
-
-// Earlier nodes near the present pose, visited long ago: the nearest of each visit.
-std::vector<int> LoopCloser::candidates() const
-{
-    const Pose &here = graph_.poses().back();
-    std::vector<PlaceCandidate> places;
-    for (size_t k = 0; k < nodes_.size(); k++) {
-        const double driven_m = nodes_.back().path_m - nodes_[k].path_m;
-        if (driven_m < loop_min_path_m) {
-            break;
-        }
-        const Pose &there = graph_.poses()[k];
-        const double distance = length(there.x - here.x, there.y - here.y);
-        if (distance < loop_reach_m + std::min(max_window_m, drift_per_metre * driven_m)) {
-            places.push_back({static_cast<int>(k), distance});
-        }
-    }
-    return nearest_of_each_visit(std::move(places), 2 * submap_nodes, loop_candidates);
+    graph_.add_edge(odometry_edge(k, at(nodes_, k - 1), nodes_.back(), motion));
 }
 
 // Matches a candidate. A displaced place is tied if others confirm it, else it waits; a recognised one is
@@ -321,16 +269,16 @@ std::vector<int> LoopCloser::candidates() const
 bool LoopCloser::evaluate_candidate(int candidate)
 {
     statistics_.candidates++;
-    Loop loop;
-    switch (match_candidate(candidate, &loop)) {
-    case MatchOutcome::unclear:
+    const auto [outcome, loop] = match_visit(nodes_, graph_.poses(), candidate);
+    switch (outcome) {
+    case VisitMatch::unclear:
         statistics_.unclear++;
         return false;
-    case MatchOutcome::recognised:
+    case VisitMatch::recognised:
         statistics_.recognised++;
         graph_.add_edge({loop.from, loop.to, loop.measured, loop.information, true, true});
         return false;
-    case MatchOutcome::displaced:
+    case VisitMatch::displaced:
         break;
     }
     const std::vector<Loop> confirmations = confirmations_of(loop);
@@ -341,32 +289,6 @@ bool LoopCloser::evaluate_candidate(int candidate)
         statistics_.unconfirmed++;
     }
     return moved;
-}
-
-LoopCloser::MatchOutcome LoopCloser::match_candidate(int candidate, Loop *loop) const
-{
-    const int here = static_cast<int>(nodes_.size()) - 1;
-    const double driven_m = nodes_.back().path_m - at(nodes_, candidate).path_m;
-    const SearchWindow window{std::min(max_window_m, 0.3 + drift_per_metre * driven_m),
-                              std::min(max_window_rad, 0.07 + drift_rad_per_metre * driven_m)};
-    const LikelihoodField field(submap_around(nodes_, graph_.poses(), candidate, submap_there));
-    const Pose guess = between(graph_.poses(), candidate, here);
-    const std::vector<SurfacePoint> seen = submap_around(nodes_, graph_.poses(), here, submap_here);
-    *loop = {candidate, here, guess, information_from_deviations(recognised_m, recognised_rad), 1};
-    if (is_recognised(guess, match_locally(seen, field, guess), clear_overlap)) {
-        return MatchOutcome::recognised;
-    }
-    const LoopMatch match =
-        match_submap(seen, nodes_.back().corners, field,
-                     corners_around(nodes_, graph_.poses(), candidate, corners_there), guess, window);
-    if (!is_acceptable(match)) {
-        return MatchOutcome::unclear;
-    }
-    if (is_recognised(guess, match, least_overlap)) {
-        return MatchOutcome::recognised;
-    }
-    *loop = loop_from_match(match, candidate, here);
-    return MatchOutcome::displaced;
 }
 
 // How many other loops must confirm it. A place as far off as drift explains is likelier than one that is
@@ -386,9 +308,95 @@ size_t LoopCloser::confirmations_needed(const Loop &loop) const
 std::vector<Loop> LoopCloser::confirmations_of(const Loop &loop) const
 {
     std::vector<Loop> confirmations;
-    std::copy_if(pending_.begin(), pending_.end(), std::back_inserter(confirmations),
-                 [&](const Loop &other) { return are_consistent(other, loop, graph_.poses()); });
+    std::copy_if(pending_.begin(), pending_.end(), std::back_inserter(confirmations), [&](const Loop &other) {
+        return at(nodes_, other.to).map_id == present_map() && are_consistent(other, loop, graph_.poses());
+    });
     return confirmations;
+}
+
+void LoopCloser::join(const MapJoin &join, const Pose &here)
+{
+    make_room(); // now, and not when the node is added: its place keeps its number
+    joined_at_ = visit_near(nodes_, graph_.poses(), here, join.into_map_id);
+    move_tracked(join.map_id, join.shift);
+    unite(join);
+    joiner_.restart();
+}
+
+void LoopCloser::make_found_join()
+{
+    const FoundJoin found = *joiner_.found();
+    joiner_.forget_found();
+    unite(found.join);
+    for (const Loop &loop : found.loops) {
+        graph_.add_edge(edge_of(loop));
+    }
+    optimise_map(found.join.into_map_id);
+}
+
+void LoopCloser::mark_join_handed_out()
+{
+    const MapJoin &join = joiner_.found()->join;
+    move_tracked(join.map_id, join.shift);
+}
+
+void LoopCloser::withdraw_join()
+{
+    const MapJoin &join = joiner_.found()->join;
+    move_tracked(join.map_id, inverse(join.shift));
+    joiner_.forget_found();
+}
+
+void LoopCloser::move_tracked(uint32_t map_id, const Pose &shift)
+{
+    for (Node &node : nodes_) {
+        node.tracked = node.map_id == map_id ? compose(shift, node.tracked) : node.tracked;
+    }
+}
+
+// All of a map moves, and is part of the other from now on.
+void LoopCloser::unite(const MapJoin &join)
+{
+    std::vector<bool> moved = nodes_outside(join.map_id);
+    moved.flip();
+    for (size_t k = 0; k < nodes_.size(); k++) {
+        nodes_[k].map_id = moved[k] ? join.into_map_id : nodes_[k].map_id;
+    }
+    graph_.move_rigidly(moved, join.shift);
+    maps_.join(join.map_id, join.into_map_id);
+    statistics_.joins++;
+}
+
+// Where the present node has joined an older map its place there holds the two together: as matched, or, if
+// no match is clear and near, as the tracker has recognised it. True: the graph has moved.
+bool LoopCloser::tie_joined_map()
+{
+    if (!joined_at_) {
+        return false;
+    }
+    const auto [there, extent] = *joined_at_;
+    joined_at_.reset();
+    const int here = static_cast<int>(nodes_.size()) - 1;
+    auto [outcome, loop] = match_visit(nodes_, graph_.poses(), there, extent);
+    const Pose guess = between(graph_.poses(), there, here);
+    const Pose off = between(guess, loop.measured);
+    const bool is_matched = outcome != VisitMatch::unclear && length(off.x, off.y) < join_gate_m &&
+                            std::abs(off.theta) < join_gate_rad;
+    if (!is_matched) {
+        loop = {there, here, guess, information_from_deviations(join_m, join_rad), 0};
+    }
+    graph_.add_edge(edge_of(loop));
+    return outcome == VisitMatch::displaced && is_matched && optimise();
+}
+
+// One flag for each node.
+std::vector<bool> LoopCloser::nodes_outside(uint32_t map_id) const
+{
+    std::vector<bool> outside(nodes_.size());
+    for (size_t k = 0; k < nodes_.size(); k++) {
+        outside[k] = nodes_[k].map_id != map_id;
+    }
+    return outside;
 }
 
 bool LoopCloser::is_in_graph(const Loop &loop) const

@@ -8,6 +8,9 @@
 // the place itself nothing is corrected: the edge records the pose as tracked, so that later corrections keep
 // it. Memory is bounded: a full graph removes the most redundant node (thinning.h) for each new one.
 //
+// Nodes may be of several maps that nothing ties yet. Each is treated by itself: loops, building direction
+// and prior map (that of the first map) concern the present one alone, and the others stay as they are.
+//
 // Not thread-safe. Whatever adds or refines may throw std::bad_alloc; reset() is then the only valid call.
 #ifndef ALE_GRAPH_LOOPS_LOOP_CLOSER_H
 #define ALE_GRAPH_LOOPS_LOOP_CLOSER_H
@@ -19,8 +22,12 @@
 #include "graph/loops/loop.h"
 #include "graph/loops/loop_match.h"
 #include "graph/loops/loop_search.h"
+#include "graph/loops/map_joiner.h"
+#include "graph/loops/map_table.h"
+#include "graph/loops/neighbour_matches.h"
 #include "graph/loops/pairwise_refinement.h"
 #include "graph/loops/prior_map.h"
+#include "graph/loops/visit_match.h"
 #include "graph/optimise/node.h"
 #include "graph/optimise/pose_graph.h"
 
@@ -36,6 +43,7 @@ struct LoopStatistics {
     uint32_t loops;        // accepted
     uint32_t straightened; // corrections by the building direction
     uint32_t thinned;      // nodes removed for others
+    uint32_t joins;        // of maps
 };
 
 class LoopCloser
@@ -56,8 +64,41 @@ class LoopCloser
 
     // Adds a node and searches for loops. `motion`: the node's pose as seen from the node before; of the
     // first one its pose in the map. True: earlier poses have moved. Work: three searches by match_submap,
-    // two pairwise matches, one match with the prior map, 30 iterations of the graph.
+    // two pairwise matches, one match with the prior map, 30 iterations of the graph; with several maps one
+    // place of others besides (MapJoiner).
     bool add(Node node, const Pose &motion);
+
+    // A map has become part of another: its nodes move with it, here and as tracked. Before the node at
+    // `here` is added, in which the tracker has recognised a place of the other map: it ties them. Maps that
+    // have not joined another; O(nodes).
+    void join(const MapJoin &join, const Pose &here);
+    // A join that was found here; none while nothing speaks for one. It waits until it is made, and no other
+    // is looked for.
+    const std::optional<FoundJoin> &found_join() const
+    {
+        return joiner_.found();
+    }
+    // Makes it: its nodes move, loops hold them. Ten iterations of the graph.
+    void make_found_join();
+    // The tracker was handed the found join, as a correction that moves its map. O(nodes); never throws.
+    void mark_join_handed_out();
+    // The join that was handed out is void. O(nodes); never throws.
+    void withdraw_join();
+    // The join that was found, if it was not handed out, is looked for anew.
+    void forget_found_join()
+    {
+        joiner_.forget_found();
+    }
+    // What has become of other maps is not known: see MapJoiner.
+    void lose_track_of_maps(uint32_t present)
+    {
+        joiner_.lose_track(nodes_, present);
+    }
+    // The map that this one is part of now. O(1).
+    uint32_t map_now(uint32_t map_id) const
+    {
+        return maps_.now(map_id);
+    }
 
     // Adds the walls of a scan after the last node, robot's frame, for the building direction in refine();
     // `smooth` as the nodes' own. Scans beyond most_later_scans a node are ignored. O(walls).
@@ -86,37 +127,40 @@ class LoopCloser
     }
 
   private:
-    enum class MatchOutcome { unclear, recognised, displaced };
-    // Two neighbours along the path, matched pairwise: independent of drift.
-    struct NeighbourMatch {
-        GraphEdge match;
-        double misfit; // of the poses as tracked
-    };
-
     void make_room();
     void link_to_previous(const Pose &motion);
-    void match_neighbours();
-    bool neighbours_contradict_building() const;
-    std::vector<int> candidates() const;
+    BuildingConstraint building() const;
+    bool tie_joined_map();
+    std::vector<bool> removable_nodes() const;
+    std::vector<bool> nodes_outside(uint32_t map_id) const;
+    uint32_t present_map() const
+    {
+        return nodes_.back().map_id;
+    }
     bool evaluate_candidate(int candidate);
-    MatchOutcome match_candidate(int candidate, Loop *loop) const;
     std::vector<Loop> confirmations_of(const Loop &loop) const;
     size_t confirmations_needed(const Loop &loop) const;
     bool close_loop(const Loop &loop, const std::vector<Loop> &confirmations);
     bool straighten();
     bool match_prior_map();
     bool optimise();
+    GraphReport optimise_map(uint32_t map_id);
+    void unite(const MapJoin &join);
+    void move_tracked(uint32_t map_id, const Pose &shift);
     bool is_in_graph(const Loop &loop) const;
 
     size_t capacity_;
     std::vector<Node> nodes_; // along the path
     PoseGraph graph_;
     std::optional<PriorMap> prior_;
-    std::deque<Loop> pending_;               // wait for confirmation
-    std::vector<NeighbourMatch> neighbours_; // along the path
-    size_t added_ = 0;                       // nodes, ever
-    size_t straightened_at_ = 0;             // how many had been added then
-    int iterations_left_ = 0;                // of those that the present node may cause
+    std::deque<Loop> pending_; // wait for confirmation
+    NeighbourMatches neighbours_;
+    MapTable maps_;
+    MapJoiner joiner_;
+    std::optional<Visit> joined_at_; // of an older map: there the next node joins that
+    size_t added_ = 0;               // nodes, ever
+    size_t straightened_at_ = 0;     // how many had been added then
+    int iterations_left_ = 0;        // of those that the present node may cause
     std::optional<LoopSearch> search_;
     std::optional<PairwiseRefinement> refinement_;
     bool refined_ = false; // nothing was added since

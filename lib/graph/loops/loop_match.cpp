@@ -47,27 +47,6 @@ struct Pass {
 constexpr Pass coarse_to_fine[] = {{4, 0.25}, {4, 0.12}, {4, 0.06}};
 constexpr Pass fine_passes[] = {{1, 0.20}, {1, 0.15}, {2, 0.10}, {4, 0.06}};
 
-std::vector<SurfacePoint> thinned(const std::vector<SurfacePoint> &points, size_t count)
-{
-    std::vector<SurfacePoint> few;
-    const size_t step = std::max<size_t>(1, points.size() / count);
-    for (size_t k = 0; k < points.size(); k += step) {
-        few.push_back(points[k]);
-    }
-    return few;
-}
-
-double score_of(const Pose &pose, const std::vector<SurfacePoint> &points, const LikelihoodField &field)
-{
-    const Eigen::Matrix2d r = rotation(pose.theta);
-    const Eigen::Vector2d t(pose.x, pose.y);
-    double sum = 0;
-    for (const SurfacePoint &point : points) {
-        sum += field.likelihood(r * point.p + t);
-    }
-    return points.empty() ? 0 : sum / static_cast<double>(points.size());
-}
-
 bool is_inside(const Pose &pose, const Pose &guess, const SearchWindow &window)
 {
     return length(pose.x - guess.x, pose.y - guess.y) <= window.half_m &&
@@ -221,24 +200,6 @@ Fit refine(const Pose &start, const std::vector<SurfacePoint> &points, const Lik
     return fit;
 }
 
-bool are_distinct(const Pose &a, const Pose &b)
-{
-    return length(a.x - b.x, a.y - b.y) > distinct_m || std::abs(wrapped(a.theta - b.theta)) > distinct_rad;
-}
-
-// Indices of the `count` best scores, best first; of equals the first.
-std::vector<size_t> best_of(const std::vector<double> &scores, size_t count)
-{
-    std::vector<size_t> order(scores.size());
-    std::iota(order.begin(), order.end(), size_t{0});
-    const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(count, order.size()));
-    std::partial_sort(order.begin(), end, order.end(), [&scores](size_t a, size_t b) {
-        return scores[a] != scores[b] ? scores[a] > scores[b] : a < b;
-    });
-    order.erase(end, order.end());
-    return order;
-}
-
 // The best hypotheses by a coarse score, from corners and window, scored with more points, best first.
 std::vector<Hypothesis> best_scored(const std::vector<Pose> &from_corners, const WindowGrid &window,
                                     const std::vector<SurfacePoint> &scan, const LikelihoodField &field)
@@ -287,6 +248,44 @@ LoopMatch as_match(const Fit &fit, double ambiguity)
 }
 
 } // namespace
+
+std::vector<SurfacePoint> thinned(const std::vector<SurfacePoint> &points, size_t count)
+{
+    std::vector<SurfacePoint> few;
+    const size_t step = std::max<size_t>(1, points.size() / count);
+    for (size_t k = 0; k < points.size(); k += step) {
+        few.push_back(points[k]);
+    }
+    return few;
+}
+
+double score_of(const Pose &pose, const std::vector<SurfacePoint> &points, const LikelihoodField &field)
+{
+    const Eigen::Matrix2d r = rotation(pose.theta);
+    const Eigen::Vector2d t(pose.x, pose.y);
+    double sum = 0;
+    for (const SurfacePoint &point : points) {
+        sum += field.likelihood(r * point.p + t);
+    }
+    return points.empty() ? 0 : sum / static_cast<double>(points.size());
+}
+
+bool are_distinct(const Pose &a, const Pose &b)
+{
+    return length(a.x - b.x, a.y - b.y) > distinct_m || std::abs(wrapped(a.theta - b.theta)) > distinct_rad;
+}
+
+std::vector<size_t> best_of(const std::vector<double> &scores, size_t count)
+{
+    std::vector<size_t> order(scores.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(count, order.size()));
+    std::partial_sort(order.begin(), end, order.end(), [&scores](size_t a, size_t b) {
+        return scores[a] != scores[b] ? scores[a] > scores[b] : a < b;
+    });
+    order.erase(end, order.end());
+    return order;
+}
 
 LoopMatch match_submap(const std::vector<SurfacePoint> &scan, const std::vector<CornerFeature> &corners,
                        const LikelihoodField &field, const std::vector<CornerFeature> &field_corners,

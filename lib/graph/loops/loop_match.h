@@ -46,6 +46,18 @@ LoopMatch match_locally(const std::vector<SurfacePoint> &scan, const LikelihoodF
 LoopMatch match_closely(const std::vector<SurfacePoint> &scan, const LikelihoodField &field,
                         const Pose &guess);
 
+// Some `count` of the points, evenly chosen.
+std::vector<SurfacePoint> thinned(const std::vector<SurfacePoint> &points, size_t count);
+
+// Mean likelihood of the points, seen from this pose.
+double score_of(const Pose &pose, const std::vector<SurfacePoint> &points, const LikelihoodField &field);
+
+// Indices of the `count` best scores, best first; of equals the first.
+std::vector<size_t> best_of(const std::vector<double> &scores, size_t count);
+
+// Whether two poses are different places: 0.4 m or 0.26 rad apart.
+bool are_distinct(const Pose &a, const Pose &b);
+
 } // namespace ale
 
 #endif

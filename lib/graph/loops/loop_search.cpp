@@ -102,6 +102,9 @@ std::vector<LoopSearch::Place> LoopSearch::places_near(int k) const
         if (path_m - at(*nodes_, there).path_m < loop_min_path_m) {
             break;
         }
+        if (at(*nodes_, there).map_id != at(*nodes_, k).map_id) {
+            continue;
+        }
         const Pose off = between(graph_.poses(), there, k);
         const double distance = length(off.x, off.y);
         if (distance < reach_m + window_of(at(deviation, there)).half_m) {
@@ -164,7 +167,7 @@ double LoopSearch::part_in_view(const std::vector<SurfacePoint> &seen, int from,
 {
     const std::vector<Pose> &poses = graph_.poses();
     std::vector<bool> in_view(seen.size(), false);
-    for (const int there : nodes_around(poses, from, submap_there)) {
+    for (const int there : nodes_around(*nodes_, poses, from, submap_there)) {
         const FreeSpace &space = at(free_space_, there);
         const Pose place = compose(between(poses, there, from), pose);
         const Eigen::Matrix2d r = rotation(place.theta);
@@ -184,11 +187,16 @@ bool LoopSearch::violates_free_space(const Loop &loop) const
     FreeSpaceCheck sum;
     for (int there = std::max(0, loop.from - submap_there.before);
          there <= std::min(count - 1, loop.from + submap_there.after); there += checked_stride) {
+        if (at(*nodes_, there).map_id != at(*nodes_, loop.from).map_id) {
+            continue;
+        }
         const Pose place = compose(between(poses, there, loop.from), loop.measured);
         for (int here = std::max(0, loop.to - submap_here.before);
              here <= std::min(count - 1, loop.to + submap_here.after); here++) {
-            at(free_space_, there)
-                .check(at(*nodes_, here), compose(place, between(poses, loop.to, here)), &sum);
+            if (at(*nodes_, here).map_id == at(*nodes_, loop.to).map_id) {
+                at(free_space_, there)
+                    .check(at(*nodes_, here), compose(place, between(poses, loop.to, here)), &sum);
+            }
         }
     }
     return sum.violations > most_violations * sum.points;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "graph/loops/likelihood_field.h"
+#include "graph/loops/map_table.h"
 #include "graph/loops/pairwise_match.h"
 #include "graph/loops/place_candidates.h"
 #include "graph/walls/building_direction.h"
@@ -28,7 +29,7 @@ constexpr double metres_a_radian = 1.0; // a rotation reduces the overlap of two
 
 PairwiseRefinement::PairwiseRefinement(const std::vector<Node> *nodes, PoseGraph graph, const PriorMap *prior)
     : nodes_(nodes), prior_(prior), graph_(std::move(graph)), given_(graph_.edges()),
-      drifted_(!graph_.building_constraint().priors.empty())
+      drifted_(!graph_.building_constraint().priors.empty()), building_map_(largest_map(*nodes))
 {
 }
 
@@ -42,7 +43,7 @@ bool PairwiseRefinement::step()
         const int last = std::min(count, next_ + nodes_per_step);
         for (; next_ < last; next_++) {
             match_neighbours(next_);
-            if (prior_) {
+            if (prior_ && at(*nodes_, next_).map_id == ALE_FIRST_MAP) {
                 match_prior_map(next_);
             }
         }
@@ -68,13 +69,15 @@ std::vector<int> PairwiseRefinement::neighbours_of(int k) const
     for (int there = k + nodes_along + 1; there < count; there++) {
         const Pose off = between(graph_.poses(), k, there);
         const double distance = length(off.x, off.y) + metres_a_radian * std::abs(off.theta);
-        if (distance < reach_m) {
+        if (distance < reach_m && at(*nodes_, there).map_id == at(*nodes_, k).map_id) {
             places.push_back({there, distance});
         }
     }
     std::vector<int> chosen = nearest_of_each_visit(std::move(places), same_visit_nodes, max_other_visits);
     for (int there = k + 1; there < std::min(count, k + 1 + nodes_along); there++) {
-        chosen.push_back(there);
+        if (at(*nodes_, there).map_id == at(*nodes_, k).map_id) {
+            chosen.push_back(there);
+        }
     }
     return chosen;
 }
@@ -130,7 +133,7 @@ std::vector<GraphEdge> PairwiseRefinement::edges_to_keep() const
 void PairwiseRefinement::update_building_constraint()
 {
     const BuildingConstraint building =
-        building_constraint_from_walls(*nodes_, graph_.poses(), WallSource::all_scans);
+        building_constraint_from_walls(*nodes_, graph_.poses(), {WallSource::all_scans, building_map_});
     drifted_ = drifted_ || has_heading_drift(building, graph_.poses());
     graph_.set_building_constraint(building);
 }

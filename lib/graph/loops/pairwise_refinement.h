@@ -56,7 +56,8 @@ class PairwiseRefinement
     int round_ = 0;
     int next_ = 0; // node to match
     int solved_ = 0;
-    bool drifted_; // headings, while driving or since
+    bool drifted_;          // headings, while driving or since
+    uint32_t building_map_; // that the building constraint is of
 };
 
 } // namespace ale

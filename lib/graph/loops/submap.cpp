@@ -22,13 +22,14 @@ Span span_of(size_t nodes, int k, const SubmapExtent &extent)
 
 } // namespace
 
-std::vector<int> nodes_around(const std::vector<Pose> &poses, int k, const SubmapExtent &extent)
+std::vector<int> nodes_around(const std::vector<Node> &nodes, const std::vector<Pose> &poses, int k,
+                              const SubmapExtent &extent)
 {
     const Span span = span_of(poses.size(), k, extent);
     std::vector<int> near;
     for (int i = span.first; i <= span.last; i++) {
         const Pose seen = between(poses, k, i);
-        if (length(seen.x, seen.y) <= reach_m) {
+        if (at(nodes, i).map_id == at(nodes, k).map_id && length(seen.x, seen.y) <= reach_m) {
             near.push_back(i);
         }
     }
@@ -39,7 +40,7 @@ std::vector<SurfacePoint> submap_around(const std::vector<Node> &nodes, const st
                                         const SubmapExtent &extent)
 {
     std::vector<SurfacePoint> points;
-    for (const int i : nodes_around(poses, k, extent)) {
+    for (const int i : nodes_around(nodes, poses, k, extent)) {
         const Pose seen = between(poses, k, i);
         const Eigen::Matrix2d r = rotation(seen.theta);
         const Eigen::Vector2d t(seen.x, seen.y);
@@ -59,6 +60,9 @@ std::vector<CornerFeature> corners_around(const std::vector<Node> &nodes, const 
     const Span span = span_of(nodes.size(), k, extent);
     std::vector<CornerFeature> corners;
     for (int i = span.first; i <= span.last; i++) {
+        if (at(nodes, i).map_id != at(nodes, k).map_id) {
+            continue;
+        }
         const Pose seen = between(poses, k, i);
         for (CornerFeature corner : at(nodes, i).corners) {
             corner.p = apply(seen, corner.p);

@@ -16,13 +16,15 @@ struct SubmapExtent {
     int after;
 };
 
-// The nodes of the submap of node k, ascending; those more than four metres away are left out. O(extent).
-std::vector<int> nodes_around(const std::vector<Pose> &poses, int k, const SubmapExtent &extent);
+// The nodes of the submap of node k, ascending; those more than four metres away, or of another map, are left
+// out. O(extent).
+std::vector<int> nodes_around(const std::vector<Node> &nodes, const std::vector<Pose> &poses, int k,
+                              const SubmapExtent &extent);
 
 // Their points; coarse normals count as unknown. O(points).
 std::vector<SurfacePoint> submap_around(const std::vector<Node> &nodes, const std::vector<Pose> &poses, int k,
                                         const SubmapExtent &extent);
-// Corners of all nodes of the extent, however far. O(corners).
+// Corners of all nodes of the extent in this map, however far. O(corners).
 std::vector<CornerFeature> corners_around(const std::vector<Node> &nodes, const std::vector<Pose> &poses,
                                           int k, const SubmapExtent &extent);
 

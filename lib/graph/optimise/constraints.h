@@ -20,6 +20,7 @@ struct GraphEdge {
     Eigen::Matrix3d information; // of the measurement
     bool robust;                 // may be wrong: weighted by the robust kernel
     bool recognised = false;     // not measured: the tracker already lies on what was seen then
+    bool guessed = false;        // between two maps: holds them somewhere, and says nothing
 };
 
 // The heading of a pose against the direction of the building, which all priors share.
@@ -55,6 +56,14 @@ inline Eigen::Matrix3d information_from_deviations(double sigma_m, double sigma_
 {
     return Eigen::Vector3d(1 / (sigma_m * sigma_m), 1 / (sigma_m * sigma_m), 1 / (sigma_rad * sigma_rad))
         .asDiagonal();
+}
+
+// Of a guess: solvable beside it, and a millionth of what odometry says.
+inline Eigen::Matrix3d guess_information()
+{
+    constexpr double sigma_m = 10;
+    constexpr double sigma_rad = 1;
+    return information_from_deviations(sigma_m, sigma_rad);
 }
 
 // Jacobian of the end of a displacement by its beginning, each in its own frame: the adjoint of the inverse

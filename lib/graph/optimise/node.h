@@ -55,6 +55,7 @@ struct Node {
     // Walls of the scans after this keyframe, turned into its frame: for the refinement after the drive.
     std::vector<WallDirection> later_walls{};
     int later_scans = 0; // how many scans these come from
+    uint32_t map_id = 0; // that its pose is in: after all joins so far
 };
 
 } // namespace ale

@@ -41,6 +41,11 @@ void NormalEquations::clear(bool hold_first)
     building_ = 0;
 }
 
+void NormalEquations::hold(size_t pose)
+{
+    h_.add_diagonal(static_cast<int>(pose), Eigen::Matrix3d::Identity() * held);
+}
+
 void NormalEquations::add(size_t k, const GraphEdge &edge, const LinearisedEdge &linearised, double weight)
 {
     const Eigen::Matrix3d weighted = linearised.jacobian.transpose() * (weight * edge.information);

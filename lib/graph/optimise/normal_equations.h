@@ -37,6 +37,8 @@ class NormalEquations
 
     // Sets all sums to zero. hold_first: the first pose stays where it is. O(poses + edges).
     void clear(bool hold_first);
+    // This pose stays where it is. O(1).
+    void hold(size_t pose);
     // Adds edge k of the constructor's. O(1).
     void add(size_t k, const GraphEdge &edge, const LinearisedEdge &linearised, double weight);
     // residual_rad: heading of the pose minus the prior's. O(1).

@@ -21,7 +21,8 @@ struct Deviation {
 class PathCovariance
 {
   public:
-    // Copies what it needs of the graph. Edges that the robust kernel has all but switched off are left out.
+    // Copies what it needs of the graph. Edges that the robust kernel has all but switched off, and
+    // guesses, are left out.
     // O(edges); may throw std::bad_alloc.
     explicit PathCovariance(const PoseGraph &graph);
 

@@ -64,7 +64,8 @@ GraphEdge composed(const GraphEdge &first, const GraphEdge &second, bool robust)
     const Eigen::Matrix3d jacobian = displacement_jacobian(second.measured);
     const Eigen::Matrix3d covariance =
         jacobian * first.information.inverse() * jacobian.transpose() + second.information.inverse();
-    return {first.from, second.to, compose(first.measured, second.measured), covariance.inverse(), robust};
+    return {first.from, second.to, compose(first.measured, second.measured), covariance.inverse(),
+            robust,     false,     first.guessed || second.guessed};
 }
 
 } // namespace
@@ -84,6 +85,7 @@ void PoseGraph::clear()
     building_.priors.clear();
     pose_priors_.clear();
     linearised_priors_.clear();
+    held_.clear();
 }
 
 int PoseGraph::add_pose(const Pose &pose)
@@ -176,7 +178,7 @@ void PoseGraph::remove_pose(int k, int max_robust)
     for (const GraphEdge &edge : removed) {
         GraphEdge moved = edge.to == k ? composed(edge, after, true) : composed(before, edge, true);
         moved.recognised = edge.recognised;
-        if (edge.robust && has_room(moved, max_robust)) {
+        if (edge.robust && !moved.guessed && has_room(moved, max_robust)) {
             edges_.push_back(moved);
         }
     }
@@ -184,11 +186,32 @@ void PoseGraph::remove_pose(int k, int max_robust)
     renumber_above(k);
 }
 
+void PoseGraph::move_rigidly(const std::vector<bool> &moved, const Pose &shift)
+{
+    for (size_t k = 0; k < poses_.size(); k++) {
+        if (moved[k]) {
+            poses_[k] = compose(shift, poses_[k]);
+        }
+    }
+    for (GraphEdge &edge : edges_) {
+        if (edge.guessed) {
+            edge.measured = between(poses_, edge.from, edge.to);
+            edge.information = guess_information();
+        }
+    }
+    building_ = {};
+}
+
 // Sums the equations at the present poses; the weighted chi2 of all constraints.
 double PoseGraph::linearise(NormalEquations *equations, double kernel) const
 {
     double sum = 0;
     equations->clear(pose_priors_.empty());
+    for (size_t k = 0; k < held_.size(); k++) {
+        if (held_[k]) {
+            equations->hold(k);
+        }
+    }
     for (size_t k = 0; k < edges_.size(); k++) {
         const LinearisedEdge l = linearised(edges_[k], poses_);
         const double chi2 = l.residual.dot(edges_[k].information * l.residual);

@@ -76,14 +76,23 @@ class PoseGraph
         linearised_priors_ = std::move(priors);
     }
 
+    // Poses that optimise() leaves where they are, beside the first; one flag for each, or none at all.
+    void hold(std::vector<bool> held)
+    {
+        held_ = std::move(held);
+    }
+    // Moves the flagged poses as one; guesses then say what holds now. The building constraint is dropped: it
+    // refers to the poses as they were. O(poses + edges).
+    void move_rigidly(const std::vector<bool> &moved, const Pose &shift);
+
     // Gauss-Newton until the largest step is below 1e-6 or max_iterations are done. A kernel wider than
     // robust_kernel suits poses far from the solution. One iteration: sparse LDL^T of 3n x 3n, n poses.
     GraphReport optimise(int max_iterations, double kernel = robust_kernel);
 
     // Removes pose k, which is neither the first nor the last; later poses move down by one. Its two odometry
     // edges become one. A robust edge that ends at k ends at the next pose, one that begins at k begins at
-    // the one before. It is dropped if it repeats an edge, or if max_robust already end at its pose. Priors
-    // of k go. O(poses + edges * max_robust).
+    // the one before. It is dropped if it repeats an edge, if max_robust already end at its pose, or if that
+    // is in another map (a guess lies between). Priors of k go. O(poses + edges * max_robust).
     void remove_pose(int k, int max_robust);
 
     const std::vector<Pose> &poses() const
@@ -115,6 +124,7 @@ class PoseGraph
     BuildingConstraint building_;
     std::vector<PosePrior> pose_priors_;
     std::vector<LinearisedPrior> linearised_priors_;
+    std::vector<bool> held_;
 };
 
 } // namespace ale

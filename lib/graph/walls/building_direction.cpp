@@ -40,10 +40,18 @@ double modulo_quarter(double angle)
     return angle - quarter * std::nearbyint(angle / quarter);
 }
 
-template <class Visit> void each_wall(const Node &node, WallSource source, const Visit &visit)
+bool counts(const Node &node, const WallChoice &choice)
 {
+    return !choice.map_id || *choice.map_id == node.map_id;
+}
+
+template <class Visit> void each_wall(const Node &node, const WallChoice &choice, const Visit &visit)
+{
+    if (!counts(node, choice)) {
+        return;
+    }
     std::for_each(node.walls.begin(), node.walls.end(), visit);
-    if (source == WallSource::all_scans) {
+    if (choice.source == WallSource::all_scans) {
         std::for_each(node.later_walls.begin(), node.later_walls.end(), visit);
     }
 }
@@ -59,25 +67,25 @@ bool is_right_angled(const FourfoldSum &walls)
     return walls.sum.norm() >= right_angled * walls.length_m;
 }
 
-void add_walls(const Node &node, double heading, WallSource source, FourfoldSum *walls)
+void add_walls(const Node &node, double heading, const WallChoice &choice, FourfoldSum *walls)
 {
-    each_wall(node, source, [&](const WallDirection &wall) {
+    each_wall(node, choice, [&](const WallDirection &wall) {
         const double fourfold = 4 * (wall.direction_rad + heading);
         walls->sum += wall.length_m * Eigen::Vector2d(cosine(fourfold), sine(fourfold));
         walls->length_m += wall.length_m;
     });
 }
 
-int scans_of(const Node &node, WallSource source)
+int scans_of(const Node &node, const WallChoice &choice)
 {
-    return 1 + (source == WallSource::all_scans ? node.later_scans : 0);
+    return 1 + (choice.source == WallSource::all_scans ? node.later_scans : 0);
 }
 
-FourfoldSum sum_of(const std::vector<Node> &nodes, const std::vector<Pose> &poses, WallSource source)
+FourfoldSum sum_of(const std::vector<Node> &nodes, const std::vector<Pose> &poses, const WallChoice &choice)
 {
     FourfoldSum sum;
     for (size_t k = 0; k < nodes.size(); k++) {
-        add_walls(nodes[k], poses[k].theta, source, &sum);
+        add_walls(nodes[k], poses[k].theta, choice, &sum);
     }
     return sum;
 }
@@ -89,13 +97,13 @@ struct HeadingError {
     bool is_valid;
 };
 
-HeadingError heading_error_of(const Node &node, double heading, double building, WallSource source)
+HeadingError heading_error_of(const Node &node, double heading, double building, const WallChoice &choice)
 {
-    const double gate = source == WallSource::all_scans ? gate_all_scans_rad : gate_rad;
+    const double gate = choice.source == WallSource::all_scans ? gate_all_scans_rad : gate_rad;
     double sum = 0;
     double aligned_m = 0;
     double all_m = 0;
-    each_wall(node, source, [&](const WallDirection &wall) {
+    each_wall(node, choice, [&](const WallDirection &wall) {
         const double off = modulo_quarter(building - wall.direction_rad - heading);
         all_m += wall.length_m;
         if (std::abs(off) < gate) {
@@ -109,13 +117,13 @@ HeadingError heading_error_of(const Node &node, double heading, double building,
 
 // Refines the direction by the aligned walls alone, so that furniture at an angle has no effect.
 double refined(double building, const std::vector<Node> &nodes, const std::vector<Pose> &poses,
-               WallSource source)
+               const WallChoice &choice)
 {
     for (int round = 0; round < refine_rounds; round++) {
         double sum = 0;
         double aligned_m = 0;
         for (size_t k = 0; k < nodes.size(); k++) {
-            const HeadingError error = heading_error_of(nodes[k], poses[k].theta, building, source);
+            const HeadingError error = heading_error_of(nodes[k], poses[k].theta, building, choice);
             sum += error.aligned_m * error.mean_rad;
             aligned_m += error.is_valid ? error.aligned_m : 0;
         }
@@ -130,14 +138,14 @@ struct Run {
     double direction_rad;
 };
 
-Run clearest_run(const std::vector<Node> &nodes, const std::vector<Pose> &poses, WallSource source)
+Run clearest_run(const std::vector<Node> &nodes, const std::vector<Pose> &poses, const WallChoice &choice)
 {
     Run clearest{0, 0};
     double most_m = 0;
     for (size_t first = 0; first < nodes.size(); first += run_nodes) {
         FourfoldSum run;
         for (size_t k = first; k < std::min(first + run_nodes, nodes.size()); k++) {
-            add_walls(nodes[k], poses[k].theta, source, &run);
+            add_walls(nodes[k], poses[k].theta, choice, &run);
         }
         if (run.sum.norm() > most_m) {
             most_m = run.sum.norm();
@@ -150,12 +158,12 @@ Run clearest_run(const std::vector<Node> &nodes, const std::vector<Pose> &poses,
 // The building's direction as seen at every node, tracked from the clearest run to both ends of the drive.
 // Furniture or a wing at an angle does not move it.
 std::vector<double> tracked_directions(const Run &clearest, const std::vector<Node> &nodes,
-                                       const std::vector<Pose> &poses, WallSource source)
+                                       const std::vector<Pose> &poses, const WallChoice &choice)
 {
     std::vector<double> directions(nodes.size());
     const auto update = [&](size_t k, double direction) {
-        const HeadingError error = heading_error_of(nodes[k], poses[k].theta, direction, source);
-        const double weight = error.aligned_m / (error.aligned_m + inertia_m * scans_of(nodes[k], source));
+        const HeadingError error = heading_error_of(nodes[k], poses[k].theta, direction, choice);
+        const double weight = error.aligned_m / (error.aligned_m + inertia_m * scans_of(nodes[k], choice));
         return direction - weight * error.mean_rad;
     };
     double direction = clearest.direction_rad;
@@ -173,13 +181,13 @@ std::vector<double> tracked_directions(const Run &clearest, const std::vector<No
 
 // Whether the walls agree with the directions at their nodes.
 bool walls_agree(const std::vector<double> &directions, const std::vector<Node> &nodes,
-                 const std::vector<Pose> &poses, WallSource source)
+                 const std::vector<Pose> &poses, const WallChoice &choice)
 {
     double agreed_m = 0;
     double length_m = 0;
     for (size_t k = 0; k < nodes.size(); k++) {
         FourfoldSum walls;
-        add_walls(nodes[k], poses[k].theta, source, &walls);
+        add_walls(nodes[k], poses[k].theta, choice, &walls);
         const double fourfold = 4 * directions[k];
         agreed_m += walls.sum.dot(Eigen::Vector2d(cosine(fourfold), sine(fourfold)));
         length_m += walls.length_m;
@@ -196,16 +204,16 @@ double variance_of(int scans)
 // The constraint, given the building's direction as seen at every node.
 BuildingConstraint constraint_by(double building, const std::vector<double> &directions,
                                  const std::vector<Node> &nodes, const std::vector<Pose> &poses,
-                                 WallSource source, bool robust)
+                                 const WallChoice &choice, bool robust)
 {
     BuildingConstraint constraint{building, {}};
     for (size_t k = 0; k < nodes.size(); k++) {
-        const HeadingError error = heading_error_of(nodes[k], poses[k].theta, directions[k], source);
+        const HeadingError error = heading_error_of(nodes[k], poses[k].theta, directions[k], choice);
         if (error.is_valid) {
             const double measured = line_sigma_rad_m / error.aligned_m;
             constraint.priors.push_back(
                 {static_cast<int>(k), wrapped(poses[k].theta + error.mean_rad - directions[k]),
-                 1 / (variance_of(scans_of(nodes[k], source)) + measured * measured), robust});
+                 1 / (variance_of(scans_of(nodes[k], choice)) + measured * measured), robust});
         }
     }
     return constraint;
@@ -214,23 +222,25 @@ BuildingConstraint constraint_by(double building, const std::vector<double> &dir
 } // namespace
 
 BuildingConstraint building_constraint_from_walls(const std::vector<Node> &nodes,
-                                                  const std::vector<Pose> &poses, WallSource source)
+                                                  const std::vector<Pose> &poses, const WallChoice &choice)
 {
-    if (nodes.size() < least_nodes) {
+    const auto counted =
+        std::count_if(nodes.begin(), nodes.end(), [&](const Node &node) { return counts(node, choice); });
+    if (static_cast<size_t>(counted) < least_nodes) {
         return {};
     }
-    const FourfoldSum walls = sum_of(nodes, poses, source);
+    const FourfoldSum walls = sum_of(nodes, poses, choice);
     if (is_right_angled(walls)) {
-        const double building = refined(angle_of(walls.sum) / 4, nodes, poses, source);
-        return constraint_by(building, std::vector<double>(nodes.size(), building), nodes, poses, source,
+        const double building = refined(angle_of(walls.sum) / 4, nodes, poses, choice);
+        return constraint_by(building, std::vector<double>(nodes.size(), building), nodes, poses, choice,
                              true);
     }
     const std::vector<double> directions =
-        tracked_directions(clearest_run(nodes, poses, source), nodes, poses, source);
-    if (walls_agree(directions, nodes, poses, source)) {
+        tracked_directions(clearest_run(nodes, poses, choice), nodes, poses, choice);
+    if (walls_agree(directions, nodes, poses, choice)) {
         const double mean = std::accumulate(directions.begin(), directions.end(), 0.0) /
                             static_cast<double>(directions.size());
-        return constraint_by(mean, directions, nodes, poses, source, false);
+        return constraint_by(mean, directions, nodes, poses, choice, false);
     }
     return {};
 }

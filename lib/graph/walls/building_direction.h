@@ -7,6 +7,8 @@
 #ifndef ALE_GRAPH_WALLS_BUILDING_DIRECTION_H
 #define ALE_GRAPH_WALLS_BUILDING_DIRECTION_H
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "graph/optimise/constraints.h"
@@ -18,11 +20,20 @@ namespace ale
 // Which scans count: the keyframes alone, or the scans after each too, whose noise then averages out.
 enum class WallSource { keyframes, all_scans };
 
+struct WallChoice {
+    WallChoice(WallSource from = WallSource::keyframes, std::optional<uint32_t> of_map = std::nullopt)
+        : source(from), map_id(of_map)
+    {
+    }
+    WallSource source;
+    std::optional<uint32_t> map_id; // only nodes of this map; none: all
+};
+
 // A heading prior for every node that sees enough wall along the building; none if the building is not
 // right-angled. One pose for each node, map frame. O(walls).
 BuildingConstraint building_constraint_from_walls(const std::vector<Node> &nodes,
                                                   const std::vector<Pose> &poses,
-                                                  WallSource source = WallSource::keyframes);
+                                                  const WallChoice &choice = {});
 
 // Whether eight priors in a row are off to the same side by more than wall directions spread. O(priors).
 bool has_heading_drift(const BuildingConstraint &building, const std::vector<Pose> &poses);

@@ -47,6 +47,11 @@ std::optional<PlacedLine> placed(const ale_map_line_t &prior)
                       std::max<uint32_t>(prior.seen, ALE_MAP_CONFIRMED)};
 }
 
+std::vector<ale_map_line_t> prior_of(const ObservationRecord &record, PriorWalls prior)
+{
+    return prior == PriorWalls::counted ? record.prior_lines() : std::vector<ale_map_line_t>();
+}
+
 // Variances refer to the middle, where the import of a map puts the anchor.
 ale_map_line_t line_of(const WallSpan &span)
 {
@@ -64,7 +69,7 @@ ale_map_line_t line_of(const WallSpan &span)
 
 } // namespace
 
-void rebuild_map(const ObservationRecord &record, const PoseOfScan &pose_of, ale_map_t *out)
+void rebuild_map(const ObservationRecord &record, const PoseOfScan &pose_of, ale_map_t *out, PriorWalls prior)
 {
     std::vector<PlacedLine> lines;
     lines.reserve(
@@ -72,7 +77,11 @@ void rebuild_map(const ObservationRecord &record, const PoseOfScan &pose_of, ale
                         [](size_t sum, const RecordedScan &scan) { return sum + scan.lines.size(); }));
     std::vector<PlacedScan> scans;
     for (const RecordedScan &scan : record.scans()) {
-        const ale_viewpoint_t robot = ale_viewpoint(pose_of(scan));
+        const std::optional<ale_pose_t> pose = pose_of(scan);
+        if (!pose) {
+            continue;
+        }
+        const ale_viewpoint_t robot = ale_viewpoint(*pose);
         for (const ale_observation_t &line : scan.lines) {
             lines.push_back(placed(scan.scan, line, robot));
         }
@@ -80,8 +89,8 @@ void rebuild_map(const ObservationRecord &record, const PoseOfScan &pose_of, ale
             scans.push_back({scan.beams.get(), ale_pose_compose(robot.pose, record.sensor())});
         }
     }
-    for (const ale_map_line_t &prior : record.prior_lines()) {
-        if (const auto line = placed(prior)) {
+    for (const ale_map_line_t &wall : prior_of(record, prior)) {
+        if (const auto line = placed(wall)) {
             lines.push_back(*line);
         }
     }

@@ -12,9 +12,13 @@
 namespace ale
 {
 
+// The walls of the prior map are in the frame of the first map only.
+enum class PriorWalls { counted, left_out };
+
 // Fills *out with ids from 0. Walls beyond ALE_MAP_MAX_LINES, the shortest, are counted in out->refused. May
 // throw std::bad_alloc; *out then holds anything. O(lines * walls + cells of walls * scans with beams).
-void rebuild_map(const ObservationRecord &record, const PoseOfScan &pose_of, ale_map_t *out);
+void rebuild_map(const ObservationRecord &record, const PoseOfScan &pose_of, ale_map_t *out,
+                 PriorWalls prior = PriorWalls::counted);
 
 } // namespace ale
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 extern "C" {
@@ -30,8 +31,8 @@ struct RecordedScan {
     std::unique_ptr<ale_seen_copy_t> beams; // of some scans
 };
 
-// The corrected pose of the robot at a scan, map frame.
-using PoseOfScan = std::function<ale_pose_t(const RecordedScan &scan)>;
+// The corrected pose of the robot at a scan, map frame; none: the scan is of another map.
+using PoseOfScan = std::function<std::optional<ale_pose_t>(const RecordedScan &scan)>;
 
 class ObservationRecord
 {

@@ -125,10 +125,14 @@ std::unique_ptr<ale_map_corners_t> averaged(const ObservationRecord &record, con
         static_cast<uint16_t>(std::min<size_t>(record.prior_corners().size(), ALE_MAP_MAX_CORNERS));
     std::copy_n(record.prior_corners().begin(), corners->count, corners->corner);
     for (const RecordedScan &scan : record.scans()) {
+        const std::optional<ale_pose_t> pose = pose_of(scan);
+        if (!pose) {
+            continue;
+        }
         std::copy(scan.corners.begin(), scan.corners.end(), features->corner);
         features->corner_count = static_cast<uint16_t>(scan.corners.size());
-        ale_map_corners_update(corners.get(), features.get(),
-                               ale_pose_compose(pose_of(scan), record.sensor()), scan.scan, true);
+        ale_map_corners_update(corners.get(), features.get(), ale_pose_compose(*pose, record.sensor()),
+                               scan.scan, true);
     }
     return corners;
 }

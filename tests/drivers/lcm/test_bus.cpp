@@ -10,10 +10,12 @@
 
 #include "ale/drive_t.hpp"
 #include "ale/features_t.hpp"
+#include "ale/map_pieces_t.hpp"
 #include "ale/map_t.hpp"
 #include "ale/pose_t.hpp"
 #include "ale/scan_t.hpp"
 #include "ale/status_t.hpp"
+#include "ale/tracking_t.hpp"
 #include "bot_core/planar_lidar_t.hpp"
 #include "bot_core/pose_t.hpp"
 #include "drivers/lcm/own_port.hpp"
@@ -61,6 +63,24 @@ TEST_F(Bus, OdometrySentIsReceivedInOrder)
     EXPECT_EQ(received[9].pose.x_um, 10000);
     EXPECT_EQ(ale_bus_receive(bus, 0), 0);
     EXPECT_GE(ale_bus_descriptor(bus), 0);
+}
+
+TEST_F(Bus, ExactOdometryArrivesToTheLastBitAndOnce)
+{
+    std::vector<ale_odometry_t> received;
+    ASSERT_EQ(ale_bus_on_odometry(bus, collect, &received), 0);
+    const ale_odometry_t sample = {5, {123456789, -87654321, 3000000001}};
+    const ale_odometry_t next = {6, {1, 2, 0}};
+    ASSERT_EQ(ale_bus_send_exact_odometry(bus, &sample), 0);
+    ASSERT_EQ(ale_bus_send_odometry(bus, &sample), 0);
+    ASSERT_EQ(ale_bus_send_odometry(bus, &next), 0);
+    EXPECT_EQ(ale_bus_receive(bus, 1000), 3);
+    ASSERT_EQ(received.size(), 2u);
+    EXPECT_EQ(received[0].stamp_us, 5);
+    EXPECT_EQ(received[0].pose.x_um, 123456789);
+    EXPECT_EQ(received[0].pose.y_um, -87654321);
+    EXPECT_EQ(received[0].pose.theta_bam, 3000000001);
+    EXPECT_EQ(received[1].stamp_us, 6);
 }
 
 TEST(BusOpening, ErrorsAreOneLineThatSaysWhatIsWrong)
@@ -155,6 +175,7 @@ TEST_F(Wire, EveryMessageIsReadByAnotherLanguageBinding)
     ale_pose_report_t pose{};
     pose.estimate.map = {1000000, 2000000, 1u << 30};
     pose.estimate.velocity_x_um_s = 1000000;
+    pose.estimate.wheel_fault = ALE_WHEELS_STALLED;
     auto features = std::make_unique<ale_features_t>();
     features->line_count = 2;
     features->line[1].rho_um = 3000000;
@@ -166,6 +187,8 @@ TEST_F(Wire, EveryMessageIsReadByAnotherLanguageBinding)
     auto map = std::make_unique<ale_map_t>();
     map->line_count = 40;
     map->line[39].seen = 5;
+    map->line[39].id = 77;
+    map->line[39].map_id = 2;
     ale_status_report_t status{};
     status.counters = 1;
     status.counter[0] = {"bad_checksum", 3};
@@ -173,19 +196,25 @@ TEST_F(Wire, EveryMessageIsReadByAnotherLanguageBinding)
 
     const ale_pose_t mounting = {145000, 0, 0};
     EXPECT_EQ(ale_bus_send_pose(bus, &pose), 0);
+    EXPECT_EQ(ale_bus_send_tracking(bus, &pose.estimate), 0);
     EXPECT_EQ(ale_bus_send_features(bus, features.get(), 12, 7, mounting), 0);
     EXPECT_EQ(ale_bus_send_scan(bus, scan.get(), 12, 7, mounting), 0);
     EXPECT_EQ(ale_bus_send_map_part(bus, map.get(), 12, 1), 0);
+    EXPECT_EQ(ale_bus_send_map_pieces(bus, map.get(), 12, 0), 0);
     EXPECT_EQ(ale_bus_send_status(bus, &status), 0);
     EXPECT_EQ(ale_bus_send_bot_lidar(bus, scan.get(), 12), 0);
     EXPECT_EQ(ale_bus_send_bot_pose(bus, &pose), 0);
     EXPECT_EQ(ale_bus_send_drive(bus, 12, 250000, -1500000), 0);
-    receive(8);
+    receive(10);
 
     EXPECT_FLOAT_EQ(received.only<ale::pose_t>("ALE_POSE").map_y, 2);
     EXPECT_FLOAT_EQ(received.only<ale::features_t>("ALE_FEATURES").lines.at(1).rho, 3);
     EXPECT_EQ(received.only<ale::scan_t>("ALE_SCAN").range_mm.at(681), 4000);
     EXPECT_EQ(received.only<ale::map_t>("ALE_MAP").lines.at(3).seen, 5);
+    EXPECT_EQ(received.only<ale::tracking_t>("ALE_TRACKING").wheel_word, "stalled");
+    const auto pieces = received.only<ale::map_pieces_t>("ALE_MAP_PIECES");
+    EXPECT_EQ(pieces.line_id, std::vector<int32_t>{77});
+    EXPECT_EQ(pieces.map_id, std::vector<int32_t>{2});
     const auto health = received.only<ale::status_t>("ALE_STATUS");
     EXPECT_EQ(health.device, "URG-04LX");
     EXPECT_EQ(health.counter_name.at(0), "bad_checksum");

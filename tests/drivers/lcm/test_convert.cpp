@@ -5,11 +5,14 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <set>
+#include <string>
 #include <vector>
 
 extern "C" {
 #include "base/trig.h"
 #include "lcm/convert.h"
+#include "lcm/wheel_words.h"
 }
 
 namespace
@@ -68,6 +71,38 @@ TEST(Convert, APoseGoesOutInMetresRadiansAndTheirVariances)
     EXPECT_EQ(message.stage_ns[ALE_STAGE_MATCH], 12345);
     EXPECT_EQ(message.stage_start_ns[ALE_STAGE_MATCH], 54321);
     EXPECT_EQ(message.stage_end_ns[ALE_STAGE_MATCH], 66666);
+}
+
+TEST(Convert, WhichMapAPoseIsInAndWhatTheWheelsDoAreTold)
+{
+    ale_estimate_t estimate{};
+    estimate.stamp_us = 12345678901234;
+    estimate.scan = 42;
+    estimate.map_id = 3;
+    estimate.maps = 2;
+    estimate.wheel_fault = ALE_WHEELS_REVERSED;
+    estimate.wheel_faults = 5;
+    lcmtypes_ale_tracking_t message;
+    ale_convert_tracking(&estimate, &message);
+    EXPECT_EQ(message.utime, 12345678901234);
+    EXPECT_EQ(message.scan, 42);
+    EXPECT_EQ(message.map_id, 3);
+    EXPECT_EQ(message.maps, 2);
+    EXPECT_EQ(message.wheel_fault, 3);
+    EXPECT_STREQ(message.wheel_word, "reversed");
+    EXPECT_EQ(message.wheel_faults, 5);
+    EXPECT_LT(lcmtypes_ale_tracking_t_encoded_size(&message), 64);
+}
+
+TEST(Convert, EveryFaultOfTheWheelsHasAWordOfItsOwn)
+{
+    std::set<std::string> words;
+    for (const auto fault : {ALE_WHEELS_FINE, ALE_WHEELS_CONTRADICT, ALE_WHEELS_STALLED, ALE_WHEELS_REVERSED,
+                             ALE_WHEELS_LATE, ALE_WHEELS_SCALE}) {
+        words.insert(ale_wheel_fault_word(static_cast<uint8_t>(fault)));
+    }
+    EXPECT_EQ(words, (std::set<std::string>{"fine", "contradict", "stalled", "reversed", "late", "scale"}));
+    EXPECT_STREQ(ale_wheel_fault_word(200), "unknown");
 }
 
 TEST(Convert, LinesAndCornersKeepTheirOrderAndCovariance)
@@ -194,6 +229,43 @@ TEST(Convert, AMapInPartsIsComplete)
         }
         EXPECT_EQ(lines, map->line_count);
         EXPECT_EQ(corners, map->corner_count);
+    }
+}
+
+/* Every wall of another map than the first once, in order, and no part above the size of one frame on the
+ * air. */
+TEST(Convert, ThePiecesOfAMapAreToldWhole)
+{
+    auto map = std::make_unique<ale_map_t>();
+    auto buffer = std::make_unique<ale_pieces_buffer_t>();
+    map->version = 9;
+    map->line_count = ALE_MAP_MAX_LINES;
+    for (const uint32_t every : {0U, 1U, 2U, 7U}) { // so many walls are in another map; 0: none is
+        std::vector<int32_t> wanted;
+        for (uint32_t k = 0; k < ALE_MAP_MAX_LINES; k++) {
+            const bool apart = every > 0 && k % every == 0;
+            map->line[k].id = k + 100;
+            map->line[k].map_id = apart ? 4 : 0;
+            if (apart) {
+                wanted.push_back(static_cast<int32_t>(k + 100));
+            }
+        }
+        const int16_t parts = ale_map_pieces_parts(map.get());
+        ASSERT_GE(parts, 1) << "none is told, too: what was apart may have been joined";
+        std::vector<int32_t> told;
+        for (int16_t part = 0; part < parts; part++) {
+            lcmtypes_ale_map_pieces_t message;
+            ale_convert_map_pieces(map.get(), 1, part, buffer.get(), &message);
+            EXPECT_EQ(message.version, 9);
+            EXPECT_EQ(message.part, part);
+            EXPECT_EQ(message.parts, parts);
+            EXPECT_LT(lcmtypes_ale_map_pieces_t_encoded_size(&message), 1400);
+            for (int k = 0; k < message.num_lines; k++) {
+                told.push_back(message.line_id[k]);
+                EXPECT_EQ(message.map_id[k], 4);
+            }
+        }
+        EXPECT_EQ(told, wanted);
     }
 }
 

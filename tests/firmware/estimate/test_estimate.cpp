@@ -135,6 +135,35 @@ TEST_F(Estimate, ACorrectionTakesEffectAtTheScanItIsDueAtAndIsToldWithIt)
         EXPECT_EQ(ale_ring_ready(exchange.corrections), k < 5 ? 1U : 0U);
     }
     EXPECT_EQ(result->correction.x_um, 300000);
+    EXPECT_EQ(result->corrections_late, 0u);
+}
+
+TEST_F(Estimate, ACorrectionThatComesAfterItsScanIsTakenAndCounted)
+{
+    auto result = std::make_unique<ale_result_t>();
+    push(kPeriod);
+    ale_estimator_step(estimator);
+    ASSERT_TRUE(pop(*result));
+    const uint32_t epoch = static_cast<ale_keyframe_t *>(ale_ring_at(exchange.keyframes, 0))->epoch;
+    for (int k = 1; k < 4; k++) {
+        if (k == 3) {
+            auto *correction = static_cast<ale_correction_t *>(ale_ring_reserve(exchange.corrections));
+            correction->epoch = epoch;
+            correction->due = 2;
+            correction->count = 1;
+            correction->shift[0] = {0, {300000, 0, 0}};
+            ale_ring_commit(exchange.corrections);
+        }
+        push(kPeriod * (k + 1));
+        ale_estimator_step(estimator);
+        ASSERT_TRUE(pop(*result));
+        EXPECT_EQ(result->corrected, k == 3);
+        EXPECT_EQ(result->corrections_late, k == 3 ? 1u : 0u);
+    }
+    const ale_shortfall_t shortfall = ale_estimator_shortfall(estimator);
+    EXPECT_EQ(shortfall.scans, 4u);
+    EXPECT_EQ(shortfall.overloaded, 0u);
+    EXPECT_EQ(shortfall.corrections_late, 1u);
 }
 
 TEST_F(Estimate, WhatScansHaveShownIsToldWhenTheRobotHasGoneOnAndWhereItStaysNowAndThen)

@@ -74,6 +74,23 @@ TEST_F(MapDrawer, WhatScansHaveShownIsDrawn)
     EXPECT_EQ(ale_ring_ready(exchange.observations), 0U);
 }
 
+TEST_F(MapDrawer, ADrawingNamesTheMapThatTheRobotIsIn)
+{
+    auto *poses = static_cast<ale_mapper_poses_t *>(ale_snapshot_back(exchange.keyframe_poses));
+    *poses = *drive().keyframes;
+    for (uint32_t k = 0; k < poses->count; k++) {
+        poses->pose[k].map_id = 4;
+    }
+    ale_snapshot_publish(exchange.keyframe_poses);
+    see(0, 20);
+    start();
+    ASSERT_TRUE(comes_true([&] { return newest().epoch != 0; }));
+    ASSERT_GE(newest().map.line_count, 4);
+    for (int k = 0; k < newest().map.line_count; k++) {
+        EXPECT_EQ(newest().map.line[k].map_id, 4U);
+    }
+}
+
 TEST_F(MapDrawer, WhatCameLastIsDrawnBeforeItEnds)
 {
     place_keyframes();

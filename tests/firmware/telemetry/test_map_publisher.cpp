@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <set>
 
 #include "drivers/lcm/own_port.hpp"
 #include "firmware/surroundings.hpp"
@@ -136,11 +137,39 @@ TEST_F(MapPublisher, OneASecondAtMostGoesOutAndTheSameAgainEveryTenSeconds)
     EXPECT_EQ(lines(), 4);
     const uint32_t sent = version();
     later(ten_seconds_ns - 1);
-    EXPECT_EQ(publisher->next_part, ale_map_parts(&publisher->shown));
+    EXPECT_FALSE(ale_map_publisher_is_busy(publisher.get()));
     now_ns += 1;
     ale_map_publisher_work(publisher.get(), epoch, now_ns);
     EXPECT_EQ(publisher->next_whole_ns, now_ns + ten_seconds_ns) << "it goes out again";
     EXPECT_EQ(version(), sent) << "as the map that it is";
+}
+
+/* Three walls are drawn, of the robot's map; the tracker knows four of it, and two of another one. */
+TEST_F(MapPublisher, WallsOfMapsThatAreNotJoinedGoOutWithTheDrawingOfTheRobots)
+{
+    const auto name = [](ale_map_t *map, uint16_t first, uint16_t last, uint32_t map_id) {
+        for (uint16_t k = first; k < last; k++) {
+            map->line[k].id = k;
+            map->line[k].map_id = map_id;
+        }
+    };
+    auto *tracked = static_cast<ale_map_t *>(ale_snapshot_back(exchange.map));
+    name(tracked, 0, 4, 5);
+    name(tracked, 4, 6, 0);
+    track(6);
+    name(&static_cast<ale_drawn_map_t *>(ale_snapshot_back(exchange.drawn_map))->map, 0, 3, 5);
+    draw(3);
+    work();
+    const ale_map_t &sent = publisher->sent;
+    ASSERT_EQ(sent.line_count, 5);
+    EXPECT_EQ(sent.version, version());
+    std::set<uint32_t> ids;
+    for (int k = 0; k < 5; k++) {
+        EXPECT_EQ(sent.line[k].map_id, k < 3 ? 5U : 0U);
+        ids.insert(sent.line[k].id);
+    }
+    EXPECT_EQ(ids.size(), 5U) << "no number twice";
+    EXPECT_EQ(lines(), 3) << "what is saved is the robot's map alone";
 }
 
 TEST_F(MapPublisher, InTheEndTheNewestGoesOutAtOnce)

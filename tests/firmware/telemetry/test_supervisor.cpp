@@ -65,18 +65,42 @@ TEST(Supervisor, TheStatusSaysWhatTheDriverDoes)
     health.scans_lost = 3;
     health.scan_period_us = 100000;
     health.last_scan_us = 5000000;
-    ale_supervisor_report(&health, 5100000, report.get());
+    ale_supervisor_report(&health, 5100000, ALE_WHEELS_FINE, report.get());
     EXPECT_STREQ(report->driver_state, "streaming");
     EXPECT_STREQ(report->device, "URG-04LX H0508486");
     EXPECT_EQ(report->scans, 103u);
     EXPECT_EQ(report->scan_period_us, 100000);
-    ale_supervisor_report(&health, 6500000, report.get());
+    health.silence_ms = 2000;
+    ale_supervisor_report(&health, 6500000, ALE_WHEELS_FINE, report.get());
+    EXPECT_STREQ(report->driver_state, "streaming") << "a recording may pause";
+    health.silence_ms = 400;
+    ale_supervisor_report(&health, 6500000, ALE_WHEELS_STALLED, report.get());
     EXPECT_EQ(std::string(report->driver_state).rfind("silent", 0), 0u)
         << "streaming, but no scan for over a second";
+    EXPECT_EQ(std::string(report->driver_state).find("wheels"), std::string::npos) << "only scans tell";
     EXPECT_EQ(report->scan_period_us, 0);
     const ale_scanner_health_t absent = health_in(ALE_SCANNER_CLOSED, "/dev/ttyACM0: permission denied");
-    ale_supervisor_report(&absent, 0, report.get());
+    ale_supervisor_report(&absent, 0, ALE_WHEELS_FINE, report.get());
     EXPECT_STREQ(report->driver_state, "no scanner: /dev/ttyACM0: permission denied");
+}
+
+TEST(Supervisor, WhatTheWheelsDoWrongIsSaidOnceAndStandsInTheStatus)
+{
+    ale_supervisor_t supervisor{};
+    const auto heard = [&](uint8_t fault) -> std::string {
+        char line[ALE_SUPERVISOR_LINE] = "";
+        return ale_supervisor_watch_wheels(&supervisor, fault, line) ? line : "";
+    };
+    EXPECT_EQ(heard(ALE_WHEELS_FINE), "");
+    EXPECT_EQ(heard(ALE_WHEELS_STALLED), "wheels: stalled");
+    EXPECT_EQ(heard(ALE_WHEELS_STALLED), "");
+    EXPECT_EQ(heard(ALE_WHEELS_SCALE), "wheels: scale");
+    EXPECT_EQ(heard(ALE_WHEELS_FINE), "wheels: fine");
+
+    auto report = std::make_unique<ale_status_report_t>();
+    ale_scanner_health_t health = health_in(ALE_SCANNER_STREAMING, "", 100);
+    ale_supervisor_report(&health, 0, ALE_WHEELS_STALLED, report.get());
+    EXPECT_STREQ(report->driver_state, "streaming; wheels: stalled");
 }
 
 TEST(Supervisor, OverlongTextsAreCutNotOverrun)
@@ -88,7 +112,7 @@ TEST(Supervisor, OverlongTextsAreCutNotOverrun)
     std::memset(health.identity.model, 'm', sizeof health.identity.model - 1);
     std::memset(health.identity.serial, 'n', sizeof health.identity.serial - 1);
     std::memset(health.port, 'p', sizeof health.port - 1);
-    ale_supervisor_report(&health, 0, report.get());
+    ale_supervisor_report(&health, 0, ALE_WHEELS_STALLED, report.get());
     EXPECT_LT(std::strlen(report->driver_state), sizeof report->driver_state);
     EXPECT_FALSE(said(supervisor, health).empty());
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <set>
@@ -13,17 +14,21 @@
 #include <vector>
 
 #include "ale/features_t.hpp"
+#include "ale/map_pieces_t.hpp"
 #include "ale/map_t.hpp"
 #include "ale/odometry_t.hpp"
 #include "ale/pose_t.hpp"
 #include "ale/scan_t.hpp"
 #include "ale/status_t.hpp"
+#include "ale/tracking_t.hpp"
 #include "bot_core/planar_lidar_t.hpp"
 #include "bot_core/pose_t.hpp"
 #include "drivers/lcm/own_port.hpp"
+#include "files.hpp"
 #include "firmware/surroundings.hpp"
 
 extern "C" {
+#include "recorder/recorder.h"
 #include "scanner/scanner.h"
 #include "telemetry/telemetry.h"
 }
@@ -71,6 +76,8 @@ class Telemetry : public surroundings::WithExchange
         scans.subscribe(lcm, "ALE_SCAN");
         maps.subscribe(lcm, "ALE_MAP");
         states.subscribe(lcm, "ALE_STATUS");
+        tracking.subscribe(lcm, "ALE_TRACKING");
+        pieces.subscribe(lcm, "ALE_MAP_PIECES");
         lidars.subscribe(lcm, "LASER");
         bot_poses.subscribe(lcm, "POSE");
         config = ale_config_default();
@@ -116,6 +123,12 @@ class Telemetry : public surroundings::WithExchange
         }
         EXPECT_LE(shortest_us, 1100000);
     }
+    static int64_t counter(const ale::status_t &status, const std::string &name)
+    {
+        const auto &names = status.counter_name;
+        const auto found = std::find(names.begin(), names.end(), name);
+        return found == names.end() ? -1 : status.counter_value[static_cast<size_t>(found - names.begin())];
+    }
     /* A result as the estimate task would leave it. */
     void push_result(uint32_t number, bool has_scan)
     {
@@ -132,10 +145,16 @@ class Telemetry : public surroundings::WithExchange
         result->scan.beams = 10;
         result->scan.range_max_um = 5600000;
         result->total_ns = 1000 * static_cast<int32_t>(number + 1);
+        result->estimate.map_id = map_id;
+        result->estimate.maps = static_cast<uint8_t>(map_id + 1);
+        result->estimate.wheel_fault = wheel_fault;
+        result->estimate.wheel_faults = wheel_fault == ALE_WHEELS_FINE ? 0 : 1;
         ale_ring_commit(exchange.results);
         eventfd_write(exchange.under_way, 1);
     }
 
+    uint32_t map_id = 0; /* of the results that are pushed */
+    uint8_t wheel_fault = ALE_WHEELS_FINE;
     ale_config_t config{};
     ale_bus_t *bus = nullptr;
     lcm_t *lcm = nullptr;
@@ -145,6 +164,8 @@ class Telemetry : public surroundings::WithExchange
     Channel<ale::scan_t> scans;
     Channel<ale::map_t> maps;
     Channel<ale::status_t> states;
+    Channel<ale::tracking_t> tracking;
+    Channel<ale::map_pieces_t> pieces;
     Channel<bot_core::planar_lidar_t> lidars;
     Channel<bot_core::pose_t> bot_poses;
 };
@@ -165,6 +186,62 @@ TEST_F(Telemetry, EveryResultGivesOnePoseAndScansTheirFeatures)
     EXPECT_EQ(features.messages[0].num_lines, 2);
     EXPECT_TRUE(scans.messages.empty()) << "scans are sent only when asked for";
     EXPECT_TRUE(lidars.messages.empty());
+}
+
+TEST_F(Telemetry, WithEveryPoseItIsToldWhichMapItIsInAndWhatTheWheelsDo)
+{
+    auto *health = static_cast<ale_scanner_health_t *>(ale_snapshot_back(exchange.health));
+    health->state = ALE_SCANNER_STREAMING;
+    ale_snapshot_publish(exchange.health);
+    start();
+    push_result(0, true);
+    map_id = 1;
+    wheel_fault = ALE_WHEELS_LATE;
+    push_result(1, false);
+    receive_until([&] { return tracking.messages.size() == 2 && poses.messages.size() == 2; });
+    EXPECT_EQ(tracking.messages[0].map_id, 0);
+    EXPECT_EQ(tracking.messages[0].maps, 1);
+    EXPECT_EQ(tracking.messages[0].wheel_word, "fine");
+    EXPECT_EQ(tracking.messages[1].scan, 1);
+    EXPECT_EQ(tracking.messages[1].utime, poses.messages[1].utime);
+    EXPECT_EQ(tracking.messages[1].map_id, 1);
+    EXPECT_EQ(tracking.messages[1].maps, 2);
+    EXPECT_EQ(tracking.messages[1].wheel_fault, ALE_WHEELS_LATE);
+    EXPECT_EQ(tracking.messages[1].wheel_word, "late");
+    stop();
+    receive_until([&] { return !states.messages.empty() && states.messages.back().poses == 2; });
+    const ale::status_t &status = states.messages.back();
+    EXPECT_EQ(status.driver_state, "streaming; wheels: late");
+    EXPECT_EQ(counter(status, "maps"), 2);
+    EXPECT_EQ(counter(status, "wheel_faults"), 1);
+}
+
+/* What a flight recording is called after results of this kind, one after another. */
+TEST_F(Telemetry, ANewMapAndWheelsThatBeginToLieAreWorthAFlightRecording)
+{
+    const auto recordings = [&](uint32_t next_map, uint8_t next_fault) {
+        const files::TemporaryFolder folder;
+        std::strncpy(config.recorder_folder, folder.path().c_str(), sizeof config.recorder_folder - 1);
+        config.recorder_megabytes = 1;
+        exchange.recorder = ale_recorder_start(&config);
+        map_id = 0;
+        wheel_fault = ALE_WHEELS_FINE;
+        push_result(0, true);
+        map_id = next_map;
+        wheel_fault = next_fault;
+        push_result(1, true);
+        start();
+        stop();
+        ale_recorder_stop(exchange.recorder);
+        exchange.recorder = nullptr;
+        const std::filesystem::directory_iterator found(folder.path());
+        return std::count_if(begin(found), end(found), [](const auto &entry) {
+            return entry.path().string().find("fault.scip") != std::string::npos;
+        });
+    };
+    EXPECT_EQ(recordings(0, ALE_WHEELS_FINE), 0);
+    EXPECT_EQ(recordings(1, ALE_WHEELS_FINE), 1);
+    EXPECT_EQ(recordings(0, ALE_WHEELS_STALLED), 1);
 }
 
 TEST_F(Telemetry, ScansAndTheWorldsUsualMessagesGoOutWhenAskedFor)
@@ -218,7 +295,8 @@ TEST_F(Telemetry, TheStatusComesOnceASecondAndCountsWhatWasLostAndWhy)
     for (int k = 0; k < status.num_counters; k++) {
         const std::string &name = status.counter_name[static_cast<size_t>(k)];
         const int64_t value = status.counter_value[static_cast<size_t>(k)];
-        EXPECT_EQ(value, name == "bad_checksum" ? 3 : (name == "scans_lost" ? 2 : 0)) << name;
+        EXPECT_EQ(value, name == "bad_checksum" ? 3 : (name == "scans_lost" ? 2 : (name == "maps" ? 1 : 0)))
+            << name;
     }
     expect_a_status_a_second(start_utime);
 }
@@ -234,10 +312,12 @@ TEST_F(Telemetry, AMapGoesOutWholeInPartsOfOneVersion)
         map->corner_count = ALE_MAP_MAX_CORNERS;
         for (uint32_t k = 0; k < ALE_MAP_MAX_LINES; k++) {
             map->line[k].id = k;
+            map->line[k].map_id = k < 200 ? 1 : 0;
         }
         ale_snapshot_publish(exchange.map);
         eventfd_write(exchange.under_way, 1);
         maps.messages.clear();
+        pieces.messages.clear();
         receive_until([&] {
             return !maps.messages.empty() && maps.messages.back().part + 1 == maps.messages.back().parts;
         });
@@ -252,6 +332,12 @@ TEST_F(Telemetry, AMapGoesOutWholeInPartsOfOneVersion)
         }
         EXPECT_EQ(walls.size(), static_cast<size_t>(ALE_MAP_MAX_LINES));
         EXPECT_EQ(corners, ALE_MAP_MAX_CORNERS);
+        std::set<int32_t> apart;
+        for (const ale::map_pieces_t &part : pieces.messages) {
+            EXPECT_EQ(part.version, static_cast<int32_t>(version));
+            apart.insert(part.line_id.begin(), part.line_id.end());
+        }
+        EXPECT_EQ(apart.size(), 200U) << "and has come before the map was whole";
     }
 }
 

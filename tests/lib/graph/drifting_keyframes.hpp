@@ -50,6 +50,19 @@ inline std::vector<Keyframe> walk(double laps, double bend_rad_m, unsigned seed)
     return keyframes;
 }
 
+// The walls of the corridor as a map that was saved.
+inline std::unique_ptr<ale_map_t> corridor_map()
+{
+    auto map = std::make_unique<ale_map_t>();
+    for (const ring_corridor::Wall &w : ring_corridor::walls()) {
+        ale_map_line_t &line = map->line[map->line_count++];
+        line.start = {convert::um(w.a.x()), convert::um(w.a.y())};
+        line.end = {convert::um(w.b.x()), convert::um(w.b.y())};
+        line.seen = 50;
+    }
+    return map;
+}
+
 } // namespace drifting_keyframes
 
 #endif

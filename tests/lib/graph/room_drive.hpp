@@ -35,7 +35,8 @@ struct RoomDrive {
             truth.push_back(convert::pose(pose_at(t)));
             if (ale_pipeline_keyframe(pipeline.get(), keyframe.get())) {
                 keyframes->epoch = keyframe->epoch;
-                keyframes->pose[keyframes->count++] = {keyframe->scan, keyframe->smooth, truth.back()};
+                keyframes->pose[keyframes->count++] = {keyframe->scan, keyframe->smooth, truth.back(),
+                                                       keyframe->map_id};
             }
             observations.push_back(std::make_unique<ale_scan_observation_t>());
             EXPECT_TRUE(ale_pipeline_scan_observation(pipeline.get(), observations.back().get()));

@@ -116,6 +116,24 @@ TEST(LiveMap, ScansOfRemovedKeyframesAreRemoved)
     EXPECT_EQ(rebuilt(live.get(), *drive.keyframes)->line_count, few->line_count) << "it does not come back";
 }
 
+// The second half of the drive is in a map of its own.
+TEST(LiveMap, TheMapIsThatWhichTheRobotIsIn)
+{
+    const RoomDrive &drive = plain_drive();
+    const LiveMap live = with(drive.observations);
+    const double all_m = length_m(*rebuilt(live.get(), *drive.keyframes));
+    auto in_two = std::make_unique<ale_mapper_poses_t>(*drive.keyframes);
+    for (uint32_t k = in_two->count / 2; k < in_two->count; k++) {
+        in_two->pose[k].map_id = 1;
+        in_two->pose[k].pose.x_um += 20000000;
+    }
+    const Map present = rebuilt(live.get(), *in_two);
+    for (int k = 0; k < present->line_count; k++) {
+        EXPECT_GT(present->line[k].start.x_um, 10000000) << "of the other map";
+    }
+    EXPECT_EQ(length_m(*rebuilt(live.get(), *drive.keyframes)), all_m) << "what was left out is kept";
+}
+
 TEST(LiveMap, WhereTheRobotStaysTheOldestScansGo)
 {
     const RoomDrive drive(

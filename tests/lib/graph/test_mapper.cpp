@@ -122,25 +122,13 @@ TEST(Mapper, ACorrectionIsDueAFixedNumberOfScansAfterItsKeyframe)
     FAIL() << "no loop was closed";
 }
 
-std::unique_ptr<ale_map_t> corridor_map()
-{
-    auto map = std::make_unique<ale_map_t>();
-    for (const ring_corridor::Wall &w : ring_corridor::walls()) {
-        ale_map_line_t &line = map->line[map->line_count++];
-        line.start = {convert::um(w.a.x()), convert::um(w.a.y())};
-        line.end = {convert::um(w.b.x()), convert::um(w.b.y())};
-        line.seen = 50;
-    }
-    return map;
-}
-
 // Half a lap: no place is seen twice, so that only the prior map can correct the drift.
 TEST(Mapper, KeyframesAreMatchedWithThePriorMap)
 {
     const auto keyframes = drifting_keyframes::walk(0.55, 0.0012, 2);
     const std::vector<ale::Pose> truth = ring_corridor::truth(0.55);
     const Mapper mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES));
-    ASSERT_EQ(ale_mapper_set_prior_map(mapper.get(), 1, corridor_map().get()), 0);
+    ASSERT_EQ(ale_mapper_set_prior_map(mapper.get(), 1, drifting_keyframes::corridor_map().get()), 0);
     ASSERT_GT(follow(mapper.get(), keyframes).corrections.size(), 0U);
     double while_driving = 0;
     for (uint32_t k = 0; k < keyframes.size(); k++) {
@@ -163,7 +151,7 @@ TEST(Mapper, APriorMapOfAnotherEpochIsNotUsed)
 {
     const auto keyframes = drifting_keyframes::walk(0.55, 0.0012, 2);
     const Mapper mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES));
-    ASSERT_EQ(ale_mapper_set_prior_map(mapper.get(), 7, corridor_map().get()), 0);
+    ASSERT_EQ(ale_mapper_set_prior_map(mapper.get(), 7, drifting_keyframes::corridor_map().get()), 0);
     EXPECT_EQ(follow(mapper.get(), keyframes).corrections.size(), 0U);
 }
 

@@ -1,11 +1,15 @@
 // lib/map/local_map.c: walls in bounded memory, listed by direction, merged.
+#include <algorithm>
 #include <memory>
+#include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "walls.h"
 
 extern "C" {
+#include "map/atlas.h"
 #include "map/local_map.h"
 #include "match/association.h"
 }
@@ -80,4 +84,106 @@ TEST_F(Map, WhenFullTheOldestUnconfirmedWallMakesRoomAndThenWallsAreRefused)
     EXPECT_EQ(add(9, 9, 0, 1), ALE_NO_WALL);
     EXPECT_EQ(map->refused, 1u);
     EXPECT_EQ(map->count, ALE_MAP_MAX_LINES);
+}
+
+namespace
+{
+/* Walls, landmarks and corners of three maps that lie on one another. */
+struct Maps : Map {
+    void add_place(uint8_t number, double x)
+    {
+        ale_local_map_select(map.get(), number);
+        add(x, 0, reference::pi, 1);
+        ale_landmark_t m = {};
+        m.p = {convert::um(x), 500000};
+        m.var_um2 = 9000000;
+        m.seen = 3;
+        m.map = map->landmarks.selected;
+        ale_landmarks_add(&map->landmarks, &m);
+        ale_features_t f = {};
+        f.corner_count = 1;
+        f.corner[0].p = {convert::um(x), 0};
+        ale_map_corners_update(&map->corners, &f, {0, 0, 0}, 0, true);
+    }
+    int near()
+    {
+        ale_local_map_approach(map.get(), {0, 0}, 50000000);
+        return map->near_first[ALE_MAP_DIRECTIONS];
+    }
+    int landmarks(double x) const
+    {
+        return ale_landmarks_find(&map->landmarks, {convert::um(x), 500000}, 0, false, 50000) !=
+               ALE_NO_LANDMARK;
+    }
+    int corners(double x)
+    {
+        ale_features_t f = {};
+        f.corner_count = 1;
+        f.corner[0].p = {convert::um(x), 0};
+        return ale_map_corners_update(&map->corners, &f, {0, 0, 0}, 0, false);
+    }
+};
+} // namespace
+
+TEST_F(Maps, OnlyWhatBelongsToTheSelectedOneIsFound)
+{
+    for (uint8_t number = 0; number < 3; number++) {
+        add_place(number, 1 + number);
+        add_place(number, 11 + number);
+    }
+    for (uint8_t number = 0; number < 3; number++) {
+        ale_local_map_select(map.get(), number);
+        EXPECT_EQ(near(), 2);
+        for (int k = map->near_first[0]; k < map->near_first[ALE_MAP_DIRECTIONS]; k++) {
+            EXPECT_EQ(map->wall[map->near[k]].map, number);
+        }
+        for (uint8_t other = 0; other < 3; other++) {
+            EXPECT_EQ(landmarks(1 + other), other == number) << int{number} << " " << int{other};
+            EXPECT_EQ(corners(11 + other), other == number) << int{number} << " " << int{other};
+        }
+    }
+}
+
+TEST_F(Maps, TheListOfNearWallsIsMadeAnewForAnotherMap)
+{
+    add_place(0, 1);
+    add_place(1, 2);
+    EXPECT_EQ(near(), 1);
+    ale_local_map_select(map.get(), 1);
+    EXPECT_GT(map->near_radius_um, 0) << "it is the same one";
+    ale_local_map_select(map.get(), 0);
+    ASSERT_EQ(near(), 1);
+    EXPECT_EQ(map->near[0], 0);
+}
+
+/* Whichever walls belong to which map: those of the others stay, each with its id, and nothing else does. */
+TEST_F(Maps, OneIsGivenUpWithAllThatBelongsToItAndNothingElse)
+{
+    std::mt19937 rng(1);
+    for (int trial = 0; trial < 20; trial++) {
+        SetUp();
+        std::vector<uint32_t> kept;
+        const uint8_t gone = static_cast<uint8_t>(rng() % ALE_ATLAS_MAPS);
+        for (int k = 0; k < 120; k++) {
+            const uint8_t number = static_cast<uint8_t>(rng() % ALE_ATLAS_MAPS);
+            add_place(number, 0.3 * k);
+            if (number != gone) {
+                kept.push_back(map->wall[map->count - 1].id);
+            }
+        }
+        ale_local_map_give_up(map.get(), gone);
+        std::vector<uint32_t> left;
+        for (int i = 0; i < map->count; i++) {
+            left.push_back(map->wall[i].id);
+            EXPECT_NE(map->wall[i].map, gone);
+        }
+        std::sort(left.begin(), left.end());
+        EXPECT_EQ(left, kept);
+        EXPECT_EQ(map->corners.count, kept.size());
+        ale_local_map_select(map.get(), gone);
+        EXPECT_EQ(near(), 0);
+        for (int k = 0; k < 120; k++) {
+            EXPECT_EQ(landmarks(0.3 * k) + corners(0.3 * k), 0) << k;
+        }
+    }
 }

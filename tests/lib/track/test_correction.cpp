@@ -260,3 +260,137 @@ TEST(Correction, AMapThatWasLoadedStaysWhereItIs)
 }
 
 } // namespace
+
+namespace
+{
+
+/* Two maps side by side: what was driven, and the same once more as map 1, elsewhere. */
+struct TwoMaps : testing::Test {
+    Driven d;
+    ale_local_map_t &map = d.pipeline->map;
+    std::unique_ptr<ale_landmarks_t> spare = std::make_unique<ale_landmarks_t>();
+    std::unique_ptr<ale_local_map_t> before;
+    std::mt19937 rng{3};
+
+    void SetUp() override
+    {
+        d.drive(100);
+        ale_landmarks_clear(&map.landmarks);
+        add_landmarks(0, 60);
+        ale_local_map_select(&map, 1);
+        const uint16_t walls = map.count;
+        for (uint16_t i = 0; i < walls; i++) {
+            const ale_wall_t wall = map.wall[i];
+            ale_local_map_add(&map, &wall);
+        }
+        ale_features_t f = {};
+        f.corner_count = 3;
+        for (int i = 0; i < 3; i++) {
+            f.corner[i].p = {1000000 * i, 7000000};
+        }
+        ale_map_corners_update(&map.corners, &f, {0, 0, 0}, 90, true);
+        add_landmarks(1, 60);
+        before = std::make_unique<ale_local_map_t>(map);
+    }
+    void add_landmarks(uint8_t number, int count)
+    {
+        std::uniform_real_distribution<double> unit(-1, 1);
+        for (int k = 0; k < count; k++) {
+            ale_landmark_t m = {};
+            m.p = {convert::um(20 * unit(rng)), convert::um(20 * unit(rng))};
+            m.normal_bam = convert::bam(3 * unit(rng));
+            m.var_um2 = 9000000;
+            m.seen = 2;
+            m.map = number;
+            m.born = 50;
+            ale_landmarks_add(&map.landmarks, &m);
+        }
+    }
+    void join(uint8_t from, uint8_t into, ale_pose_t shift, const ale_map_uncertainty_t &uncertainty = {})
+    {
+        const ale_local_map_join_t join = {from, into, shift, uncertainty};
+        ale_local_map_join(&map, &join, spare.get());
+    }
+    static reference::Pose random_shift(std::mt19937 &rng)
+    {
+        std::uniform_real_distribution<double> unit(-1, 1);
+        return {30 * unit(rng), 30 * unit(rng), reference::pi * unit(rng)};
+    }
+    int landmarks_found(const ale_local_map_t &of, uint8_t number, const reference::Pose &shift) const
+    {
+        int found = 0;
+        for (const ale_landmark_t &m : before->landmarks.landmark) {
+            if (m.seen == 0 || m.map != number) {
+                continue;
+            }
+            const reference::Pose p =
+                reference::compose(shift, {m.p.x_um * 1e-6, m.p.y_um * 1e-6, convert::radians(m.normal_bam)});
+            found += ale_landmarks_find(&of.landmarks, {convert::um(p[0]), convert::um(p[1])},
+                                        convert::bam(p[2]), false, 10) != ALE_NO_LANDMARK;
+        }
+        return found;
+    }
+};
+
+TEST_F(TwoMaps, AJoinMovesAllOfTheOneLikeTheTwinAndNothingOfTheOther)
+{
+    const reference::Pose shift(4, -7, 2);
+    const ale_map_uncertainty_t uncertainty = {1000000, 2, 3000000, 4, 5, 6000000};
+    join(1, 0, convert::pose(shift), uncertainty);
+    for (int i = 0; i < map.count; i++) {
+        const ale_wall_t &was = before->wall[i];
+        const ale_wall_t &is = map.wall[i];
+        const bool moved = was.map == 1;
+        const reference::Pose by = moved ? shift : reference::Pose(0, 0, 0);
+        EXPECT_EQ(is.map, 0) << i;
+        EXPECT_EQ(is.id, was.id) << i;
+        for (const int32_t t_um : {was.start_um, was.end_um}) {
+            EXPECT_LT(distance(ale_wall_point(&was, t_um), by, ale_wall_point(&is, t_um)), 5e-6) << i;
+        }
+        EXPECT_EQ(is.map_uncertainty.tt_urad2, moved ? uncertainty.tt_urad2 : was.map_uncertainty.tt_urad2);
+        EXPECT_EQ(is.map_uncertainty.xx_um2, moved ? uncertainty.xx_um2 : was.map_uncertainty.xx_um2);
+        EXPECT_TRUE(moved ? is.var_offset_um2 > was.var_offset_um2 : is.var_offset_um2 == was.var_offset_um2);
+    }
+    for (int i = 0; i < map.corners.count; i++) {
+        const reference::Pose by = before->corners.map[i] == 1 ? shift : reference::Pose(0, 0, 0);
+        EXPECT_EQ(map.corners.map[i], 0);
+        EXPECT_LT(distance(before->corners.corner[i].p, by, map.corners.corner[i].p), 3e-6) << i;
+    }
+    EXPECT_GT(map.version, before->version);
+    ale_local_map_select(&map, 0);
+    EXPECT_EQ(landmarks_found(map, 1, shift), 60);
+    EXPECT_EQ(landmarks_found(map, 0, {0, 0, 0}), 60);
+    ale_local_map_approach(&map, {0, 0}, 60000000);
+    EXPECT_EQ(map.near_first[ALE_MAP_DIRECTIONS], map.count);
+}
+
+/* By a shift and by its inverse: the map is where it was to the rounding, which does not grow. */
+TEST_F(TwoMaps, AJoinAndItsInverseLeaveTheMapWhereItWas)
+{
+    for (int trial = 0; trial < 20; trial++) {
+        const reference::Pose shift = random_shift(rng);
+        join(1, 2, convert::pose(shift));
+        join(2, 1, convert::pose(reference::inverse(convert::pose(convert::pose(shift)))));
+    }
+    for (int i = 0; i < map.count; i++) {
+        EXPECT_EQ(map.wall[i].map, before->wall[i].map);
+        const double most = before->wall[i].map == 1 ? 60e-6 : 0;
+        EXPECT_LE(distance(map.wall[i].anchor, {0, 0, 0}, before->wall[i].anchor), most) << i;
+        EXPECT_LE(std::abs(ale_bam_diff(map.wall[i].normal_bam, before->wall[i].normal_bam)),
+                  most > 0 ? 40 : 0);
+        EXPECT_EQ(map.wall[i].end_um, before->wall[i].end_um);
+    }
+    for (int i = 0; i < map.corners.count; i++) {
+        EXPECT_LE(distance(map.corners.corner[i].p, {0, 0, 0}, before->corners.corner[i].p), 60e-6) << i;
+    }
+}
+
+TEST_F(TwoMaps, AMapThatIsNotThereJoinsNothing)
+{
+    join(5, 0, convert::pose(reference::Pose(1, 2, 3)));
+    for (int i = 0; i < map.count; i++) {
+        EXPECT_EQ(std::memcmp(&map.wall[i], &before->wall[i], sizeof map.wall[i]), 0) << i;
+    }
+}
+
+} // namespace

@@ -26,8 +26,13 @@ extern "C" {
 #include "motion/deskew.h"
 #include "observe/short_segment.h"
 #include "track/map_update.h"
+#include "track/maps.h"
 #include "track/pipeline_state.h"
+#include "track/step_filter.h"
 #include "track/step_predict.h"
+#include "track/step_recover.h"
+#include "track/step_search.h"
+#include "track/step_track.h"
 }
 
 namespace bench
@@ -335,29 +340,139 @@ void witnesses(Parts &parts, Random &random, Crowd &crowd)
     });
 }
 
-/* Lost, with as many places as are kept, all near enough to be fitted to what is there, and with scans of the
- * way that what is proposed is held against. The poorer a scan, the more places are fitted to it. */
-void relocation(Parts &parts, Random &random, Crowd &crowd)
+/* A robot in the middle of a crowd, with a scan that looks through all walls and shows so many of the views.
+ */
+class Lost
 {
-    const ale_scan_t scan = far_scan(random);
-    const ale_posed_scan_t eye = {&scan, nullptr, {0, 0, 0}};
-    auto memory = std::make_unique<ale_relocation_t>();
-    auto fit = std::make_unique<ale_fit_t>();
-    ale_relocation_clear(memory.get());
-    for (uint32_t views = 4; views <= ALE_MAX_OBSERVATIONS; views += 2) {
-        const ale_scene_t scene = {crowd.map.get(), crowd.views.data(), views, nullptr};
-        ale_relocation_follow(memory.get(), {60 * centimetre_um, 0, 0}, true);
-        memory->count = ALE_PLACES;
-        for (ale_place_t &place : memory->place) {
-            place = {any_motion(random).pose, 200, 0, 4};
-        }
-        const ale_motion_t predicted = any_motion(random);
-        crowd.map->near_radius_um = 0;
-        parts.measure("lost: places sought and fitted", 1, [&] {
-            ale_local_map_approach(crowd.map.get(), {0, 0}, 2000000000);
-            ale_relocate(memory.get(), &scene, &eye, &predicted, fit.get());
-        });
+  public:
+    Lost(Random &random, const Crowd &crowd) : crowd_(crowd), scan_(far_scan(random))
+    {
+        const ale_pipeline_config_t config = ale_pipeline_default_config();
+        ale_pipeline_init(pipeline_.get(), &config);
+        ale_estimate_t estimate;
+        ale_pipeline_scan(pipeline_.get(), &scan_, &estimate);
     }
+    /* As it was, whatever a call has done with it. */
+    ale_pipeline_t *operator()(uint32_t views)
+    {
+        ale_pipeline_t *p = pipeline_.get();
+        p->map = *crowd_.map;
+        p->observed.scan = scan_;
+        std::copy(crowd_.views.begin(), crowd_.views.end(), std::begin(p->observed.observation));
+        p->observed.count = views;
+        ale_filter_begin(p);
+        ale_atlas_init(&p->atlas);
+        p->motion.pose = {0, 0, 0};
+        return p;
+    }
+    /* Two seconds after a scan has last told where it is. */
+    ale_prediction_t prediction(const ale_motion_t &predicted) const
+    {
+        ale_prediction_t prediction{};
+        prediction.before = prediction.ways.believed = prediction.ways.rival = predicted;
+        prediction.ways.believed.stamp_us = pipeline_->watched_us + unwatched_us;
+        prediction.dt_us = unwatched_us;
+        return prediction;
+    }
+
+  private:
+    static constexpr int64_t unwatched_us = 2000000;
+    const Crowd &crowd_;
+    ale_scan_t scan_;
+    std::unique_ptr<ale_pipeline> pipeline_ = std::make_unique<ale_pipeline>();
+};
+
+/* All headings and places of the region, and the fits of the best. */
+void recovery(Parts &parts, Random &random, Lost &lost)
+{
+    for (uint32_t views = 4; views <= ALE_MAX_OBSERVATIONS; views += 8) {
+        ale_pipeline_t *p = lost(views);
+        const ale_prediction_t prediction = lost.prediction(any_motion(random));
+        ale_ways_t ways = prediction.ways;
+        auto fit = std::make_unique<ale_fit_t>();
+        const ale_scene_t scene = {&p->map, p->observed.observation, views, nullptr};
+        ale_register_scan(&ways.believed, &scene, &first_gate, fit.get());
+        parts.measure("lost: where else it can be", 1,
+                      [&] { ale_step_recover(p, &prediction, ALE_SCENE_CHANGED, &ways, fit.get()); });
+    }
+}
+
+/* In place of the oldest of as many maps as there may be, which holds half of all that there is. */
+void beginning(Parts &parts, Lost &lost)
+{
+    ale_pipeline_t *p = lost(ALE_MAX_OBSERVATIONS);
+    while (ale_atlas_maps(&p->atlas) < ALE_ATLAS_MAPS) {
+        ale_atlas_begin(&p->atlas);
+    }
+    for (uint16_t i = 0; i < p->map.count; i += 2) {
+        p->map.wall[i].map = 1;
+    }
+    parts.measure("lost: a map begins", 1, [&] {
+        ale_maps_begin(p);
+        ale_step_track_first(p);
+    });
+}
+
+/* A tenth of the walls are in the robot's own map too, where they were seen just now. */
+void own_map(ale_pipeline_t *p)
+{
+    ale_atlas_begin(&p->atlas);
+    for (uint16_t i = 0; i < p->map.count; i += 10) {
+        ale_wall_t wall = p->map.wall[i];
+        wall.map = p->atlas.current;
+        wall.last_scan = p->scans;
+        p->map.wall[p->map.count - 1 - i / 10] = wall;
+    }
+    p->map.near_radius_um = 0;
+}
+
+enum class Known { claimed, nothing, place };
+
+/* As many places as are kept, all near enough to be fitted to what is there, and scans of the way that what
+ * is proposed is held against. */
+void places(ale_relocation_t *relocation, const ale_pipeline_t *p, Random &random, Known known)
+{
+    ale_relocation_clear(relocation);
+    for (int k = 0; k < ALE_TRAIL_SCANS; k++) {
+        ale_trail_follow(&relocation->trail, {60 * centimetre_um, 0, 0});
+        ale_trail_keep(&relocation->trail, p->observed.observation, p->observed.count);
+    }
+    relocation->count = ALE_PLACES;
+    for (ale_place_t &place : relocation->place) {
+        place = {any_motion(random).pose, 200, 0, 4, 0};
+    }
+    if (known == Known::place) {
+        relocation->place[0] = {{0, 0, 0}, 256, 256, 40, 0};
+    }
+}
+
+/* Around where the robot is said to be, or anywhere, or where one place is left: whether its own map lies
+ * there. The poorer a scan, the more places are fitted to it. */
+void search(Parts &parts, Random &random, Lost &lost)
+{
+    for (uint32_t views = 4; views <= ALE_MAX_OBSERVATIONS; views += 4) {
+        for (const Known known : {Known::claimed, Known::nothing, Known::place}) {
+            ale_pipeline_t *p = lost(views);
+            own_map(p);
+            p->claims = known == Known::claimed ? 2 : 0;
+            places(&p->relocation, p, random, known);
+            const ale_prediction_t prediction = lost.prediction(any_motion(random));
+            parts.measure("lost: an older map searched", 1, [&] { ale_step_search(p, &prediction); });
+        }
+    }
+}
+
+void joining(Parts &parts, Lost &lost)
+{
+    ale_pipeline_t *p = lost(ALE_MAX_OBSERVATIONS);
+    for (ale_landmark_t &mark : p->map.landmarks.landmark) {
+        mark.seen = 1;
+        mark.map = 1;
+    }
+    ale_atlas_begin(&p->atlas);
+    p->fit.motion = p->motion;
+    p->fit.motion.pose = {500 * centimetre_um, 700 * centimetre_um, 123456789};
+    parts.measure("lost: two maps join", 1, [&] { ale_maps_join(p, ALE_FIRST_MAP, &p->fit); });
 }
 
 void corners(Parts &parts, Random &random)
@@ -452,7 +567,11 @@ Bound bound_of_a_scan(InstructionCounter &counter)
         Random random(seed);
         Crowd crowd(random, ALE_OBSERVATION_LINE, seed % 2 == 1,
                     seed % 4 < 2 ? ALE_MAP_MAX_LINES : ALE_MAX_OBSERVATIONS);
-        relocation(lost, random, crowd);
+        Lost robot(random, crowd);
+        recovery(lost, random, robot);
+        beginning(lost, robot);
+        search(lost, random, robot);
+        joining(lost, robot);
     }
     Random random(5);
     corners(tracked, random);

@@ -18,7 +18,8 @@ struct BoundPart {
     uint64_t each; /* instructions */
 };
 
-/* A scan is either tracked or looked at while lost. */
+/* What every scan asks for, what tracking adds, and what is added where the robot is not where it should be:
+ * one scan may ask for all of it. */
 struct Bound {
     std::vector<BoundPart> any_scan;
     std::vector<BoundPart> tracked;

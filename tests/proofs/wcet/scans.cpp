@@ -17,7 +17,7 @@ constexpr double reach_m = 30;
 constexpr double period_s = 0.1;
 constexpr int wheel_samples = 10; /* in a period */
 constexpr int64_t first_stamp_us = 1000000;
-constexpr int jump_at = 10; /* the scan from which on the scene has turned */
+constexpr int jump_at = 10; /* the scan after the gap, from which on the scene has turned */
 
 struct Gene {
     double Costly::*value;
@@ -25,15 +25,16 @@ struct Gene {
     double most;
 };
 
-const std::array<Gene, 9> genes = {{{&Costly::base_m, 0.5, 20},
-                                    {&Costly::tooth_m, 0, 3},
-                                    {&Costly::tooth_beams, 6, 400},
-                                    {&Costly::square, 0, 1},
-                                    {&Costly::noise_m, 0.0005, 0.03},
-                                    {&Costly::dropped, 0, 0.7},
-                                    {&Costly::turn_rad_s, 0, 2},
-                                    {&Costly::map_walls, 0, ALE_MAP_MAX_LINES},
-                                    {&Costly::jump_rad, 0, 3}}};
+const std::array<Gene, 10> genes = {{{&Costly::base_m, 0.5, 20},
+                                     {&Costly::tooth_m, 0, 3},
+                                     {&Costly::tooth_beams, 6, 400},
+                                     {&Costly::square, 0, 1},
+                                     {&Costly::noise_m, 0.0005, 0.03},
+                                     {&Costly::dropped, 0, 0.7},
+                                     {&Costly::turn_rad_s, 0, 2},
+                                     {&Costly::map_walls, 0, ALE_MAP_MAX_LINES},
+                                     {&Costly::jump_rad, 0, 3},
+                                     {&Costly::gap_s, 0, 4}}};
 
 double tooth(double phase, double square)
 {
@@ -45,6 +46,11 @@ double tooth(double phase, double square)
 double range_m(const Costly &costly, double bearing_beams)
 {
     return costly.base_m + costly.tooth_m * tooth(bearing_beams / costly.tooth_beams, costly.square);
+}
+
+double seconds_to(const Costly &costly, int k)
+{
+    return period_s * k + (k >= jump_at ? costly.gap_s : 0);
 }
 
 double step_rad(const Costly &costly)
@@ -64,9 +70,9 @@ std::string Costly::words() const
     char text[200];
     std::snprintf(text, sizeof text,
                   "%d beams, walls %.2f m off, teeth %.2f m every %.0f beams (%.0f %% steps), noise %.1f mm, "
-                  "%.0f %% dropped, %.1f rad/s, map of %.0f walls, jump %.1f rad",
+                  "%.0f %% dropped, %.1f rad/s, map of %.0f walls, jump %.1f rad after %.1f s",
                   beams, base_m, tooth_m, tooth_beams, 100 * square, 1e3 * noise_m, 100 * dropped, turn_rad_s,
-                  map_walls, jump_rad);
+                  map_walls, jump_rad, gap_s);
     return text;
 }
 
@@ -88,7 +94,7 @@ std::vector<ale_odometry_t> wheels_before(const Costly &costly, int k)
 {
     std::vector<ale_odometry_t> samples;
     for (int n = 1; n <= wheel_samples; n++) {
-        const double after = (k - 1 + n / static_cast<double>(wheel_samples)) * period_s;
+        const double after = seconds_to(costly, k) - (1 - n / static_cast<double>(wheel_samples)) * period_s;
         const double turned = std::remainder(costly.turn_rad_s * after, 2 * M_PI);
         samples.push_back({first_stamp_us + std::llround(after * 1e6),
                            {0, 0, static_cast<uint32_t>(std::llround(turned * bam_per_rad))}});
@@ -99,10 +105,10 @@ std::vector<ale_odometry_t> wheels_before(const Costly &costly, int k)
 ale_scan_t scan_of(const Costly &costly, int k, Random &random)
 {
     const double step = step_rad(costly);
-    const double turned = costly.turn_rad_s * period_s * k + (k >= jump_at ? costly.jump_rad : 0);
+    const double turned = costly.turn_rad_s * seconds_to(costly, k) + (k >= jump_at ? costly.jump_rad : 0);
     ale_scan_t scan{};
     scan.beams = static_cast<uint16_t>(costly.beams);
-    scan.stamp_us = first_stamp_us + std::llround(period_s * 1e6) * k;
+    scan.stamp_us = first_stamp_us + std::llround(seconds_to(costly, k) * 1e6);
     scan.beam_time_ns = static_cast<int32_t>(1e9 * period_s * step / (2 * M_PI));
     scan.step_bam = static_cast<int32_t>(step * bam_per_rad);
     scan.first_bearing_bam = static_cast<uint32_t>(-costly.beams / 2 * int64_t{scan.step_bam});

@@ -28,7 +28,8 @@ struct Costly {
     double dropped = 0;      /* part of the beams that bring nothing */
     double turn_rad_s = 0;   /* the robot turns: every scan is straightened */
     double map_walls = 0;    /* a known map of so many walls, all near, loaded before */
-    double jump_rad = 0;     /* after a while the scene turns so far at once: lost, and sought */
+    double jump_rad = 0;     /* after a while the scene turns so far at once, */
+    double gap_s = 0;        /* after as long without a scan: lost, and sought */
 
     std::string words() const;
 };

@@ -39,8 +39,8 @@ constexpr char usage[] =
     "  --help, --version\n";
 constexpr std::array<const char *, ALE_STAGES> stage_names = {"deskew", "smooth", "extract", "match", "map"};
 constexpr int scans_of_a_candidate = 16;
-constexpr double most_times_the_median = 2.5;
-constexpr double least_of_the_bound = 0.5;
+constexpr uint64_t most_of_any_scan = 10000000;
+constexpr uint64_t most_of_the_mean = 1200000;
 
 uint64_t sum(const Counts &counts)
 {
@@ -113,11 +113,9 @@ struct Tally {
         }
         worst = sum(counts) > sum(worst) ? counts : worst;
     }
-    uint64_t median()
+    uint64_t mean() const
     {
-        std::nth_element(totals.begin(), totals.begin() + static_cast<ptrdiff_t>(totals.size() / 2),
-                         totals.end());
-        return totals[totals.size() / 2];
+        return std::accumulate(totals.begin(), totals.end(), uint64_t{0}) / totals.size();
     }
 };
 
@@ -147,8 +145,8 @@ void count_log(InstructionCounter &counter, const std::string &path, Tally &all)
         }
     }
     const std::string name = path.substr(path.rfind('/') + 1);
-    std::printf("%-34s %zu scans, median %llu\n", name.c_str(), tally.totals.size(),
-                static_cast<unsigned long long>(tally.median()));
+    std::printf("%-34s %zu scans, mean %llu\n", name.c_str(), tally.totals.size(),
+                static_cast<unsigned long long>(tally.mean()));
     print_row("  its most expensive scan", tally.worst);
 }
 
@@ -192,9 +190,12 @@ std::vector<std::pair<std::string, Costly>> beginnings()
     full_map.map_walls = ALE_MAP_MAX_LINES;
     Costly lost = full_map;
     lost.jump_rad = 2;
-    return {{"zigzag", zigzag},      {"all corners", corners},    {"every other beam dropped", dropouts},
-            {"turning", turning},    {"turning, jolted", jolted}, {"full map", full_map},
-            {"full map, lost", lost}};
+    Costly unwatched = lost; /* it can have got anywhere within reach of a vote */
+    unwatched.gap_s = 2;
+    return {
+        {"zigzag", zigzag},       {"all corners", corners},          {"every other beam dropped", dropouts},
+        {"turning", turning},     {"turning, jolted", jolted},       {"full map", full_map},
+        {"full map, lost", lost}, {"the same, unwatched", unwatched}};
 }
 
 struct Effort {
@@ -241,20 +242,25 @@ uint64_t print_parts(const std::vector<bench::BoundPart> &parts)
     return sum;
 }
 
-/* The parts of a scan's way at their capacities, and the sum for a tracked scan. What a lost one does instead
- * of tracking is told beside it: no scan found comes near that. */
+/* The parts of a scan's way at their capacities, and their sum: no scan can cost more. */
 uint64_t print_bound(InstructionCounter &counter)
 {
     std::printf("\n%-34s %9s %9s %10s\n", "at its capacity", "at most", "each", "in all");
     const bench::Bound bound = bench::bound_of_a_scan(counter);
-    const uint64_t any_scan = print_parts(bound.any_scan);
-    const uint64_t tracked = any_scan + print_parts(bound.tracked);
-    const uint64_t lost = any_scan + print_parts(bound.lost);
-    std::printf("\na lost scan with all capacities filled  %llu\n", static_cast<unsigned long long>(lost));
-    return tracked;
+    const uint64_t tracked = print_parts(bound.any_scan) + print_parts(bound.tracked);
+    const uint64_t any = tracked + print_parts(bound.lost);
+    std::printf("\na tracked scan, all filled     %llu\n", static_cast<unsigned long long>(tracked));
+    return any;
 }
 
-/* Whether the most expensive scan is as cheap, and as near to the bound, as is asked for. */
+bool report(const char *name, uint64_t count, uint64_t most)
+{
+    std::printf("%-30s %llu of %llu%s\n", name, static_cast<unsigned long long>(count),
+                static_cast<unsigned long long>(most), count > most ? ": too much" : "");
+    return count <= most;
+}
+
+/* Whether scans cost no more than they may, in the mean, at most, and by the bound. */
 bool run(const std::string &base, const Effort &effort, const std::vector<std::string> &logs)
 {
     InstructionCounter counter(base);
@@ -271,16 +277,10 @@ bool run(const std::string &base, const Effort &effort, const std::vector<std::s
     search(counter, effort, made);
     const uint64_t bound = print_bound(counter);
     const uint64_t worst = std::max(sum(made.worst), sum(recorded.worst));
-    const uint64_t median = recorded.median();
-    const double times = static_cast<double>(worst) / static_cast<double>(median);
-    const double part = static_cast<double>(worst) / static_cast<double>(bound);
-    std::printf("\nmedian recorded scan          %llu\n"
-                "most expensive scan found     %llu, %.2f times the median (%.1f asked for)\n"
-                "a tracked scan, all filled    %llu, of which the scan found is %.0f %% (%.0f asked for)\n",
-                static_cast<unsigned long long>(median), static_cast<unsigned long long>(worst), times,
-                most_times_the_median, static_cast<unsigned long long>(bound), 100 * part,
-                100 * least_of_the_bound);
-    return times <= most_times_the_median && part >= least_of_the_bound && worst <= bound;
+    const bool mean = report("mean recorded scan", recorded.mean(), most_of_the_mean);
+    const bool found = report("most expensive scan found", worst, most_of_any_scan);
+    const bool proved = report("any scan, all filled", bound, most_of_any_scan);
+    return mean && found && proved && worst <= bound;
 }
 
 } // namespace
@@ -300,7 +300,7 @@ int main(int argc, char **argv)
             throw cli::WrongUse("needs callgrind, --counts BASE and a log: make wcet");
         }
         if (!run(counts, effort, logs)) {
-            throw std::runtime_error("the most expensive scan costs too much, or the bound says too little");
+            throw std::runtime_error("a scan costs too much");
         }
     });
 }

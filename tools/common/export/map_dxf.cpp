@@ -63,9 +63,14 @@ void put_tables(DxfFile &dxf)
     dxf.put(0, "ENDTAB").put(0, "ENDSEC");
 }
 
-void put_line(DxfFile &dxf, const char *layer, const ale_point_t &from, const ale_point_t &to)
+/* All walls lie on one layer, for those who read them; apart is told by a colour that is not the layer's. */
+void put_wall(DxfFile &dxf, const ale_map_line_t &wall)
 {
-    dxf.put(0, "LINE").put(8, layer).put_point(10, from).put_point(11, to);
+    dxf.put(0, "LINE").put(8, "WALLS");
+    if (is_apart(wall)) {
+        dxf.put(62, "6");
+    }
+    dxf.put_point(10, wall.start).put_point(11, wall.end);
 }
 
 /* One polyline: a thousand short lines are of no use to who draws on. A robot that stands adds nothing. */
@@ -89,7 +94,7 @@ void put_entities(DxfFile &dxf, const MapScene &scene)
 {
     dxf.put(0, "SECTION").put(2, "ENTITIES");
     for (int i = 0; i < scene.map->line_count; i++) {
-        put_line(dxf, "WALLS", scene.map->line[i].start, scene.map->line[i].end);
+        put_wall(dxf, scene.map->line[i]);
     }
     for (int i = 0; i < scene.map->corner_count; i++) {
         dxf.put(0, "POINT").put(8, "CORNERS").put_point(10, scene.map->corner[i].p);

@@ -81,6 +81,11 @@ void include_most(Extent &extent, const std::vector<ale_point_t> &points)
 
 } // namespace
 
+bool has_walls_apart(const ale_map_t &map)
+{
+    return std::any_of(map.line, map.line + map.line_count, is_apart);
+}
+
 bool is_map_image_name(const std::string &path)
 {
     return kind_of(path) != nullptr;

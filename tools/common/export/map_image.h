@@ -8,6 +8,8 @@
  *   MapScene scene;  scene.map = &map;  scene.trajectory = ...;
  *   write_map_image("map.png", scene);       throws std::runtime_error with one line for people
  *
+ * Walls of maps that are not joined with the first are violet (.png, .svg) or magenta (.dxf).
+ *
  * The same scene gives the same bytes on every machine: all drawing is in integers. */
 #ifndef ALE_COMMON_EXPORT_MAP_IMAGE_H
 #define ALE_COMMON_EXPORT_MAP_IMAGE_H
@@ -31,6 +33,13 @@ struct MapScene {
     const ScanCloud *cloud = nullptr;
     bool draw_points = false; /* the cloud's points faintly behind the walls (.png, .svg) */
 };
+
+/* The wall is in a map that is not joined with the first: where it is drawn says nothing. */
+inline bool is_apart(const ale_map_line_t &line)
+{
+    return line.map_id != 0;
+}
+bool has_walls_apart(const ale_map_t &map);
 
 /* Whether the name ends in one of the extensions. */
 bool is_map_image_name(const std::string &path);

@@ -25,6 +25,7 @@ constexpr int32_t end_radius = 7 * sub_pixels;
 constexpr Colour grid_colour = {228, 232, 238};
 constexpr Colour point_colour = {92, 128, 168};
 constexpr Colour wall_colour = {24, 31, 46};
+constexpr Colour apart_colour = {134, 84, 205};
 constexpr Colour path_colour = {222, 82, 48};
 constexpr Colour start_colour = {38, 150, 84};
 constexpr Colour white = {255, 255, 255};
@@ -102,12 +103,24 @@ void draw_points(Canvas &canvas, const Sheet &sheet, const std::vector<ale_point
     canvas.paint(layer, point_colour, 110);
 }
 
+void draw_lines(Layer &layer, const Sheet &sheet, const ale_map_t &map, bool apart)
+{
+    for (int i = 0; i < map.line_count; i++) {
+        if (is_apart(map.line[i]) == apart) {
+            layer.stroke(sheet.spot(map.line[i].start), sheet.spot(map.line[i].end), 24);
+        }
+    }
+}
+
 void draw_walls(Canvas &canvas, const Sheet &sheet, const ale_map_t &map)
 {
-    Layer layer = canvas.layer();
-    for (int i = 0; i < map.line_count; i++) {
-        layer.stroke(sheet.spot(map.line[i].start), sheet.spot(map.line[i].end), 24);
+    if (has_walls_apart(map)) {
+        Layer apart = canvas.layer();
+        draw_lines(apart, sheet, map, true);
+        canvas.paint(apart, apart_colour);
     }
+    Layer layer = canvas.layer();
+    draw_lines(layer, sheet, map, false);
     for (int i = 0; i < map.corner_count; i++) {
         layer.disc(sheet.spot(map.corner[i].p), 40);
     }

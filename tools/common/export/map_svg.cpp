@@ -126,13 +126,27 @@ void put_path(SvgFile &svg, const Trajectory &trajectory, const Style &style)
     svg.put("\"/>\n</g>\n");
 }
 
-void put_walls(SvgFile &svg, const ale_map_t &map, const Style &style)
+constexpr char apart_colour[] = "#8654cd";
+
+void put_lines(SvgFile &svg, const ale_map_t &map, bool apart)
 {
-    begin_strokes(svg, "walls", "#181f2e", 2 * style.stroke_um);
     for (int i = 0; i < map.line_count; i++) {
-        svg.put("<path d=\"").put_point("M", map.line[i].start).put_point("L", map.line[i].end).put("\"/>\n");
+        if (is_apart(map.line[i]) == apart) {
+            svg.put("<path d=\"").put_point("M", map.line[i].start);
+            svg.put_point("L", map.line[i].end).put("\"/>\n");
+        }
     }
     svg.put("</g>\n");
+}
+
+void put_walls(SvgFile &svg, const ale_map_t &map, const Style &style)
+{
+    if (has_walls_apart(map)) {
+        begin_strokes(svg, "apart", apart_colour, 2 * style.stroke_um);
+        put_lines(svg, map, true);
+    }
+    begin_strokes(svg, "walls", "#181f2e", 2 * style.stroke_um);
+    put_lines(svg, map, false);
     begin_strokes(svg, "corners", "#181f2e", 4 * style.stroke_um);
     for (int i = 0; i < map.corner_count; i++) {
         svg.put_point("<path d=\"M", map.corner[i].p).put("h0\"/>\n");
@@ -174,6 +188,15 @@ void put_scale_bar(SvgFile &svg, const Extent &e, const Style &style)
     svg.put_length(style.margin_um * 3 / 4).put("\">").put(length_label(style.scale.bar_um)).put("</text>\n");
 }
 
+/* At the right end of the scale bar's row. */
+void put_legend(SvgFile &svg, const Extent &e, const Style &style)
+{
+    const int64_t y_um = -int64_t{e.bottom_um} + 2 * style.margin_um + style.margin_um / 4;
+    svg.put("<text text-anchor=\"end\" x=\"").put_length(e.right_um).put("\" y=\"").put_length(y_um);
+    svg.put("\" font-family=\"sans-serif\" fill=\"").put(apart_colour).put("\" font-size=\"");
+    svg.put_length(style.margin_um * 3 / 4).put("\">not joined</text>\n");
+}
+
 } // namespace
 
 void write_svg(const std::string &path, const MapScene &scene)
@@ -193,6 +216,9 @@ void write_svg(const std::string &path, const MapScene &scene)
         put_robot(svg, "end", "#de5230", scene.trajectory.back().pose, 5 * style.stroke_um, style);
     }
     put_scale_bar(svg, extent, style);
+    if (has_walls_apart(*scene.map)) {
+        put_legend(svg, extent, style);
+    }
     svg.put("</svg>\n").close();
 }
 

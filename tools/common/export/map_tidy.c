@@ -41,7 +41,7 @@ static bool show_one_wall(const ale_map_line_t *a, const ale_map_line_t *b)
     const segment_t sa = segment_of(a);
     const segment_t sb = segment_of(b);
     const int64_t apart_um = sa.half_um + sb.half_um + ALE_TIDY_OFFSET_UM;
-    if (ale_abs64((int64_t)sa.middle.x_um - sb.middle.x_um) > apart_um ||
+    if (a->map_id != b->map_id || ale_abs64((int64_t)sa.middle.x_um - sb.middle.x_um) > apart_um ||
         ale_abs64((int64_t)sa.middle.y_um - sb.middle.y_um) > apart_um ||
         ale_abs64(ale_bam_diff(sa.along_bam, sb.along_bam)) >
             (int64_t)ALE_TIDY_ANGLE_MRAD * ALE_BAM_PER_MRAD) {

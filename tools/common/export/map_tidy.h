@@ -3,7 +3,8 @@
  * While it drives, the tracker may have begun a wall anew beside one that it knew, because its heading had
  * drifted or because the wall is less straight than the noise allows; for matching they are kept apart. Two
  * lines that face the same way, run side by side and lie less than ALE_TIDY_OFFSET_UM apart cannot both
- * be seen: the nearer one hides the other. They are drawn as one.
+ * be seen: the nearer one hides the other. They are drawn as one. Lines of maps that are not joined stay
+ * apart.
  *
  * For ordinary threads: the work grows with the square of the lines (2048: some 10^7 steps). */
 #ifndef ALE_COMMON_EXPORT_MAP_TIDY_H

@@ -9,10 +9,13 @@
 #include <stdexcept>
 
 #include "ale/features_t.hpp"
+#include "ale/map_pieces_t.hpp"
 #include "ale/map_t.hpp"
 #include "ale/pose_t.hpp"
 #include "ale/scan_t.hpp"
+#include "ale/tracking_t.hpp"
 #include "base/limits.h"
+#include "map/line_map.h"
 
 namespace feed
 {
@@ -73,6 +76,18 @@ inline void check(const ale::map_t &map)
     for (const auto &corner : map.corners) {
         check(corner);
     }
+}
+
+inline void check(const ale::map_pieces_t &pieces)
+{
+    require(pieces.num_lines <= ALE_MAP_MAX_LINES, "more walls than a map has");
+}
+
+inline void check(const ale::tracking_t &tracking)
+{
+    require(tracking.scan >= 0, "negative number of a scan");
+    require(tracking.maps >= 0 && tracking.wheel_faults >= 0, "negative count");
+    require(tracking.wheel_word.size() <= 32, "a word of a whole page");
 }
 
 } // namespace feed

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ctime>
 #include <new>
+#include <set>
 
 #include "graph/optimise/scan_alignment.h"
 #include "graph/optimise/scan_node.h"
@@ -123,7 +124,7 @@ void Loops::finish(ale_pipeline_t *pipeline)
     align();
 }
 
-/* Every scan, and not the keyframes alone, laid on what all have seen; from the first keyframe of the map on.
+/* Every scan, and not the keyframes alone, laid on what all of its map have seen; from the first keyframe on.
  */
 void Loops::align()
 {
@@ -134,18 +135,44 @@ void Loops::align()
     if (keyframes_.empty()) {
         return;
     }
-    const uint32_t first = keyframes_.front().scan;
+    std::set<uint32_t> maps;
+    for (const ale_mapper_pose_t &keyframe : keyframes_) {
+        maps.insert(keyframe.map_id);
+    }
+    for (const uint32_t map_id : maps) {
+        align_map(map_id);
+    }
+}
+
+/* Maps that never met lie over each other anyhow: each for itself. */
+void Loops::align_map(uint32_t map_id)
+{
+    std::vector<uint32_t> numbers;
     std::vector<AlignedScan> scans;
-    for (uint32_t scan = first; scan < count; scan++) {
-        scans.push_back(
-            {from_core(corrected_[scan]), scan > first && tied(scan - 1, scan), std::move(seen_[scan])});
+    for (uint32_t scan = keyframes_.front().scan; scan < tracked_.size(); scan++) {
+        if (map_of(scan) == map_id) {
+            const bool follows = !numbers.empty() && numbers.back() == scan - 1;
+            scans.push_back(
+                {from_core(corrected_[scan]), follows && tied(scan - 1, scan), std::move(seen_[scan])});
+            numbers.push_back(scan);
+        }
     }
     ScanAlignment alignment(std::move(scans));
     while (alignment.step()) {
     }
-    for (uint32_t scan = first; scan < count; scan++) {
-        corrected_[scan] = to_core(alignment.poses()[scan - first]);
+    for (size_t k = 0; k < numbers.size(); k++) {
+        corrected_[numbers[k]] = to_core(alignment.poses()[k]);
     }
+}
+
+/* One is taken where a map begins. */
+uint32_t Loops::map_of(uint32_t scan) const
+{
+    const auto after = std::upper_bound(
+        keyframes_.begin(), keyframes_.end(), scan,
+        [](uint32_t number, const ale_mapper_pose_t &keyframe) { return number < keyframe.scan; });
+    const auto last = after == keyframes_.begin() ? after : after - 1;
+    return last == keyframes_.end() ? uint32_t{ALE_FIRST_MAP} : last->map_id;
 }
 
 /* Whether the way as tracked leads from one scan to the other. */

@@ -49,6 +49,10 @@ class Loops
         return corrected_[scan];
     }
 
+    /* The map that it is in, after all joins: that of the last keyframe at or before the scan; after
+     * finish(). */
+    uint32_t map_of(uint32_t scan) const;
+
     ale_mapper_statistics_t statistics() const
     {
         return ale_mapper_statistics(mapper_.get());
@@ -72,6 +76,7 @@ class Loops
 
     ale_pose_t bent(uint32_t scan) const;
     void align();
+    void align_map(uint32_t map_id);
     bool tied(uint32_t scan, uint32_t later) const;
     void take_correction();
     void refine();

@@ -2,6 +2,7 @@
 
 extern "C" {
 #include "base/fixed.h"
+#include "lcm/wheel_words.h"
 }
 
 namespace ale
@@ -44,7 +45,9 @@ void PosesFile::put(const ale_estimate_t &estimate)
     file_.put("],\"lag_us\":").put_integer(estimate.lag_us);
     file_.put(",\"matched_lines\":").put_integer(estimate.matched_lines);
     file_.put(",\"matched_corners\":").put_integer(estimate.matched_corners);
-    file_.put(estimate.predicted ? ",\"predicted\":true}\n" : ",\"predicted\":false}\n");
+    file_.put(estimate.predicted ? ",\"predicted\":true" : ",\"predicted\":false");
+    file_.put(",\"map_id\":").put_integer(estimate.map_id).put(",\"maps\":").put_integer(estimate.maps);
+    file_.put(",\"wheel_fault\":\"").put(ale_wheel_fault_word(estimate.wheel_fault)).put("\"}\n");
 }
 
 } // namespace ale

@@ -8,9 +8,9 @@
 #include "common/export/scan_cloud.h"
 #include "common/log/core_object.h"
 #include "common/log/robot_config.h"
-#include "graph/walls/map_rebuild.h"
 #include "lab/replay/features_file.h"
 #include "lab/replay/loops.h"
+#include "lab/replay/map_pieces.h"
 #include "lab/replay/poses_file.h"
 #include "lab/replay/summary.h"
 #include "lab/replay/timing.h"
@@ -206,6 +206,8 @@ void Replay::put_estimate(const ale_estimate_t &estimate)
         }
         record_->add(*observation_);
     }
+    counts_.maps = estimate.maps;
+    counts_.wheel_faults = estimate.wheel_faults;
     counts_.weak += estimate.state == ALE_STATE_WEAK;
     counts_.lost += estimate.state == ALE_STATE_LOST;
     track_.push_back({estimate.stamp_us, estimate.map, estimate.velocity_x_um_s, estimate.velocity_y_um_s,
@@ -276,8 +278,9 @@ void Replay::draw_maps()
     auto map = std::make_unique<ale_map_t>();
     ale_pipeline_copy_map(pipeline_.get(), map.get());
     if (record_ && record_->epoch() != 0) {
-        rebuild_map(
-            *record_, [this](const RecordedScan &scan) { return track_[scan.scan].robot; }, map.get());
+        rebuild_pieces(
+            *record_, [this](const RecordedScan &scan) { return track_[scan.scan].robot; },
+            [this](uint32_t scan) { return loops_->map_of(scan); }, map.get());
     }
     if (!options_.save_map.empty()) {
         char error[ALE_MAP_FILE_ERROR];
@@ -296,6 +299,7 @@ void Replay::draw_maps()
     for (const ScanPose &pose : track_) {
         scene.trajectory.push_back({pose.stamp_us, pose.robot});
     }
+    print_pieces(*map);
     for (const std::string &path : options_.maps) {
         write_map_image(path, scene);
     }

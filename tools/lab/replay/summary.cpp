@@ -1,7 +1,10 @@
 #include "lab/replay/summary.h"
 
 #include <cstdio>
+#include <set>
 #include <unistd.h>
+
+#include "common/export/map_image.h"
 
 namespace ale
 {
@@ -40,6 +43,40 @@ void Progress::show(const LogReader &log)
     next_ = Clock::now() + refresh;
 }
 
+namespace
+{
+
+void print_trouble(const ReplayCounts &counts)
+{
+    if (counts.maps > 1) {
+        std::fprintf(stderr, "ale-replay: after the last scan there were %u maps that are not joined\n",
+                     counts.maps);
+    }
+    if (counts.wheel_faults > 0) {
+        std::fprintf(stderr, "ale-replay: the wheels began %u times to contradict the scans\n",
+                     counts.wheel_faults);
+    }
+}
+
+} // namespace
+
+void print_pieces(const ale_map_t &map)
+{
+    std::set<uint32_t> maps;
+    int walls = 0;
+    for (int i = 0; i < map.line_count; i++) {
+        if (is_apart(map.line[i])) {
+            maps.insert(map.line[i].map_id);
+            walls++;
+        }
+    }
+    if (walls > 0) {
+        std::fprintf(stderr,
+                     "ale-replay: %d walls (violet) are in %zu maps that are not joined with the first\n",
+                     walls, maps.size());
+    }
+}
+
 void print_summary(const std::string &path, const LogReader &log, const ReplayCounts &counts)
 {
     const ale_log_statistics_t statistics = log.statistics();
@@ -56,6 +93,7 @@ void print_summary(const std::string &path, const LogReader &log, const ReplayCo
                      static_cast<unsigned long long>(counts.lost),
                      static_cast<unsigned long long>(counts.weak));
     }
+    print_trouble(counts);
     const unsigned long long bad = statistics.bad_lines + statistics.bad_chunks;
     const unsigned long long too_large = statistics.too_many_beams;
     if (bad + too_large > 0) {
@@ -80,6 +118,17 @@ void print_loops(const ale_mapper_statistics_t &loops, int64_t longest_ns)
             "keyframes, longest correction %.1f ms\n",
             loops.loops, loops.contradicted, loops.candidates, loops.recognised, loops.unclear,
             loops.keyframes, static_cast<double>(longest_ns) * 1e-6);
+    }
+    if (loops.joins > 0) {
+        std::fprintf(stderr, "ale-replay: %u times a map that was begun anew was joined to an older one\n",
+                     loops.joins);
+    }
+    if (loops.maps > 1) {
+        std::fprintf(
+            stderr,
+            "ale-replay: the way is in %u pieces that were never seen to meet: their places relative "
+            "to each other are by the wheels alone\n",
+            loops.maps);
     }
 }
 

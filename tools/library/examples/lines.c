@@ -20,6 +20,10 @@ int main(void)
     scan.step_bam = (int32_t)lround(step * ALE_BAM_PER_DEGREE);
     while (scan.beams < ALE_MAX_BEAMS && scanf("%lf", &range) == 1)
         ale_scan_set_range(&scan, scan.beams++, (int32_t)lround(range * 1e6));
+    if (scan.beams == ALE_MAX_BEAMS && scanf("%lf", &range) == 1) {
+        fprintf(stderr, "lines: more than %d beams\n", ALE_MAX_BEAMS);
+        return 1;
+    }
 
     const ale_extract_config_t config = ale_extract_default_config();
     ale_extractor_t *extractor = malloc(ale_extractor_size());

@@ -17,8 +17,8 @@
 namespace console
 {
 
-enum class Topic { pose, features, scan, map, status };
-constexpr size_t topic_count = 5;
+enum class Topic { pose, tracking, features, scan, map, status };
+constexpr size_t topic_count = 6;
 
 /* One message as pinned: its text, and how many of its topic there were so far, this one included. */
 struct Pinned {

@@ -113,6 +113,17 @@ std::string pose_message(const ale::pose_t &pose)
          {"stages_us", stages}});
 }
 
+std::string tracking_message(const ale::tracking_t &tracking)
+{
+    return text_of({{"type", "tracking"},
+                    {"utime", tracking.utime},
+                    {"scan", tracking.scan},
+                    {"map_id", tracking.map_id},
+                    {"maps", tracking.maps},
+                    {"wheels", tracking.wheel_word},
+                    {"wheel_faults", tracking.wheel_faults}});
+}
+
 std::string features_message(const ale::features_t &features)
 {
     json lines = json::array();
@@ -163,7 +174,8 @@ std::string scan_message(const ale::scan_t &scan, const std::optional<Stain> &st
                     {"stain", stain ? json::array({stain->beams, stain->bearing}) : json(nullptr)}});
 }
 
-std::string map_message(const ale::map_t &map)
+/* Of the few walls in other maps than the first it is said; a big map stays small on the wire. */
+std::string map_message(const ale::map_t &map, const feed::MapPieces &pieces)
 {
     json lines = json::array();
     for (const auto &line : map.lines) {
@@ -173,6 +185,10 @@ std::string map_message(const ale::map_t &map)
                          {"x2", number(line.x2)},
                          {"y2", number(line.y2)},
                          {"seen", line.seen}});
+        const int32_t map_id = pieces.map_of(map.version, line.id);
+        if (map_id != 0) {
+            lines.back()["map_id"] = map_id;
+        }
     }
     return text_of({{"type", "map"},
                     {"utime", map.utime},

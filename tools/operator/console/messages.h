@@ -13,6 +13,8 @@
 #include "ale/pose_t.hpp"
 #include "ale/scan_t.hpp"
 #include "ale/status_t.hpp"
+#include "ale/tracking_t.hpp"
+#include "common/feed/map_pieces.h"
 #include "operator/console/board.h"
 #include "operator/console/commander.h"
 #include "operator/console/window_watch.h"
@@ -23,9 +25,10 @@ namespace console
 /* operator_name empty: no command can be given here. */
 std::string hello_message(const std::string &operator_name);
 std::string pose_message(const ale::pose_t &pose);
+std::string tracking_message(const ale::tracking_t &tracking);
 std::string features_message(const ale::features_t &features);
 std::string scan_message(const ale::scan_t &scan, const std::optional<Stain> &stain = {});
-std::string map_message(const ale::map_t &map);
+std::string map_message(const ale::map_t &map, const feed::MapPieces &pieces = {});
 std::string status_message(const ale::status_t &status);
 std::string trail_message(const TrailPiece &piece);
 std::string link_message(const LinkHealth &link, uint64_t skipped);

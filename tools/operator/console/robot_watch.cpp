@@ -25,9 +25,12 @@ constexpr int32_t largest_gap = 100000;
 void RobotWatch::subscribe(feed::LcmFeed &feed)
 {
     feed.on<ale::pose_t>("ALE_POSE", [this](const ale::pose_t &message) { pose(message); });
+    feed.on<ale::tracking_t>("ALE_TRACKING", [this](const ale::tracking_t &message) { tracking(message); });
     feed.on<ale::features_t>("ALE_FEATURES", [this](const ale::features_t &message) { features(message); });
     feed.on<ale::scan_t>("ALE_SCAN", [this](const ale::scan_t &message) { scan(message); });
     feed.on<ale::map_t>("ALE_MAP", [this](const ale::map_t &message) { map(message); });
+    feed.on<ale::map_pieces_t>("ALE_MAP_PIECES",
+                               [this](const ale::map_pieces_t &message) { map_pieces(message); });
     feed.on<ale::status_t>("ALE_STATUS", [this](const ale::status_t &message) { status(message); });
 }
 
@@ -35,6 +38,7 @@ void RobotWatch::restarted()
 {
     board_.clear();
     map_parts_ = feed::MapParts();
+    map_pieces_ = feed::MapPieces();
     window_ = WindowWatch();
     last_pose_.reset();
     restart_known_ = true;
@@ -64,6 +68,12 @@ void RobotWatch::extend_trail(const ale::pose_t &pose)
     board_.extend_trail({pose.map_x, pose.map_y, jumped || !last_pose_});
 }
 
+void RobotWatch::tracking(const ale::tracking_t &tracking)
+{
+    feed::check(tracking);
+    board_.pin(Topic::tracking, tracking_message(tracking));
+}
+
 void RobotWatch::features(const ale::features_t &features)
 {
     feed::check(features);
@@ -83,7 +93,17 @@ void RobotWatch::map(const ale::map_t &part)
 {
     feed::check(part);
     if (map_parts_.add(part)) {
-        board_.pin(Topic::map, map_message(map_parts_.whole()));
+        board_.pin(Topic::map, map_message(map_parts_.whole(), map_pieces_));
+    }
+}
+
+/* They come before the map that they are of; where they were overtaken, or come again because a part was
+ * lost, the map that is shown already is told anew. */
+void RobotWatch::map_pieces(const ale::map_pieces_t &part)
+{
+    feed::check(part);
+    if (map_pieces_.add(part) && part.version == map_parts_.whole().version) {
+        board_.pin(Topic::map, map_message(map_parts_.whole(), map_pieces_));
     }
 }
 

@@ -10,8 +10,10 @@
 #include "ale/pose_t.hpp"
 #include "ale/scan_t.hpp"
 #include "ale/status_t.hpp"
+#include "ale/tracking_t.hpp"
 #include "common/feed/lcm_feed.h"
 #include "common/feed/map_parts.h"
+#include "common/feed/map_pieces.h"
 #include "operator/console/board.h"
 #include "operator/console/commander.h"
 #include "operator/console/window_watch.h"
@@ -30,9 +32,11 @@ class RobotWatch
 
     /* Each throws std::runtime_error for a message that makes no sense; it is counted as malformed. */
     void pose(const ale::pose_t &pose);
+    void tracking(const ale::tracking_t &tracking);
     void features(const ale::features_t &features);
     void scan(const ale::scan_t &scan);
     void map(const ale::map_t &part);
+    void map_pieces(const ale::map_pieces_t &part);
     void status(const ale::status_t &status);
 
   private:
@@ -42,6 +46,7 @@ class RobotWatch
     Board &board_;
     Commander &commander_;
     feed::MapParts map_parts_;
+    feed::MapPieces map_pieces_;
     WindowWatch window_;
     std::optional<ale::pose_t> last_pose_;
     std::optional<int64_t> boot_;

@@ -89,13 +89,16 @@ std::unique_ptr<ale_scan_t> core_scan(const ale::scan_t &scan)
     return out;
 }
 
-std::unique_ptr<ale_map_t> core_map(const ale::map_t &map)
+std::unique_ptr<ale_map_t> core_map(const ale::map_t &map, const feed::MapPieces &pieces)
 {
     auto out = std::make_unique<ale_map_t>();
     out->version = static_cast<uint32_t>(map.version);
     out->line_count = static_cast<uint16_t>(std::min<size_t>(map.lines.size(), ALE_MAP_MAX_LINES));
     out->corner_count = static_cast<uint16_t>(std::min<size_t>(map.corners.size(), ALE_MAP_MAX_CORNERS));
-    std::transform(map.lines.begin(), map.lines.begin() + out->line_count, out->line, core_line);
+    for (size_t k = 0; k < out->line_count; k++) {
+        out->line[k] = core_line(map.lines[k]);
+        out->line[k].map_id = static_cast<uint32_t>(pieces.map_of(map.version, map.lines[k].id));
+    }
     std::transform(map.corners.begin(), map.corners.begin() + out->corner_count, out->corner, core_corner);
     return out;
 }

@@ -9,6 +9,7 @@
 #include "ale/pose_t.hpp"
 #include "ale/scan_t.hpp"
 #include "common/export/scan_cloud.h"
+#include "common/feed/map_pieces.h"
 
 extern "C" {
 #include "track/pipeline.h"
@@ -26,7 +27,7 @@ ale::ScanPose core_scan_pose(const ale::pose_t &pose);
 std::unique_ptr<ale_scan_t> core_scan(const ale::scan_t &scan);
 
 /* Walls and corners beyond the core's capacity are left out. */
-std::unique_ptr<ale_map_t> core_map(const ale::map_t &map);
+std::unique_ptr<ale_map_t> core_map(const ale::map_t &map, const feed::MapPieces &pieces = {});
 
 } // namespace watch
 

@@ -11,6 +11,10 @@ void Record::subscribe(feed::LcmFeed &feed)
 {
     feed.on<ale::pose_t>("ALE_POSE", [this](const ale::pose_t &message) { take(message); });
     feed.on<ale::features_t>("ALE_FEATURES", [this](const ale::features_t &message) { take(message); });
+    feed.on<ale::tracking_t>("ALE_TRACKING",
+                             [this](const ale::tracking_t &message) { newest_.take(message); });
+    feed.on<ale::map_pieces_t>("ALE_MAP_PIECES",
+                               [this](const ale::map_pieces_t &message) { newest_.take(message); });
     feed.on<ale::map_t>("ALE_MAP", [this](const ale::map_t &message) { newest_.take(message); });
     feed.on<ale::status_t>("ALE_STATUS", [this](const ale::status_t &message) { newest_.take(message); });
     feed.on<ale::scan_t>("ALE_SCAN", [this](const ale::scan_t &message) { take(message); });

@@ -49,6 +49,14 @@ std::string exploration(const RobotState &robot)
     return explores ? "  " + robot.status->exploration : "";
 }
 
+/* What is not as it should be, with its mark before each. */
+std::string trouble(const RobotState &robot)
+{
+    const std::string maps = robot.map_trouble();
+    const std::string wheels = robot.wheel_trouble();
+    return (maps.empty() ? "" : "  " + maps) + (wheels.empty() ? "" : "  wheels: " + wheels);
+}
+
 } // namespace
 
 std::string status_line(const Record &record, double elapsed_s, double silent_s)
@@ -67,7 +75,8 @@ std::string status_line(const Record &record, double elapsed_s, double silent_s)
                           static_cast<double>(pose.map_y), heading_deg) +
            seen(robot) + "  " + worst_stage(counts) + "  " +
            ale::formatted("dropped %" PRId64 "  ", counts.predicted + counts.missing) + latency(robot) +
-           exploration(robot) + (silent_s >= 1 ? ale::formatted("  SILENT for %.0f s", silent_s) : "");
+           trouble(robot) + exploration(robot) +
+           (silent_s >= 1 ? ale::formatted("  SILENT for %.0f s", silent_s) : "");
 }
 
 std::string summary_line(const Record &record)
@@ -82,7 +91,7 @@ std::string summary_line(const Record &record)
 
 void write_picture(const Record &record, const std::string &path)
 {
-    const auto map = core_map(record.newest().map);
+    const auto map = core_map(record.newest().map, record.newest().pieces);
     ale::MapScene scene;
     scene.map = map.get();
     scene.trajectory = record.trajectory();

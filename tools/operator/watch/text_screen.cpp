@@ -106,6 +106,12 @@ void say_features(const RobotState &state, Numbers &numbers)
     const int corners = state.features ? state.features->num_corners : 0;
     numbers.say("seen", ale::formatted("%d lines, %d corners", lines, corners));
     numbers.say("map", ale::formatted("%d walls, %d corners", state.map.num_lines, state.map.num_corners));
+    if (const std::string maps = state.map_trouble(); !maps.empty()) {
+        numbers.say("", maps, Mood::weak);
+    }
+    if (const std::string wheels = state.wheel_trouble(); !wheels.empty()) {
+        numbers.say("wheels", wheels + ": not believed", Mood::weak);
+    }
 }
 
 void say_counters(const ale::status_t &status, Numbers &numbers)

@@ -82,6 +82,7 @@ void Recorder::open_line()
     config.tap_user = this;
     config.now_us = clock_now;
     config.now_user = &clock_;
+    config.utime_offset_us = clock_.offset_us;
     scanner_.reset(ale_scanner_open(&config));
     if (!scanner_) {
         throw std::runtime_error("no memory for the scanner's driver");

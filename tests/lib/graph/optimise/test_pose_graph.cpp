@@ -55,6 +55,68 @@ TEST(PoseGraph, TrueMeasurementsRestoreDisturbedPoses)
     EXPECT_LT(largest_error(truth, graph.poses()), 1e-6);
 }
 
+// Two pieces with a guess between them; the edges of the second say that it is longer than its poses.
+ale::PoseGraph two_pieces()
+{
+    ale::PoseGraph graph;
+    for (int k = 0; k < 8; k++) {
+        graph.add_pose({k < 4 ? 1.0 * k : 30 + 1.0 * k, 0, 0});
+    }
+    for (int k = 0; k < 7; k++) {
+        const ale::Pose motion = ale::between(graph.poses(), k, k + 1);
+        if (k == 3) {
+            graph.add_edge({k, k + 1, motion, ale::guess_information(), false, false, true});
+        } else {
+            graph.add_edge({k, k + 1, {k < 3 ? 1 : 1.2, 0, 0}, unit_information, false});
+        }
+    }
+    return graph;
+}
+
+TEST(PoseGraph, AGuessHoldsAPieceAndBendsNothing)
+{
+    ale::PoseGraph graph = two_pieces();
+    graph.add_edge({0, 3, {3.2, 0, 0}, unit_information, false});
+    EXPECT_TRUE(graph.optimise(20).solved);
+    EXPECT_NEAR(graph.poses()[3].x, 3.15, 1e-3);
+    EXPECT_NEAR(graph.poses()[4].x, 34.15, 1e-3) << "goes along";
+    EXPECT_NEAR(graph.poses()[7].x - graph.poses()[4].x, 3.6, 1e-6);
+}
+
+TEST(PoseGraph, HeldPosesStay)
+{
+    ale::PoseGraph graph = two_pieces();
+    graph.hold({false, false, false, false, true, true, true, true});
+    EXPECT_TRUE(graph.optimise(20).solved);
+    EXPECT_NEAR(graph.poses()[7].x, 37, 1e-6);
+    graph.hold({});
+    EXPECT_TRUE(graph.optimise(20).solved);
+    EXPECT_NEAR(graph.poses()[7].x, 37.6, 1e-3);
+}
+
+TEST(PoseGraph, APieceMovesAsOne)
+{
+    ale::PoseGraph graph = two_pieces();
+    graph.move_rigidly({false, false, false, false, true, true, true, true}, {-30, 1, 0});
+    EXPECT_NEAR(graph.poses()[4].x, 4, 1e-9);
+    EXPECT_NEAR(graph.poses()[4].y, 1, 1e-9);
+    EXPECT_NEAR(graph.poses()[3].x, 3, 1e-9);
+    EXPECT_NEAR(graph.residual2(graph.edges()[3]), 0, 1e-9) << "the guess says what holds now";
+}
+
+TEST(PoseGraph, ALoopIsNotMovedIntoAnotherPiece)
+{
+    ale::PoseGraph graph = two_pieces();
+    graph.add_edge({0, 3, {3, 0, 0}, unit_information, true});
+    graph.remove_pose(3, 3);
+    ASSERT_EQ(graph.poses().size(), 7U);
+    ASSERT_EQ(graph.edges().size(), 6U);
+    for (const ale::GraphEdge &edge : graph.edges()) {
+        EXPECT_FALSE(edge.robust);
+        EXPECT_EQ(edge.guessed, edge.from == 2) << "what spans the guess is one";
+    }
+}
+
 // With priors the first pose is not held.
 TEST(PoseGraph, PosePriorsMoveAllPosesToTheMap)
 {

@@ -182,6 +182,31 @@ TEST_F(MapImage, TheDxfIsPairsOfLinesWithOneLineAWall)
     EXPECT_EQ(first_wall, (std::vector<std::string>{"-1", "-1", "0", "3", "-1", "0"}));
 }
 
+/* The left wall is in another map. */
+TEST_F(MapImage, WallsOfAMapThatIsNotJoinedHaveAnotherColour)
+{
+    const std::string joined_svg = content(write("joined.svg"));
+    EXPECT_EQ(joined_svg.find(">not joined<"), std::string::npos);
+    EXPECT_EQ(content(write("joined.dxf")).find("\n62\n6\n"), std::string::npos);
+    const Picture joined = read_png(write("joined.png"));
+    map_->line[3].map_id = 2;
+    const Picture picture = read_png(write("apart.png"));
+    const auto blueness = [](const Picture &p, size_t x, size_t y) {
+        const size_t at = 3 * (y * p.width + x);
+        return p.rgb[at + 2] - p.rgb[at + 1];
+    };
+    EXPECT_LT(blueness(joined, 50, 300), 40);
+    EXPECT_GT(blueness(picture, 50, 300), 80) << "the left wall";
+    EXPECT_LT(blueness(picture, 1549, 300), 40) << "the right wall is as before";
+    const std::string svg = content(write("apart.svg"));
+    const std::string apart =
+        svg.substr(svg.find("<g id=\"apart\""), svg.find("<g id=\"walls\"") - svg.find("<g id=\"apart\""));
+    EXPECT_NE(apart.find("M-1 -1L-1 1"), std::string::npos) << apart;
+    EXPECT_EQ(apart.find("M-1 1L3 1"), std::string::npos) << apart;
+    EXPECT_NE(svg.find(">not joined</text>"), std::string::npos);
+    EXPECT_NE(content(write("apart.dxf")).find("LINE\n8\nWALLS\n62\n6\n10\n"), std::string::npos);
+}
+
 struct Grid {
     int columns = 0;
     int rows = 0;

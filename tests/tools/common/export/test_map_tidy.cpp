@@ -54,6 +54,13 @@ TEST(MapTidy, the_two_sides_of_a_panel_stay_two)
     EXPECT_EQ(tidied({line(0, 0, 2000, 0, 1, 9), line(2000, 20, 0, 20, 2, 9)})->line_count, 2);
 }
 
+TEST(MapTidy, maps_that_are_not_joined_say_nothing_of_each_others_walls)
+{
+    ale_map_line_t other = line(1000, 40, 3000, 40, 2, 100);
+    other.map_id = 1;
+    EXPECT_EQ(tidied({line(0, 0, 2000, 0, 1, 100), other})->line_count, 2);
+}
+
 TEST(MapTidy, steps_and_walls_in_a_row_stay_apart)
 {
     EXPECT_EQ(tidied({line(0, 0, 2000, 0, 1, 9), line(2000, 40, 4000, 40, 2, 9)})->line_count, 2);

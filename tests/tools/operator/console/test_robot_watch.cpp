@@ -99,8 +99,77 @@ TEST_F(RobotWatched, AJumpOfTheMapPoseBreaksTheTrail)
     EXPECT_TRUE(trail.points[2].first);
 }
 
+/* Two walls, one of them in another map, told before the map, after it, and of another version. */
+TEST_F(RobotWatched, AWallInAnotherMapIsToldAsSuchWheneverThatComes)
+{
+    ale::map_t map{};
+    map.version = 4;
+    map.parts = 1;
+    map.lines.resize(2);
+    map.lines[0].id = 10;
+    map.lines[1].id = 11;
+    ale::map_pieces_t pieces{};
+    pieces.version = 4;
+    pieces.parts = 1;
+    pieces.num_lines = 1;
+    pieces.line_id = {11};
+    pieces.map_id = {2};
+    const auto apart = [&] {
+        return board.newest(Topic::map).text->find("\"map_id\":2") != std::string::npos;
+    };
+
+    watch.map(map);
+    EXPECT_FALSE(apart());
+    watch.map_pieces(pieces);
+    EXPECT_TRUE(apart()) << "overtaken by the map";
+    const uint64_t told = board.newest(Topic::map).number;
+    watch.map_pieces(pieces);
+    EXPECT_EQ(board.newest(Topic::map).number, told) << "which is not told again for nothing";
+    ale::map_pieces_t of_another = pieces;
+    of_another.version = 3;
+    watch.map_pieces(of_another);
+    EXPECT_EQ(board.newest(Topic::map).number, told) << "nor for a map that is not shown";
+    pieces.num_lines = 0;
+    pieces.line_id.clear();
+    pieces.map_id.clear();
+    watch.map_pieces(pieces);
+    EXPECT_FALSE(apart()) << "joined";
+    pieces.num_lines = 1;
+    pieces.line_id = {11};
+    pieces.map_id = {2};
+    watch.map_pieces(pieces);
+    watch.map(map);
+    EXPECT_TRUE(apart());
+    map.version = 5;
+    watch.map(map);
+    EXPECT_FALSE(apart()) << "of this one nothing is known yet";
+}
+
+TEST_F(RobotWatched, WhichMapAndWhatTheWheelsDoIsPinned)
+{
+    ale::tracking_t tracking{};
+    tracking.map_id = 1;
+    tracking.maps = 2;
+    tracking.wheel_word = "stalled";
+    watch.tracking(tracking);
+    const std::string text = *board.newest(Topic::tracking).text;
+    for (const char *part : {"\"map_id\":1", "\"maps\":2", "\"wheels\":\"stalled\""}) {
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+    }
+}
+
 TEST_F(RobotWatched, MessagesOutOfThisWorldAreRefused)
 {
+    ale::tracking_t tracking{};
+    tracking.maps = -1;
+    EXPECT_THROW(watch.tracking(tracking), std::runtime_error);
+    tracking.maps = 1;
+    tracking.wheel_word.assign(1000, 'w');
+    EXPECT_THROW(watch.tracking(tracking), std::runtime_error);
+    ale::map_pieces_t pieces{};
+    pieces.num_lines = 100000;
+    EXPECT_THROW(watch.map_pieces(pieces), std::runtime_error);
+
     const float nan = std::numeric_limits<float>::quiet_NaN();
     auto pose = pose_of(1, nan);
     EXPECT_THROW(watch.pose(pose), std::runtime_error);

@@ -19,6 +19,25 @@ TEST(CoreTypes, AMapKeepsItsWallsToTheMicrometre)
     EXPECT_EQ(core->line[0].seen, 7U);
 }
 
+TEST(CoreTypes, AWallInAnotherMapSaysSo)
+{
+    ale::map_t map{};
+    map.version = 3;
+    map.lines.resize(2);
+    map.lines[1].id = 8;
+    ale::map_pieces_t message{};
+    message.version = 3;
+    message.parts = 1;
+    message.num_lines = 1;
+    message.line_id = {8};
+    message.map_id = {2};
+    feed::MapPieces pieces;
+    pieces.add(message);
+    const auto core = watch::core_map(map, pieces);
+    EXPECT_EQ(core->line[0].map_id, 0U);
+    EXPECT_EQ(core->line[1].map_id, 2U);
+}
+
 TEST(CoreTypes, AMapBeyondTheCapacityIsCutThere)
 {
     ale::map_t map{};

@@ -68,6 +68,30 @@ TEST(TextScreen, FillsTheTerminalExactlyAndNoLessThanTheLeast)
     }
 }
 
+TEST(TextScreen, AMapThatIsNotJoinedAndWheelsThatLieAreSaidWhileTheyAre)
+{
+    const auto now = Clock::now();
+    RobotState state = driving(now);
+    ale::tracking_t tracking{};
+    tracking.maps = 1;
+    tracking.wheel_word = "fine";
+    state.take(tracking);
+    const std::string before = text_of(screen_rows(state, now, {}, 80, 24));
+    EXPECT_EQ(before.find("joined"), std::string::npos);
+    EXPECT_EQ(before.find("wheels"), std::string::npos);
+    tracking.maps = 2;
+    tracking.map_id = 1;
+    tracking.wheel_fault = 2;
+    tracking.wheel_word = "stalled";
+    state.take(tracking);
+    const std::string after = text_of(screen_rows(state, now, {}, 80, 24));
+    EXPECT_NE(after.find("new map, not joined yet"), std::string::npos) << after;
+    EXPECT_NE(after.find("stalled: not believed"), std::string::npos) << after;
+    tracking.map_id = 0;
+    state.take(tracking);
+    EXPECT_NE(text_of(screen_rows(state, now, {}, 80, 24)).find("2 maps, not joined"), std::string::npos);
+}
+
 TEST(TextScreen, StateIsTheFirstWordAndItsMood)
 {
     const auto now = Clock::now();

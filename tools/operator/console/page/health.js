@@ -1,5 +1,8 @@
 // The health strip and panel: everything that is not the map.
-import { adviceOnScanner, codesInWords, counterInWords, countDrops, degrees, duration, heading, isTraffic, metres, millimetres, STATES } from "./words.js";
+import {
+  adviceOnScanner, adviceOnTracking, codesInWords, counterInWords, countDrops, degrees, duration, heading, isTrouble, mapsInWords, metres, millimetres, STATES,
+  wheelsInWords,
+} from "./words.js";
 
 const STAGES = ["deskew", "smooth", "extract", "match", "map", "total"];
 const STAGE_COLOURS = ["#7c8cff", "#38bdf8", "#22d3b6", "#ffb84d", "#f472b6"];
@@ -18,6 +21,11 @@ export class Health {
     switch (message.type) {
       case "hello": this.times = []; break;
       case "pose": this.#pose(message); break;
+      case "tracking":
+        show("maps", mapsInWords(message)[0] || "one", message.maps > 1 ? "fair" : "");
+        show("wheels", wheelsInWords(message.wheels, message.wheel_faults), message.wheels === "fine" ? "" : "fair");
+        showApart(scene);
+        break;
       case "features":
         show("lines", message.lines.length);
         show("corners", message.corners.length);
@@ -27,6 +35,7 @@ export class Health {
         show("map-lines", message.lines.length);
         show("map-corners", message.corners.length);
         show("map-version", message.version);
+        showApart(scene);
         break;
       case "status": this.#status(message); break;
       case "link": this.#link(message, scene); break;
@@ -44,7 +53,8 @@ export class Health {
     show("state-word", word);
     show("state-text", text);
     showAlarm(state, scene, word, text);
-    showAdvice(state === "up" || state === "lost" ? adviceOnScanner(scene.status?.driver, scene.scan?.stain) : null);
+    const advice = [adviceOnScanner(scene.status?.driver, scene.scan?.stain), ...adviceOnTracking(scene.tracking)];
+    showAdvice(state === "up" || state === "lost" ? advice.filter(Boolean) : []);
   }
 
   frame() {
@@ -97,10 +107,9 @@ export class Health {
   #counters(counters) {
     const dropped = countDrops(counters);
     show("dropped", dropped, dropped ? "fair" : "fine");
-    const troubled = (counter) => counter.value > 0 && !isTraffic(counter.name);
-    const rows = [...counters].sort((a, b) => troubled(b) - troubled(a)).map((counter) => {
+    const rows = [...counters].sort((a, b) => isTrouble(b) - isTrouble(a)).map((counter) => {
       const row = document.createElement("tr");
-      row.classList.toggle("trouble", troubled(counter));
+      row.classList.toggle("trouble", isTrouble(counter));
       row.append(cell(counterInWords(counter.name)), cell(counter.value));
       return row;
     });
@@ -142,9 +151,11 @@ function stateInWords(link, scene, age) {
     case "gone": return ["no console", "ale-console does not answer"];
     case "waiting": return ["waiting", "no robot heard yet"];
     case "lost": return ["link lost", `last pose ${duration(age * 1000)} ago`];
-    default: return STATES[scene.pose?.state] ?? ["waiting", ""];
+    default: return withMaps(STATES[scene.pose?.state] ?? ["waiting", ""], scene.tracking);
   }
 }
+
+const withMaps = ([word, text], tracking) => [word, [text, mapsInWords(tracking)[0]].filter(Boolean).join(", ")];
 
 function showAlarm(link, scene, word, text) {
   const trouble = link === "gone" || link === "lost" || (link === "up" && scene.pose && scene.pose.state !== "good");
@@ -159,8 +170,19 @@ function showAlarm(link, scene, word, text) {
 const ageInWords = (ms) => (ms < 1000 ? `${Math.round(ms / 10) * 10} ms` : duration(ms * 1e3));
 
 function showAdvice(advice) {
-  document.getElementById("advice").hidden = !advice;
-  if (advice) show("advice", advice);
+  const box = document.getElementById("advice");
+  box.hidden = advice.length === 0;
+  const said = [...box.children].map((paragraph) => paragraph.textContent);
+  if (said.join("\n") === advice.join("\n")) return;
+  box.replaceChildren(...advice.map((text) => {
+    const paragraph = document.createElement("p");
+    paragraph.textContent = text;
+    return paragraph;
+  }));
+}
+
+function showApart(scene) {
+  document.getElementById("apart").hidden = !scene.hasWallsApart;
 }
 
 function show(id, text, mood) {

@@ -7,6 +7,7 @@ const ELLIPSE_SIGMAS = 3;
 const ELLIPSE_MAGNIFIED = 10; // millimetres would not be seen; the legend says so
 const HEADING_LENGTH = 3; // radii of the robot
 const SURE_AFTER_SCANS = 5; // a tenth of a metre apart, as a rule; a wall seen less often is drawn paler
+const APART_DASH = [8, 5]; // walls of a map that the robot's is not joined with: told by shape as well as by colour
 const FRESH_TRAIL_POINTS = 250;
 const GRID_LEAST_PX = 44;
 const BAND_LEAST_PX = 2.5;
@@ -148,19 +149,28 @@ export class Painter {
   }
 
   #walls() {
+    const lines = this.scene.map?.lines ?? [];
+    const here = lines.filter((l) => !this.scene.isApart(l));
+    this.#strokeWalls(lines.filter((l) => this.scene.isApart(l)), "apart", 1, APART_DASH);
+    this.#strokeWalls(here.filter((l) => l.seen < SURE_AFTER_SCANS), "wall", 0.45);
+    this.#strokeWalls(here.filter((l) => l.seen >= SURE_AFTER_SCANS), "wall", 1);
+  }
+
+  #strokeWalls(lines, colour, alpha, dash = []) {
     const c = this.context;
-    c.strokeStyle = this.colour("wall");
+    c.strokeStyle = this.colour(colour);
     c.lineWidth = 2.5;
-    for (const sure of [false, true]) {
-      c.globalAlpha = sure ? 1 : 0.45;
-      c.beginPath();
-      for (const l of this.scene.map?.lines ?? []) {
-        if (l.seen >= SURE_AFTER_SCANS !== sure) continue;
-        c.moveTo(...this.view.toScreen(l.x1, l.y1));
-        c.lineTo(...this.view.toScreen(l.x2, l.y2));
-      }
-      c.stroke();
+    c.globalAlpha = alpha;
+    c.lineCap = dash.length ? "butt" : "round";
+    c.setLineDash(dash);
+    c.beginPath();
+    for (const l of lines) {
+      c.moveTo(...this.view.toScreen(l.x1, l.y1));
+      c.lineTo(...this.view.toScreen(l.x2, l.y2));
     }
+    c.stroke();
+    c.setLineDash([]);
+    c.lineCap = "round";
     c.globalAlpha = 1;
   }
 

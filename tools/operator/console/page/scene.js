@@ -19,6 +19,7 @@ export class Scene {
 
   #forget() {
     this.pose = null; // newest pose message
+    this.tracking = null; // newest: which map the pose is in, what the wheels do
     this.recent = new Map(); // scan number -> pose message: features and scans are drawn where they were taken
     this.features = null;
     this.lines = []; // of the newest scan, [x1, y1, x2, y2]
@@ -38,6 +39,7 @@ export class Scene {
     switch (message.type) {
       case "hello": this.#forget(); break;
       case "pose": this.#takePose(message); break;
+      case "tracking": this.tracking = message; break;
       case "features": this.#takeFeatures(message); break;
       case "scan": this.#takeScan(message); break;
       case "map": this.map = message; this.mapBounds = bounds(message.lines); break;
@@ -93,6 +95,15 @@ export class Scene {
     }
     this.points = points;
     this.sight = sight;
+  }
+
+  // The wall is in another map than the robot: where it is drawn says nothing.
+  isApart(line) {
+    return (line.map_id ?? 0) !== (this.tracking?.map_id ?? 0);
+  }
+
+  get hasWallsApart() {
+    return this.map?.lines.some((line) => this.isApart(line)) ?? false;
   }
 
   // [left, bottom, right, top] of all there is to see; null when there is nothing.

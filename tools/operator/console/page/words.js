@@ -39,7 +39,7 @@ export function codesInWords(codes) {
 // what is no trouble at all.
 const COUNTERS = {
   scans_lost: "scans lost on the line", overloaded: "scans skipped, too busy", scan_ring_full: "scans, no room",
-  result_ring_full: "results, no room", bad_checksum: "wrong checksums", bad_frame: "broken replies",
+  corrections_late: "map corrections, late", result_ring_full: "results, no room", bad_checksum: "wrong checksums", bad_frame: "broken replies",
   repeated: "repeated replies", garbage_bytes: "garbage bytes", stream_restarts: "stream restarted",
   resets: "scanner reset", reopens: "port opened again", hardware_faults: "scanner faults",
   identity_warnings: "odd identity lines", odometry: "odometry received", odometry_ring_full: "odometry, no room",
@@ -47,13 +47,15 @@ const COUNTERS = {
   command_malformed: "commands, malformed", command_unsigned: "commands, unsigned",
   command_stranger: "commands, of a stranger", command_forged: "commands, forged",
   command_other_robot: "commands for another robot", command_replayed: "commands, replayed",
+  maps: "maps, not joined", wheel_faults: "faults of the wheels",
   command_late: "commands, too late", command_lasting: "commands, lasting too long",
 };
 const DROPS = ["scans_lost", "overloaded", "scan_ring_full", "result_ring_full"];
 const TRAFFIC = ["odometry", "identity_warnings"];
+const USUAL = { maps: 1 }; // what is no trouble unless there is more of it
 
 export const counterInWords = (name) => COUNTERS[name] ?? name.replaceAll("_", " ");
-export const isTraffic = (name) => TRAFFIC.includes(name);
+export const isTrouble = ({ name, value }) => value > (USUAL[name] ?? 0) && !TRAFFIC.includes(name);
 export const countDrops = (counters) =>
   counters.filter((counter) => DROPS.includes(counter.name)).reduce((sum, counter) => sum + counter.value, 0);
 
@@ -78,6 +80,31 @@ function adviceOnWindow(beams, bearing) {
   const side = Math.round((Math.abs(bearing) * 180) / Math.PI);
   const where = side < 5 ? "straight ahead" : `${side}° to the ${bearing > 0 ? "left" : "right"}`;
   return `The scanner's window may be dirty: ${beams} beams ${where} give no range, wherever the robot turns. Wipe it with a soft, dry cloth.`;
+}
+
+// What scans say of the wheels, by the word of ALE_TRACKING.
+const WHEELS = {
+  contradict: "they contradict what the scanner sees", stalled: "they tell nothing while the robot moves",
+  reversed: "they tell ahead as back, or left as right", late: "they tell what was a while ago",
+  scale: "they tell much too much, or too little",
+};
+
+export function wheelsInWords(word, times) {
+  const said = word === "fine" ? "fine" : `${word}: ${WHEELS[word] ?? "they are not believed"}`;
+  return times ? `${said} (${times === 1 ? "once" : `${times} times`} so far)` : said;
+}
+
+// Few words for the strip, and a line over the map; both empty when there is one map, and the robot is in it.
+export function mapsInWords(tracking) {
+  if (!tracking || (tracking.maps <= 1 && tracking.map_id === 0)) return ["", ""];
+  return tracking.map_id !== 0
+    ? ["new map, not joined yet", `New map, not joined until the robot knows a place again (${tracking.maps} in all).`]
+    : [`${tracking.maps} maps, not joined`, `${tracking.maps} maps: the robot is in the first one, the rest is not joined yet.`];
+}
+
+export function adviceOnTracking(tracking) {
+  const wheels = WHEELS[tracking?.wheels];
+  return [mapsInWords(tracking)[1], wheels && `Wheels not believed: ${wheels}.`].filter(Boolean);
 }
 
 export const STATES = {

@@ -1,0 +1,293 @@
+#include "graph/loops/join_decision.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/LU>
+
+#include "graph/loops/loop_match.h"
+
+namespace ale
+{
+
+namespace
+{
+
+// Matches of one hypothesis agree this well where they are: both maps may have drifted between them.
+constexpr double alike_m = 0.30;
+constexpr double alike_rad = 0.08;
+// What a hypothesis must rest on: nodes, and how far apart two of them are at least. Ground that no map knows
+// may look like known one; what contradicts the wheels by more than they ever lose must be long.
+struct Support {
+    size_t nodes;
+    double apart_m;
+};
+constexpr Support as_predicted{3, 1.0};
+constexpr Support elsewhere{12, 8.0};
+constexpr double predicted_m = 3.0;
+constexpr double predicted_rad = 0.8;
+constexpr size_t most_compared = 12;   // hypotheses
+constexpr double least_strength = 0.4; // of a rival, as part of that of the hypothesis
+constexpr double least_in_view = 1.0 / 3;
+constexpr double agrees_at_least = 0.85; // as loops do
+constexpr double denies = 0.75;
+constexpr double most_denied = 0.2; // part of the nodes that are compared
+constexpr double clearly_worse = 0.08;
+constexpr size_t refuting_nodes = 3;
+constexpr double compared_m = 8.0; // of a node that lies on the other map; farther off both may have drifted
+constexpr double place_reach_m = 3.0;
+constexpr double held_m = 0.03; // in the direction that is held least
+
+double largest_deviation_m(const Eigen::Matrix3d &information)
+{
+    const Eigen::Matrix3d regular = information + Eigen::Matrix3d::Identity() * 1e-3;
+    const Eigen::Matrix3d covariance = regular.inverse();
+    const double mean = (covariance(0, 0) + covariance(1, 1)) / 2;
+    return std::sqrt(mean + length((covariance(0, 0) - covariance(1, 1)) / 2, covariance(0, 1)));
+}
+
+double distance(const Pose &a, const Pose &b)
+{
+    return length(a.x - b.x, a.y - b.y);
+}
+
+bool is_near(const Pose &a, const Pose &b, double m, double rad)
+{
+    return distance(a, b) < m && std::abs(wrapped(a.theta - b.theta)) < rad;
+}
+
+Loop reversed(const Loop &loop)
+{
+    const Eigen::Matrix3d forth = displacement_jacobian(loop.measured);
+    return {loop.to, loop.from, inverse(loop.measured), forth.transpose() * loop.information * forth,
+            loop.overlap};
+}
+
+} // namespace
+
+JoinDecision::JoinDecision(const std::vector<Node> &nodes, const std::vector<Pose> &poses,
+                           std::vector<Loop> matches, std::vector<int> queries)
+    : nodes_(nodes), poses_(poses), matches_(std::move(matches)), queries_(std::move(queries))
+{
+    const auto within_a_map = [this](const Loop &loop) { return map_of(loop.from) == map_of(loop.to); };
+    matches_.erase(std::remove_if(matches_.begin(), matches_.end(), within_a_map), matches_.end());
+    std::stable_sort(matches_.begin(), matches_.end(),
+                     [](const Loop &a, const Loop &b) { return a.overlap > b.overlap; });
+}
+
+std::optional<FoundJoin> JoinDecision::find()
+{
+    std::vector<Hypothesis> all = hypotheses();
+    for (size_t k = 0; k < std::min(all.size(), most_compared); k++) {
+        Hypothesis &best = all[k];
+        if (!is_sound(best) || !is_unique(best, all)) {
+            continue;
+        }
+        FoundJoin found{{best.map_id, best.into_map_id, best.shift}, {}};
+        if (best.map_id == ALE_FIRST_MAP) {
+            found.join = {best.into_map_id, best.map_id, inverse(best.shift)};
+        }
+        for (const Loop &loop : best.loops) {
+            found.loops.push_back(loop.from < loop.to ? loop : reversed(loop));
+        }
+        return found;
+    }
+    return std::nullopt;
+}
+
+// How the map of the node must move to lie as this match has it.
+Pose JoinDecision::shift_of(const Loop &loop) const
+{
+    return compose(compose(at(poses_, loop.from), loop.measured), inverse(at(poses_, loop.to)));
+}
+
+bool JoinDecision::puts_alike(const Hypothesis &hypothesis, const Pose &shift, int node) const
+{
+    return is_near(compose(hypothesis.shift, at(poses_, node)), compose(shift, at(poses_, node)), alike_m,
+                   alike_rad);
+}
+
+// Takes the matches that agree with the seed out of those left.
+JoinDecision::Hypothesis JoinDecision::hypothesis_of(const Loop &seed, std::vector<Loop> *left) const
+{
+    Hypothesis hypothesis{map_of(seed.to), map_of(seed.from), shift_of(seed), {}, 0};
+    const auto agrees = [&](const Loop &loop) {
+        return map_of(loop.to) == hypothesis.map_id && map_of(loop.from) == hypothesis.into_map_id &&
+               puts_alike(hypothesis, shift_of(loop), loop.to);
+    };
+    for (const Loop &loop : *left) {
+        const bool is_new = std::none_of(hypothesis.loops.begin(), hypothesis.loops.end(),
+                                         [&loop](const Loop &other) { return other.to == loop.to; });
+        if (agrees(loop) && is_new) {
+            hypothesis.loops.push_back(loop);
+            hypothesis.strength += loop.overlap;
+        }
+    }
+    left->erase(std::remove_if(left->begin(), left->end(), agrees), left->end());
+    return hypothesis;
+}
+
+// The strongest first.
+std::vector<JoinDecision::Hypothesis> JoinDecision::hypotheses() const
+{
+    std::vector<Loop> left = matches_;
+    std::vector<Hypothesis> all;
+    while (!left.empty()) {
+        const Loop seed = left.front();
+        all.push_back(hypothesis_of(seed, &left));
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Hypothesis &a, const Hypothesis &b) { return a.strength > b.strength; });
+    return all;
+}
+
+// The node of a map nearest to a pose in its frame.
+std::optional<int> JoinDecision::place_near(const Pose &pose, uint32_t map_id) const
+{
+    std::optional<int> nearest;
+    double least_m = place_reach_m;
+    for (int k = 0; k < static_cast<int>(nodes_.size()); k++) {
+        if (map_of(k) == map_id && distance(at(poses_, k), pose) < least_m) {
+            least_m = distance(at(poses_, k), pose);
+            nearest = k;
+        }
+    }
+    return nearest;
+}
+
+// Each is asked for many times.
+JoinDecision::Account JoinDecision::account(Hypothesis &hypothesis, int node)
+{
+    const auto known = hypothesis.accounts.find(node);
+    return known != hypothesis.accounts.end()
+               ? known->second
+               : hypothesis.accounts.emplace(node, compared(hypothesis, node)).first->second;
+}
+
+JoinDecision::Account JoinDecision::compared(const Hypothesis &hypothesis, int node)
+{
+    const Pose there = compose(hypothesis.shift, at(poses_, node));
+    const std::optional<int> anchor = place_near(there, hypothesis.into_map_id);
+    if (!anchor) {
+        return {false, 0};
+    }
+    if (!place_ || place_->anchor() != *anchor) {
+        place_.emplace(nodes_, poses_, *anchor);
+    }
+    const View view(nodes_, poses_, node);
+    const Pose guess = between(at(poses_, *anchor), there);
+    const LoopMatch match = match_locally(view.points, place_->field(), guess);
+    const bool stays = is_near(match.pose, guess, alike_m, alike_rad);
+    const Explanation seen = place_->explain(view, stays ? match.pose : guess);
+    if (seen.in_view < least_in_view) {
+        return {false, 0};
+    }
+    const bool fits = stays && match.overlap >= least_overlap * seen.in_view;
+    return {true, fits ? seen.agreed : 0};
+}
+
+// Nodes enough, apart, and held in every direction.
+bool JoinDecision::is_held(const Hypothesis &hypothesis) const
+{
+    const Pose &first = at(poses_, hypothesis.loops.front().to);
+    const bool predicted = is_near(compose(hypothesis.shift, first), first, predicted_m, predicted_rad);
+    const Support &least = predicted ? as_predicted : elsewhere;
+    const auto is_apart = [&](const Loop &loop) {
+        return distance(at(poses_, loop.to), first) > least.apart_m;
+    };
+    const auto holds = [](const Loop &loop) { return largest_deviation_m(loop.information) < held_m; };
+    return hypothesis.loops.size() >= least.nodes &&
+           std::any_of(hypothesis.loops.begin(), hypothesis.loops.end(), is_apart) &&
+           std::any_of(hypothesis.loops.begin(), hypothesis.loops.end(), holds);
+}
+
+// Whether the two maps agree wherever they overlap near these nodes.
+bool JoinDecision::is_sound(Hypothesis &hypothesis)
+{
+    if (!is_held(hypothesis)) {
+        return false;
+    }
+    const auto is_near_it = [&](int query) {
+        return map_of(query) == hypothesis.map_id &&
+               std::any_of(hypothesis.loops.begin(), hypothesis.loops.end(), [&](const Loop &loop) {
+                   return distance(at(poses_, query), at(poses_, loop.to)) < compared_m;
+               });
+    };
+    size_t known = 0;
+    size_t agreed = 0;
+    size_t denied = 0;
+    for (const int query : queries_) {
+        const Account made = is_near_it(query) ? account(hypothesis, query) : Account{false, 0};
+        known += made.known;
+        agreed += made.known && made.agreed >= agrees_at_least;
+        denied += made.known && made.agreed < denies;
+    }
+    return agreed >= as_predicted.nodes &&
+           static_cast<double>(denied) <= most_denied * static_cast<double>(known);
+}
+
+// Whether the other explains enough of the same nodes, or puts other nodes to another place of the same map.
+bool JoinDecision::is_rival(const Hypothesis &hypothesis, const Hypothesis &other) const
+{
+    if (&hypothesis == &other || other.map_id != hypothesis.map_id) {
+        return false;
+    }
+    double strength = 0;
+    for (const Loop &loop : other.loops) {
+        const bool shared = std::any_of(hypothesis.loops.begin(), hypothesis.loops.end(),
+                                        [&loop](const Loop &own) { return own.to == loop.to; });
+        strength += shared || other.into_map_id == hypothesis.into_map_id ? loop.overlap : 0;
+    }
+    return strength >= least_strength * hypothesis.strength;
+}
+
+bool JoinDecision::is_refuted(Hypothesis &rival, Hypothesis &hypothesis)
+{
+    std::vector<Account> own;
+    for (const Loop &loop : hypothesis.loops) {
+        own.push_back(account(hypothesis, loop.to));
+    }
+    size_t against = 0;
+    for (size_t k = 0; k < own.size(); k++) {
+        const Account other = account(rival, hypothesis.loops[k].to);
+        if (!own[k].known || !other.known) {
+            continue;
+        }
+        if (own[k].agreed < other.agreed - clearly_worse) {
+            return false;
+        }
+        against += other.agreed < own[k].agreed - clearly_worse;
+    }
+    return against >= refuting_nodes;
+}
+
+// Whether the places that two maps offer are one: a third hypothesis says so.
+bool JoinDecision::fits_together(const Hypothesis &hypothesis, const Hypothesis &other,
+                                 const std::vector<Hypothesis> &all) const
+{
+    const uint32_t here = hypothesis.into_map_id;
+    const uint32_t there = other.into_map_id;
+    const Pose there_to_here = compose(hypothesis.shift, inverse(other.shift));
+    return std::any_of(all.begin(), all.end(), [&](const Hypothesis &third) {
+        if (third.map_id == there && third.into_map_id == here) {
+            return puts_alike(third, there_to_here, other.loops.front().from);
+        }
+        return third.map_id == here && third.into_map_id == there &&
+               puts_alike(third, inverse(there_to_here), hypothesis.loops.front().from);
+    });
+}
+
+bool JoinDecision::is_unique(Hypothesis &hypothesis, std::vector<Hypothesis> &all)
+{
+    return std::all_of(all.begin(), all.end(), [&](Hypothesis &other) {
+        if (!is_rival(hypothesis, other)) {
+            return true;
+        }
+        const bool may_be_one =
+            other.into_map_id != hypothesis.into_map_id && fits_together(hypothesis, other, all);
+        return may_be_one || is_refuted(other, hypothesis);
+    });
+}
+
+} // namespace ale

@@ -1,0 +1,84 @@
+// Decides which map joins which, by matches of nodes of the one with places of the other.
+//
+// Matches that put a map to the same place of another are a hypothesis. One is accepted if
+// - at least three nodes, a metre apart, lie on what the other map saw, held in every direction; twelve, over
+//   eight metres, if that is not where the wheels have put them;
+// - wherever the two overlap they agree: neither looks through what the other saw;
+// - every rival is refuted: another place of any map that explains the same nodes must fail at three of them
+//   where this one does not. A place that cannot be compared is not refuted. Not a rival is what fits
+//   together: a place of a third map that lies at the same place of this one.
+#ifndef ALE_GRAPH_LOOPS_JOIN_DECISION_H
+#define ALE_GRAPH_LOOPS_JOIN_DECISION_H
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "graph/loops/loop.h"
+#include "graph/loops/map_table.h"
+#include "graph/loops/place.h"
+
+namespace ale
+{
+
+struct FoundJoin {
+    MapJoin join;
+    std::vector<Loop> loops; // that hold it; from the earlier to the later node
+};
+
+class JoinDecision
+{
+  public:
+    // Nodes and poses stay the caller's and must outlive this. matches: from a place of one map to a node of
+    // another, each with its overlap; queries: all nodes that were searched for.
+    JoinDecision(const std::vector<Node> &nodes, const std::vector<Pose> &poses, std::vector<Loop> matches,
+                 std::vector<int> queries);
+
+    // The strongest join that may be accepted. The first map (map/atlas.h) does not move. O(matches^2), and
+    // at most most_compared hypotheses compared at every query; may throw std::bad_alloc.
+    std::optional<FoundJoin> find();
+
+  private:
+    // What a hypothesis makes of one node.
+    struct Account {
+        bool known;    // the place could show enough of the view
+        double agreed; // see Explanation; 0 if nothing fits
+    };
+    struct Hypothesis {
+        uint32_t map_id;
+        uint32_t into_map_id;
+        Pose shift;                        // of the first, into the frame of the second
+        std::vector<Loop> loops;           // the best of each node
+        double strength;                   // sum of overlaps
+        std::map<int, Account> accounts{}; // by node
+    };
+
+    Hypothesis hypothesis_of(const Loop &seed, std::vector<Loop> *left) const;
+    std::vector<Hypothesis> hypotheses() const;
+    bool puts_alike(const Hypothesis &hypothesis, const Pose &shift, int node) const;
+    bool is_held(const Hypothesis &hypothesis) const;
+    bool is_sound(Hypothesis &hypothesis);
+    bool is_rival(const Hypothesis &hypothesis, const Hypothesis &other) const;
+    bool is_refuted(Hypothesis &rival, Hypothesis &hypothesis);
+    bool fits_together(const Hypothesis &hypothesis, const Hypothesis &other,
+                       const std::vector<Hypothesis> &all) const;
+    bool is_unique(Hypothesis &hypothesis, std::vector<Hypothesis> &all);
+    Account account(Hypothesis &hypothesis, int node);
+    Account compared(const Hypothesis &hypothesis, int node);
+    std::optional<int> place_near(const Pose &pose, uint32_t map_id) const;
+    Pose shift_of(const Loop &loop) const;
+    uint32_t map_of(int node) const
+    {
+        return at(nodes_, node).map_id;
+    }
+
+    const std::vector<Node> &nodes_;
+    const std::vector<Pose> &poses_;
+    std::vector<Loop> matches_;
+    std::vector<int> queries_;
+    std::optional<Place> place_; // the last that was compared with
+};
+
+} // namespace ale
+
+#endif

@@ -1,0 +1,43 @@
+#include "match/pose_evidence.h"
+
+#include "base/fixed.h"
+#include "map/visibility.h"
+
+enum { SURFACE_MOST_UM = 1500000 /* that one surface counts for */ };
+
+static int64_t bounded(int64_t length_um)
+{
+    return ale_min64(length_um, SURFACE_MOST_UM);
+}
+
+static int64_t explained_um(const ale_scene_t *scene, const ale_fit_t *fit)
+{
+    int64_t sum_um = 0;
+    for (uint32_t i = 0; i < scene->observation_count; i++) {
+        const ale_association_t *association = &fit->association[i];
+        if (association->wall != ALE_NO_WALL || association->landmark != ALE_NO_LANDMARK) {
+            sum_um += bounded(ale_observation_length_um(&scene->observation[i]));
+        }
+    }
+    return sum_um;
+}
+
+static int64_t looked_through_um(const ale_local_map_t *map, const ale_posed_scan_t *from)
+{
+    int64_t sum_um = 0;
+    const uint32_t count = (uint32_t)ale_min64(map->near_first[ALE_MAP_DIRECTIONS], ALE_EVIDENCE_WALLS);
+    for (uint32_t n = 0; n < count; n++) {
+        const ale_wall_t *wall = &map->wall[map->near[n]];
+        const ale_points_visibility_t seen =
+            ale_wall_points_visibility(wall, from, (ale_slack_t){0, 0, false});
+        if (seen.violated > seen.supported) {
+            sum_um += bounded(wall->end_um - wall->start_um) * seen.violated / ALE_VISIBILITY_POINTS;
+        }
+    }
+    return sum_um;
+}
+
+int64_t ale_pose_evidence_um(const ale_scene_t *scene, const ale_fit_t *fit, const ale_posed_scan_t *from)
+{
+    return explained_um(scene, fit) - looked_through_um(scene->map, from);
+}

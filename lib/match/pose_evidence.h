@@ -1,0 +1,20 @@
+/* How well a pose explains a scan, by the map: what the scan shows and the map holds speaks for the pose,
+ * walls that the scan looks through speak against it; what only one of the two holds says nothing, since maps
+ * are not complete and things stand before walls. Counted in lengths of surface, of which each wall gives a
+ * bounded part: beams of one surface err together. */
+#ifndef ALE_MATCH_POSE_EVIDENCE_H
+#define ALE_MATCH_POSE_EVIDENCE_H
+
+#include <stdint.h>
+
+#include "match/scan_to_map.h"
+#include "observe/posed_scan.h"
+
+/* The walls asked for in one call, at most. */
+enum { ALE_EVIDENCE_WALLS = 384 };
+
+/* Length of surface that speaks for the pose of a fit, less what speaks against it. fit: associated. from:
+ * the scan at that pose. O(observations + near walls). */
+int64_t ale_pose_evidence_um(const ale_scene_t *scene, const ale_fit_t *fit, const ale_posed_scan_t *from);
+
+#endif

@@ -1,0 +1,188 @@
+#include "match/pose_vote.h"
+
+#include <string.h>
+
+#include "base/fixed.h"
+#include "base/trig.h"
+
+enum {
+    COARSE_UM = ALE_GRID_POOL * ALE_GRID_CELL_UM,
+    COARSE_STEP_BAM = (int32_t)(UINT32_MAX / ALE_VOTE_HEADINGS),
+    FINE_HEADINGS = 4,       /* steps to a coarse one */
+    SAME_UM = 2 * COARSE_UM, /* places nearer than this are one */
+    SAME_BAM = 3 * COARSE_STEP_BAM
+};
+
+/* Points along the surfaces, evenly: a metre of any of them counts alike. */
+static void sample(ale_pose_vote_t *vote, const ale_observation_t observation[], uint32_t count)
+{
+    const int64_t spacing_um = ale_max64(
+        ale_observations_length_um(observation, count) / (ALE_VOTE_POINTS / 2), 2 * ALE_GRID_CELL_UM / 3);
+    vote->points = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const ale_observation_t *o = &observation[i];
+        for (int64_t t_um = o->start_um + spacing_um / 2; vote->points < ALE_VOTE_POINTS;
+             t_um += spacing_um) {
+            if (t_um >= o->end_um && t_um != o->start_um + spacing_um / 2) {
+                break;
+            }
+            vote->point[vote->points++] =
+                ale_plus(o->centre, ale_polar(ale_min64(t_um, o->end_um), ale_tangent_bam(o->normal_bam)));
+        }
+    }
+}
+
+/* The points at a heading, from the grid's corner, in cells of `cell_um` moved to the region's first. */
+static void turn(ale_pose_vote_t *vote, ale_pose_t from, int32_t cell_um)
+{
+    const ale_viewpoint_t viewpoint = ale_viewpoint(from);
+    const int32_t half = ALE_VOTE_SIDE / 2;
+    for (uint32_t k = 0; k < vote->points; k++) {
+        const ale_point_t p = ale_minus(ale_point_from(vote->point[k], &viewpoint), vote->grid.corner);
+        vote->turned[k] = (ale_point_t){p.x_um >= 0 ? p.x_um / cell_um - half : INT32_MIN,
+                                        p.y_um >= 0 ? p.y_um / cell_um - half : INT32_MIN};
+    }
+}
+
+_Static_assert(ALE_VOTE_POINTS *ALE_GRID_SURFACE <= UINT8_MAX && ALE_VOTE_SIDE % 8 == 0,
+               "eight sums to a word, none of which overflows into the next");
+
+/* Adds a row of cells to a row of sums, eight at a time. */
+static inline void add_row(uint8_t *sum, const uint8_t *row)
+{
+    for (int32_t u = 0; u < ALE_VOTE_SIDE; u += 8) {
+        uint64_t sums;
+        uint64_t cells;
+        memcpy(&sums, &sum[u], sizeof sums);
+        memcpy(&cells, &row[u], sizeof cells);
+        sums += cells;
+        memcpy(&sum[u], &sums, sizeof sums);
+    }
+}
+
+/* Adds, for every displacement of the region in cells, what the cells of the displaced points hold. */
+static void add_up(ale_pose_vote_t *vote, const uint8_t *cells, int32_t side)
+{
+    memset(vote->sum, 0, sizeof vote->sum);
+    for (uint32_t k = 0; k < vote->points; k++) {
+        const int32_t x = vote->turned[k].x_um;
+        const int32_t y = vote->turned[k].y_um;
+        if (x < 0 || y < 0 || x > side - ALE_VOTE_SIDE || y > side - ALE_VOTE_SIDE) {
+            continue;
+        }
+        for (int32_t v = 0; v < ALE_VOTE_SIDE; v++) {
+            add_row(vote->sum[v], &cells[(y + v) * side + x]);
+        }
+    }
+}
+
+static bool is_same(ale_pose_t a, ale_pose_t b)
+{
+    return ale_abs64((int64_t)a.x_um - b.x_um) < SAME_UM && ale_abs64((int64_t)a.y_um - b.y_um) < SAME_UM &&
+           ale_abs64(ale_bam_diff(a.theta_bam, b.theta_bam)) < SAME_BAM;
+}
+
+/* Enters a place in the list, best first, where it is better than one that is the same or than the last. */
+static void enter(ale_pose_vote_t *vote, const ale_voted_pose_t *place)
+{
+    uint32_t at = 0;
+    while (at < vote->places && !is_same(vote->place[at].pose, place->pose)) {
+        at++;
+    }
+    if (at == ALE_VOTE_PLACES) {
+        at--;
+    }
+    if (at < vote->places && vote->place[at].score_q8 >= place->score_q8) {
+        return;
+    }
+    vote->places += at == vote->places;
+    for (; at > 0 && vote->place[at - 1].score_q8 < place->score_q8; at--) {
+        vote->place[at] = vote->place[at - 1];
+    }
+    vote->place[at] = *place;
+}
+
+static int32_t score_q8(const ale_pose_vote_t *vote, int32_t sum)
+{
+    return sum * 256 / (ALE_GRID_SURFACE * (int32_t)vote->points);
+}
+
+/* Sums of a heading that are worth entering. */
+static void enter_best(ale_pose_vote_t *vote, ale_pose_t from, int32_t reach_um)
+{
+    const int32_t half = ALE_VOTE_SIDE / 2;
+    const int32_t least_q8 = vote->places == ALE_VOTE_PLACES ? vote->place[ALE_VOTE_PLACES - 1].score_q8 : 0;
+    for (int32_t v = 0; v < ALE_VOTE_SIDE; v++) {
+        for (int32_t u = 0; u < ALE_VOTE_SIDE; u++) {
+            const int32_t x_um = (u - half) * COARSE_UM;
+            const int32_t y_um = (v - half) * COARSE_UM;
+            if (score_q8(vote, vote->sum[v][u]) > least_q8 && ale_abs64(x_um) <= reach_um + COARSE_UM / 2 &&
+                ale_abs64(y_um) <= reach_um + COARSE_UM / 2) {
+                enter(vote, &(ale_voted_pose_t){{from.x_um + x_um, from.y_um + y_um, from.theta_bam},
+                                                score_q8(vote, vote->sum[v][u])});
+            }
+        }
+    }
+}
+
+static void search_coarsely(ale_pose_vote_t *vote, const ale_vote_region_t *region)
+{
+    const int32_t most = (int32_t)ale_min64(
+        ale_nrad_to_bam((int64_t)region->reach_urad * 1000) / COARSE_STEP_BAM + 1, ALE_VOTE_HEADINGS / 2);
+    for (int32_t h = -most; h < most + (most < ALE_VOTE_HEADINGS / 2); h++) {
+        const ale_pose_t from = {region->centre.x_um, region->centre.y_um,
+                                 region->centre.theta_bam + (uint32_t)(h * COARSE_STEP_BAM)};
+        turn(vote, from, COARSE_UM);
+        add_up(vote, &vote->grid.coarse[0][0], ALE_GRID_COARSE);
+        enter_best(vote, from, region->reach_um);
+    }
+}
+
+/* The best of the fine cells and headings around a coarse place. */
+static ale_voted_pose_t finely(ale_pose_vote_t *vote, ale_pose_t coarse)
+{
+    ale_voted_pose_t best = {coarse, 0};
+    const int32_t half = ALE_VOTE_SIDE / 2;
+    for (int32_t h = -FINE_HEADINGS; h <= FINE_HEADINGS; h++) {
+        const ale_pose_t from = {coarse.x_um, coarse.y_um,
+                                 coarse.theta_bam + (uint32_t)(h * (COARSE_STEP_BAM / FINE_HEADINGS))};
+        turn(vote, from, ALE_GRID_CELL_UM);
+        add_up(vote, &vote->grid.fine[0][0], ALE_GRID_CELLS);
+        for (int32_t v = 0; v < ALE_VOTE_SIDE; v++) {
+            for (int32_t u = 0; u < ALE_VOTE_SIDE; u++) {
+                const int32_t score = score_q8(vote, vote->sum[v][u]);
+                if (score > best.score_q8) {
+                    best = (ale_voted_pose_t){{from.x_um + (u - half) * ALE_GRID_CELL_UM,
+                                               from.y_um + (v - half) * ALE_GRID_CELL_UM, from.theta_bam},
+                                              score};
+                }
+            }
+        }
+    }
+    return best;
+}
+
+static void search_finely(ale_pose_vote_t *vote)
+{
+    ale_voted_pose_t coarse[ALE_VOTE_PLACES];
+    const uint32_t count = vote->places;
+    memcpy(coarse, vote->place, count * sizeof coarse[0]);
+    vote->places = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        const ale_voted_pose_t fine = finely(vote, coarse[k].pose);
+        enter(vote, &fine);
+    }
+}
+
+void ale_pose_vote(ale_pose_vote_t *vote, const ale_local_map_t *map, const ale_observation_t observation[],
+                   uint32_t count, const ale_vote_region_t *region)
+{
+    vote->places = 0;
+    sample(vote, observation, count);
+    if (vote->points == 0) {
+        return;
+    }
+    ale_likelihood_grid_draw(&vote->grid, map, (ale_point_t){region->centre.x_um, region->centre.y_um});
+    search_coarsely(vote, region);
+    search_finely(vote);
+}

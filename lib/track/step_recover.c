@@ -1,0 +1,199 @@
+#include "track/step_recover.h"
+
+#include "base/fixed.h"
+#include "base/trig.h"
+#include "match/pose_evidence.h"
+#include "track/step_associate.h"
+#include "track/step_observe.h"
+
+enum {
+    UNWATCHED_US = 300000, /* and so many usual periods without a scan that told the pose */
+    UNWATCHED_PERIODS = 3,
+    ANYWHERE_US = 5000000, /* and for so long that it may have been carried to any place */
+    ANYWHERE_PERIODS = 60,
+    CANDIDATES = 4, /* places of the vote that are fitted */
+    START_SIGMA_UM = 150000,
+    START_SIGMA_URAD = 60000,
+    MARGIN_UM = 1500000, /* surface by which a pose must explain more than another one */
+    SAME_UM = 300000,    /* poses nearer than this are one: least squares joins them */
+    SAME_BAM = 200 * ALE_BAM_PER_MRAD,
+    ANY_HEADING_URAD = 3141592,
+    DENIED_SIGMAS = 5,
+    OUTWEIGHS_PERCENT = 90
+};
+
+static const ale_gate_t start_gate = {300000, 200000, 6, 100000};
+
+static int64_t since_watched_us(const ale_pipeline_t *p, const ale_prediction_t *prediction)
+{
+    return ale_max64(prediction->ways.believed.stamp_us - p->watched_us, prediction->dt_us);
+}
+
+bool ale_recover_may_be_anywhere(const ale_pipeline_t *p, const ale_prediction_t *prediction)
+{
+    const int64_t t_us = since_watched_us(p, prediction);
+    return t_us > ANYWHERE_US && t_us > ANYWHERE_PERIODS * p->timestamp_filter.usual_us;
+}
+
+bool ale_recover_is_unwatched(const ale_pipeline_t *p, const ale_prediction_t *prediction)
+{
+    const int64_t t_us = since_watched_us(p, prediction);
+    return t_us > UNWATCHED_US && t_us > UNWATCHED_PERIODS * p->timestamp_filter.usual_us;
+}
+
+static int32_t halfway(int32_t from_um, int32_t to_um)
+{
+    return (int32_t)(from_um + ((int64_t)to_um - from_um) / 2);
+}
+
+/* All that the robot can have reached since it was last watched. */
+static ale_vote_region_t region_of(const ale_pipeline_t *p, const ale_prediction_t *prediction)
+{
+    const ale_pose_t from = prediction->before.pose;
+    const ale_pose_t to = prediction->ways.believed.pose;
+    const int64_t t_ms = ale_min64(since_watched_us(p, prediction) / 1000, 1000000);
+    return (ale_vote_region_t){
+        .centre = {halfway(from.x_um, to.x_um), halfway(from.y_um, to.y_um), to.theta_bam},
+        .reach_um = (int32_t)ale_min64(t_ms * p->config.max_speed_mm_s + SAME_UM, ALE_VOTE_REACH_UM),
+        .reach_urad = (int32_t)ale_min64(t_ms * p->config.max_turn_mrad_s + (int64_t)2 * START_SIGMA_URAD,
+                                         ANY_HEADING_URAD)};
+}
+
+/* A fit and what speaks for it. */
+typedef struct {
+    ale_fit_t *fit;
+    int64_t evidence_um;
+} candidate_t;
+
+static int64_t evidence_um(ale_pipeline_t *p, const ale_fit_t *fit)
+{
+    const ale_scene_t scene = ale_observed_scene(p);
+    const ale_posed_scan_t from = {&p->observed.scan, ale_observed_bearings(&p->observed),
+                                   ale_pose_compose(fit->motion.pose, p->config.sensor)};
+    return ale_pose_evidence_um(&scene, fit, &from);
+}
+
+static ale_motion_t start_at(const ale_motion_t *predicted, ale_pose_t pose)
+{
+    ale_motion_t start = *predicted;
+    start.pose = pose;
+    ale_motion_widen(&start, START_SIGMA_UM, START_SIGMA_URAD);
+    return start;
+}
+
+static bool is_same(const ale_fit_t *a, const ale_fit_t *b)
+{
+    return ale_are_near(a->motion.pose, b->motion.pose, SAME_UM, SAME_BAM);
+}
+
+/* Least squares may have left the region. */
+static bool is_in_region(const ale_vote_region_t *region, ale_pose_t pose)
+{
+    const int64_t most_um = (int64_t)region->reach_um + SAME_UM;
+    return ale_abs64((int64_t)pose.x_um - region->centre.x_um) < most_um &&
+           ale_abs64((int64_t)pose.y_um - region->centre.y_um) < most_um;
+}
+
+/* Takes a candidate in: *best is the one that explains most; returns what the best of those apart from it
+ * explains, which was `rival_um`. */
+static int64_t compare(candidate_t *best, const candidate_t *candidate, int64_t rival_um)
+{
+    const bool same = is_same(candidate->fit, best->fit);
+    if (candidate->evidence_um <= best->evidence_um) {
+        return same ? rival_um : ale_max64(rival_um, candidate->evidence_um);
+    }
+    rival_um = same ? rival_um : ale_max64(rival_um, best->evidence_um);
+    *best->fit = *candidate->fit;
+    best->evidence_um = candidate->evidence_um;
+    return rival_um;
+}
+
+/* Fits the places of the vote and takes them in. */
+static int64_t fit_places(ale_pipeline_t *p, const ale_motion_t *predicted, const ale_vote_region_t *region,
+                          candidate_t *best)
+{
+    const ale_scene_t scene = ale_observed_scene(p);
+    int64_t rival_um = INT64_MIN / 2;
+    for (uint32_t k = 0; k < CANDIDATES && k < p->vote.places; k++) {
+        const ale_motion_t start = start_at(predicted, p->vote.place[k].pose);
+        ale_register_pose(&start, &scene, &start_gate, &p->other);
+        ale_register_associate(&scene, &p->other);
+        if (is_in_region(region, p->other.motion.pose)) {
+            const candidate_t candidate = {&p->other, evidence_um(p, &p->other)};
+            rival_um = compare(best, &candidate, rival_um);
+        }
+    }
+    return rival_um;
+}
+
+bool ale_recover_in_region(ale_pipeline_t *p, ale_pose_t centre)
+{
+    const ale_vote_region_t region = {centre, ALE_VOTE_REACH_UM, ANY_HEADING_URAD};
+    candidate_t best = {&p->best, INT64_MIN / 2};
+    const ale_scene_t scene = ale_observed_scene(p);
+    ale_register_reject(&p->motion, &scene, &p->best);
+    ale_pipeline_approach(p, centre, p->observed.scan.range_max_um);
+    ale_pose_vote(&p->vote, &p->map, p->observed.observation, p->observed.count, &region);
+    const int64_t rival_um = fit_places(p, &p->motion, &region, &best);
+    if (!ale_tracking_accepts(&p->best) || best.evidence_um < rival_um + MARGIN_UM) {
+        return false;
+    }
+    ale_register_weigh(&scene, &p->best);
+    return true;
+}
+
+/* The pose of *best takes the place of what the prediction has led to. */
+static void take(ale_pipeline_t *p, const candidate_t *best, ale_ways_t *ways, ale_fit_t *fit)
+{
+    const ale_scene_t scene = ale_observed_scene(p);
+    ways->believed = start_at(&ways->believed, best->fit->motion.pose);
+    ways->counted = false;
+    *fit = *best->fit;
+    ale_register_weigh(&scene, fit);
+}
+
+/* Whether wheels, or velocity, deny that the robot is there: it is farther from where they put it than their
+ * errors reach. */
+static bool is_denied(const ale_motion_t *predicted, ale_pose_t pose)
+{
+    const ale_pose_t off = ale_pose_between(predicted->pose, pose);
+    return ale_abs64(off.x_um) > DENIED_SIGMAS * ale_matrix_sigma(&predicted->cov, 0) ||
+           ale_abs64(off.y_um) > DENIED_SIGMAS * ale_matrix_sigma(&predicted->cov, 1) ||
+           ale_abs64(ale_bam_to_nrad((int32_t)off.theta_bam)) / 1000 >
+               DENIED_SIGMAS * ale_matrix_sigma(&predicted->cov, 2);
+}
+
+/* Wheels are right nearly always: against them a pose must explain nearly all, or, beside them, what they
+ * explain nearly nothing of. */
+static bool outweighs(const ale_ways_t *ways, bool denied, const ale_fit_t *fit)
+{
+    return !ways->counted || denied || fit->matched_um * 100 > fit->shown_um * OUTWEIGHS_PERCENT;
+}
+
+ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *prediction,
+                                ale_scene_verdict_t verdict, ale_ways_t *ways, ale_fit_t *fit)
+{
+    const ale_vote_region_t region = region_of(p, prediction);
+    const candidate_t given = {fit, evidence_um(p, fit)};
+    candidate_t best = {&p->best, given.evidence_um};
+    p->best = *fit;
+    ale_pipeline_approach(p, region.centre, p->observed.scan.range_max_um);
+    p->voted = true;
+    ale_pose_vote(&p->vote, &p->map, p->observed.observation, p->observed.count, &region);
+    const int64_t rival_um = fit_places(p, &ways->believed, &region, &best);
+    const bool near = is_same(best.fit, fit);
+    const bool clear = best.evidence_um > rival_um + MARGIN_UM;
+    const bool refuted = best.evidence_um > given.evidence_um + MARGIN_UM &&
+                         outweighs(ways, near && verdict != ALE_SCENE_KNOWN, best.fit);
+    if (!ale_tracking_accepts(best.fit)) {
+        return ALE_RECOVER_STAYS;
+    }
+    if (!clear && (refuted || !ways->counted)) {
+        return ALE_RECOVER_OPEN;
+    }
+    if (!clear || (near ? !is_denied(&ways->believed, best.fit->motion.pose) : !refuted)) {
+        return ALE_RECOVER_STAYS;
+    }
+    take(p, &best, ways, fit);
+    return near ? ALE_RECOVER_NEAR : ALE_RECOVER_MOVED;
+}

@@ -1,0 +1,196 @@
+// lib/graph/mapper: maps that it joins by itself, and those that it must not.
+#include <gtest/gtest.h>
+
+#include "alike_worlds.hpp"
+
+namespace
+{
+
+using namespace alike_worlds;
+using namespace maps_drive;
+
+// The wheels have lost a little.
+ale_pose_t nearby()
+{
+    return ale::to_core({1.5, -1, 0.4});
+}
+
+struct Outcome {
+    uint32_t maps_driven = 0; // not joined while driving
+    uint32_t joined_at = 0;   // keyframe
+    uint32_t maps = 0;        // not joined in the end
+    double error_m = 0;       // of the worst node, where all is joined
+};
+
+// Drives with a tracker that begins a new map at keyframe `begun`, and does as corrections say; refines.
+Outcome drive(const Walls &walls, const Path &path, size_t begun, unsigned seed)
+{
+    Keyframes keyframes = keyframes_along(walls, path, seed);
+    begin_map(keyframes, begun, keyframes.size(), 1, nearby());
+    const Mapper mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES));
+    const auto correction = std::make_unique<ale_correction_t>();
+    ale_pose_t shift = {0, 0, 0};
+    uint32_t corrections = 0;
+    uint32_t map_id = 0;
+    bool joined = false;
+    Outcome outcome;
+    for (size_t k = 0; k < keyframes.size(); k++) {
+        ale_keyframe_t &keyframe = *keyframes[k];
+        keyframe.map_id = joined ? map_id : keyframe.map_id;
+        keyframe.map = ale_pose_compose(shift, keyframe.map);
+        keyframe.corrections = corrections;
+        EXPECT_EQ(ale_mapper_add(mapper.get(), &keyframe), 0);
+        if (ale_mapper_correction(mapper.get(), correction.get())) {
+            corrections++;
+            shift = ale_pose_compose(correction->shift[correction->count - 1].shift, shift);
+            if (correction->joins) {
+                EXPECT_EQ(correction->joined_map_id, 1U);
+                joined = true;
+                map_id = correction->into_map_id;
+                outcome.joined_at = static_cast<uint32_t>(k);
+            }
+        }
+    }
+    outcome.maps_driven = ale_mapper_statistics(mapper.get()).maps;
+    while (ale_mapper_refine(mapper.get())) {
+    }
+    outcome.maps = ale_mapper_statistics(mapper.get()).maps;
+    for (size_t k = 0; outcome.maps == 1 && k < path.size(); k++) {
+        outcome.error_m = std::max(outcome.error_m, error_m(mapper.get(), k, path[k]));
+    }
+    return outcome;
+}
+
+Path joined_paths(Path first, const Path &second)
+{
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
+// From the first room through the corridor into the second.
+Path through_both_rooms()
+{
+    return path_through({{0.8, 5.8 - 2.5},
+                         {2.5, 4.2},
+                         {3.6, 4.6},
+                         {2.5, 3},
+                         {2.5, 1},
+                         {10.5, 1},
+                         {10.5, 4.2},
+                         {11.6, 4.6},
+                         {9, 3.2},
+                         {10.4, 4.4}});
+}
+
+// Within the second room only.
+Path in_second_room()
+{
+    return path_through(
+        {{9.2, 3.2}, {10.5, 4.2}, {11.6, 4.6}, {11.8, 3.2}, {10, 3}, {9.2, 3.6}, {10.5, 4.4}, {11.8, 3.4}});
+}
+
+TEST(Joins, OfTwoEqualRoomsNeitherIsTaken)
+{
+    const Path known = through_both_rooms();
+    for (unsigned seed = 1; seed <= 3; seed++) {
+        const Outcome outcome =
+            drive(two_rooms(0.4), joined_paths(known, in_second_room()), known.size(), seed);
+        EXPECT_EQ(outcome.maps_driven, 2U);
+        EXPECT_EQ(outcome.maps, 2U);
+    }
+}
+
+// The corridor beyond the second room is not known; the first room explains it nearly as well.
+TEST(Joins, UnknownGroundThatLooksLikeKnownIsNotTakenForIt)
+{
+    const Path known = through_both_rooms();
+    const Path out =
+        path_through({{10, 3}, {10.5, 4.2}, {11.6, 4.4}, {10.5, 3.4}, {10.5, 1}, {16, 1}, {16.2, 1.2}});
+    const Outcome outcome = drive(two_rooms(0.4), joined_paths(known, out), known.size(), 1);
+    EXPECT_EQ(outcome.maps_driven, 2U);
+    EXPECT_TRUE(outcome.maps == 2 || outcome.error_m < 0.15);
+}
+
+// Without the second niche.
+TEST(Joins, WhatIsBesideTheRoomsTellsThemApart)
+{
+    const Path known = through_both_rooms();
+    const Path along = path_through({{10.5, 4.2}, {10.5, 1}, {4, 1}, {2.5, 1}, {2.5, 3}});
+    for (unsigned seed = 1; seed <= 2; seed++) {
+        const Outcome outcome = drive(two_rooms(0), joined_paths(known, along), known.size(), seed);
+        EXPECT_EQ(outcome.maps_driven, 1U) << "as soon as it has seen enough";
+        EXPECT_GT(outcome.joined_at, known.size());
+        EXPECT_EQ(outcome.maps, 1U);
+        EXPECT_LT(outcome.error_m, 0.15);
+    }
+}
+
+TEST(Joins, ACorridorThatIsTheSameAfterHalfATurnIsNotJoined)
+{
+    const Path known = path_through({{-7, 0.1}, {7, 0.1}, {7, -0.1}, {-7, -0.1}});
+    const Path again = path_through({{-6, 0}, {6, 0}, {6.4, 0}, {1, 0}});
+    for (unsigned seed = 1; seed <= 2; seed++) {
+        const Outcome outcome = drive(turned_corridor(0), joined_paths(known, again), known.size(), seed);
+        EXPECT_EQ(outcome.maps_driven, 2U);
+        EXPECT_EQ(outcome.maps, 2U);
+    }
+}
+
+TEST(Joins, OneBoxTellsBothEndsOfTheCorridorApart)
+{
+    const Path known = path_through({{-7, 0.3}, {7, 0.3}, {7, 0.1}, {-7, 0.1}});
+    const Path again = path_through({{-6, 0.2}, {4.4, 0.2}, {5, 0.4}, {1, 0.4}});
+    for (unsigned seed = 1; seed <= 2; seed++) {
+        const Outcome outcome = drive(turned_corridor(0.9), joined_paths(known, again), known.size(), seed);
+        EXPECT_EQ(outcome.maps, 1U);
+        EXPECT_LT(outcome.error_m, 0.15);
+    }
+}
+
+// A bare corridor holds nothing along it.
+TEST(Joins, ABareCorridorIsNotJoined)
+{
+    const Walls walls = {{-30, -1, 30, -1}, {30, -1, 30, 1}, {30, 1, -30, 1}, {-30, 1, -30, -1}};
+    const Path known = path_through({{-15, 0}, {15, 0}});
+    const Path again = path_through({{-5, 0}, {5, 0}});
+    const Outcome outcome = drive(walls, joined_paths(known, again), known.size(), 1);
+    EXPECT_EQ(outcome.maps, 2U);
+}
+
+// The tracker joins the map itself while the join found here is under way: that is void.
+TEST(Joins, AJoinThatTheTrackerMakesFirstCounts)
+{
+    const Path known = through_both_rooms();
+    const Path path = joined_paths(known, path_through({{10.5, 4.2}, {10.5, 1}, {4, 1}, {2.5, 1}, {2.5, 3}}));
+    Keyframes keyframes = keyframes_along(two_rooms(0), path, 1);
+    const Keyframes tracked = keyframes_along(two_rooms(0), path, 1);
+    begin_map(keyframes, known.size(), keyframes.size(), 1, nearby());
+    const Mapper mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES));
+    const auto correction = std::make_unique<ale_correction_t>();
+    size_t k = 0;
+    while (k < keyframes.size()) {
+        add(mapper.get(), keyframes, k, k + 1);
+        k++;
+        if (ale_mapper_correction(mapper.get(), correction.get()) && correction->joins) {
+            break;
+        }
+        ASSERT_FALSE(ale_mapper_correction(mapper.get(), correction.get()));
+    }
+    ASSERT_LT(k + 1, keyframes.size());
+    EXPECT_FALSE(ale_mapper_correction(mapper.get(), correction.get())) << "none until it is made";
+    tell_join(keyframes, k, {1, 1, 0, undo(nearby())});
+    for (size_t i = k; i < keyframes.size(); i++) {
+        keyframes[i]->map = tracked[i]->map;
+        keyframes[i]->map_id = 0;
+        keyframes[i]->corrections = i > k ? 1 : 0; // the void one counts
+    }
+    add(mapper.get(), keyframes, k, keyframes.size());
+    EXPECT_EQ(ale_mapper_statistics(mapper.get()).maps, 1U);
+    EXPECT_EQ(ale_mapper_statistics(mapper.get()).joins, 1U);
+    for (size_t i = 0; i < keyframes.size(); i++) {
+        EXPECT_LT(error_m(mapper.get(), i, path[i]), 0.15) << i;
+    }
+    EXPECT_FALSE(ale_mapper_correction(mapper.get(), correction.get()) && correction->joins);
+}
+
+} // namespace
