@@ -14,7 +14,7 @@ enum {
     ALE_GRID_POOL = 4,    /* fine cells a side of a coarse one */
     ALE_GRID_COARSE = ALE_GRID_CELLS / ALE_GRID_POOL,
     ALE_GRID_SURFACE = 2, /* a surface is in this cell; beside it is half of that */
-    ALE_GRID_WORK = 65536 /* cells that are marked, at most */
+    ALE_GRID_WORK = 16384 /* cells that are marked, at most */
 };
 
 typedef struct {

@@ -32,46 +32,50 @@ static void sample(ale_pose_vote_t *vote, const ale_observation_t observation[],
     }
 }
 
-/* The points at a heading, from the grid's corner, in cells of `cell_um` moved to the region's first. */
-static void turn(ale_pose_vote_t *vote, ale_pose_t from, int32_t cell_um)
+/* Of the points at a heading, in cells of `cell_um` of a grid that is `side` wide: the cells where they lie
+ * when displaced to the region's first corner, as far as the grid holds them all over the region. */
+static inline void turn(ale_pose_vote_t *vote, ale_pose_t from, int32_t cell_um, int32_t side)
 {
     const ale_viewpoint_t viewpoint = ale_viewpoint(from);
     const int32_t half = ALE_VOTE_SIDE / 2;
+    vote->turned = 0;
     for (uint32_t k = 0; k < vote->points; k++) {
         const ale_point_t p = ale_minus(ale_point_from(vote->point[k], &viewpoint), vote->grid.corner);
-        vote->turned[k] = (ale_point_t){p.x_um >= 0 ? p.x_um / cell_um - half : INT32_MIN,
-                                        p.y_um >= 0 ? p.y_um / cell_um - half : INT32_MIN};
+        const int32_t x = p.x_um / cell_um - half;
+        const int32_t y = p.y_um / cell_um - half;
+        if (x >= 0 && y >= 0 && x <= side - ALE_VOTE_SIDE && y <= side - ALE_VOTE_SIDE) {
+            vote->cell[vote->turned++] = y * side + x;
+        }
     }
 }
 
 _Static_assert(ALE_VOTE_POINTS *ALE_GRID_SURFACE <= UINT8_MAX && ALE_VOTE_SIDE % 8 == 0,
                "eight sums to a word, none of which overflows into the next");
 
-/* Adds a row of cells to a row of sums, eight at a time. */
-static inline void add_row(uint8_t *sum, const uint8_t *row)
+static inline uint64_t load(const uint8_t *cells)
 {
-    for (int32_t u = 0; u < ALE_VOTE_SIDE; u += 8) {
-        uint64_t sums;
-        uint64_t cells;
-        memcpy(&sums, &sum[u], sizeof sums);
-        memcpy(&cells, &row[u], sizeof cells);
-        sums += cells;
-        memcpy(&sum[u], &sums, sizeof sums);
-    }
+    uint64_t word;
+    memcpy(&word, cells, sizeof word);
+    return word;
 }
 
-/* Adds, for every displacement of the region in cells, what the cells of the displaced points hold. */
-static void add_up(ale_pose_vote_t *vote, const uint8_t *cells, int32_t side)
+/* Adds, for every displacement of the region in cells, what the cells of the displaced points hold: eight
+ * columns and four rows at a time. */
+static inline void add_up(ale_pose_vote_t *vote, const uint8_t *cells, int32_t side)
 {
-    memset(vote->sum, 0, sizeof vote->sum);
-    for (uint32_t k = 0; k < vote->points; k++) {
-        const int32_t x = vote->turned[k].x_um;
-        const int32_t y = vote->turned[k].y_um;
-        if (x < 0 || y < 0 || x > side - ALE_VOTE_SIDE || y > side - ALE_VOTE_SIDE) {
-            continue;
-        }
-        for (int32_t v = 0; v < ALE_VOTE_SIDE; v++) {
-            add_row(vote->sum[v], &cells[(y + v) * side + x]);
+    for (int32_t v = 0; v < ALE_VOTE_SIDE; v += 4) {
+        for (int32_t u = 0; u < ALE_VOTE_SIDE; u += 8) {
+            uint64_t sum[4] = {0};
+            for (uint32_t k = 0; k < vote->turned; k++) {
+                const uint8_t *at = &cells[vote->cell[k] + v * side + u];
+                sum[0] += load(at);
+                sum[1] += load(at + side);
+                sum[2] += load(at + 2 * side);
+                sum[3] += load(at + 3 * side);
+            }
+            for (int32_t n = 0; n < 4; n++) {
+                memcpy(&vote->sum[v + n][u], &sum[n], sizeof sum[n]);
+            }
         }
     }
 }
@@ -132,7 +136,7 @@ static void search_coarsely(ale_pose_vote_t *vote, const ale_vote_region_t *regi
     for (int32_t h = -most; h < most + (most < ALE_VOTE_HEADINGS / 2); h++) {
         const ale_pose_t from = {region->centre.x_um, region->centre.y_um,
                                  region->centre.theta_bam + (uint32_t)(h * COARSE_STEP_BAM)};
-        turn(vote, from, COARSE_UM);
+        turn(vote, from, COARSE_UM, ALE_GRID_COARSE);
         add_up(vote, &vote->grid.coarse[0][0], ALE_GRID_COARSE);
         enter_best(vote, from, region->reach_um);
     }
@@ -146,7 +150,7 @@ static ale_voted_pose_t finely(ale_pose_vote_t *vote, ale_pose_t coarse)
     for (int32_t h = -FINE_HEADINGS; h <= FINE_HEADINGS; h++) {
         const ale_pose_t from = {coarse.x_um, coarse.y_um,
                                  coarse.theta_bam + (uint32_t)(h * (COARSE_STEP_BAM / FINE_HEADINGS))};
-        turn(vote, from, ALE_GRID_CELL_UM);
+        turn(vote, from, ALE_GRID_CELL_UM, ALE_GRID_CELLS);
         add_up(vote, &vote->grid.fine[0][0], ALE_GRID_CELLS);
         for (int32_t v = 0; v < ALE_VOTE_SIDE; v++) {
             for (int32_t u = 0; u < ALE_VOTE_SIDE; u++) {

@@ -38,8 +38,9 @@ typedef struct {
 typedef struct {
     ale_likelihood_grid_t grid;
     ale_point_t point[ALE_VOTE_POINTS]; /* of the scan, robot's frame */
-    ale_point_t turned[ALE_VOTE_POINTS];
     uint32_t points;
+    int32_t cell[ALE_VOTE_POINTS]; /* of the points at a heading */
+    uint32_t turned;
     uint8_t sum[ALE_VOTE_SIDE][ALE_VOTE_SIDE]; /* ALE_VOTE_POINTS * ALE_GRID_SURFACE at most */
     ale_voted_pose_t place[ALE_VOTE_PLACES];   /* distinct, best first */
     uint32_t places;
