@@ -8,15 +8,6 @@ ale_point_t ale_rotate(ale_point_t p, uint32_t angle_bam)
     return ale_turn(p, ale_direction(angle_bam));
 }
 
-ale_point_t ale_turn(ale_point_t p, ale_direction_t direction)
-{
-    const int64_t c = direction.cos_q30;
-    const int64_t s = direction.sin_q30;
-    const ale_point_t r = {(int32_t)ale_round_shift(c * p.x_um - s * p.y_um, 30),
-                           (int32_t)ale_round_shift(s * p.x_um + c * p.y_um, 30)};
-    return r;
-}
-
 ale_point_t ale_pose_apply(ale_pose_t pose, ale_point_t p)
 {
     const ale_point_t r = ale_rotate(p, pose.theta_bam);

@@ -10,6 +10,7 @@
 
 #include <stdint.h>
 
+#include "base/fixed.h"
 #include "base/trig.h"
 
 typedef struct {
@@ -27,7 +28,13 @@ typedef struct {
 ale_point_t ale_rotate(ale_point_t p, uint32_t angle_bam);
 
 /* The same for many points: by the angle whose cosine and sine are given. */
-ale_point_t ale_turn(ale_point_t p, ale_direction_t direction);
+static inline ale_point_t ale_turn(ale_point_t p, ale_direction_t direction)
+{
+    const int64_t c = direction.cos_q30;
+    const int64_t s = direction.sin_q30;
+    return (ale_point_t){(int32_t)ale_round_shift(c * p.x_um - s * p.y_um, 30),
+                         (int32_t)ale_round_shift(s * p.x_um + c * p.y_um, 30)};
+}
 
 /* The point p of the pose's frame, in the frame the pose is given in. */
 ale_point_t ale_pose_apply(ale_pose_t pose, ale_point_t p);

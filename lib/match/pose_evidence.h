@@ -10,8 +10,8 @@
 #include "match/scan_to_map.h"
 #include "observe/posed_scan.h"
 
-/* The walls asked for in one call, at most. */
-enum { ALE_EVIDENCE_WALLS = 384 };
+/* The walls in view that are asked for in one call, at most. */
+enum { ALE_EVIDENCE_WALLS = 192 };
 
 /* Length of surface that speaks for the pose of a fit, less what speaks against it. fit: associated. from:
  * the scan at that pose. O(observations + near walls). */

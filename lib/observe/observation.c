@@ -27,11 +27,6 @@ int64_t ale_along(ale_point_t v, uint32_t direction_bam)
     return component(v, ale_direction(direction_bam));
 }
 
-ale_point_t ale_point_from(ale_point_t p, const ale_viewpoint_t *viewpoint)
-{
-    return ale_plus(ale_turn(p, viewpoint->turn), (ale_point_t){viewpoint->pose.x_um, viewpoint->pose.y_um});
-}
-
 ale_observation_t ale_observation_from(const ale_observation_t *observation, const ale_viewpoint_t *viewpoint)
 {
     ale_observation_t moved = *observation;

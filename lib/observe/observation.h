@@ -75,8 +75,21 @@ static inline ale_viewpoint_t ale_viewpoint(ale_pose_t pose)
     return (ale_viewpoint_t){pose, ale_direction(pose.theta_bam)};
 }
 
+static inline ale_point_t ale_minus(ale_point_t a, ale_point_t b)
+{
+    return (ale_point_t){a.x_um - b.x_um, a.y_um - b.y_um};
+}
+
+static inline ale_point_t ale_plus(ale_point_t a, ale_point_t b)
+{
+    return (ale_point_t){a.x_um + b.x_um, a.y_um + b.y_um};
+}
+
 /* A point and an observation of the viewpoint's frame in the frame that its pose is given in. */
-ale_point_t ale_point_from(ale_point_t p, const ale_viewpoint_t *viewpoint);
+static inline ale_point_t ale_point_from(ale_point_t p, const ale_viewpoint_t *viewpoint)
+{
+    return ale_plus(ale_turn(p, viewpoint->turn), (ale_point_t){viewpoint->pose.x_um, viewpoint->pose.y_um});
+}
 ale_observation_t ale_observation_from(const ale_observation_t *observation,
                                        const ale_viewpoint_t *viewpoint);
 
@@ -91,15 +104,5 @@ ale_point_t ale_polar(int64_t length_um, uint32_t direction_bam);
 
 /* Component of a vector along a direction, um. */
 int64_t ale_along(ale_point_t v, uint32_t direction_bam);
-
-static inline ale_point_t ale_minus(ale_point_t a, ale_point_t b)
-{
-    return (ale_point_t){a.x_um - b.x_um, a.y_um - b.y_um};
-}
-
-static inline ale_point_t ale_plus(ale_point_t a, ale_point_t b)
-{
-    return (ale_point_t){a.x_um + b.x_um, a.y_um + b.y_um};
-}
 
 #endif

@@ -454,6 +454,7 @@ void search(Parts &parts, Random &random, Lost &lost)
         for (const Known known : {Known::claimed, Known::nothing, Known::place}) {
             ale_pipeline_t *p = lost(views);
             own_map(p);
+            p->voted = false;
             p->claims = known == Known::claimed ? 2 : 0;
             places(&p->relocation, p, random, known);
             const ale_prediction_t prediction = lost.prediction(any_motion(random));
