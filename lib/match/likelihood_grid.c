@@ -103,9 +103,9 @@ static void spread(ale_likelihood_grid_t *grid)
     uint8_t column[ALIKE + ALE_GRID_CELLS + ALIKE] = {0}; /* a surface above, below or in the cell */
     for (int32_t y = 1; y < ALE_GRID_CELLS - 1; y++) {
         for (int32_t x = 0; x < ALE_GRID_CELLS; x += ALIKE) {
-            store(&column[ALIKE + x], (load(&grid->fine[y - 1][x]) | load(&grid->fine[y][x]) |
-                                       load(&grid->fine[y + 1][x])) &
-                                          surfaces);
+            store(&column[ALIKE + x],
+                  (load(&grid->fine[y - 1][x]) | load(&grid->fine[y][x]) | load(&grid->fine[y + 1][x])) &
+                      surfaces);
         }
         for (int32_t x = 0; x < ALE_GRID_CELLS; x += ALIKE) {
             const uint8_t *at = &column[ALIKE + x];

@@ -74,7 +74,7 @@ static inline void add_up(ale_pose_vote_t *vote, const uint8_t *cells, int32_t s
                 sum[3] += load(at + 3 * side);
             }
             for (int32_t n = 0; n < 4; n++) {
-                memcpy(&vote->sum[v + n][u], &sum[n], sizeof sum[n]);
+                memcpy(&vote->sum[(v + n) * ALE_VOTE_SIDE + u], &sum[n], sizeof sum[n]);
             }
         }
     }
@@ -106,24 +106,39 @@ static void enter(ale_pose_vote_t *vote, const ale_voted_pose_t *place)
     vote->place[at] = *place;
 }
 
-static int32_t score_q8(const ale_pose_vote_t *vote, int32_t sum)
+/* What a sum is the most of. */
+static int32_t whole(const ale_pose_vote_t *vote)
 {
-    return sum * 256 / (ALE_GRID_SURFACE * (int32_t)vote->points);
+    return ALE_GRID_SURFACE * (int32_t)vote->points;
 }
 
-/* Sums of a heading that are worth entering. */
-static void enter_best(ale_pose_vote_t *vote, ale_pose_t from, int32_t reach_um)
+/* The sums of the cells are compared, and but those that are worth it are made places. */
+static ale_voted_pose_t place_at(const ale_pose_vote_t *vote, ale_pose_t from, uint32_t cell, int32_t cell_um)
 {
     const int32_t half = ALE_VOTE_SIDE / 2;
-    const int32_t least_q8 = vote->places == ALE_VOTE_PLACES ? vote->place[ALE_VOTE_PLACES - 1].score_q8 : 0;
-    for (int32_t v = 0; v < ALE_VOTE_SIDE; v++) {
-        for (int32_t u = 0; u < ALE_VOTE_SIDE; u++) {
-            const int32_t x_um = (u - half) * COARSE_UM;
-            const int32_t y_um = (v - half) * COARSE_UM;
-            if (score_q8(vote, vote->sum[v][u]) > least_q8 && ale_abs64(x_um) <= reach_um + COARSE_UM / 2 &&
-                ale_abs64(y_um) <= reach_um + COARSE_UM / 2) {
-                enter(vote, &(ale_voted_pose_t){{from.x_um + x_um, from.y_um + y_um, from.theta_bam},
-                                                score_q8(vote, vote->sum[v][u])});
+    const int32_t u = (int32_t)(cell % ALE_VOTE_SIDE) - half;
+    const int32_t v = (int32_t)(cell / ALE_VOTE_SIDE) - half;
+    return (ale_voted_pose_t){{from.x_um + u * cell_um, from.y_um + v * cell_um, from.theta_bam},
+                              vote->sum[cell] * 256 / whole(vote)};
+}
+
+static bool is_in_reach(ale_pose_t from, ale_pose_t pose, int32_t reach_um)
+{
+    return ale_abs64((int64_t)pose.x_um - from.x_um) <= reach_um + COARSE_UM / 2 &&
+           ale_abs64((int64_t)pose.y_um - from.y_um) <= reach_um + COARSE_UM / 2;
+}
+
+/* Cells of a heading that are worth entering. */
+static void enter_best(ale_pose_vote_t *vote, ale_pose_t from, int32_t reach_um)
+{
+    const bool full = vote->places == ALE_VOTE_PLACES;
+    const int32_t least_q8 = full ? vote->place[ALE_VOTE_PLACES - 1].score_q8 : 0;
+    const int32_t too_little = (least_q8 + 1) * whole(vote) / 256; /* hardly more than the least */
+    for (uint32_t cell = 0; cell < ALE_VOTE_CELLS; cell++) {
+        if (vote->sum[cell] >= too_little) {
+            const ale_voted_pose_t place = place_at(vote, from, cell, COARSE_UM);
+            if (place.score_q8 > least_q8 && is_in_reach(from, place.pose, reach_um)) {
+                enter(vote, &place);
             }
         }
     }
@@ -146,22 +161,17 @@ static void search_coarsely(ale_pose_vote_t *vote, const ale_vote_region_t *regi
 static ale_voted_pose_t finely(ale_pose_vote_t *vote, ale_pose_t coarse)
 {
     ale_voted_pose_t best = {coarse, 0};
-    const int32_t half = ALE_VOTE_SIDE / 2;
     for (int32_t h = -FINE_HEADINGS; h <= FINE_HEADINGS; h++) {
         const ale_pose_t from = {coarse.x_um, coarse.y_um,
                                  coarse.theta_bam + (uint32_t)(h * (COARSE_STEP_BAM / FINE_HEADINGS))};
         turn(vote, from, ALE_GRID_CELL_UM, ALE_GRID_CELLS);
         add_up(vote, &vote->grid.fine[0][0], ALE_GRID_CELLS);
-        for (int32_t v = 0; v < ALE_VOTE_SIDE; v++) {
-            for (int32_t u = 0; u < ALE_VOTE_SIDE; u++) {
-                const int32_t score = score_q8(vote, vote->sum[v][u]);
-                if (score > best.score_q8) {
-                    best = (ale_voted_pose_t){{from.x_um + (u - half) * ALE_GRID_CELL_UM,
-                                               from.y_um + (v - half) * ALE_GRID_CELL_UM, from.theta_bam},
-                                              score};
-                }
-            }
+        uint32_t most = 0;
+        for (uint32_t cell = 1; cell < ALE_VOTE_CELLS; cell++) {
+            most = vote->sum[cell] > vote->sum[most] ? cell : most;
         }
+        const ale_voted_pose_t place = place_at(vote, from, most, ALE_GRID_CELL_UM);
+        best = place.score_q8 > best.score_q8 ? place : best;
     }
     return best;
 }

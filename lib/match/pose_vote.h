@@ -15,7 +15,8 @@
 
 enum {
     ALE_VOTE_POINTS = 96,
-    ALE_VOTE_SIDE = 16,     /* coarse cells a side of the region: 6.4 m */
+    ALE_VOTE_SIDE = 16, /* coarse cells a side of the region: 6.4 m */
+    ALE_VOTE_CELLS = ALE_VOTE_SIDE * ALE_VOTE_SIDE,
     ALE_VOTE_HEADINGS = 96, /* of a full turn */
     ALE_VOTE_PLACES = 8,    /* that are looked at finely */
     ALE_VOTE_REACH_UM = ALE_VOTE_SIDE / 2 * ALE_GRID_POOL * ALE_GRID_CELL_UM
@@ -41,8 +42,8 @@ typedef struct {
     uint32_t points;
     int32_t cell[ALE_VOTE_POINTS]; /* of the points at a heading */
     uint32_t turned;
-    uint8_t sum[ALE_VOTE_SIDE][ALE_VOTE_SIDE]; /* ALE_VOTE_POINTS * ALE_GRID_SURFACE at most */
-    ale_voted_pose_t place[ALE_VOTE_PLACES];   /* distinct, best first */
+    uint8_t sum[ALE_VOTE_CELLS];             /* row by row; ALE_VOTE_POINTS * ALE_GRID_SURFACE at most */
+    ale_voted_pose_t place[ALE_VOTE_PLACES]; /* distinct, best first */
     uint32_t places;
 } ale_pose_vote_t;
 
