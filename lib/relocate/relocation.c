@@ -54,6 +54,21 @@ void ale_relocation_clear(ale_relocation_t *relocation)
     relocation->next_wall = 0;
     relocation->scans = 0;
     relocation->known_for = 0;
+    relocation->recognised = false;
+}
+
+void ale_relocation_recognise(ale_relocation_t *relocation, ale_pose_t at)
+{
+    relocation->recognised = true;
+    relocation->at = at;
+}
+
+bool ale_relocation_recognised(ale_relocation_t *relocation, ale_pose_t *at)
+{
+    const bool recognised = relocation->recognised;
+    relocation->recognised = false;
+    *at = relocation->at;
+    return recognised;
 }
 
 static bool is_same(ale_pose_t a, ale_pose_t b)
@@ -338,6 +353,7 @@ void ale_relocation_follow(ale_relocation_t *relocation, ale_pose_t displacement
         ale_trail_clear(&relocation->trail);
     }
     expire_coverage(relocation, displacement);
+    relocation->at = ale_pose_compose(relocation->at, displacement);
     for (uint32_t i = 0; i < relocation->count; i++) {
         relocation->place[i].pose = ale_pose_compose(relocation->place[i].pose, displacement);
     }

@@ -44,10 +44,19 @@ typedef struct {
     uint16_t next_wall; /* to be asked whether it is visible */
     uint32_t scans;     /* of this search */
     uint32_t known_for; /* scans for which the answer has been a place */
+    bool recognised;    /* by the last scan, */
+    ale_pose_t at;      /* there, seen from where the robot is now */
 } ale_relocation_t;
 
 /* Begins a new search. */
 void ale_relocation_clear(ale_relocation_t *relocation);
+
+/* The robot has recognised a place; the next scan is to confirm it. */
+void ale_relocation_recognise(ale_relocation_t *relocation, ale_pose_t at);
+
+/* Where the scan at hand is to confirm that the robot is; false: the last one has recognised nothing. Asked
+ * once. */
+bool ale_relocation_recognised(ale_relocation_t *relocation, ale_pose_t *at);
 
 /* Moves every place by the robot's displacement, in its own frame. counted: the displacement is odometry;
  * without it the scan history is dropped. O(ALE_PLACES). */

@@ -23,11 +23,18 @@ enum {
 
 static const ale_gate_t laid_gate = {100000, 100000, 1000, 0};
 
-/* What is claimed is tried with every other scan, for a while. */
-static bool is_claim_due(ale_pipeline_t *p)
+/* Where a scan searches. */
+typedef enum { ANYWHERE, NEAR, WHERE_SAID } search_t;
+
+/* What is claimed is tried with every other scan, for a while; what somebody has said in turns with what is
+ * around it. */
+static search_t next_search(ale_pipeline_t *p)
 {
     p->claims = (uint16_t)(p->claims > 0 ? p->claims - 1 : 0);
-    return p->claims % 2 == 1;
+    if (p->claims % 2 == 0) {
+        return ANYWHERE;
+    }
+    return p->claim == ALE_CLAIM_SAID && p->claims % 4 == 3 ? WHERE_SAID : NEAR;
 }
 
 /* Whether the robot's own map lies on the selected one when the robot is at this pose of that. Each wall
@@ -59,28 +66,25 @@ static bool is_laid_on(const ale_pipeline_t *p, ale_pose_t there, uint32_t withi
            explained_um * 100 > shown_um * LAID_PERCENT;
 }
 
-static bool is_where_said(ale_pipeline_t *p, ale_fit_t *fit)
+static void fit_at(ale_pipeline_t *p, ale_pose_t pose, ale_fit_t *fit)
 {
     ale_motion_t there = p->motion;
+    there.pose = pose;
     ale_motion_widen(&there, SAID_SIGMA_UM, SAID_SIGMA_URAD);
     ale_pipeline_fit(p, &there, WHOLE_MAP_UM, fit);
-    return ale_tracking_confirms(fit);
 }
 
 /* Near where the robot was last known to be. */
-static bool is_where_claimed(ale_pipeline_t *p, ale_fit_t *fit)
+static bool is_near(ale_pipeline_t *p, ale_fit_t *fit)
 {
-    if (p->claim == ALE_CLAIM_SAID && is_where_said(p, fit)) {
-        return true;
-    }
-    if (p->voted || !ale_recover_in_region(p, p->motion.pose)) {
+    if (!ale_recover_in_region(p, p->motion.pose)) {
         return false;
     }
     *fit = p->best;
     return is_laid_on(p, fit->motion.pose, p->scans + 1);
 }
 
-static bool is_found(ale_pipeline_t *p, ale_fit_t *fit)
+static bool is_anywhere(ale_pipeline_t *p, ale_fit_t *fit)
 {
     const ale_point_t anywhere = {0, 0};
     ale_local_map_approach(&p->map, anywhere, WHOLE_MAP_UM);
@@ -96,13 +100,36 @@ static bool is_found(ale_pipeline_t *p, ale_fit_t *fit)
     return is_laid_on(p, fit->motion.pose, scans) || is_laid_on(p, fit->motion.pose, scans / 2);
 }
 
+/* Whether the robot is where it is said to be, or where the last scan has recognised a place; else the place
+ * is searched, and what is found waits for the next scan. */
+static bool is_found(ale_pipeline_t *p, search_t search, ale_fit_t *fit)
+{
+    ale_pose_t at;
+    if (ale_relocation_recognised(&p->relocation, &at)) {
+        fit_at(p, at, fit);
+        return ale_tracking_accepts(fit);
+    }
+    if (search == WHERE_SAID) {
+        fit_at(p, p->motion.pose, fit);
+        return ale_tracking_confirms(fit);
+    }
+    if (search == NEAR ? is_near(p, fit) : is_anywhere(p, fit)) {
+        ale_relocation_recognise(&p->relocation, fit->motion.pose);
+    }
+    return false;
+}
+
 void ale_step_search(ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
     const bool followed = p->monitor.state != ALE_STATE_LOST && !p->monitor.contradicted;
     ale_relocation_follow(&p->relocation, ale_pose_between(prediction->before.pose, p->motion.pose),
                           followed || prediction->ways.counted);
+    const search_t search = next_search(p);
+    if (p->voted) {
+        return; /* on the robot's own map: that is enough for a scan */
+    }
     ale_local_map_select(&p->map, ALE_FIRST_MAP);
-    const bool found = is_claim_due(p) ? is_where_claimed(p, &p->other) : is_found(p, &p->other);
+    const bool found = is_found(p, search, &p->other);
     ale_local_map_select(&p->map, p->atlas.current);
     if (found) {
         ale_maps_join(p, ALE_FIRST_MAP, &p->other);

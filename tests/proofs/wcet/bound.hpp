@@ -18,12 +18,14 @@ struct BoundPart {
     uint64_t each; /* instructions */
 };
 
-/* What every scan asks for, what tracking adds, and what is added where the robot is not where it should be:
- * one scan may ask for all of it. */
+/* What every scan asks for, what tracking adds, what is added where the robot is not where it should be, and
+ * of what else may be done then the one that is: a scan that is compared with all poses within reach is not
+ * searched for in an older map, and one that joins two maps is not searched for at all. */
 struct Bound {
     std::vector<BoundPart> any_scan;
     std::vector<BoundPart> tracked;
     std::vector<BoundPart> lost;
+    std::vector<BoundPart> one_of;
 };
 
 /* The same parts and counts in every run. */
