@@ -14,7 +14,7 @@ enum {
     ALE_GRID_POOL = 4,    /* fine cells a side of a coarse one */
     ALE_GRID_COARSE = ALE_GRID_CELLS / ALE_GRID_POOL,
     ALE_GRID_SURFACE = 2, /* a surface is in this cell; beside it is half of that */
-    ALE_GRID_WORK = 16384 /* cells that are marked, at most */
+    ALE_GRID_WORK = 16384 /* cells of walls that are marked, at most: 1.2 km */
 };
 
 typedef struct {
@@ -24,7 +24,7 @@ typedef struct {
 } ale_likelihood_grid_t;
 
 /* Draws the walls near and the landmarks of the map that is selected, with `centre` in the middle. Bounded by
- * ALE_GRID_WORK and the capacities of walls and landmarks. */
+ * ALE_GRID_WORK, the grid's cells, and the capacities of walls and landmarks. */
 void ale_likelihood_grid_draw(ale_likelihood_grid_t *grid, const ale_local_map_t *map, ale_point_t centre);
 
 #endif

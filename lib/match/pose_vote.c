@@ -160,9 +160,9 @@ static void enter_best(ale_pose_vote_t *vote, ale_pose_t from, int32_t reach_um)
     const level_t level = coarse_level(vote);
     const bool full = vote->places == ALE_VOTE_PLACES;
     const int32_t least_q8 = full ? vote->place[ALE_VOTE_PLACES - 1].score_q8 : 0;
-    const int32_t too_little = (least_q8 + 1) * whole(vote) / 256; /* hardly more than the least */
+    const int32_t least_sum = (least_q8 + 1) * whole(vote) / 256; /* less cannot exceed it */
     for (int32_t cell = 0; cell < ALE_VOTE_CELLS; cell++) {
-        if (vote->sum[cell] >= too_little) {
+        if (vote->sum[cell] >= least_sum) {
             const ale_voted_pose_t place = place_at(vote, &level, from, cell);
             if (place.score_q8 > least_q8 && is_in_reach(from, place.pose, reach_um)) {
                 enter(vote, &place);

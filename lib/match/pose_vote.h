@@ -3,8 +3,8 @@
  * integers and bounded time: needs neither lines nor a guess, and says how well other places explain the
  * scan.
  *
- * Work: ALE_VOTE_HEADINGS times ALE_VOTE_POINTS rows of ALE_VOTE_SIDE squared cells, and ALE_VOTE_PLACES
- * times a few more. */
+ * Work: ALE_VOTE_HEADINGS times ALE_VOTE_POINTS times ALE_VOTE_CELLS cells, eight at a time; and a quarter of
+ * that for each of nine headings at ALE_VOTE_PLACES places. */
 #ifndef ALE_MATCH_POSE_VOTE_H
 #define ALE_MATCH_POSE_VOTE_H
 

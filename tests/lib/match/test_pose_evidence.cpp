@@ -120,6 +120,19 @@ TEST_F(Evidence, IsBoundedWhateverTheMapHolds)
     EXPECT_LT(all, -most_um * ALE_EVIDENCE_WALLS / 3) << "as many as may be asked";
 }
 
+/* However many there are, they take nothing of what is asked: backs of walls, and what lies beyond all that
+ * is seen. */
+TEST_F(Evidence, WallsThatCannotBeInViewAreNotAsked)
+{
+    for (int k = 0; k < 2 * ALE_EVIDENCE_WALLS; k++) {
+        add(2, 0, 0, 1);
+        add(20, 0, reference::pi, 1);
+    }
+    EXPECT_EQ(evidence(), 0);
+    add(2, 0, reference::pi, 0.4);
+    EXPECT_NEAR(static_cast<double>(evidence()), -800000, 2);
+}
+
 /* The right pose explains more of a scan than any that is clearly elsewhere. */
 TEST(PoseEvidence, TheTruePoseHasMoreThanAnyOther)
 {

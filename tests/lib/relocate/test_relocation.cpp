@@ -56,6 +56,23 @@ std::unique_ptr<ale_map_t> map_of(const std::vector<room::Wall> &walls)
     return map;
 }
 
+TEST(Relocation, APlaceThatIsRecognisedGoesWithTheRobotAndIsAskedForOnce)
+{
+    const auto relocation = std::make_unique<ale_relocation_t>();
+    ale_pose_t at;
+    ale_relocation_clear(relocation.get());
+    EXPECT_FALSE(ale_relocation_recognised(relocation.get(), &at));
+    ale_relocation_recognise(relocation.get(), {1000000, 2000000, ALE_BAM_QUARTER_TURN});
+    ale_relocation_follow(relocation.get(), {300000, 0, 0}, true);
+    ASSERT_TRUE(ale_relocation_recognised(relocation.get(), &at));
+    EXPECT_NEAR(at.x_um, 1000000, 1);
+    EXPECT_NEAR(at.y_um, 2300000, 1);
+    EXPECT_FALSE(ale_relocation_recognised(relocation.get(), &at));
+    ale_relocation_recognise(relocation.get(), at);
+    ale_relocation_clear(relocation.get());
+    EXPECT_FALSE(ale_relocation_recognised(relocation.get(), &at));
+}
+
 TEST(Relocation, TheRobotFindsItselfWhereOnlyOnePlaceFits)
 {
     const auto map = map_of(room::l_shape());
