@@ -99,6 +99,7 @@ void ale_pipeline_reset(ale_pipeline_t *p)
     p->moved_map = (ale_moved_map_t){0, 0, {0, 0, 0}};
     p->scans = 0;
     p->determined = true;
+    p->advantage_um = 0;
     p->started = false;
     p->looked = false;
     p->observed.count = 0;
@@ -150,6 +151,7 @@ static void conclude(ale_pipeline_t *p, const ale_tracked_t *tracked)
     p->fit = tracked->fit;
     p->matched_corners = tracked->matched_corners;
     p->determined = tracked->determined;
+    p->advantage_um = tracked->undecided ? p->advantage_um : 0;
     p->speed_known = tracked->speed_known;
     p->slips = tracked->slips;
     p->kept = tracked->kept;

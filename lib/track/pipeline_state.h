@@ -91,8 +91,9 @@ struct ale_pipeline {
     ale_scan_match_t scan_match;
     ale_fit_t other; /* of the same scan, from another pose */
     ale_pose_vote_t vote;
-    bool voted;     /* on the scan at hand: one vote a scan */
-    ale_fit_t best; /* of the places of the vote */
+    bool voted;           /* on the scan at hand: one vote a scan */
+    ale_fit_t best;       /* of the places of the vote */
+    int64_t advantage_um; /* of other poses over the one that was followed, in undecided scans in a row */
 
     /* monitor */
     ale_tracking_monitor_t monitor;

@@ -7,9 +7,10 @@
 #include "track/step_predict.h"
 
 typedef enum {
-    ALE_SCENE_KNOWN,   /* the map holds a good part of what the scan shows */
-    ALE_SCENE_STRANGE, /* it does not, and the last scan does not contradict */
-    ALE_SCENE_CHANGED  /* the last scan contradicts: the scan is not to be believed */
+    ALE_SCENE_KNOWN,     /* the map holds a good part of what the scan shows */
+    ALE_SCENE_STRANGE,   /* it does not, and the last scan does not contradict */
+    ALE_SCENE_UNDECIDED, /* another pose explains more of it, but not by enough against the prediction */
+    ALE_SCENE_CHANGED    /* the last scan contradicts: the scan is not to be believed */
 } ale_scene_verdict_t;
 
 /* Evaluates the last scan when the map knows little of this one. Writes p->monitor alone. Bounded by the

@@ -18,8 +18,8 @@ enum {
     SAME_UM = 300000,    /* poses nearer than this are one: least squares joins them */
     SAME_BAM = 200 * ALE_BAM_PER_MRAD,
     ANY_HEADING_URAD = 3141592,
-    DENIED_SIGMAS = 5,
-    OUTWEIGHS_PERCENT = 90
+    SIGMA_UM = 100000, /* of surface that the prediction weighs at one sigma, */
+    DENIED_SIGMAS = 5  /* and it weighs no more than at so many */
 };
 
 static const ale_gate_t start_gate = {300000, 200000, 6, 100000};
@@ -152,26 +152,30 @@ static void take(ale_pipeline_t *p, const candidate_t *best, ale_ways_t *ways, a
     ale_register_weigh(&scene, fit);
 }
 
-/* Whether wheels, or velocity, deny that the robot is there: it is farther from where they put it than their
- * errors reach. */
-static bool is_denied(const ale_motion_t *predicted, ale_pose_t pose)
+/* How much surface wheels, or velocity, weigh against a pose: the square of the deviation in sigmas, with a
+ * heavy tail. */
+static int64_t against_um(const ale_motion_t *predicted, ale_pose_t pose)
 {
     const ale_pose_t off = ale_pose_between(predicted->pose, pose);
-    return ale_abs64(off.x_um) > DENIED_SIGMAS * ale_matrix_sigma(&predicted->cov, 0) ||
-           ale_abs64(off.y_um) > DENIED_SIGMAS * ale_matrix_sigma(&predicted->cov, 1) ||
-           ale_abs64(ale_bam_to_nrad((int32_t)off.theta_bam)) / 1000 >
-               DENIED_SIGMAS * ale_matrix_sigma(&predicted->cov, 2);
+    const int64_t apart[ALE_AXES] = {off.x_um, off.y_um, ale_bam_to_nrad((int32_t)off.theta_bam) / 1000};
+    int64_t most_um = 0;
+    for (int i = 0; i < ALE_AXES; i++) {
+        const int64_t sigma = ale_max64(ale_matrix_sigma(&predicted->cov, i), 1);
+        const int64_t sigmas_q8 = ale_min64(ale_abs64(apart[i]) * 256 / sigma, DENIED_SIGMAS * 256);
+        most_um = ale_max64(most_um, SIGMA_UM * sigmas_q8 * sigmas_q8 >> 16);
+    }
+    return most_um;
 }
 
-/* Wheels are right nearly always: against them a pose must explain nearly all, or, beside them, what they
- * explain nearly nothing of. */
-static bool outweighs(const ale_ways_t *ways, bool denied, const ale_fit_t *fit)
+/* By how much more surface, what the prediction weighs against it taken off, a pose explains than another. */
+static int64_t gain_um(const ale_motion_t *predicted, const candidate_t *best, const candidate_t *given)
 {
-    return !ways->counted || denied || fit->matched_um * 100 > fit->shown_um * OUTWEIGHS_PERCENT;
+    return best->evidence_um - against_um(predicted, best->fit->motion.pose) - given->evidence_um +
+           against_um(predicted, given->fit->motion.pose);
 }
 
-ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *prediction,
-                                ale_scene_verdict_t verdict, ale_ways_t *ways, ale_fit_t *fit)
+ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_ways_t *ways,
+                                ale_fit_t *fit)
 {
     const ale_vote_region_t region = region_of(p, prediction);
     const candidate_t given = {fit, evidence_um(p, fit)};
@@ -181,19 +185,22 @@ ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *predi
     p->voted = true;
     ale_pose_vote(&p->vote, &p->map, p->observed.observation, p->observed.count, &region);
     const int64_t rival_um = fit_places(p, &ways->believed, &region, &best);
-    const bool near = is_same(best.fit, fit);
+    const int64_t more_um = gain_um(&ways->believed, &best, &given);
     const bool clear = best.evidence_um > rival_um + MARGIN_UM;
-    const bool refuted = best.evidence_um > given.evidence_um + MARGIN_UM &&
-                         outweighs(ways, near && verdict != ALE_SCENE_KNOWN, best.fit);
+    if (clear && best.evidence_um == given.evidence_um) {
+        return ALE_RECOVER_CONFIRMED;
+    }
     if (!ale_tracking_accepts(best.fit)) {
         return ALE_RECOVER_STAYS;
     }
-    if (!clear && (refuted || !ways->counted)) {
-        return ALE_RECOVER_OPEN;
+    if (!clear) {
+        return more_um > MARGIN_UM || !ways->counted ? ALE_RECOVER_OPEN : ALE_RECOVER_STAYS;
     }
-    if (!clear || (near ? !is_denied(&ways->believed, best.fit->motion.pose) : !refuted)) {
-        return ALE_RECOVER_STAYS;
+    if (more_um + p->advantage_um <= MARGIN_UM) {
+        p->advantage_um += best.evidence_um - given.evidence_um;
+        return best.evidence_um > given.evidence_um + MARGIN_UM ? ALE_RECOVER_UNDECIDED : ALE_RECOVER_STAYS;
     }
+    const bool near = is_same(best.fit, fit);
     take(p, &best, ways, fit);
     return near ? ALE_RECOVER_NEAR : ALE_RECOVER_MOVED;
 }

@@ -6,7 +6,6 @@
 #include <stdbool.h>
 
 #include "track/pipeline_state.h"
-#include "track/step_monitor.h"
 #include "track/step_predict.h"
 
 /* Whether more time than usual has gone since a scan last told where the robot is: what wheels and velocity
@@ -21,15 +20,19 @@ bool ale_recover_may_be_anywhere(const ale_pipeline_t *p, const ale_prediction_t
 bool ale_recover_in_region(ale_pipeline_t *p, ale_pose_t centre);
 
 typedef enum {
-    ALE_RECOVER_STAYS, /* no other pose explains the scan clearly better */
-    ALE_RECOVER_NEAR,  /* one does that the prediction could have led to: *fit is that one, solved */
-    ALE_RECOVER_MOVED, /* one does, and no third one as well: *fit is that one, solved */
-    ALE_RECOVER_OPEN   /* several do */
+    ALE_RECOVER_CONFIRMED, /* none explains as much as *fit does */
+    ALE_RECOVER_STAYS,     /* none explains clearly more */
+    ALE_RECOVER_UNDECIDED, /* one does, but not by as much as the prediction weighs against it */
+    ALE_RECOVER_NEAR,      /* one does, beside *fit, which is that one now, solved */
+    ALE_RECOVER_MOVED,     /* one does, elsewhere: *fit is that one, solved */
+    ALE_RECOVER_OPEN       /* several do */
 } ale_recovery_t;
 
-/* Compares all poses that the robot can have reached. fit: what the prediction has led to, solved. ways: the
- * pose selected, where that is another. Bounded by the vote and four fits. */
-ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *prediction,
-                                ale_scene_verdict_t verdict, ale_ways_t *ways, ale_fit_t *fit);
+/* Compares all poses that the robot can have reached by what they explain of the scan, less what the
+ * prediction weighs against them; scans that leave it undecided add up. fit: what the prediction has led to,
+ * solved. ways: the pose selected, where that is another. Writes p->advantage_um. Bounded by the vote and
+ * four fits. */
+ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_ways_t *ways,
+                                ale_fit_t *fit);
 
 #endif

@@ -46,17 +46,22 @@ static ale_scene_verdict_t lose(ale_pipeline_t *p, ale_claim_t claim)
 static ale_scene_verdict_t recover(ale_pipeline_t *p, const ale_prediction_t *prediction,
                                    ale_scene_verdict_t verdict, ale_ways_t *ways, ale_fit_t *fit)
 {
-    const ale_recovery_t recovery = ale_step_recover(p, prediction, verdict, ways, fit);
+    const ale_recovery_t recovery = ale_step_recover(p, prediction, ways, fit);
     if (recovery == ALE_RECOVER_MOVED) {
         ale_tracking_found(&p->monitor);
     }
-    if (recovery == ALE_RECOVER_MOVED || recovery == ALE_RECOVER_NEAR) {
+    if (recovery == ALE_RECOVER_MOVED || recovery == ALE_RECOVER_NEAR ||
+        (recovery == ALE_RECOVER_CONFIRMED && !ale_tracking_doubts(fit))) {
         p->monitor.contradicted = false;
         return ALE_SCENE_KNOWN;
     }
     const bool unsure = verdict == ALE_SCENE_STRANGE && !ways->counted;
     const bool refuted = verdict == ALE_SCENE_CHANGED || recovery == ALE_RECOVER_OPEN || unsure;
-    return refuted && ale_recover_is_unwatched(p, prediction) ? lose(p, ALE_CLAIM_NEAR) : verdict;
+    if (refuted && ale_recover_is_unwatched(p, prediction)) {
+        return lose(p, ALE_CLAIM_NEAR);
+    }
+    const bool undecided = recovery == ALE_RECOVER_UNDECIDED && verdict != ALE_SCENE_CHANGED;
+    return undecided ? ALE_SCENE_UNDECIDED : verdict;
 }
 
 /* The scan is believed where the prediction has led to, or where else it fits better; after a time in which
@@ -89,7 +94,8 @@ ale_tracked_t ale_step_track(ale_pipeline_t *p, const ale_prediction_t *predicti
     const ale_observability_t observability =
         ale_observability_of(&p->map, p->still.observation, p->still.count, fit);
     ale_update_uncertainty(p, prediction, &ways, &observability, fit);
-    tracked.determined = observability.determined;
+    tracked.undecided = verdict == ALE_SCENE_UNDECIDED;
+    tracked.determined = observability.determined && !tracked.undecided;
     tracked.speed_known = is_speed_known(p, prediction, &observability);
     if (observability.degenerate && tracked.speed_known && !ways.counted) {
         /* chance matches go along with the robot and would stop it; wheels outvote them */

@@ -12,6 +12,7 @@
 typedef struct {
     ale_fit_t fit; /* fit.motion: the pose, as it went into the map */
     uint16_t matched_corners;
+    bool undecided;   /* another pose explains more, but not yet enough */
     bool determined;  /* every direction, by this scan */
     bool speed_known; /* a scan determined it, and the robot has gone on evenly since */
     bool slips;       /* wheels do, the last time that it could be told */

@@ -394,7 +394,7 @@ void recovery(Parts &parts, Random &random, Lost &lost)
         const ale_scene_t scene = {&p->map, p->observed.observation, views, nullptr};
         ale_register_scan(&ways.believed, &scene, &first_gate, fit.get());
         parts.measure("lost: where else it can be", 1,
-                      [&] { ale_step_recover(p, &prediction, ALE_SCENE_CHANGED, &ways, fit.get()); });
+                      [&] { ale_step_recover(p, &prediction, &ways, fit.get()); });
     }
 }
 
