@@ -185,7 +185,7 @@ ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *predi
     p->voted = true;
     ale_pose_vote(&p->vote, &p->map, p->observed.observation, p->observed.count, &region);
     const int64_t rival_um = fit_places(p, &ways->believed, &region, &best);
-    const int64_t more_um = gain_um(&ways->believed, &best, &given);
+    const bool more = best.evidence_um > given.evidence_um + MARGIN_UM;
     const bool clear = best.evidence_um > rival_um + MARGIN_UM;
     if (clear && best.evidence_um == given.evidence_um) {
         return ALE_RECOVER_CONFIRMED;
@@ -194,11 +194,11 @@ ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *predi
         return ALE_RECOVER_STAYS;
     }
     if (!clear) {
-        return more_um > MARGIN_UM || !ways->counted ? ALE_RECOVER_OPEN : ALE_RECOVER_STAYS;
+        return more || !ways->counted ? ALE_RECOVER_OPEN : ALE_RECOVER_STAYS;
     }
-    if (more_um + p->advantage_um <= MARGIN_UM) {
+    if (p->advantage_um + gain_um(&ways->believed, &best, &given) <= MARGIN_UM) {
         p->advantage_um += best.evidence_um - given.evidence_um;
-        return best.evidence_um > given.evidence_um + MARGIN_UM ? ALE_RECOVER_UNDECIDED : ALE_RECOVER_STAYS;
+        return more ? ALE_RECOVER_UNDECIDED : ALE_RECOVER_STAYS;
     }
     const bool near = is_same(best.fit, fit);
     take(p, &best, ways, fit);
