@@ -206,7 +206,7 @@ static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
     advance_smooth(p, &prediction);
     if (p->kept) {
         /* seen from there, however the map pose settles after a correction */
-        ale_filter_set_pose(p, p->motion.stamp_us, p->smooth.pose);
+        ale_filter_set_pose(p, p->smooth.pose);
     }
     ale_stage_end(&p->hook, ALE_STAGE_MAP);
 }

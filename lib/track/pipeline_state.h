@@ -33,7 +33,6 @@
 #include "track/correction.h"
 #include "track/evidence/carried.h"
 #include "track/evidence/elders.h"
-#include "track/evidence/overview.h"
 #include "track/evidence/slip.h"
 #include "track/evidence/witness.h"
 #include "track/evidence/zero_motion.h"
@@ -104,7 +103,6 @@ struct ale_pipeline {
     ale_elders_t elders;
     ale_zero_motion_t zero_motion;
     ale_witness_t witness;
-    ale_overview_t overview; /* in the smooth frame, as the witness */
 
     /* search */
     ale_relocation_t relocation;

@@ -13,7 +13,6 @@ enum {
     REGISTER_URAD = 60000,
     REGISTER_MOST_UM = 1000000,
     REGISTER_MOST_URAD = 450000,
-    STRAIGHT_URAD = 100000, /* that hypotheses part by, and a scan is not bent by the wrong one */
     SLACK_UM = 60000,
     PREFER_PARTS = 5, /* of what two scans show of each other, by which one pose is preferred */
     CHANCE_PARTS = 10 /* less than this part of what is shown, found in the map, may be found by chance */
@@ -36,7 +35,7 @@ void ale_pipeline_fit(ale_pipeline_t *p, const ale_motion_t *predicted, int32_t 
     ale_register_scan(predicted, &scene, &acquire_gate, fit);
 }
 
-/* Where an earlier scan says that this one was taken, and how exactly. */
+/* Where the last scan says that this one was taken, and how exactly. */
 typedef struct {
     bool found;
     ale_pose_t pose;
@@ -44,25 +43,7 @@ typedef struct {
     int64_t sigma_urad;
 } ale_registered_t;
 
-/* An earlier scan: its observations, and where its robot stood in the smooth frame. */
-typedef struct {
-    ale_observations_t observations;
-    ale_pose_t robot;
-} ale_reference_scan_t;
-
-/* The last scan, or a better one shortly before it unless the scans may be bent differently. */
-static ale_reference_scan_t reference_scan(const ale_pipeline_t *p, const ale_apart_t *apart)
-{
-    const ale_witness_t *last = &p->witness;
-    const ale_overview_t *rich = &p->overview;
-    if (apart->turn_urad < STRAIGHT_URAD &&
-        ale_overview_is_richer(rich, last->observation, last->observation_count)) {
-        return (ale_reference_scan_t){{rich->observation, rich->observation_count}, rich->robot};
-    }
-    return (ale_reference_scan_t){{last->observation, last->observation_count}, last->seen.robot};
-}
-
-/* Where an earlier scan says that the robot is, to be fitted from there; where it says nothing, the
+/* Where the last scan says that the robot is, to be fitted from there; where it says nothing, the
  * prediction.
  */
 static ale_registered_t register_to_scan(ale_pipeline_t *p, const ale_prediction_t *prediction)
@@ -77,15 +58,15 @@ static ale_registered_t register_to_scan(ale_pipeline_t *p, const ale_prediction
     const int64_t reach_um = ale_min64(REGISTER_UM + ale_max64(5 * sigma_um, apart.way_um), REGISTER_MOST_UM);
     const int64_t reach_urad =
         ale_min64(REGISTER_URAD + ale_max64(5 * sigma_urad, apart.turn_urad), REGISTER_MOST_URAD);
-    const ale_reference_scan_t reference = reference_scan(p, &apart);
+    const ale_seen_t last = ale_witness_seen(&p->witness);
+    const ale_observations_t then = {last.observation, last.observation_count};
     const ale_observations_t now = {p->observed.observation, p->observed.count};
     ale_pose_t displacement =
-        ale_pose_between(reference.robot, ale_pipeline_smooth_pose(p, before, predicted->pose));
-    if (!ale_match_scans(&p->scan_match, reference.observations, now, (int32_t)reach_um, (int32_t)reach_urad,
-                         &displacement)) {
+        ale_pose_between(last.robot, ale_pipeline_smooth_pose(p, before, predicted->pose));
+    if (!ale_match_scans(&p->scan_match, then, now, (int32_t)reach_um, (int32_t)reach_urad, &displacement)) {
         return (ale_registered_t){.pose = predicted->pose};
     }
-    const ale_pose_t smooth = ale_pose_compose(reference.robot, displacement);
+    const ale_pose_t smooth = ale_pose_compose(last.robot, displacement);
     return (ale_registered_t){
         .found = true,
         .pose = ale_pose_compose(before, ale_pose_between(p->smooth.pose, smooth)),
@@ -112,7 +93,7 @@ static bool is_preferred(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t 
            there.shown_um;
 }
 
-/* What the earlier scan says instead of the prediction. */
+/* What the last scan says instead of the prediction. */
 static ale_motion_t registered_motion(const ale_motion_t *predicted, const ale_registered_t *registered)
 {
     ale_motion_t motion = *predicted;
@@ -136,8 +117,8 @@ static second_start_t second_start(const ale_pipeline_t *p, const ale_prediction
     return preferred ? FROM_LAST_SCAN : FROM_SELECTED;
 }
 
-/* Fits once more: from where an earlier scan says that the robot is or, since wide gates may have caught the
- * wrong walls, with narrow ones. If wheels may have slipped, the earlier scan decides which hypothesis is
+/* Fits once more: from where the last scan says that the robot is or, since wide gates may have caught the
+ * wrong walls, with narrow ones. If wheels may have slipped, the last scan decides which hypothesis is
  * selected; when it says nothing, the map does. */
 static void associate_again(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_ways_t *ways,
                             ale_fit_t *fit)

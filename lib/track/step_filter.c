@@ -27,7 +27,6 @@ ale_seen_t ale_pipeline_seen_from(const ale_pipeline_t *p, ale_pose_t before, al
 void ale_filter_clear(ale_pipeline_t *p)
 {
     ale_witness_clear(&p->witness);
-    ale_overview_clear(&p->overview);
     ale_carried_clear(&p->carried);
     ale_elders_clear(&p->elders);
     ale_zero_motion_clear(&p->zero_motion);
@@ -62,7 +61,6 @@ void ale_filter_attached(ale_pipeline_t *p, ale_pose_t before, ale_fit_t *fit)
 bool ale_filter_keep(ale_pipeline_t *p, ale_pose_t before, const ale_motion_t *found)
 {
     const ale_seen_t now = ale_pipeline_seen_from(p, before, found->pose);
-    ale_overview_keep(&p->overview, &now, found->stamp_us);
     if (p->still.count == 0) {
         return false;
     }
@@ -83,8 +81,7 @@ void ale_filter_newcomers(ale_pipeline_t *p, ale_pose_t before, bool good, ale_f
     }
 }
 
-void ale_filter_set_pose(ale_pipeline_t *p, int64_t stamp_us, ale_pose_t robot)
+void ale_filter_set_pose(ale_pipeline_t *p, ale_pose_t robot)
 {
-    ale_overview_stand(&p->overview, stamp_us, robot);
     ale_witness_stand(&p->witness, robot, ale_pose_compose(robot, p->config.sensor));
 }

@@ -35,6 +35,6 @@ bool ale_filter_keep(ale_pipeline_t *p, ale_pose_t before, const ale_motion_t *f
 void ale_filter_newcomers(ale_pipeline_t *p, ale_pose_t before, bool good, ale_fit_t *fit);
 
 /* The scan that was kept at this stamp was taken from here, in the smooth frame. */
-void ale_filter_set_pose(ale_pipeline_t *p, int64_t stamp_us, ale_pose_t robot);
+void ale_filter_set_pose(ale_pipeline_t *p, ale_pose_t robot);
 
 #endif
