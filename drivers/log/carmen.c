@@ -82,10 +82,34 @@ static bool take_angle(ale_span_t *line, uint32_t *out)
     return ale_text_word(line, &word) && ale_text_angle(word, out);
 }
 
-static bool take_pose(ale_span_t *line, ale_pose_t *out)
+/* A pose as a line states it. */
+typedef struct {
+    ale_pose_t pose;
+    bool is_held; /* false: its numbers are beyond what a pose holds (encoders that speak millimetres) */
+} stated_pose_t;
+
+/* Some programs write a value that they do not have as "nan" or "inf". */
+static bool is_nothing(ale_span_t word)
 {
-    return take_decimal32(line, 6, &out->x_um) && take_decimal32(line, 6, &out->y_um) &&
-           take_angle(line, &out->theta_bam);
+    return ale_text_is(word, "nan") || ale_text_is(word, "-nan") || ale_text_is(word, "inf");
+}
+
+/* Three words that are numbers; false where they are not. */
+static bool take_pose(ale_span_t *line, stated_pose_t *out)
+{
+    ale_span_t word[3];
+    *out = (stated_pose_t){.is_held = true};
+    for (uint32_t i = 0; i < 3; i++) {
+        int64_t value = 0;
+        if (!ale_text_word(line, &word[i]) ||
+            (!is_nothing(word[i]) && !ale_text_decimal(word[i], 6, &value))) {
+            return false;
+        }
+    }
+    out->is_held = ale_text_decimal32(word[0], 6, &out->pose.x_um) &&
+                   ale_text_decimal32(word[1], 6, &out->pose.y_um) &&
+                   ale_text_angle(word[2], &out->pose.theta_bam);
+    return true;
 }
 
 static bool skip_words(ale_span_t *line, int64_t count)
@@ -113,12 +137,6 @@ static bool take_beam_count(ale_log_t *log, ale_span_t *line, uint16_t *beams)
     }
     *beams = (uint16_t)count;
     return true;
-}
-
-/* Some programs write a beam without return as "nan" or "inf". */
-static bool is_nothing(ale_span_t word)
-{
-    return ale_text_is(word, "nan") || ale_text_is(word, "-nan") || ale_text_is(word, "inf");
 }
 
 static bool take_ranges(ale_log_t *log, ale_span_t *line, ale_scan_t *scan)
@@ -157,23 +175,30 @@ static void note_mounting(carmen_t *carmen, ale_pose_t laser, ale_pose_t robot)
                                ale_abs64(ale_bam_diff(mounting.theta_bam, first->theta_bam)) > AGREE_BAM;
 }
 
-/* Poses, then the stamp after `between` words that nobody needs. A line without stamp is a scan at 0. */
+/* Poses, then the stamp after `between` words that nobody needs. A line without stamp is a scan at 0; one
+ * whose odometry no pose holds is a scan without odometry. */
 static bool take_poses_and_stamp(ale_log_t *log, ale_span_t *line, int64_t between, ale_log_record_t *record)
 {
-    ale_pose_t laser;
+    stated_pose_t laser;
+    stated_pose_t robot;
     ale_log_event_t *event = &record->event;
-    if (!take_pose(line, &laser) || !take_pose(line, &event->odometry.pose)) {
+    if (!take_pose(line, &laser) || !take_pose(line, &robot)) {
         ale_log_bad_line(log, "no poses after the ranges");
         return false;
     }
-    note_mounting(log->state, laser, event->odometry.pose);
+    if (!robot.is_held) {
+        ale_log_pose_beyond(log);
+    } else if (laser.is_held) {
+        note_mounting(log->state, laser.pose, robot.pose);
+    }
     int64_t stamp_us = 0;
     if (skip_words(line, between)) {
         (void)take_decimal(line, 6, &stamp_us);
     }
     event->kind = ALE_LOG_SCAN;
     event->stamp_us = event->scan.stamp_us = event->odometry.stamp_us = stamp_us;
-    record->with_odometry = true;
+    event->odometry.pose = robot.pose;
+    record->with_odometry = robot.is_held;
     return true;
 }
 
@@ -239,12 +264,18 @@ static bool take_robot_laser(ale_log_t *log, ale_span_t *line, ale_log_record_t 
 
 static bool take_odometry(ale_log_t *log, ale_span_t *line, ale_log_record_t *record)
 {
+    stated_pose_t robot;
     ale_log_event_t *event = &record->event;
-    if (!take_pose(line, &event->odometry.pose) || !skip_words(line, 3) ||
+    if (!take_pose(line, &robot) || !skip_words(line, 3) ||
         !take_decimal(line, 6, &event->odometry.stamp_us)) {
         ale_log_bad_line(log, "unreadable ODOM line");
         return false;
     }
+    if (!robot.is_held) {
+        ale_log_pose_beyond(log);
+        return false;
+    }
+    event->odometry.pose = robot.pose;
     event->kind = ALE_LOG_ODOMETRY;
     event->stamp_us = event->odometry.stamp_us;
     record->with_odometry = false;

@@ -28,6 +28,14 @@ void ale_log_cut_line(ale_log_t *log, uint32_t count, uint32_t wanted, const cha
     ale_log_bad_line(log, what);
 }
 
+void ale_log_pose_beyond(ale_log_t *log)
+{
+    snprintf(log->last_error, sizeof log->last_error,
+             "%s: line %llu: odometry that no pose holds (farther than 2147 m, or no number)", log->path,
+             (unsigned long long)log->text.line);
+    log->statistics.poses_beyond++;
+}
+
 void ale_log_bad_chunk(ale_log_t *log, const char *what)
 {
     const uint64_t offset = (uint64_t)((const uint8_t *)log->text.at - log->bytes.at);

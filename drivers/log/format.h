@@ -66,6 +66,10 @@ void ale_log_bad_line(ale_log_t *log, const char *what);
 /* The same for a line that holds another number of something than it must. */
 void ale_log_cut_line(ale_log_t *log, uint32_t count, uint32_t wanted, const char *of_what);
 
+/* Counts an odometry pose in the line last taken that is beyond what ale_pose_t holds: the scan beside it is
+ * read without. */
+void ale_log_pose_beyond(ale_log_t *log);
+
 /* Counts a damaged part of a binary log, at about log->text.at, and remembers what it was. */
 void ale_log_bad_chunk(ale_log_t *log, const char *what);
 

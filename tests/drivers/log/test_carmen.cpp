@@ -204,6 +204,40 @@ TEST(Carmen, BadLinesAreCountedAndTheRestIsRead)
     EXPECT_EQ(log.last_error, "memory: line 7: unreadable ODOM line");
 }
 
+TEST(Carmen, AScanWhoseOdometryNoPoseHoldsIsReadWithoutIt)
+{
+    const auto log = read_bytes(flaser(3, "0 0 0 1 2 0.5 1 h 1") + flaser(3, "0 0 0 2147.5 0 0 2 h 1") +
+                                flaser(3, "0 0 0 0 -31234.5 0 3 h 1") + flaser(3, "0 0 0 nan nan nan 4 h 1") +
+                                flaser(3, "0 0 0 2147.25 0 0 5 h 1") + flaser(3, "0 0 0 1 x 0 6 h 1"));
+    const auto scans = log.scans();
+    ASSERT_EQ(scans.size(), 5U);
+    EXPECT_EQ(scans[3].stamp_us, 4000000);
+    const auto odometry = log.odometry();
+    ASSERT_EQ(odometry.size(), 2U);
+    EXPECT_EQ(odometry[1].stamp_us, 5000000);
+    EXPECT_EQ(odometry[1].pose.x_um, 2147250000);
+    EXPECT_EQ(log.statistics.poses_beyond, 3U);
+    EXPECT_EQ(log.statistics.bad_lines, 1U);
+}
+
+TEST(Carmen, ALaserPoseThatIsBeyondStatesNoMountingAndLeavesTheOdometry)
+{
+    const auto log = read_bytes(flaser(3, "5000 0 0 1 2 0.5 1 h 1") + flaser(3, "1.3 2 0 1 2 0 2 h 1"));
+    EXPECT_EQ(log.odometry().size(), 2U);
+    EXPECT_EQ(log.statistics.poses_beyond, 0U);
+    EXPECT_EQ(log.info.sensor.x_um, 300000);
+}
+
+TEST(Carmen, OdomLinesBeyondAPoseAreCountedAndLeftOut)
+{
+    const auto log = read_bytes("ODOM 5000 0 0 0 0 0 1 h 1\nODOM 1 0 0 0 0 0 2 h 1\n" +
+                                flaser(3, "0 0 0 0 0 0 2 h 1") + "ODOM 2 0 0 0 0 0 3 h 1\n");
+    EXPECT_EQ(log.odometry().size(), 3U); // and that of the scan
+    EXPECT_EQ(log.statistics.poses_beyond, 1U);
+    EXPECT_EQ(log.last_error,
+              "memory: line 1: odometry that no pose holds (farther than 2147 m, or no number)");
+}
+
 TEST(Carmen, ScansOfTooManyBeamsAreAnErrorAtTheStartAndCountedLater)
 {
     const std::string large = flaser(1082, "0 0 0 0 0 0 1 h 1");

@@ -96,6 +96,10 @@ void print_summary(const std::string &path, const LogReader &log, const ReplayCo
     print_trouble(counts);
     const unsigned long long bad = statistics.bad_lines + statistics.bad_chunks;
     const unsigned long long too_large = statistics.too_many_beams;
+    if (statistics.poses_beyond > 0) {
+        std::fprintf(stderr, "ale-replay: %llu poses of the odometry left out; last: %s\n",
+                     static_cast<unsigned long long>(statistics.poses_beyond), log.last_error().c_str());
+    }
     if (bad + too_large > 0) {
         std::fprintf(
             stderr,
