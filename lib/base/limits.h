@@ -11,6 +11,9 @@
 #define ALE_MAX_CURVES 32
 #define ALE_MAX_CORNERS ALE_MAX_LINES
 
+/* The next point of a surface is at most so many beams away: those between have no value. */
+#define ALE_MAX_GAP_BEAMS 8
+
 /* Sectors of the scan that are never used (the robot's own body). */
 #define ALE_MAX_BLIND_SECTORS 8
 

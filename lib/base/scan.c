@@ -22,6 +22,20 @@ void ale_scan_mask(ale_scan_t *scan, const ale_sector_t *sectors, uint32_t count
     }
 }
 
+void ale_scan_forgive_missing(ale_scan_t *scan)
+{
+    int32_t last = -ALE_MAX_GAP_BEAMS;
+    for (int32_t k = 0; k < scan->beams; k++) {
+        if (scan->flag[k] != ALE_BEAM_VALID) {
+            continue;
+        }
+        for (int32_t i = last + 1; k - last <= ALE_MAX_GAP_BEAMS && i < k; i++) {
+            scan->flag[i] = scan->flag[i] == ALE_BEAM_NO_RETURN ? ALE_BEAM_UNKNOWN : scan->flag[i];
+        }
+        last = k;
+    }
+}
+
 static ale_beam_flag_t urg_code_meaning(int32_t code)
 {
     switch (code) {

@@ -59,6 +59,24 @@ typedef struct {
  * read during the call alone. O(beams * count). */
 void ale_scan_mask(ale_scan_t *scan, const ale_sector_t *sectors, uint32_t count);
 
+/* Whether fewer than three in four echoes have an echo next to them. In recordings eight in nine have; a
+ * scanner that leaves out beams, or surfaces that swallow them, give such a scan. O(beams); in the header
+ * because the extractor, which asks for every scan, is compiled so that it takes many beams at once. */
+static inline bool ale_scan_is_sparse(const ale_scan_t *scan)
+{
+    int32_t echoes = 0;
+    int32_t with_next = 0;
+    for (int32_t k = 0; k + 1 < scan->beams; k++) {
+        echoes += scan->flag[k] == ALE_BEAM_VALID;
+        with_next += (scan->flag[k] | scan->flag[k + 1]) == ALE_BEAM_VALID;
+    }
+    return 4 * with_next < 3 * echoes;
+}
+
+/* In a sparse scan a missing echo between two others says nothing: flags those of at most
+ * ALE_MAX_GAP_BEAMS - 1 neighbouring NO_RETURN beams as ALE_BEAM_UNKNOWN. O(beams). */
+void ale_scan_forgive_missing(ale_scan_t *scan);
+
 /* The meaning of a range value in mm of the URG-04LX, error codes below 20 included (SCIP 2.0 table for
  * this model): sets range, flag and code of one beam, 0..ALE_MAX_BEAMS-1. Values from 20 on are ranges, as in
  * ale_scan_set_range; negative ones count as code 0. value_mm below 2^31 / 1000. Constant time. */

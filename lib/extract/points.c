@@ -43,6 +43,7 @@ void ale_points_list(ale_points_t *p, const ale_scan_t *scan)
         }
     }
     p->count = (uint16_t)n;
+    p->sparse = ale_scan_is_sparse(scan);
     p->step_nrad = ale_bam_to_nrad((int32_t)ale_abs64(scan->step_bam));
 }
 

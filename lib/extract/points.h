@@ -18,9 +18,6 @@
 /* Nearer than this no scanner measures, and 2^44 / range would not fit. */
 #define ALE_MIN_RANGE_UM 16384
 
-/* Beams without a value that one surface may have. */
-#define ALE_MAX_GAP_BEAMS 8
-
 typedef struct {
     /* Directions of the multiples of half a step, as many as were needed, kept as long as the scanner stays
      * the same. */
@@ -37,6 +34,7 @@ typedef struct {
     int32_t x_q4[ALE_MAX_BEAMS];
     int32_t y_q4[ALE_MAX_BEAMS];
 
+    bool sparse; /* see ale_scan_is_sparse */
     uint16_t gap_count;
     uint16_t
         gap_after[ALE_MAX_BEAMS / ALE_MAX_GAP_BEAMS + 1]; /* points before more missing beams than that */

@@ -29,43 +29,83 @@ typedef struct {
     int64_t sigma_q4; /* um */
 } octave_t;
 
-/* Second difference of 1/r about point i, as a range, um Q4: it times the squared range, in two steps. What
- * is 64 times the range or more is held at that. */
-static inline uint64_t second_difference_q4(const ale_points_t *p, int32_t i, int64_t curvature_q30)
+/* A second difference of 1/r about a point of this range, as a range, um Q4: it times the squared range, in
+ * two steps. What is 64 times the range or more is held at that. */
+static inline uint64_t as_range_q4(int64_t difference_q44, int64_t range_um)
 {
-    const int64_t q = p->inverse_q44[i];
-    const int64_t d =
-        (int64_t)p->inverse_q44[i - 1] + p->inverse_q44[i + 1] - 2 * q + (q * curvature_q30 >> 30);
-    const int64_t range_um = p->range_um[i];
-    const int64_t relative_q30 = ale_min64((ale_abs64(d) * range_um) >> 14, (int64_t)64 << 30);
+    const int64_t relative_q30 = ale_min64((ale_abs64(difference_q44) * range_um) >> 14, (int64_t)64 << 30);
     return (uint64_t)((relative_q30 * range_um) >> (30 - SIGMA_BITS));
 }
 
-static inline void count_difference(ale_scan_noise_t *noise, const ale_points_t *p, int32_t i,
-                                    int64_t curvature_q30, octave_t *octave)
+static inline void count_difference(ale_scan_noise_t *noise, int64_t difference_q44, int64_t range_um,
+                                    octave_t *octave)
+{
+    const uint32_t k = 31 - OCTAVE_BASE - (uint32_t)__builtin_clz((uint32_t)range_um);
+    noise->histogram[k][ale_histogram_bin(as_range_q4(difference_q44, range_um))]++;
+    octave[k].samples++;
+    octave[k].range_um += range_um;
+}
+
+/* The second difference about point i, where its neighbours are the next beams. */
+static inline void count_next(ale_scan_noise_t *noise, const ale_points_t *p, int32_t i,
+                              int64_t curvature_q30, octave_t *octave)
 {
     if (p->beam[i + 1] - p->beam[i - 1] == 2) {
-        const uint32_t k = 31 - OCTAVE_BASE - (uint32_t)__builtin_clz((uint32_t)p->range_um[i]);
-        noise->histogram[k][ale_histogram_bin(second_difference_q4(p, i, curvature_q30))]++;
-        octave[k].samples++;
-        octave[k].range_um += p->range_um[i];
+        const int64_t q = p->inverse_q44[i];
+        const int64_t d =
+            (int64_t)p->inverse_q44[i - 1] + p->inverse_q44[i + 1] - 2 * q + (q * curvature_q30 >> 30);
+        count_difference(noise, d, p->range_um[i], octave);
+    }
+}
+
+/* The same over beams without an echo. Neighbours left and right beams away weigh by each other's distance;
+ * the difference then has at most 7 / 6 of the deviation that it has among next beams. */
+static void count_over_gaps(ale_scan_noise_t *noise, const ale_points_t *p, int32_t i, int64_t curvature_q30,
+                            octave_t *octave)
+{
+    const int64_t left = p->beam[i] - p->beam[i - 1];
+    const int64_t right = p->beam[i + 1] - p->beam[i];
+    if (left <= ALE_MAX_GAP_BEAMS && right <= ALE_MAX_GAP_BEAMS) {
+        const int64_t q = p->inverse_q44[i];
+        const int64_t neighbours = right * p->inverse_q44[i - 1] + left * p->inverse_q44[i + 1];
+        const int64_t d = 2 * neighbours / (left + right) - 2 * q + (q * left * right * curvature_q30 >> 30);
+        count_difference(noise, d, p->range_um[i], octave);
     }
 }
 
 /* Every STRIDE-th difference, from both ends to the middle: neighbouring ones share two of three points. */
+static void collect_next(ale_scan_noise_t *noise, const ale_points_t *p, int64_t curvature_q30,
+                         octave_t octave[OCTAVES])
+{
+    int32_t i = 1;
+    int32_t j = p->count - 2;
+    for (; i < j; i += DIFFERENCE_STRIDE, j -= DIFFERENCE_STRIDE) {
+        count_next(noise, p, i, curvature_q30, octave);
+        count_next(noise, p, j, curvature_q30, octave);
+    }
+    if (i == j) {
+        count_next(noise, p, i, curvature_q30, octave);
+    }
+}
+
+static void collect_over_gaps(ale_scan_noise_t *noise, const ale_points_t *p, int64_t curvature_q30,
+                              octave_t octave[OCTAVES])
+{
+    for (int32_t i = 1; i + 1 < p->count; i++) {
+        count_over_gaps(noise, p, i, curvature_q30, octave);
+    }
+}
+
+/* Second differences about every third point; in a sparse scan about all, over the gaps. */
 static int32_t collect(ale_scan_noise_t *noise, const ale_points_t *p, int64_t curvature_q30,
                        octave_t octave[OCTAVES])
 {
     memset(noise->histogram, 0, sizeof noise->histogram);
     memset(octave, 0, OCTAVES * sizeof *octave);
-    int32_t i = 1;
-    int32_t j = p->count - 2;
-    for (; i < j; i += DIFFERENCE_STRIDE, j -= DIFFERENCE_STRIDE) {
-        count_difference(noise, p, i, curvature_q30, octave);
-        count_difference(noise, p, j, curvature_q30, octave);
-    }
-    if (i == j) {
-        count_difference(noise, p, i, curvature_q30, octave);
+    if (p->sparse) {
+        collect_over_gaps(noise, p, curvature_q30, octave);
+    } else {
+        collect_next(noise, p, curvature_q30, octave);
     }
     int32_t used = 0;
     for (uint32_t k = 0; k < OCTAVES; k++) {

@@ -82,6 +82,13 @@ static void add_suspects(ale_segments_t *s, const ale_points_t *points, const al
     s->suspect_count = (uint16_t)suspects;
 }
 
+/* In a sparse scan the points lie farther apart: each stands for the beams to the next one. */
+static int32_t beams_looked_at(const ale_points_t *points)
+{
+    return points->sparse && points->count > 0 ? points->beam[points->count - 1] + 1 - points->beam[0]
+                                               : points->count;
+}
+
 void ale_segment_suspect(ale_segments_t *s, const ale_points_t *points, const ale_scan_noise_t *noise)
 {
     int32_t first = 0;
@@ -92,7 +99,7 @@ void ale_segment_suspect(ale_segments_t *s, const ale_points_t *points, const al
         first = points->gap_after[k] + 1;
     }
     add_suspects(s, points, noise, first, points->count - 1);
-    s->unruly = s->suspect_count * 100 > points->count * UNRULY_PERCENT;
+    s->unruly = s->suspect_count * 100 > beams_looked_at(points) * UNRULY_PERCENT;
 }
 
 void ale_segment_cut(ale_segments_t *s, const ale_points_t *points, const ale_scan_noise_t *noise)

@@ -17,6 +17,7 @@ constexpr size_t least_samples = 20;    // of an octave
 constexpr double most_misfit = 16;      // variances that an octave's own one may be
 constexpr double clutter_factor = 2;    // beyond what the model allows beside a better known octave
 constexpr size_t difference_stride = 3; // neighbouring differences share two of three points
+constexpr int widest_gap = 8;           // beams to the next point of a surface
 constexpr double difference_share = 0.75;
 constexpr double counts_per_mm = 16000; // the bins count sixteenths of a micrometre
 constexpr double least_sigma = 0.4;     // mm
@@ -58,14 +59,33 @@ std::vector<size_t> every_third(size_t points)
     return chosen;
 }
 
+// In a sparse scan every point, whatever its neighbours.
+std::vector<size_t> chosen_points(const ScanPoints &points)
+{
+    if (!is_sparse(points)) {
+        return every_third(points.size());
+    }
+    std::vector<size_t> all;
+    for (size_t i = 1; i + 1 < points.size(); i++) {
+        all.push_back(i);
+    }
+    return all;
+}
+
 std::map<int, Octave> octaves_of(const ScanPoints &points, double step)
 {
     std::map<int, Octave> octaves;
-    const double curvature = 2 * (1 - std::cos(step));
-    for (const size_t i : every_third(points.size())) {
-        if (points[i + 1].beam - points[i - 1].beam == 2) {
+    const int reach = is_sparse(points) ? widest_gap : 1;
+    for (const size_t i : chosen_points(points)) {
+        const int left = points[i].beam - points[i - 1].beam;
+        const int right = points[i + 1].beam - points[i].beam;
+        if (std::max(left, right) <= reach) {
+            // 1/range of a wall is a sine of the bearing: the middle one follows from its neighbours
             const double q = 1 / points[i].range;
-            const double d = 1 / points[i - 1].range + 1 / points[i + 1].range - 2 * q + q * curvature;
+            const double from_neighbours =
+                (std::sin(right * step) / points[i - 1].range + std::sin(left * step) / points[i + 1].range) /
+                std::sin((left + right) * step);
+            const double d = 2 * std::cos((left + right) * step / 2) * (from_neighbours - q);
             Octave &octave = octaves[std::ilogb(points[i].range * 1000)];
             octave.difference.push_back(std::fabs(d) / q * points[i].range * counts_per_mm);
             octave.range += points[i].range;

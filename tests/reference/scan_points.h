@@ -2,6 +2,7 @@
 #ifndef ALE_TESTS_REFERENCE_SCAN_POINTS_H
 #define ALE_TESTS_REFERENCE_SCAN_POINTS_H
 
+#include <cstddef>
 #include <vector>
 
 namespace reference
@@ -61,6 +62,16 @@ struct NoiseOfScan {
         return shared_constant + shared_relative * range * range;
     }
 };
+
+// Fewer than three in four points have the next beam for a neighbour.
+inline bool is_sparse(const ScanPoints &points)
+{
+    double neighbours = 0;
+    for (std::size_t i = 1; i < points.size(); i++) {
+        neighbours += points[i].beam - points[i - 1].beam == 1 ? 1 : 0;
+    }
+    return neighbours < 0.75 * static_cast<double>(points.size());
+}
 
 } // namespace reference
 

@@ -31,7 +31,9 @@ int suspects(const ScanPoints &points, const NoiseOfScan &noise)
 
 bool is_unruly(const ScanPoints &points, const NoiseOfScan &noise)
 {
-    return suspects(points, noise) > unruly_share * static_cast<double>(points.size());
+    const double beams =
+        is_sparse(points) ? points.back().beam - points.front().beam + 1 : static_cast<double>(points.size());
+    return suspects(points, noise) > unruly_share * beams;
 }
 
 // The line from the second neighbour to the second neighbour gives the slope; with it taken off, the point is

@@ -33,6 +33,43 @@ TEST(Scan, BeamTimesAreCountedFromTheStampedBeam)
     EXPECT_EQ(ale_scan_beam_offset_us(scan.get(), 681), 70801);
 }
 
+TEST(Scan, IsSparseWhereFewerThanThreeInFourEchoesHaveOneNextToThem)
+{
+    const auto scan = urg();
+    EXPECT_FALSE(ale_scan_is_sparse(urg().get())) << "echoes everywhere";
+    for (int missing = 1; missing <= 3; missing++) { // of eight beams: 6/7, 4/6, 2/5 have a next one
+        for (int k = 0; k < scan->beams; k++) {
+            scan->flag[k] = k % 2 == 1 && k % 8 < 2 * missing ? ALE_BEAM_NO_RETURN : ALE_BEAM_VALID;
+        }
+        EXPECT_EQ(ale_scan_is_sparse(scan.get()), missing > 1) << missing;
+    }
+    for (int k = 0; k < scan->beams; k++) {
+        scan->flag[k] = ALE_BEAM_UNKNOWN;
+    }
+    EXPECT_FALSE(ale_scan_is_sparse(scan.get())) << "no echo at all";
+}
+
+TEST(Scan, AMissingEchoIsForgivenBetweenTwoOthersThatAreNear)
+{
+    const auto scan = urg();
+    for (int k = 0; k < scan->beams; k++) {
+        scan->flag[k] = ALE_BEAM_NO_RETURN;
+    }
+    for (const int k : {10, 12, 20, 29}) {
+        scan->flag[k] = ALE_BEAM_VALID;
+    }
+    scan->flag[15] = ALE_BEAM_BLIND;
+    ale_scan_forgive_missing(scan.get());
+    for (int k = 0; k < scan->beams; k++) {
+        const bool echo = k == 10 || k == 12 || k == 20 || k == 29;
+        const int expected = echo                ? ALE_BEAM_VALID
+                             : k == 15           ? ALE_BEAM_BLIND
+                             : k > 10 && k <= 20 ? ALE_BEAM_UNKNOWN
+                                                 : ALE_BEAM_NO_RETURN;
+        EXPECT_EQ(scan->flag[k], expected) << k;
+    }
+}
+
 TEST(Scan, ABlindSectorMayWrapAndBlindsNothingElse)
 {
     const auto scan = urg();

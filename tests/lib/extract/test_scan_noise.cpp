@@ -5,6 +5,7 @@
 #include "lib/extract/as_reference.h"
 #include "lib/extract/stages.h"
 #include "reference/scan_noise.h"
+#include "reference/stray_points.h"
 
 namespace
 {
@@ -34,6 +35,51 @@ TEST(ScanNoise, OwnNoiseIsThatOfTheTwin)
         close += all_close ? 1 : 0;
     }
     EXPECT_GE(close, scans * 19 / 20);
+}
+
+// Every other beam, or half of them at random, without an echo. Bound: as above.
+TEST(ScanNoise, TheOwnNoiseOfASparseScanIsThatOfTheTwin)
+{
+    scene::extractor extractor;
+    ale_extractor_t *e = extractor.get();
+    const reference::NoiseOfScan prior = scene::noise_of(ale_extract_default_config().noise);
+    for (unsigned k = 0; k < scans; k++) {
+        const auto scan = scene::simulated_scan(k, 6);
+        std::mt19937 engine(k);
+        for (uint16_t beam = 0; beam < scan->beams; beam++) {
+            if (k % 2 == 0 ? beam % 2 == 0 : engine() % 2 == 0) {
+                ale_scan_set_range(scan.get(), beam, 0);
+            }
+        }
+        scene::list_points(e, *scan);
+        const auto points = scene::points_of(*e);
+        const reference::NoiseOfScan twin = reference::own_noise(points, prior, scene::step_of(*scan));
+        for (const double range : {500.0, 1000.0, 2000.0, 4000.0}) {
+            const double sigma = std::sqrt(twin.own(range));
+            EXPECT_NEAR(std::sqrt(scene::noise_of(*e).own(range)), sigma, 0.025 * sigma)
+                << "scan " << k << ", " << range << " mm";
+        }
+        EXPECT_EQ(e->runs.scan.segments.unruly, reference::is_unruly(points, scene::noise_of(*e))) << k;
+    }
+}
+
+// What a missing echo leaves of the noise: rooms of straight walls with 8 mm on every range give it back.
+TEST(ScanNoise, EveryOtherBeamHasTheNoiseOfAllOfThem)
+{
+    scene::extractor extractor;
+    ale_extractor_t *e = extractor.get();
+    double sum = 0;
+    for (unsigned seed = 0; seed < 100; seed++) {
+        std::mt19937 engine(seed);
+        std::normal_distribution<double> gauss;
+        const auto scan = scene::empty_scan();
+        scene::set_ranges(scan.get(), 100, 580, [&](int k) {
+            return k % 2 ? 0 : 1000 / std::cos((k - 340) * scene::urg_step) + 8 * gauss(engine);
+        });
+        scene::list_points(e, *scan);
+        sum += std::sqrt(scene::noise_of(*e).own(1500));
+    }
+    EXPECT_NEAR(sum / 100, 8, 0.5);
 }
 
 // Chance makes the variance of few points a quarter of the true one, while those of the others are right. In
