@@ -6,7 +6,7 @@
 #include "base/trig.h"
 
 enum {
-    SEGMENT_BEAMS = 6,
+    SEGMENT_POINTS = 6,
     GAP_FLOOR_UM = 60000, /* neighbours farther apart than this and than GAP_SPACINGS end a run */
     GAP_SPACINGS = 4,
     POINT_UM = 150000,       /* largest extent of a point feature */
@@ -24,30 +24,39 @@ typedef struct {
     const ale_noise_t *noise;
     ale_segment_workspace_t *memory;
     ale_observation_t *out;
+    int32_t reach;  /* beams from a point to the next one of its surface, at most */
+    int32_t points; /* of memory->beam */
     uint32_t runs;  /* found */
     uint32_t parts; /* short segments and point features that they make */
     uint32_t count; /* of those, written to out */
 } segments_t;
 
-static int64_t spacing_um(const ale_scan_t *scan, int32_t beam)
+static int32_t range_of(const segments_t *p, int32_t point)
 {
-    return ale_abs64((int64_t)scan->step_bam * scan->range_um[beam]) / BAM_PER_RAD;
+    return p->from.scan->range_um[p->memory->beam[point]];
 }
 
-static uint32_t bearing_of(const segments_t *p, int32_t beam)
+/* From beam to beam. */
+static int64_t spacing_um(const segments_t *p, int32_t point)
 {
+    return ale_abs64((int64_t)p->from.scan->step_bam * range_of(p, point)) / BAM_PER_RAD;
+}
+
+static uint32_t bearing_of(const segments_t *p, int32_t point)
+{
+    const int32_t beam = p->memory->beam[point];
     return p->from.bearing_bam ? p->from.bearing_bam[beam] : ale_scan_bearing(p->from.scan, beam);
 }
 
-/* Computed on demand: most beams of a dense scan lie in lines and need no point. */
-static ale_point_t point_of(const segments_t *p, int32_t beam)
+/* Computed on demand: of a run that is not chosen only a few are asked for. */
+static ale_point_t point_of(const segments_t *p, int32_t point)
 {
     ale_segment_workspace_t *memory = p->memory;
-    if (!memory->known[beam]) {
-        memory->point[beam] = ale_polar(p->from.scan->range_um[beam], bearing_of(p, beam));
-        memory->known[beam] = true;
+    if (!memory->known[point]) {
+        memory->point[point] = ale_polar(range_of(p, point), bearing_of(p, point));
+        memory->known[point] = true;
     }
-    return memory->point[beam];
+    return memory->point[point];
 }
 
 static int64_t distance2(ale_point_t a, ale_point_t b)
@@ -107,7 +116,7 @@ static void add(segments_t *p, int32_t first, int32_t last, bool is_point)
     const int32_t middle = (first + last) / 2;
     const uint32_t facing_bam = ale_atan2_bam(-c.mean.y_um, -c.mean.x_um);
     const int64_t length_um = ale_isqrt((uint64_t)distance2(point_of(p, first), point_of(p, last)));
-    const int64_t half_um = length_um / 2 + spacing_um(p->from.scan, middle) / 2;
+    const int64_t half_um = length_um / 2 + spacing_um(p, middle) / 2;
     uint32_t direction_bam;
     const bool straight = !is_point && n >= 3 && length_um > STRAIGHT_UM && direction_of(&c, &direction_bam);
     uint32_t normal_bam = straight ? direction_bam + ALE_BAM_QUARTER_TURN : facing_bam;
@@ -117,33 +126,46 @@ static void add(segments_t *p, int32_t first, int32_t last, bool is_point)
     const int64_t angle_urad = straight ? ANGLE_OWN_URAD : ANGLE_FACING_URAD;
     const int64_t systematic_um = p->noise->surface_um / 2;
     const int64_t round_um = straight ? 0 : ROUNDNESS_UM;
-    const int32_t time_us = ale_scan_beam_offset_us(p->from.scan, middle);
+    const int32_t time_us = ale_scan_beam_offset_us(p->from.scan, p->memory->beam[middle]);
     p->out[p->count++] = (ale_observation_t){
         .centre = ale_pose_apply(p->from.sensor, c.mean),
         .normal_bam = normal_bam + p->from.sensor.theta_bam,
         .start_um = (int32_t)-half_um,
         .end_um = (int32_t)half_um,
-        .var_offset_um2 = ale_noise_own_var_um2(p->noise, p->from.scan->range_um[middle]) / n +
-                          ale_noise_shared_var_um2(p->noise, p->from.scan->range_um[middle]) +
+        .var_offset_um2 = ale_noise_own_var_um2(p->noise, range_of(p, middle)) / n +
+                          ale_noise_shared_var_um2(p->noise, range_of(p, middle)) +
                           systematic_um * systematic_um + round_um * round_um,
         .var_angle_urad2 = angle_urad * angle_urad,
         .start_time_us = time_us,
         .end_time_us = time_us,
-        .first_beam = (uint16_t)first,
-        .last_beam = (uint16_t)last,
+        .first_beam = p->memory->beam[first],
+        .last_beam = p->memory->beam[last],
         .kind = is_point ? ALE_OBSERVATION_POINT : ALE_OBSERVATION_SEGMENT,
     };
 }
 
-/* Whether the beam beside a run met nothing or something clearly farther. */
-static bool is_clear(const segments_t *p, int32_t beam, int32_t range_um)
+/* The next beam with an echo on one side, or the next beam where there is none within reach. */
+static int32_t beam_beside(const segments_t *p, int32_t beam, int32_t side)
 {
-    if (beam < 0 || beam >= p->from.scan->beams) {
+    const ale_scan_t *scan = p->from.scan;
+    for (int32_t k = beam + side; ale_abs64(k - beam) <= p->reach && k >= 0 && k < scan->beams; k += side) {
+        if (scan->flag[k] == ALE_BEAM_VALID) {
+            return k;
+        }
+    }
+    return beam + side;
+}
+
+/* Whether the beam beside a point at the end of a run met nothing or something clearly farther. */
+static bool is_clear(const segments_t *p, int32_t point, int32_t side)
+{
+    const ale_scan_t *scan = p->from.scan;
+    const int32_t beam = beam_beside(p, p->memory->beam[point], side);
+    if (beam < 0 || beam >= scan->beams) {
         return false;
     }
-    const uint8_t flag = p->from.scan->flag[beam];
-    return flag == ALE_BEAM_NO_RETURN ||
-           (flag == ALE_BEAM_VALID && p->from.scan->range_um[beam] > range_um + POINT_CLEAR_UM);
+    return scan->flag[beam] == ALE_BEAM_NO_RETURN ||
+           (scan->flag[beam] == ALE_BEAM_VALID && scan->range_um[beam] > range_of(p, point) + POINT_CLEAR_UM);
 }
 
 /* Stores a run and the number of short segments that it makes. */
@@ -154,9 +176,8 @@ static void store_run(segments_t *p, int32_t first, int32_t last)
         return;
     }
     const bool small = distance2(point_of(p, first), point_of(p, last)) < (int64_t)POINT_UM * POINT_UM;
-    const bool is_point = small && is_clear(p, first - 1, p->from.scan->range_um[first]) &&
-                          is_clear(p, last + 1, p->from.scan->range_um[last]);
-    const int32_t parts = is_point ? 0 : (n + SEGMENT_BEAMS - 1) / SEGMENT_BEAMS;
+    const bool is_point = small && is_clear(p, first, -1) && is_clear(p, last, 1);
+    const int32_t parts = is_point ? 0 : (n + SEGMENT_POINTS - 1) / SEGMENT_POINTS;
     p->memory->surface_run[p->runs++] = (ale_surface_run_t){(uint16_t)first, (uint16_t)last, (uint16_t)parts};
     p->parts += is_point ? 1 : (uint32_t)parts;
 }
@@ -177,19 +198,54 @@ static void cut(segments_t *p, uint32_t room)
     }
 }
 
-/* Whether beam k continues the surface of beam k - 1. The sum of the steps along and across the beam, which
+/* Whether point k continues the surface of point k - 1. The sum of the steps along and across the beam, which
  * is cheap, bounds their distance from above. */
 static bool continues(const segments_t *p, int32_t k)
 {
-    const int64_t range_um = p->from.scan->range_um[k];
-    const int64_t along_um = ale_abs64(range_um - p->from.scan->range_um[k - 1]);
+    if (p->memory->beam[k] - p->memory->beam[k - 1] > p->reach) {
+        return false;
+    }
+    const int64_t range_um = range_of(p, k);
+    const int64_t along_um = ale_abs64(range_um - range_of(p, k - 1));
     const int64_t turn_bam = ale_abs64(ale_bam_diff(bearing_of(p, k), bearing_of(p, k - 1)));
     const int64_t path_um = along_um + turn_bam * range_um / BAM_PER_RAD + ROUNDING_UM;
     if (path_um < GAP_FLOOR_UM) {
         return true;
     }
-    const int64_t gap_um = ale_max64(GAP_FLOOR_UM, GAP_SPACINGS * spacing_um(p->from.scan, k));
+    const int64_t gap_um = ale_max64(GAP_FLOOR_UM, GAP_SPACINGS * spacing_um(p, k));
     return path_um < gap_um || distance2(point_of(p, k - 1), point_of(p, k)) < gap_um * gap_um;
+}
+
+static void end_run(segments_t *p, int32_t *first)
+{
+    if (*first < p->points) {
+        store_run(p, *first, p->points - 1);
+    }
+    *first = p->points;
+}
+
+/* Runs of the beams that have an echo and are in no line. */
+static void find_runs(segments_t *p, const ale_features_t *features)
+{
+    const ale_scan_t *scan = p->from.scan;
+    uint32_t line = 0;
+    int32_t first = 0;
+    for (int32_t k = 0; k < scan->beams; k++) {
+        while (line < features->line_count && features->line[line].last < k) {
+            line++;
+        }
+        if (line < features->line_count && features->line[line].first <= k) {
+            end_run(p, &first);
+        } else if (scan->flag[k] == ALE_BEAM_VALID) {
+            p->memory->beam[p->points] = (uint16_t)k;
+            p->memory->known[p->points] = false;
+            if (first < p->points && !continues(p, p->points)) {
+                end_run(p, &first);
+            }
+            p->points++;
+        }
+    }
+    end_run(p, &first);
 }
 
 uint32_t ale_observe_segments(const ale_features_t *features, const ale_posed_scan_t *from,
@@ -197,25 +253,8 @@ uint32_t ale_observe_segments(const ale_features_t *features, const ale_posed_sc
                               ale_observation_t out[])
 {
     segments_t p = {.from = *from, .noise = noise, .memory = memory, .out = out};
-    const ale_scan_t *scan = from->scan;
-    int32_t begun = -1;
-    uint32_t line = 0;
-    for (int32_t k = 0; k < scan->beams; k++) {
-        while (line < features->line_count && features->line[line].last < k) {
-            line++;
-        }
-        const bool in_line = line < features->line_count && features->line[line].first <= k;
-        const bool free = scan->flag[k] == ALE_BEAM_VALID && !in_line;
-        memory->known[k] = false;
-        if (begun >= 0 && (!free || !continues(&p, k))) {
-            store_run(&p, begun, k - 1);
-            begun = -1;
-        }
-        begun = free && begun < 0 ? k : begun;
-    }
-    if (begun >= 0) {
-        store_run(&p, begun, scan->beams - 1);
-    }
+    p.reach = ale_scan_is_sparse(from->scan) ? ALE_MAX_GAP_BEAMS : 1;
+    find_runs(&p, features);
     cut(&p, room);
     return p.count;
 }

@@ -20,6 +20,9 @@ static void straighten(ale_pipeline_t *p, const ale_scan_t *raw, const int32_t v
     memcpy(o->velocity, velocity, sizeof o->velocity);
     ale_scan_mask(&o->scan, p->config.blind, p->config.blind_count);
     ale_filter_mask(p, &o->scan);
+    if (ale_scan_is_sparse(&o->scan)) {
+        ale_scan_forgive_missing(&o->scan);
+    }
     ale_sensor_velocity(velocity, p->config.sensor, sensor_velocity);
     o->straightened = ale_deskew(&o->scan, sensor_velocity, o->bearing_bam);
 }

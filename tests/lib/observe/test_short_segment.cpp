@@ -118,6 +118,28 @@ TEST_F(ShortSegment, ASmallThingWithNothingNearBesideItIsAPointFeature)
     EXPECT_EQ(count_points(observe()), 0) << "too large";
 }
 
+TEST_F(ShortSegment, ARunGoesOnOverMissingEchoesWhereManyAreMissing)
+{
+    take({{2, -0.2, 2, 0.2}});
+    const size_t of_all = observe().size();
+    const int middle = scan->beams / 2;
+    ale_scan_set_range(scan.get(), static_cast<uint16_t>(middle), 0);
+    for (const ale_observation_t &o : observe()) {
+        EXPECT_TRUE(o.last_beam < middle || o.first_beam > middle) << "one is missing: the run ends";
+    }
+    for (uint16_t k = 0; k < scan->beams; k += 2) {
+        ale_scan_set_range(scan.get(), k, 0);
+    }
+    const auto of_half = observe();
+    EXPECT_EQ(of_half.size(), (of_all + 1) / 2);
+    EXPECT_NEAR(point(of_half.front().first_beam)[1], -0.2, 0.025);
+    EXPECT_NEAR(point(of_half.back().last_beam)[1], 0.2, 0.025);
+    for (const ale_observation_t &o : of_half) {
+        EXPECT_EQ(o.kind, ALE_OBSERVATION_SEGMENT) << "missing echoes beside it make no point of it";
+        EXPECT_NEAR(o.centre.x_um, 2000000, 10);
+    }
+}
+
 TEST_F(ShortSegment, AStepInRangeEndsARunAndSingleBeamsAreLeftOut)
 {
     take({{2, 0, 2, 0.3}, {2.2, -0.3, 2.2, 0}});
