@@ -6,29 +6,36 @@ namespace ale
 namespace
 {
 
-// Beams to each side that give the normal of a point off the lines, and how far apart they may be.
+// Echoes to each side that give the normal of a point off the lines, and how far apart they may be.
 struct Neighbourhood {
-    size_t beams;
+    size_t echoes;
     double gap_m;
 };
 constexpr Neighbourhood close{3, 0.12};
 constexpr Neighbourhood coarse{1, 0.35}; // for sensors with few beams
 
-struct Beams {
-    std::vector<Eigen::Vector2d> p; // sensor's frame
-    std::vector<bool> valid;
+struct Echo {
+    Eigen::Vector2d p; // sensor's frame
+    int beam;
 };
 
-Beams beams_of(const ale_scan_t &scan, const uint32_t *bearing_bam)
+struct Echoes {
+    std::vector<Echo> echo;
+    int reach; // beams from one to the next of the same surface, at most
+};
+
+Echoes echoes_of(const ale_scan_t &scan, const uint32_t *bearing_bam)
 {
-    Beams beams;
+    Echoes echoes{{}, ale_scan_is_sparse(&scan) ? ALE_MAX_GAP_BEAMS : 1};
     for (int k = 0; k < scan.beams; k++) {
-        const uint32_t bearing = bearing_bam ? bearing_bam[k] : ale_scan_bearing(&scan, k);
-        const double range = scan.range_um[k] * 1e-6;
-        beams.p.emplace_back(range * ale_cos_q30(bearing) / one_q30, range * ale_sin_q30(bearing) / one_q30);
-        beams.valid.push_back(scan.flag[k] == ALE_BEAM_VALID && scan.range_um[k] > 0);
+        if (scan.flag[k] == ALE_BEAM_VALID && scan.range_um[k] > 0) {
+            const uint32_t bearing = bearing_bam ? bearing_bam[k] : ale_scan_bearing(&scan, k);
+            const double range = scan.range_um[k] * 1e-6;
+            echoes.echo.push_back(
+                {{range * ale_cos_q30(bearing) / one_q30, range * ale_sin_q30(bearing) / one_q30}, k});
+        }
     }
-    return beams;
+    return echoes;
 }
 
 // The index of the line of each beam, or -1.
@@ -49,18 +56,20 @@ Eigen::Vector2d towards_sensor(const Eigen::Vector2d &normal, const Eigen::Vecto
 }
 
 // Normal of a point off the lines, from the chord of its neighbours; zero if the surface is not continuous.
-Eigen::Vector2d neighbourhood_normal(const Beams &beams, size_t beam, const Neighbourhood &around)
+Eigen::Vector2d neighbourhood_normal(const Echoes &echoes, size_t at, const Neighbourhood &around)
 {
-    if (beam < around.beams || beam + around.beams >= beams.p.size()) {
+    const std::vector<Echo> &echo = echoes.echo;
+    if (at < around.echoes || at + around.echoes >= echo.size()) {
         return {0, 0};
     }
-    for (size_t k = beam - around.beams; k < beam + around.beams; k++) {
-        if (!beams.valid[k] || !beams.valid[k + 1] || (beams.p[k + 1] - beams.p[k]).norm() > around.gap_m) {
+    for (size_t k = at - around.echoes; k < at + around.echoes; k++) {
+        if (echo[k + 1].beam - echo[k].beam > echoes.reach ||
+            (echo[k + 1].p - echo[k].p).norm() > around.gap_m) {
             return {0, 0};
         }
     }
-    const Eigen::Vector2d chord = beams.p[beam + around.beams] - beams.p[beam - around.beams];
-    return towards_sensor(Eigen::Vector2d(-chord.y(), chord.x()).normalized(), beams.p[beam]);
+    const Eigen::Vector2d chord = echo[at + around.echoes].p - echo[at - around.echoes].p;
+    return towards_sensor(Eigen::Vector2d(-chord.y(), chord.x()).normalized(), echo[at].p);
 }
 
 // Foot of the point on the line: free of the beam's own noise.
@@ -95,20 +104,22 @@ struct DeskewedScan {
 template <class Put> void each_point(const DeskewedScan &seen, const Put &put)
 {
     const Eigen::Matrix2d turn = rotation(seen.sensor.theta);
-    const Beams beams = beams_of(seen.scan, seen.bearing_bam);
-    const std::vector<int> line = lines_of(seen.features, beams.p.size());
+    const Echoes echoes = echoes_of(seen.scan, seen.bearing_bam);
+    const std::vector<int> line = lines_of(seen.features, seen.scan.beams);
     Eigen::Vector2d last(1e9, 1e9);
-    for (size_t k = 0; k < beams.p.size(); k++) {
-        if (!beams.valid[k] || (beams.p[k] - last).norm() < node_point_spacing_m) {
+    for (size_t k = 0; k < echoes.echo.size(); k++) {
+        const Echo &echo = echoes.echo[k];
+        if ((echo.p - last).norm() < node_point_spacing_m) {
             continue;
         }
-        last = beams.p[k];
-        const ale_line_t *on = line[k] < 0 ? nullptr : &seen.features.line[line[k]];
-        const Eigen::Vector2d p = on ? on_line(*on, beams.p[k]) : beams.p[k];
-        Eigen::Vector2d normal = on ? line_normal(*on, beams.p[k]) : neighbourhood_normal(beams, k, close);
+        last = echo.p;
+        const int number = line[static_cast<size_t>(echo.beam)];
+        const ale_line_t *on = number < 0 ? nullptr : &seen.features.line[number];
+        const Eigen::Vector2d p = on ? on_line(*on, echo.p) : echo.p;
+        Eigen::Vector2d normal = on ? line_normal(*on, echo.p) : neighbourhood_normal(echoes, k, close);
         const bool is_coarse = normal.isZero();
         if (is_coarse) {
-            normal = neighbourhood_normal(beams, k, coarse);
+            normal = neighbourhood_normal(echoes, k, coarse);
         }
         put(SurfacePoint{apply(seen.sensor, p), turn * normal}, is_coarse);
     }
