@@ -3,6 +3,7 @@ import gzip
 import hashlib
 import json
 import math
+import random
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -144,6 +145,31 @@ def test_the_trajectory_is_the_way_driven(room_log, tmp_path, odometry):
         assert pose["state"] in (0, 1, 2) and {"x", "y", "theta", "map_x", "map_y", "map_theta", "lag_us"} <= set(pose)
         assert pose["map_x"] == live[k][1]
         assert list(pose.items())[-3:] == [("map_id", 0), ("maps", 1), ("wheel_fault", "fine")]
+
+
+def with_echoes(log, told, has_echo):
+    """The log told with beams that have no echo. FLASER n ranges.., ROBOTLASER1 with n behind eight words."""
+    with gzip.open(log, "rt") as lines, open(told, "w") as out:
+        for line in lines:
+            words = line.split()
+            if words[0] in ("FLASER", "ROBOTLASER1"):
+                first = 2 if words[0] == "FLASER" else 9
+                for k in range(int(words[first - 1])):
+                    words[first + k] = words[first + k] if has_echo(k) else "0"
+            out.write(" ".join(words) + "\n")
+
+
+@pytest.mark.parametrize("name", ["tests/digest/apartment.log.gz", "corrected/freiburg-101.clf.gz"])
+@pytest.mark.parametrize("pattern", ["every other", "half at random"])
+def test_half_of_the_echoes_are_enough(name, pattern, tmp_path):
+    log = ROOT / name if name.startswith("tests") else shared("data") / name
+    chance = random.Random(7)
+    with_echoes(log, tmp_path / "half.log", (lambda k: k % 2) if pattern == "every other" else lambda k: chance.random() < 0.5)
+    replay(log, "--trajectory", tmp_path / "all.tum")
+    replay(tmp_path / "half.log", "--trajectory", tmp_path / "half.tum", "--poses", tmp_path / "half.jsonl")
+    apart = [math.dist(a[1:3], b[1:3]) for a, b in zip(read_tum(tmp_path / "all.tum"), read_tum(tmp_path / "half.tum"))]
+    assert math.sqrt(sum(d * d for d in apart) / len(apart)) < 0.3
+    assert all(pose["state"] > 0 for pose in read_json_lines(tmp_path / "half.jsonl"))
 
 
 def test_the_frame_of_the_laser_is_ahead_of_the_robots(room_log, tmp_path):
