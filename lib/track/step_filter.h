@@ -34,7 +34,7 @@ bool ale_filter_keep(ale_pipeline_t *p, ale_pose_t before, const ale_motion_t *f
 /* What has come while the robot stood begins no wall. good: the pose is known. */
 void ale_filter_newcomers(ale_pipeline_t *p, ale_pose_t before, bool good, ale_fit_t *fit);
 
-/* The scan that was kept at this stamp was taken from here, in the smooth frame. */
+/* The scan that is kept was taken from here, in the smooth frame. */
 void ale_filter_set_pose(ale_pipeline_t *p, ale_pose_t robot);
 
 #endif
