@@ -95,6 +95,7 @@ void ale_pipeline_reset(ale_pipeline_t *p)
     p->claim = ALE_CLAIM_NONE;
     p->next_claim = ALE_CLAIM_NEAR;
     p->joined = false;
+    p->waits = false;
     p->begun = 0;
     p->moved_map = (ale_moved_map_t){0, 0, {0, 0, 0}};
     p->scans = 0;
@@ -163,6 +164,8 @@ static void observe(ale_pipeline_t *p, const ale_scan_t *scan, const int32_t vel
     ale_step_observe(p, scan, velocity);
     ale_filter_begin(p);
     p->voted = false;
+    p->waited = p->waits;
+    p->waits = false;
     p->looked = true;
 }
 

@@ -46,6 +46,7 @@ bool ale_pipeline_keyframe(ale_pipeline_t *p, ale_keyframe_t *out)
     out->map_id = ale_atlas_map_id(&p->atlas);
     out->join = p->atlas.join;
     out->broken = p->broken;
+    out->tied_from = out->scan - p->waited;
     out->weak = p->monitor.state != ALE_STATE_GOOD;
     out->sensor = p->config.sensor;
     out->taken = p->still.scan;

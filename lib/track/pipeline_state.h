@@ -96,6 +96,8 @@ struct ale_pipeline {
 
     /* monitor */
     ale_tracking_monitor_t monitor;
+    bool waits;  /* for the next scan to tell where this one was taken */
+    bool waited; /* the scan before did */
 
     /* filter: what moves, and what is kept to tell */
     ale_static_scene_t still;

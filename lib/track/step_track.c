@@ -42,6 +42,14 @@ static ale_scene_verdict_t lose(ale_pipeline_t *p, ale_claim_t claim)
     return ALE_SCENE_CHANGED;
 }
 
+/* Whether the next scan is waited for: wheels may be told of late after a gap. Not where other poses explain
+ * the scan. */
+static bool may_wait(const ale_pipeline_t *p, ale_recovery_t recovery, const ale_ways_t *ways)
+{
+    return p->monitor.contradicted && p->monitor.misfits == 0 && ways->counted &&
+           recovery != ALE_RECOVER_OPEN;
+}
+
 /* What a scan that the prediction does not explain, or that nobody watched, comes to. */
 static ale_scene_verdict_t recover(ale_pipeline_t *p, const ale_prediction_t *prediction,
                                    ale_scene_verdict_t verdict, ale_ways_t *ways, ale_fit_t *fit)
@@ -58,7 +66,8 @@ static ale_scene_verdict_t recover(ale_pipeline_t *p, const ale_prediction_t *pr
     const bool unsure = verdict == ALE_SCENE_STRANGE && !ways->counted;
     const bool refuted = verdict == ALE_SCENE_CHANGED || recovery == ALE_RECOVER_OPEN || unsure;
     if (refuted && ale_recover_is_unwatched(p, prediction)) {
-        return lose(p, ALE_CLAIM_NEAR);
+        p->waits = may_wait(p, recovery, ways);
+        return p->waits ? ALE_SCENE_CHANGED : lose(p, ALE_CLAIM_NEAR);
     }
     const bool undecided = recovery == ALE_RECOVER_UNDECIDED && verdict != ALE_SCENE_CHANGED;
     return undecided ? ALE_SCENE_UNDECIDED : verdict;

@@ -80,7 +80,7 @@ void Loops::after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate)
         return;
     }
     if (keyframe_->broken) {
-        breaks_.push_back(keyframe_->scan);
+        breaks_.push_back(keyframe_->tied_from);
     }
     if (known_) {
         ale_mapper_set_prior_map(mapper_.get(), keyframe_->epoch, known_.get());
