@@ -42,6 +42,13 @@ static ale_scene_verdict_t lose(ale_pipeline_t *p, ale_claim_t claim)
     return ALE_SCENE_CHANGED;
 }
 
+/* Whether *fit explains the scan, and no other pose does as well. */
+static bool explains(ale_recovery_t recovery, const ale_fit_t *fit)
+{
+    return recovery == ALE_RECOVER_MOVED || recovery == ALE_RECOVER_NEAR ||
+           (recovery == ALE_RECOVER_CONFIRMED && !ale_tracking_doubts(fit));
+}
+
 /* Whether the next scan is waited for: wheels may be told of late after a gap. Not where other poses explain
  * the scan. */
 static bool may_wait(const ale_pipeline_t *p, ale_recovery_t recovery, const ale_ways_t *ways)
@@ -58,8 +65,7 @@ static ale_scene_verdict_t recover(ale_pipeline_t *p, const ale_prediction_t *pr
     if (recovery == ALE_RECOVER_MOVED) {
         ale_tracking_found(&p->monitor);
     }
-    if (recovery == ALE_RECOVER_MOVED || recovery == ALE_RECOVER_NEAR ||
-        (recovery == ALE_RECOVER_CONFIRMED && !ale_tracking_doubts(fit))) {
+    if (explains(recovery, fit)) {
         p->monitor.contradicted = false;
         return ALE_SCENE_KNOWN;
     }

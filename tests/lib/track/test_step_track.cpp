@@ -5,6 +5,7 @@
 #include "room_pipeline.h"
 
 extern "C" {
+#include "track/keyframe.h"
 #include "track/pipeline_state.h"
 }
 
@@ -182,6 +183,75 @@ TEST(PipelineTrack, WheelsThatSlideForAMomentDoNotDragTheRobotAlong)
 {
     for (unsigned seed = 1; seed <= 8; seed++) {
         EXPECT_LT(error_after_sliding(seed).head<2>().norm(), 0.03) << "seed " << seed;
+    }
+}
+
+/* The wheels count nothing for a while, then all of it at once. The scan tells how far off the robot is. */
+void drive_with_stalled_wheels(unsigned seed, double stalled_s)
+{
+    const double stalls_s = 4;
+    std::mt19937 rng(seed);
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    room::Sensor sensor;
+    sensor.noise = 0.004;
+    ale_estimate_t e = {};
+    for (int k = 0; k < 80; k++) {
+        const double t = 0.1 * k;
+        const bool stalls = t > stalls_s && t < stalls_s + stalled_s;
+        const ale_odometry_t wheels = {std::llround(t * 1e6),
+                                       convert::pose(room::path(stalls ? stalls_s : t))};
+        ale_pipeline_odometry(p.get(), &wheels);
+        const ale_scan_t scan = room::scan_at(room::l_shape(), sensor, room::path, t, rng);
+        ale_pipeline_scan(p.get(), &scan, &e);
+        const reference::Pose truth = room::since_start(room::path(0), room::path(t));
+        const reference::Pose off = reference::compose(reference::inverse(truth), convert::pose(e.map));
+        if (e.state == ALE_STATE_GOOD) {
+            EXPECT_LT(off.head<2>().norm(), 0.10) << "seed " << seed << " at " << t;
+            EXPECT_LT(std::abs(off[2]), 0.05) << "seed " << seed << " at " << t;
+        }
+    }
+    EXPECT_EQ(e.state, ALE_STATE_GOOD) << "seed " << seed;
+    EXPECT_EQ(e.maps, 1) << "seed " << seed;
+}
+
+TEST(PipelineTrack, WheelsThatStallAndThenTellAllAtOnceNeverHoldAGoodPoseAgainstScans)
+{
+    for (unsigned seed = 1; seed <= 6; seed++) {
+        drive_with_stalled_wheels(seed, 0.5 + 0.25 * seed);
+    }
+}
+
+/* It looks ahead only, and turns in three seconds without scans to what it has not seen; the wheels tell
+ * nothing of that. The first scan may be one that they are late for; the second begins a map, and the first
+ * is tied to it. */
+TEST(PipelineTrack, AfterAGapTheSecondScanThatNothingExplainsBeginsAMap)
+{
+    for (unsigned seed = 1; seed <= 6; seed++) {
+        const uint32_t first_after = 30;
+        const auto keyframe = std::make_unique<ale_keyframe_t>();
+        const room::Pipeline p = room::make(ale_pipeline_default_config());
+        std::mt19937 rng(seed);
+        room::Sensor sensor;
+        sensor.noise = 0.004;
+        for (uint32_t k = 0; k < first_after + 2; k++) {
+            const double t = 0.1 * k + (k >= first_after ? 3 : 0);
+            const auto path = [&](double) { return reference::Pose(1, 0, k < first_after ? 0 : 1.3); };
+            const ale_odometry_t still = {std::llround(t * 1e6), {0, 0, 0}};
+            ale_pipeline_odometry(p.get(), &still);
+            ale_scan_t scan = room::scan_at(room::l_shape(), sensor, path, t, rng);
+            for (int beam = 0; beam < scan.beams; beam++) {
+                const bool ahead = std::abs(beam - scan.beams / 2) < scan.beams / 5;
+                scan.flag[beam] = ahead ? scan.flag[beam] : static_cast<uint8_t>(ALE_BEAM_BLIND);
+            }
+            ale_estimate_t e = {};
+            ale_pipeline_scan(p.get(), &scan, &e);
+            ale_pipeline_keyframe(p.get(), keyframe.get());
+            EXPECT_EQ(e.map_id, k == first_after + 1 ? 1U : 0U) << "seed " << seed << " scan " << k;
+            EXPECT_EQ(e.state == ALE_STATE_GOOD, k < first_after) << "seed " << seed << " scan " << k;
+        }
+        EXPECT_EQ(keyframe->scan, first_after + 1);
+        EXPECT_TRUE(keyframe->broken);
+        EXPECT_EQ(keyframe->tied_from, first_after);
     }
 }
 
