@@ -19,8 +19,11 @@ void ale_timestamp_filter_init(ale_timestamp_filter_t *timestamp_filter)
 
 static void restart(ale_timestamp_filter_t *p, int64_t stamp_us)
 {
-    *p = (ale_timestamp_filter_t){
-        .scans = 1, .stamp_us = stamp_us, .even_us = stamp_us, .usual_us = p->usual_us};
+    *p = (ale_timestamp_filter_t){.scans = 1,
+                                  .stamp_us = stamp_us,
+                                  .even_us = stamp_us,
+                                  .usual_us = p->usual_us,
+                                  .usual_before_us = p->usual_before_us};
 }
 
 /* First scans: the period is their mean distance, the instants are the stamps. */
@@ -49,6 +52,7 @@ static void follow(ale_timestamp_filter_t *p, int64_t stamp_us)
 int64_t ale_timestamp_filter_instant(ale_timestamp_filter_t *timestamp_filter, int64_t stamp_us)
 {
     const int64_t dt_us = stamp_us - timestamp_filter->stamp_us;
+    timestamp_filter->usual_before_us = timestamp_filter->usual_us;
     if (timestamp_filter->scans > 0 && dt_us > 0) {
         const int64_t gap_us = ale_min64(dt_us, STEP_MAX_US);
         timestamp_filter->usual_us +=

@@ -16,8 +16,9 @@ typedef struct {
     int64_t stamp_us; /* of the last scan */
     int64_t even_us;  /* its instant by the loop */
     int64_t period_q8_us;
-    int64_t jitter2_us2; /* mean square of stamp minus loop */
-    int64_t usual_us;    /* mean time between scans, even or not; 0: unknown */
+    int64_t jitter2_us2;     /* mean square of stamp minus loop */
+    int64_t usual_us;        /* mean time between scans, even or not; 0: unknown */
+    int64_t usual_before_us; /* and before the last one came */
 } ale_timestamp_filter_t;
 
 void ale_timestamp_filter_init(ale_timestamp_filter_t *timestamp_filter);

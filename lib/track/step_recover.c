@@ -32,7 +32,8 @@ static int64_t since_watched_us(const ale_pipeline_t *p, const ale_prediction_t 
 bool ale_recover_may_be_anywhere(const ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
     const int64_t t_us = since_watched_us(p, prediction);
-    return t_us > ANYWHERE_US && t_us > ANYWHERE_PERIODS * p->timestamp_filter.usual_us;
+    const int64_t usual_us = p->timestamp_filter.usual_before_us;
+    return t_us > ANYWHERE_US && usual_us > 0 && t_us > ANYWHERE_PERIODS * usual_us;
 }
 
 bool ale_recover_is_unwatched(const ale_pipeline_t *p, const ale_prediction_t *prediction)

@@ -112,3 +112,18 @@ TEST(Pace, ScansStampedAtOnceAreNotBelievedToFollowAtOnce)
     EXPECT_TRUE(ale_timestamp_filter_accepts(&timestamp_filter, 500000));
     EXPECT_TRUE(ale_timestamp_filter_accepts(&timestamp_filter, 5000000));
 }
+
+TEST(Pace, AGapIsJudgedByWhatWasUsualBefore)
+{
+    ale_timestamp_filter_t timestamp_filter;
+    ale_timestamp_filter_init(&timestamp_filter);
+    EXPECT_EQ(timestamp_filter.usual_before_us, 0);
+    for (int k = 0; k < 40; k++) {
+        ale_timestamp_filter_instant(&timestamp_filter, 100000 * (k + 1));
+    }
+    ale_timestamp_filter_instant(&timestamp_filter, 12000000);
+    EXPECT_EQ(timestamp_filter.usual_before_us, 100000);
+    EXPECT_GT(timestamp_filter.usual_us, 200000);
+    ale_timestamp_filter_instant(&timestamp_filter, 12100000);
+    EXPECT_GT(timestamp_filter.usual_before_us, 200000);
+}
