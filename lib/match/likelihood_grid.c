@@ -57,7 +57,7 @@ static void draw_wall(ale_likelihood_grid_t *grid, const ale_wall_t *wall, int32
     const place_t step = {ale_round_shift((int64_t)wall->normal_y_q30 * 3, 32 - CELL_BITS),
                           ale_round_shift((int64_t)wall->normal_x_q30 * -3, 32 - CELL_BITS)};
     const int64_t length_um = (int64_t)wall->end_um - wall->start_um;
-    const int64_t steps = ale_min64((length_um * 4 - 1) / (ALE_GRID_CELL_UM * 3) + 1, *work);
+    const int64_t steps = ale_min64((length_um * 4 - 1) / ((int64_t)ALE_GRID_CELL_UM * 3) + 1, *work);
     *work -= (int32_t)steps;
     for (int64_t k = 0; k < steps; k++) {
         mark(grid, p);
@@ -121,8 +121,10 @@ static void pool(ale_likelihood_grid_t *grid)
         for (int32_t x = 0; x < ALE_GRID_COARSE; x++) {
             uint32_t most = 0;
             for (int32_t v = 0; v < ALE_GRID_POOL; v++) {
+                const uint8_t *fine = grid->fine[y * ALE_GRID_POOL + v];
+                const int32_t first = x * ALE_GRID_POOL;
                 uint32_t row;
-                memcpy(&row, &grid->fine[y * ALE_GRID_POOL + v][x * ALE_GRID_POOL], sizeof row);
+                memcpy(&row, &fine[first], sizeof row);
                 most |= row;
             }
             most |= most >> 16;

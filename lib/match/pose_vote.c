@@ -1,5 +1,6 @@
 #include "match/pose_vote.h"
 
+#include <stddef.h>
 #include <string.h>
 
 #include "base/fixed.h"
@@ -81,16 +82,17 @@ static inline uint64_t load(const uint8_t *cells)
  * columns and four rows at a time. */
 static inline void add_up(ale_pose_vote_t *vote, const level_t *level)
 {
+    const ptrdiff_t side = level->side;
     for (int32_t v = 0; v < level->region; v += 4) {
         for (int32_t u = 0; u < level->region; u += 8) {
-            const uint8_t *first = &level->cells[v * level->side + u];
+            const uint8_t *first = &level->cells[v * side + u];
             uint64_t sum[4] = {0};
             for (uint32_t k = 0; k < vote->turned; k++) {
                 const uint8_t *at = &first[vote->cell[k]];
                 sum[0] += load(at);
-                sum[1] += load(at + level->side);
-                sum[2] += load(at + 2 * level->side);
-                sum[3] += load(at + 3 * level->side);
+                sum[1] += load(at + side);
+                sum[2] += load(at + 2 * side);
+                sum[3] += load(at + 3 * side);
             }
             for (int32_t n = 0; n < 4; n++) {
                 memcpy(&vote->sum[(v + n) * level->region + u], &sum[n], sizeof sum[n]);

@@ -162,7 +162,7 @@ static int64_t against_um(const ale_motion_t *predicted, ale_pose_t pose)
     int64_t most_um = 0;
     for (int i = 0; i < ALE_AXES; i++) {
         const int64_t sigma = ale_max64(ale_matrix_sigma(&predicted->cov, i), 1);
-        const int64_t sigmas_q8 = ale_min64(ale_abs64(apart[i]) * 256 / sigma, DENIED_SIGMAS * 256);
+        const int64_t sigmas_q8 = ale_min64(ale_abs64(apart[i]) * 256 / sigma, (int64_t)DENIED_SIGMAS * 256);
         most_um = ale_max64(most_um, SIGMA_UM * sigmas_q8 * sigmas_q8 >> 16);
     }
     return most_um;
