@@ -91,7 +91,7 @@ void ale_urg_played_place(const ale_urg_played_t *played, const ale_scip_request
     const int64_t middle = 2 * (int64_t)request->first_step + cluster - 1;
     const int64_t bearing_bam = played->origin_bam + ale_round_div(middle * played->step_bam, 2);
     scan->stamp_us = stamp_us;
-    scan->stamp_beam = (int32_t)ale_round_div(2 * (int64_t)played->stamp_step - middle, 2 * cluster);
+    scan->stamp_beam = (int32_t)ale_round_div(2 * (int64_t)played->stamp_step - middle, (int64_t)2 * cluster);
     scan->beam_time_ns = (int32_t)ale_min64((int64_t)played->step_ns * cluster, INT32_MAX);
     scan->first_bearing_bam = (uint32_t)(uint64_t)(sign * bearing_bam);
     scan->step_bam = (int32_t)(uint32_t)(uint64_t)(sign * (int64_t)cluster * played->step_bam);
