@@ -16,7 +16,13 @@
 static const char KEYS_HEAD[] = "ALE-SLAM keys 1";
 static const char SECRET_HEAD[] = "ALE-SLAM operator key 1";
 
-enum { SEED_BYTES = crypto_sign_SEEDBYTES, HEX_BYTES = 2 * SEED_BYTES + 1, LINE_BYTES = 160 };
+enum {
+    SEED_BYTES = crypto_sign_SEEDBYTES,
+    HEX_BYTES = 2 * SEED_BYTES + 1,
+    LINE_BYTES = 160,
+    FILE_MOST = 1 << 16,
+    LIST_RIGHTS = 0644
+};
 
 _Static_assert((int)ALE_PUBLIC_KEY_BYTES == (int)crypto_sign_PUBLICKEYBYTES, "libsodium's sizes");
 _Static_assert((int)ALE_SECRET_KEY_BYTES == (int)crypto_sign_SECRETKEYBYTES, "libsodium's sizes");
@@ -129,27 +135,41 @@ static int parse_keys(const char *path, ale_text_t text, ale_keys_t *keys, char 
     return 0;
 }
 
-/* Whoever has one of the rights in `forbidden` must be the owner. */
-static int check_rights(const char *path, mode_t forbidden, const char *reason, char error[ALE_KEYS_ERROR])
+/* Who may have which file of keys. */
+typedef struct {
+    mode_t forbidden; /* rights that nobody but the owner may have */
+    const char *others_have_it;
+    const char *others_own_it;
+} guard_t;
+
+/* Reads a file that is guarded as it must be. NULL, or what is wrong. */
+static const char *read_guarded(const char *path, const guard_t *guard, ale_bytes_t *bytes)
 {
     struct stat file;
-    if (stat(path, &file) < 0) {
-        return fail(error, path, strerror(errno));
+    const ale_bytes_rule_t rule = {.most = FILE_MOST, .follow_links = true};
+    const char *wrong = ale_bytes_read_regular(bytes, path, &rule, &file);
+    if (wrong) {
+        return wrong;
     }
-    if (S_ISDIR(file.st_mode)) {
-        return fail(error, path, "is a directory");
+    if (file.st_uid != 0 && file.st_uid != geteuid()) {
+        return guard->others_own_it;
     }
-    return (file.st_mode & forbidden) != 0 ? fail(error, path, reason) : 0;
+    return (file.st_mode & guard->forbidden) != 0 ? guard->others_have_it : NULL;
 }
 
 int ale_keys_load(const char *path, ale_keys_t *keys, char error[ALE_KEYS_ERROR])
 {
+    static const guard_t guard = {
+        .forbidden = S_IWGRP | S_IWOTH,
+        .others_have_it = "writable by others than its owner: they could add a key (chmod go-w)",
+        .others_own_it =
+            "belongs to another user, who could add a key: it must be root's or your own (chown)",
+    };
     ale_bytes_t bytes;
-    if (start(error, path) < 0 ||
-        check_rights(path, S_IWOTH, "writable by everybody: anyone could add a key (chmod o-w)", error) < 0) {
+    if (start(error, path) < 0) {
         return -1;
     }
-    const char *wrong = ale_bytes_read_file(&bytes, path);
+    const char *wrong = read_guarded(path, &guard, &bytes);
     ale_keys_t read = {0};
     const int status =
         wrong ? fail(error, path, wrong) : parse_keys(path, ale_text(bytes.at, bytes.count), &read, error);
@@ -174,12 +194,12 @@ int ale_keys_save(const char *path, const ale_keys_t *keys, char error[ALE_KEYS_
             (size_t)snprintf(text + length, sizeof text - length, "%s %s\n", keys->operator_key[k].name, hex);
     }
     ale_whole_file_t file;
-    int status = ale_whole_file_begin(&file, path);
+    int status = ale_whole_file_begin(&file, path, LIST_RIGHTS);
     if (status == 0) {
         fwrite(text, 1, length, file.out);
         status = ale_whole_file_commit(&file);
     }
-    return status < 0 ? fail(error, path, strerror(errno)) : 0;
+    return status < 0 ? fail(error, path, ale_whole_file_words(errno)) : 0;
 }
 
 int ale_secret_key_save(const char *path, const ale_secret_key_t *secret, char error[ALE_KEYS_ERROR])
@@ -222,13 +242,16 @@ static bool parse_secret(ale_text_t text, ale_secret_key_t *secret)
 
 int ale_secret_key_load(const char *path, ale_secret_key_t *secret, char error[ALE_KEYS_ERROR])
 {
+    static const guard_t guard = {
+        .forbidden = S_IRWXG | S_IRWXO,
+        .others_have_it = "readable by others: no longer secret (chmod 600)",
+        .others_own_it = "belongs to another user, who knows it: it must be root's or your own (chown)",
+    };
     ale_bytes_t bytes;
-    if (start(error, path) < 0 ||
-        check_rights(path, S_IRWXG | S_IRWXO, "readable by others: no longer secret (chmod 600)", error) <
-            0) {
+    if (start(error, path) < 0) {
         return -1;
     }
-    const char *wrong = ale_bytes_read_file(&bytes, path);
+    const char *wrong = read_guarded(path, &guard, &bytes);
     ale_secret_key_t read = {0};
     if (!wrong && !parse_secret(ale_text(bytes.at, bytes.count), &read)) {
         wrong = "not an operator's key (ale-keys makes it)";

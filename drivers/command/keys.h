@@ -41,7 +41,8 @@ bool ale_is_name(const char *text);
 int ale_keys_make(const char *name, ale_secret_key_t *secret, ale_public_key_t *public_key);
 
 /* The robot's file. 0, or -1 with one line in error: not there or not readable (the system's words), a
- * directory, writable by everybody (anyone could add himself), no list of keys, a line that is no key, a name
+ * directory or no regular file, of another owner than root or this process, writable by others than its owner
+ * (they could add themselves), above 64 KiB, no list of keys, a line that is no key, a name
  * twice, too many, no memory. Then *keys is untouched. */
 int ale_keys_load(const char *path, ale_keys_t *keys, char error[ALE_KEYS_ERROR]);
 
@@ -53,7 +54,7 @@ int ale_keys_save(const char *path, const ale_keys_t *keys, char error[ALE_KEYS_
  * already, or it cannot be written. */
 int ale_secret_key_save(const char *path, const ale_secret_key_t *secret, char error[ALE_KEYS_ERROR]);
 
-/* 0, or -1 with one line in error: not there or not readable, others may read it, no operator's key, no
+/* 0, or -1 with one line in error: as for the robot's file, and others may read it, no operator's key, no
  * random numbers, no memory. Then *secret is untouched. */
 int ale_secret_key_load(const char *path, ale_secret_key_t *secret, char error[ALE_KEYS_ERROR]);
 

@@ -11,10 +11,18 @@
 
 enum { FIRST_CAPACITY = 1 << 16, GZIP_WINDOW = 15 + 16 };
 
+static const char TOO_LARGE[] = "too large";
+static const char IS_DIRECTORY[] = "is a directory";
+static const char SWELLS[] =
+    "unpacks to more than 256 MiB and a hundred times its size: not believed (unpack it "
+    "first where it is meant so)";
+
 typedef struct {
     uint8_t *at;
     size_t count;
     size_t capacity;
+    size_t most;          /* capacity never exceeds it */
+    const char *too_much; /* what is said then */
 } buffer_t;
 
 static const char *make_room(buffer_t *buffer)
@@ -22,10 +30,11 @@ static const char *make_room(buffer_t *buffer)
     if (buffer->count < buffer->capacity) {
         return NULL;
     }
-    if (buffer->capacity >= ALE_BYTES_MOST) {
-        return "too large";
+    if (buffer->capacity >= buffer->most) {
+        return buffer->too_much;
     }
-    const size_t capacity = buffer->capacity ? 2 * buffer->capacity : FIRST_CAPACITY;
+    const size_t wanted = buffer->capacity ? 2 * buffer->capacity : FIRST_CAPACITY;
+    const size_t capacity = wanted < buffer->most ? wanted : buffer->most;
     uint8_t *grown = realloc(buffer->at, capacity);
     if (!grown) {
         return "not enough memory";
@@ -63,12 +72,26 @@ static const char *read_path(const char *path, buffer_t *buffer)
         return strerror(errno);
     }
     struct stat status;
-    const char *wrong = fstat(file, &status) == 0 && S_ISDIR(status.st_mode) ? "is a directory" : NULL;
+    const char *wrong = fstat(file, &status) == 0 && S_ISDIR(status.st_mode) ? IS_DIRECTORY : NULL;
     if (!wrong) {
         wrong = read_all(file, buffer);
     }
     close(file);
     return wrong;
+}
+
+static const char *check_regular(int file, size_t most, struct stat *status)
+{
+    if (fstat(file, status) < 0) {
+        return strerror(errno);
+    }
+    if (S_ISDIR(status->st_mode)) {
+        return IS_DIRECTORY;
+    }
+    if (!S_ISREG(status->st_mode)) {
+        return "no regular file";
+    }
+    return (uint64_t)status->st_size > most ? TOO_LARGE : NULL;
 }
 
 /* The part of a buffer that a library with 32-bit counts takes in one step. */
@@ -166,13 +189,22 @@ static const char *bunzip2(const uint8_t *bytes, size_t count, buffer_t *out, bo
     return wrong;
 }
 
+static size_t unpacked_most(size_t packed)
+{
+    if (packed >= ALE_BYTES_MOST / ALE_BYTES_RATIO) {
+        return ALE_BYTES_MOST;
+    }
+    const size_t by_ratio = packed * ALE_BYTES_RATIO;
+    return by_ratio > ALE_BYTES_ANY_RATIO ? by_ratio : ALE_BYTES_ANY_RATIO;
+}
+
 const char *ale_bytes_from_memory(ale_bytes_t *out, const uint8_t *bytes, size_t count)
 {
     *out = (ale_bytes_t){.at = bytes, .count = count};
     if (!is_gzip(bytes, count) && !is_bzip2(bytes, count)) {
         return NULL;
     }
-    buffer_t plain = {0};
+    buffer_t plain = {.most = unpacked_most(count), .too_much = SWELLS};
     const char *wrong = is_gzip(bytes, count) ? gunzip(bytes, count, &plain, &out->cut_short)
                                               : bunzip2(bytes, count, &plain, &out->cut_short);
     if (wrong) {
@@ -186,7 +218,7 @@ const char *ale_bytes_from_memory(ale_bytes_t *out, const uint8_t *bytes, size_t
 
 const char *ale_bytes_read_file(ale_bytes_t *out, const char *path)
 {
-    buffer_t raw = {0};
+    buffer_t raw = {.most = ALE_BYTES_MOST, .too_much = TOO_LARGE};
     *out = (ale_bytes_t){0};
     const char *wrong = read_path(path, &raw);
     if (!wrong) {
@@ -198,6 +230,30 @@ const char *ale_bytes_read_file(ale_bytes_t *out, const char *path)
     }
     free(raw.at);
     return wrong;
+}
+
+const char *ale_bytes_read_regular(ale_bytes_t *out, const char *path, const ale_bytes_rule_t *rule,
+                                   struct stat *status)
+{
+    buffer_t raw = {.most = rule->most + 1, .too_much = TOO_LARGE};
+    *out = (ale_bytes_t){0};
+    /* What is opened is looked at before it is read: a pipe without a writer must not hold us up. */
+    const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | (rule->follow_links ? 0 : O_NOFOLLOW));
+    if (file < 0) {
+        return errno == ELOOP && !rule->follow_links ? "a symbolic link, which is not followed"
+                                                     : strerror(errno);
+    }
+    const char *wrong = check_regular(file, rule->most, status);
+    if (!wrong) {
+        wrong = read_all(file, &raw);
+    }
+    close(file);
+    if (wrong) {
+        free(raw.at);
+        return wrong;
+    }
+    *out = (ale_bytes_t){.at = raw.at, .count = raw.count, .owned = raw.at};
+    return NULL;
 }
 
 void ale_bytes_free(ale_bytes_t *bytes)

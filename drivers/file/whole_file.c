@@ -2,37 +2,85 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <stdbool.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-static bool is_device_or_pipe(const char *path)
+/* What the stream writes with: it keeps the first reason, which stdio forgets. */
+static ssize_t write_bytes(void *cookie, const char *bytes, size_t count)
+{
+    ale_whole_file_t *file = cookie;
+    size_t done = 0;
+    while (file->reason == 0 && done < count) {
+        const ssize_t written = write(file->descriptor, bytes + done, count - done);
+        if (written >= 0) {
+            done += (size_t)written;
+        } else if (errno != EINTR) {
+            file->reason = errno;
+        }
+    }
+    return (ssize_t)done;
+}
+
+/* 0 when nothing or a regular file is there, else an errno. */
+static int check_place(const char *path)
 {
     struct stat there;
-    return stat(path, &there) == 0 && !S_ISREG(there.st_mode);
+    if (lstat(path, &there) < 0) {
+        return errno == ENOENT ? 0 : errno;
+    }
+    if (S_ISLNK(there.st_mode)) {
+        return ELOOP;
+    }
+    if (S_ISDIR(there.st_mode)) {
+        return EISDIR;
+    }
+    return S_ISREG(there.st_mode) ? 0 : EINVAL;
 }
 
-static bool is_beside(const ale_whole_file_t *file)
+/* A file of our own in any case: what a power cut has left, or a link that somebody has put there, goes. */
+static int open_beside(const char *beside, unsigned rights)
 {
-    return file->beside[0] != '\0';
+    unlink(beside);
+    return open(beside, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, rights);
 }
 
-int ale_whole_file_begin(ale_whole_file_t *file, const char *path)
+int ale_whole_file_begin(ale_whole_file_t *file, const char *path, unsigned rights)
 {
     file->path = path;
-    if (is_device_or_pipe(path)) {
-        file->beside[0] = '\0';
-        file->out = fopen(path, "wbe");
-        return file->out ? 0 : -1;
-    }
+    file->reason = check_place(path);
     const int length = snprintf(file->beside, sizeof file->beside, "%s.new", path);
-    if (length >= (int)sizeof file->beside) {
-        errno = ENAMETOOLONG;
+    if (file->reason == 0 && length >= (int)sizeof file->beside) {
+        file->reason = ENAMETOOLONG;
+    }
+    if (file->reason != 0) {
+        errno = file->reason;
         return -1;
     }
-    file->out = fopen(file->beside, "wbe");
-    return file->out ? 0 : -1;
+    file->descriptor = open_beside(file->beside, rights);
+    if (file->descriptor < 0) {
+        return -1;
+    }
+    file->out = fopencookie(file, "wb", (cookie_io_functions_t){.write = write_bytes});
+    if (!file->out) {
+        close(file->descriptor);
+        unlink(file->beside);
+        errno = ENOMEM;
+        return -1;
+    }
+    return 0;
+}
+
+const char *ale_whole_file_words(int error)
+{
+    switch (error) {
+    case ELOOP:
+        return "a symbolic link, which is not followed";
+    case EINVAL:
+        return "no regular file";
+    default:
+        return strerror(error);
+    }
 }
 
 /* The renaming itself is on the disk only when the folder is. */
@@ -49,36 +97,31 @@ static void sync_folder(const char *path)
     }
 }
 
-/* Closes the file once its bytes are on the disk. 0, or the errno of the first thing that failed. */
-static int write_out(ale_whole_file_t *file)
+/* Closes the file once its bytes are on the disk. */
+static void write_out(ale_whole_file_t *file)
 {
-    errno = EIO;
-    const bool written =
-        fflush(file->out) == 0 && !ferror(file->out) && (!is_beside(file) || fsync(fileno(file->out)) == 0);
-    const int reason = written ? 0 : errno;
-    return fclose(file->out) == 0 || !written ? reason : errno;
-}
-
-/* Puts the written file in the place of the old one, or removes it. 0, or an errno. */
-static int take_its_place(const ale_whole_file_t *file, int reason)
-{
-    if (reason == 0 && rename(file->beside, file->path) < 0) {
-        reason = errno;
+    if (fclose(file->out) != 0 && file->reason == 0) {
+        file->reason = EIO;
     }
-    if (reason == 0) {
-        sync_folder(file->path);
-    } else {
-        unlink(file->beside);
+    if (fsync(file->descriptor) < 0 && file->reason == 0) {
+        file->reason = errno;
     }
-    return reason;
+    if (close(file->descriptor) < 0 && file->reason == 0) {
+        file->reason = errno;
+    }
 }
 
 int ale_whole_file_commit(ale_whole_file_t *file)
 {
-    int reason = write_out(file);
-    if (is_beside(file)) {
-        reason = take_its_place(file, reason);
+    write_out(file);
+    if (file->reason == 0 && rename(file->beside, file->path) < 0) {
+        file->reason = errno;
     }
-    errno = reason;
-    return reason == 0 ? 0 : -1;
+    if (file->reason == 0) {
+        sync_folder(file->path);
+        return 0;
+    }
+    unlink(file->beside);
+    errno = file->reason;
+    return -1;
 }

@@ -18,7 +18,7 @@ static const char CORNER_LEGEND[] = "# corner: x y var_xx var_xy var_yy angle_ba
 
 static const char POSE_LEGEND[] = "# pose: x y theta_bam\n";
 
-enum { WALL_NUMBERS = 9, CORNER_NUMBERS = 9, POSE_NUMBERS = 3 };
+enum { WALL_NUMBERS = 9, CORNER_NUMBERS = 9, POSE_NUMBERS = 3, RIGHTS = 0640 };
 
 /* What a file holds. */
 typedef struct {
@@ -92,13 +92,14 @@ int ale_map_file_save_with_pose(const char *path, const ale_map_t *map, const al
         return fail(error, path, "not enough memory");
     }
     ale_whole_file_t file;
-    int status = ale_whole_file_begin(&file, path);
+    int status = ale_whole_file_begin(&file, path, RIGHTS);
     if (status == 0) {
         fwrite(text, 1, count, file.out);
         status = ale_whole_file_commit(&file);
     }
+    const int reason = errno; /* free may set another */
     free(text);
-    return status < 0 ? fail(error, path, strerror(errno)) : 0;
+    return status < 0 ? fail(error, path, ale_whole_file_words(reason)) : 0;
 }
 
 /* Takes `count` whole numbers that end the line. */
@@ -237,7 +238,9 @@ int ale_map_file_load_with_pose(const char *path, ale_map_t *map, ale_pose_t *po
                                 char error[ALE_MAP_FILE_ERROR])
 {
     ale_bytes_t bytes;
-    const char *wrong = ale_bytes_read_file(&bytes, path);
+    struct stat status;
+    const char *wrong =
+        ale_bytes_read_regular(&bytes, path, &(ale_bytes_rule_t){.most = ALE_MAP_FILE_MOST}, &status);
     content_t *loaded = wrong ? NULL : calloc(1, sizeof *loaded);
     uint64_t line_number = 0;
     if (loaded) {

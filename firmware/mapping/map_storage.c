@@ -11,7 +11,7 @@
 #include "system/background.h"
 
 #define LOOK_NS 1000000000
-enum { FOLDER_RIGHTS = 0755, PATH_BYTES = ALE_CONFIG_PATH + ALE_COMMAND_ARG_BYTES + 8 };
+enum { FOLDER_RIGHTS = 0750, PATH_BYTES = ALE_CONFIG_PATH + ALE_COMMAND_ARG_BYTES + 8 };
 
 /* Whose turn it is; that side alone touches the job. */
 typedef enum { IDLE, ORDERED, DONE } turn_t;

@@ -142,15 +142,24 @@ static bool relocate(ale_command_handlers_t *handlers, const ale_command_t *comm
     return ask_estimate(handlers, request, "put there: weak until scans agree");
 }
 
-static bool begin_job(ale_command_handlers_t *handlers, const ale_command_t *command, bool begun)
+/* begun: whoever does it has taken it on. */
+static bool begin_job(ale_command_handlers_t *handlers, const ale_command_t *command, ale_job_t job,
+                      bool begun)
 {
     if (!begun) {
-        return ANSWER(handlers, false, "busy with another map: try again");
+        return ANSWER(handlers, false, "busy: try again");
     }
-    handlers->job_waits = true;
+    handlers->job = job;
     handlers->job_counter = command->counter;
     memcpy(handlers->job_operator, command->operator_name, sizeof handlers->job_operator);
     return true;
+}
+
+/* One job at a time: its answer is still to be told. */
+static bool has_no_job(ale_command_handlers_t *handlers)
+{
+    return handlers->job == ALE_JOB_NONE || ANSWER(handlers, false, "busy with another %s: try again",
+                                                   handlers->job == ALE_JOB_RECORDING ? "recording" : "map");
 }
 
 static bool save_map(ale_command_handlers_t *handlers, const ale_command_t *command)
@@ -161,7 +170,8 @@ static bool save_map(ale_command_handlers_t *handlers, const ale_command_t *comm
     if (!handlers->newest_map) {
         return ANSWER(handlers, false, "no map yet");
     }
-    return begin_job(handlers, command,
+    return has_no_job(handlers) &&
+           begin_job(handlers, command, ALE_JOB_MAP,
                      ale_map_storage_save(handlers->storage, command->arg[0], handlers->newest_map));
 }
 
@@ -174,13 +184,18 @@ static bool load_map(ale_command_handlers_t *handlers, const ale_command_t *comm
     if (request.pose_known && (command->args != 4 || !read_pose(&command->arg[1], &request.pose))) {
         return ANSWER(handlers, false, "load_map wants a name, or a name and x y theta");
     }
+    if (!has_no_job(handlers)) {
+        return false;
+    }
     handlers->job_request = request;
-    return begin_job(handlers, command, ale_map_storage_load(handlers->storage, command->arg[0]));
+    return begin_job(handlers, command, ALE_JOB_MAP,
+                     ale_map_storage_load(handlers->storage, command->arg[0]));
 }
 
-/* Settings that operators may change until the next start. */
+/* Settings that operators may change until the next start. A limit goes down and up again, never above what
+ * the configuration calls the most. */
 static bool set_limit(ale_command_handlers_t *handlers, const ale_command_t *command, int32_t *limit,
-                      int64_t most)
+                      int32_t most)
 {
     int32_t value = 0;
     if (!read_metres(command->arg[1], &value) || value < 0 || value > most) {
@@ -194,14 +209,12 @@ static bool set_limit(ale_command_handlers_t *handlers, const ale_command_t *com
 
 static bool set_drive_speed(ale_command_handlers_t *handlers, const ale_command_t *command)
 {
-    return set_limit(handlers, command, &handlers->drive_um_s,
-                     1000LL * handlers->config->pipeline.max_speed_mm_s);
+    return set_limit(handlers, command, &handlers->drive_um_s, handlers->config->drive_um_s);
 }
 
 static bool set_drive_turn(ale_command_handlers_t *handlers, const ale_command_t *command)
 {
-    return set_limit(handlers, command, &handlers->drive_urad_s,
-                     1000LL * handlers->config->pipeline.max_turn_mrad_s);
+    return set_limit(handlers, command, &handlers->drive_urad_s, handlers->config->drive_urad_s);
 }
 
 /* A setting that is yes or no; *on is untouched when the word is neither. */
@@ -235,12 +248,12 @@ static bool set_freeze_map(ale_command_handlers_t *handlers, const ale_command_t
 
 static bool record(ale_command_handlers_t *handlers, const ale_command_t *command)
 {
-    (void)command;
     if (!handlers->exchange->recorder) {
         return ANSWER(handlers, false, "this robot records no flights");
     }
-    ale_recorder_trigger(handlers->exchange->recorder, ALE_RECORD_COMMAND);
-    return ANSWER(handlers, true, "a flight recording is being written");
+    return has_no_job(handlers) &&
+           begin_job(handlers, command, ALE_JOB_RECORDING,
+                     ale_recorder_ask(handlers->exchange->recorder, handlers->exchange->under_way));
 }
 
 typedef bool (*handler_t)(ale_command_handlers_t *handlers, const ale_command_t *command);

@@ -13,6 +13,9 @@
 #include "mapping/map_storage.h"
 #include "operator/drive_arbiter.h"
 
+/* What takes its time and is answered when it is done: a map saved or loaded, a flight recorded. */
+typedef enum { ALE_JOB_NONE, ALE_JOB_MAP, ALE_JOB_RECORDING } ale_job_t;
+
 /* What the handlers act on. */
 typedef struct {
     const ale_config_t *config;
@@ -27,7 +30,7 @@ typedef struct {
     int32_t drive_urad_s;
     int64_t now_us; /* of the command that is obeyed */
     bool news;
-    bool job_waits; /* a map is being saved or loaded: */
+    ale_job_t job; /* under way: */
     char job_operator[ALE_NAME_BYTES];
     int64_t job_counter;
     ale_request_t job_request; /* what the estimate task is asked for once it is loaded */
@@ -38,8 +41,8 @@ typedef struct {
 void ale_command_handlers_init(ale_command_handlers_t *handlers, const ale_config_t *config,
                                ale_exchange_t *exchange, ale_map_storage_t *storage);
 
-/* Does what the command says and writes the answer to result: true obeyed, false refused. A save or load that
- * has begun sets job_waits: its answer comes later. */
+/* Does what the command says and writes the answer to result: true obeyed, false refused. A job that has
+ * begun sets job: its answer comes later. */
 bool ale_command_handlers_obey(ale_command_handlers_t *handlers, const ale_command_t *command);
 
 /* Hands a request to the estimate task. False, and the answer is written: it has not taken the last ones yet.

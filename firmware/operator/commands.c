@@ -44,7 +44,7 @@ static void answer(ale_commands_t *commands, const char *name, int64_t counter, 
 }
 
 /* For the flight recorder: what somebody wanted, and what came of it. */
-static void record(const ale_commands_t *commands, const ale_command_t *command)
+static void record(const ale_commands_t *commands, const ale_command_t *command, bool begun)
 {
     const ale_command_handlers_t *handlers = &commands->handlers;
     char text[ALE_NAME_BYTES * 2 + ALE_COMMAND_ARGS * ALE_COMMAND_ARG_BYTES + ALE_ANSWER_BYTES];
@@ -52,8 +52,7 @@ static void record(const ale_commands_t *commands, const ale_command_t *command)
     for (uint32_t k = 0; k < command->args; k++) {
         length += snprintf(text + length, sizeof text - (size_t)length, " %s", command->arg[k]);
     }
-    snprintf(text + length, sizeof text - (size_t)length, ": %s",
-             handlers->job_waits ? "begun" : handlers->result);
+    snprintf(text + length, sizeof text - (size_t)length, ": %s", begun ? "begun" : handlers->result);
     ale_recorder_command(handlers->exchange->recorder, handlers->now_us, text);
 }
 
@@ -69,14 +68,15 @@ bool ale_commands_take(ale_commands_t *commands, const uint8_t *bytes, size_t co
         return false;
     }
     const bool driving = strcmp(command.verb, "drive") == 0;
-    const bool job_before = handlers->job_waits;
+    const ale_job_t job_before = handlers->job;
     handlers->newest_map = newest_map;
     const bool obeyed = ale_command_handlers_obey(handlers, &command);
-    if (handlers->job_waits == job_before) {
+    const bool begun = handlers->job != job_before;
+    if (!begun) {
         answer(commands, command.operator_name, command.counter, obeyed);
         handlers->news = handlers->news || !driving || !obeyed;
     }
-    record(commands, &command);
+    record(commands, &command, begun);
     return true;
 }
 
@@ -90,20 +90,54 @@ static void watch_exploration(ale_commands_t *commands)
     commands->explored = on;
 }
 
+/* True when the map is saved or loaded, or could not be; the answer is written. */
+static bool map_done(ale_command_handlers_t *handlers, bool *obeyed)
+{
+    ale_map_outcome_t outcome;
+    if (!ale_map_storage_done(handlers->storage, &outcome)) {
+        return false;
+    }
+    memcpy(handlers->result, outcome.text, sizeof handlers->result);
+    *obeyed =
+        outcome.fine && (!outcome.loaded || ale_command_handlers_request(handlers, &handlers->job_request));
+    return true;
+}
+
+/* The same for a flight recording. */
+static bool recording_done(ale_command_handlers_t *handlers, bool *obeyed)
+{
+    ale_record_outcome_t outcome;
+    if (!ale_recorder_done(handlers->exchange->recorder, &outcome)) {
+        return false;
+    }
+    memcpy(handlers->result, outcome.text, sizeof handlers->result);
+    *obeyed = outcome.fine;
+    return true;
+}
+
+static bool job_done(ale_command_handlers_t *handlers, bool *obeyed)
+{
+    switch (handlers->job) {
+    case ALE_JOB_MAP:
+        return map_done(handlers, obeyed);
+    case ALE_JOB_RECORDING:
+        return recording_done(handlers, obeyed);
+    case ALE_JOB_NONE:
+        break;
+    }
+    return false;
+}
+
 void ale_commands_work(ale_commands_t *commands)
 {
     ale_command_handlers_t *handlers = &commands->handlers;
-    ale_map_outcome_t outcome;
+    bool obeyed = false;
     watch_exploration(commands);
-    if (!handlers->job_waits || !ale_map_storage_done(handlers->storage, &outcome)) {
-        return;
+    if (job_done(handlers, &obeyed)) {
+        handlers->job = ALE_JOB_NONE;
+        handlers->news = true;
+        answer(commands, handlers->job_operator, handlers->job_counter, obeyed);
     }
-    handlers->job_waits = false;
-    handlers->news = true;
-    memcpy(handlers->result, outcome.text, sizeof handlers->result);
-    const bool obeyed =
-        outcome.fine && (!outcome.loaded || ale_command_handlers_request(handlers, &handlers->job_request));
-    answer(commands, handlers->job_operator, handlers->job_counter, obeyed);
 }
 
 bool ale_commands_news(ale_commands_t *commands)

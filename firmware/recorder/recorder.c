@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "exchange/wake.h"
 #include "file/little_endian.h"
 #include "recorder/flight_file.h"
 #include "recorder/flight_order.h"
@@ -19,6 +20,9 @@
 
 enum { MEGABYTE = 1 << 20 };
 
+/* Of a recording that was asked for: whose turn it is; that side alone touches wake and outcome. */
+typedef enum { IDLE, ASKED, DONE } turn_t;
+
 struct ale_recorder {
     const ale_config_t *config;
     char *config_text;
@@ -30,9 +34,15 @@ struct ale_recorder {
     int64_t write_ns; /* when the recording that is due is to be written; 0: none is */
     int64_t quiet_until_ns;
     ale_record_reason_t reason; /* of the one that is due */
+    bool asked;                 /* the one that is due, or another that goes with it, is to be answered */
+    atomic_int turn;
+    int wake;
+    ale_record_outcome_t outcome;
 };
 
-static const char *const reason_words[] = {"command", "fault", "deadline"};
+static const ale_flight_kind_t kinds[] = {[ALE_RECORD_COMMAND] = {"command", ALE_FLIGHTS_ASKED},
+                                          [ALE_RECORD_FAULT] = {"fault", ALE_FLIGHTS_OF_FAULTS},
+                                          [ALE_RECORD_DEADLINE] = {"deadline", ALE_FLIGHTS_LATE}};
 
 /* ---- what the writers call ---- */
 
@@ -118,6 +128,27 @@ void ale_recorder_trigger(ale_recorder_t *recorder, ale_record_reason_t reason)
     }
 }
 
+bool ale_recorder_ask(ale_recorder_t *recorder, int wake)
+{
+    if (!recorder || atomic_load(&recorder->turn) != IDLE) {
+        return false;
+    }
+    recorder->wake = wake;
+    atomic_store(&recorder->turn, ASKED);
+    ale_recorder_trigger(recorder, ALE_RECORD_COMMAND);
+    return true;
+}
+
+bool ale_recorder_done(ale_recorder_t *recorder, ale_record_outcome_t *outcome)
+{
+    if (!recorder || atomic_load(&recorder->turn) != DONE) {
+        return false;
+    }
+    *outcome = recorder->outcome;
+    atomic_store(&recorder->turn, IDLE);
+    return true;
+}
+
 uint32_t ale_recorder_written(const ale_recorder_t *recorder)
 {
     return recorder ? atomic_load(&recorder->written) : 0;
@@ -143,7 +174,26 @@ static void plan(ale_recorder_t *recorder, int64_t now_ns)
     if (wanted & (1U << ALE_RECORD_COMMAND)) {
         recorder->reason = recorder->write_ns == 0 ? ALE_RECORD_COMMAND : recorder->reason;
         recorder->write_ns = now_ns;
+        recorder->asked = atomic_load(&recorder->turn) == ASKED;
     }
+}
+
+/* error: an errno, or 0 when it is written. */
+static void tell_who_asked(ale_recorder_t *recorder, int error)
+{
+    ale_record_outcome_t *outcome = &recorder->outcome;
+    if (!recorder->asked) {
+        return;
+    }
+    recorder->asked = false;
+    outcome->fine = error == 0;
+    if (error == 0) {
+        snprintf(outcome->text, sizeof outcome->text, "a flight recording is written");
+    } else {
+        snprintf(outcome->text, sizeof outcome->text, "not recorded: %s", strerror(error));
+    }
+    atomic_store(&recorder->turn, DONE);
+    ale_wake_post(recorder->wake);
 }
 
 static void write_if_due(ale_recorder_t *recorder, int64_t now_ns)
@@ -153,11 +203,13 @@ static void write_if_due(ale_recorder_t *recorder, int64_t now_ns)
     }
     char message[ALE_FLIGHT_MESSAGE];
     recorder->write_ns = 0;
-    if (ale_flight_file_write(recorder->config->recorder_folder, reason_words[recorder->reason],
-                              recorder->config_text, recorder->flight, message) == 0) {
+    const int error = ale_flight_file_write(recorder->config->recorder_folder, &kinds[recorder->reason],
+                                            recorder->config_text, recorder->flight, message);
+    if (error == 0) {
         atomic_fetch_add(&recorder->written, 1);
     }
     fprintf(stderr, "ale-slamd: %s\n", message);
+    tell_who_asked(recorder, error);
 }
 
 static void run(ale_rt_task_t *self, void *user)

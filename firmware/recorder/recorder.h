@@ -13,11 +13,21 @@
 
 #include "config/config.h"
 #include "exchange/exchange.h"
+#include "lcm/report.h"
 #include "store/recording.h"
+
+/* Files kept on disk: recordings of faults, of missed deadlines, and asked ones. */
+enum { ALE_FLIGHTS_OF_FAULTS = 10, ALE_FLIGHTS_LATE = 5, ALE_FLIGHTS_ASKED = 5 };
 
 typedef struct ale_recorder ale_recorder_t;
 
 typedef enum { ALE_RECORD_COMMAND, ALE_RECORD_FAULT, ALE_RECORD_DEADLINE } ale_record_reason_t;
+
+/* What came of a recording that was asked for: in words, "not recorded: No space left on device". */
+typedef struct {
+    bool fine;
+    char text[ALE_ANSWER_BYTES];
+} ale_record_outcome_t;
 
 /* Starts the recorder's own thread, without a real-time priority. config must outlive it. NULL: out of
  * memory or threads. */
@@ -30,6 +40,13 @@ void ale_recorder_stop(ale_recorder_t *recorder);
  * recording goes on a few seconds, so that it shows what came of it, and then none is written of itself for a
  * minute. */
 void ale_recorder_trigger(ale_recorder_t *recorder, ale_record_reason_t reason);
+
+/* Telemetry thread: as a command triggers, and what came of it is wanted. The descriptor `wake` is posted
+ * when it can be had. False: the last one that was asked for has not been told yet. */
+bool ale_recorder_ask(ale_recorder_t *recorder, int wake);
+
+/* Telemetry thread. True once for each that was asked for, when it is written or could not be. */
+bool ale_recorder_done(ale_recorder_t *recorder, ale_record_outcome_t *outcome);
 
 /* Acquire thread. Bytes as they pass; then the scan, lost or not, that they made: `number` counts all that
  * were handed to the estimate task. */

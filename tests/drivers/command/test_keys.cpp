@@ -4,6 +4,7 @@
 #include <fstream>
 #include <string>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "drivers/command/signed_command.hpp"
 #include "files.hpp"
@@ -65,12 +66,35 @@ TEST_F(Keys, ASecretKeyIsForItsOwnerAloneAndNeverWrittenOver)
     EXPECT_NE(std::string(error).find("alice.key: readable by others"), std::string::npos) << error;
 }
 
-TEST_F(Keys, AListThatEverybodyMayChangeIsRefused)
+TEST_F(Keys, AListThatOthersMayChangeIsRefused)
 {
     write_robot("ALE-SLAM keys 1\n");
     EXPECT_EQ(refusal(), "");
-    chmod(robot.c_str(), 0666);
-    EXPECT_NE(refusal().find("writable by everybody"), std::string::npos);
+    for (const mode_t rights : {0666U, 0664U, 0646U}) {
+        chmod(robot.c_str(), rights);
+        EXPECT_NE(refusal().find("robot.keys: writable by others"), std::string::npos) << refusal();
+    }
+}
+
+TEST_F(Keys, FilesOfAnotherUserAreRefused)
+{
+    if (geteuid() != 0) {
+        GTEST_SKIP() << "only root can give a file away";
+    }
+    write_robot("ALE-SLAM keys 1\n");
+    ASSERT_EQ(ale_secret_key_save(own.c_str(), &alice.secret, error), 0) << error;
+    ASSERT_EQ(chown(robot.c_str(), 65534, 0), 0);
+    ASSERT_EQ(chown(own.c_str(), 65534, 0), 0);
+    EXPECT_NE(refusal().find("robot.keys: belongs to another user"), std::string::npos) << refusal();
+    ale_secret_key_t secret{};
+    EXPECT_LT(ale_secret_key_load(own.c_str(), &secret, error), 0);
+    EXPECT_NE(std::string(error).find("alice.key: belongs to another user"), std::string::npos) << error;
+}
+
+TEST_F(Keys, APipeIsNoFileOfKeysAndHoldsNobodyUp)
+{
+    ASSERT_EQ(mkfifo(robot.c_str(), 0600), 0);
+    EXPECT_NE(refusal().find("robot.keys: no regular file"), std::string::npos) << refusal();
 }
 
 TEST_F(Keys, WhatIsNoListIsRefusedWithItsLine)

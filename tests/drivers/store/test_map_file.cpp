@@ -4,11 +4,10 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "files.hpp"
 
@@ -157,21 +156,37 @@ TEST_F(MapFile, AFailedSaveLeavesTheOldFileAndNothingElse)
     EXPECT_EQ(load_error(before), "");
 }
 
-TEST_F(MapFile, APipeIsWrittenToAndStaysAPipe)
+TEST_F(MapFile, ALinkOrAPipeIsNoMap)
 {
     const auto map = some_map(3, 2);
-    const std::string expected = saved(*map);
-    std::filesystem::remove(path_);
-    ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);
-    const int reading = open(path_.c_str(), O_RDONLY | O_NONBLOCK);
-    ASSERT_GE(reading, 0);
-    EXPECT_EQ(ale_map_file_save(path_.c_str(), map.get(), error_), 0) << error_;
-    std::string came(expected.size() + 1, ' ');
-    EXPECT_EQ(read(reading, came.data(), came.size()), static_cast<ssize_t>(expected.size()));
-    close(reading);
-    came.pop_back();
-    EXPECT_EQ(came, expected);
-    EXPECT_TRUE(std::filesystem::is_fifo(path_));
+    const std::string before = saved(*map);
+    const std::filesystem::path link = folder_ / "link.map";
+    const std::filesystem::path pipe = folder_ / "pipe.map";
+    std::filesystem::create_symlink(path_, link);
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    for (const auto &[path, words] : {std::pair(link, ": a symbolic link, which is not followed"),
+                                      std::pair(pipe, ": no regular file")}) {
+        EXPECT_EQ(ale_map_file_load(path.c_str(), loaded_.get(), error_), -1);
+        EXPECT_EQ(std::string(error_), path.string() + words);
+        EXPECT_EQ(ale_map_file_save(path.c_str(), map.get(), error_), -1);
+        EXPECT_EQ(std::string(error_), path.string() + words);
+    }
+    EXPECT_EQ(files::content(path_), before);
+}
+
+TEST_F(MapFile, IsRefusedForItsSizeBeforeItIsRead)
+{
+    std::ofstream(path_) << "ALE-SLAM map 1\n";
+    std::filesystem::resize_file(path_, uintmax_t{1} << 40U); /* a hole: no disk is filled */
+    EXPECT_EQ(ale_map_file_load(path_.c_str(), loaded_.get(), error_), -1);
+    EXPECT_EQ(std::string(error_), path_.string() + ": too large");
+}
+
+TEST_F(MapFile, IsForItsOwnerAndHisGroup)
+{
+    saved(*some_map(1, 0));
+    EXPECT_EQ(std::filesystem::status(path_).permissions() & std::filesystem::perms::others_all,
+              std::filesystem::perms::none);
 }
 
 } // namespace

@@ -82,7 +82,7 @@ class Commands : public surroundings::WithExchange
         send(who, words);
         return answer();
     }
-    /* The answer of a job of the map storage. */
+    /* The answer of a job that another thread does. */
     std::string job(std::initializer_list<const char *> words)
     {
         send(alice, words);
@@ -263,6 +263,17 @@ TEST_F(Commands, ShortListOfSettings)
     EXPECT_EQ(ask(alice, {"set", "colour", "blue"}), "-no setting colour");
 }
 
+TEST_F(Commands, NobodyRaisesALimitAboveWhatTheConfigurationCallsTheMost)
+{
+    EXPECT_EQ(ask(alice, {"set", "drive_speed", "0.500001"}), "-drive_speed is a number from 0 to 0.5");
+    EXPECT_EQ(ask(alice, {"set", "drive_turn", "6"}), "-drive_turn is a number from 0 to 1");
+    ask(alice, {"drive", "1.7", "6"});
+    EXPECT_EQ(orders().operator_request.v_um_s, config.drive_um_s);
+    EXPECT_EQ(orders().operator_request.w_urad_s, config.drive_urad_s);
+    EXPECT_EQ(ask(alice, {"set", "drive_speed", "0.1"})[0], '+');
+    EXPECT_EQ(ask(alice, {"set", "drive_speed", "0.5"})[0], '+') << "down, and up again";
+}
+
 TEST_F(Commands, ExplorationIsSwitchedOnAndOffAndEndedByAStop)
 {
     EXPECT_EQ(ask(alice, {"explore", "on"}), "-this robot does not explore");
@@ -299,13 +310,28 @@ TEST_F(Commands, AFlightRecordingIsWrittenWhereThereIsARecorder)
     std::snprintf(config.recorder_folder, sizeof config.recorder_folder, "%s", folder.path().c_str());
     exchange.recorder = ale_recorder_start(&config);
     ASSERT_NE(exchange.recorder, nullptr);
-    EXPECT_EQ(ask(alice, {"record"}), "+a flight recording is being written");
-    ale_recorder_stop(exchange.recorder); /* writes what was asked for */
+    EXPECT_EQ(job({"record"}), "+a flight recording is written");
+    ale_recorder_stop(exchange.recorder);
+    exchange.recorder = nullptr;
     int recordings = 0;
     for (const auto &entry : std::filesystem::directory_iterator(folder.path())) {
         recordings += entry.path().extension() == ".scip";
     }
     EXPECT_EQ(recordings, 1);
+}
+
+TEST_F(Commands, ARecordingThatCannotBeWrittenIsRefusedAndCalledSo)
+{
+    std::snprintf(config.recorder_folder, sizeof config.recorder_folder, "%s/absent", folder.path().c_str());
+    exchange.recorder = ale_recorder_start(&config);
+    ASSERT_NE(exchange.recorder, nullptr);
+    EXPECT_EQ(job({"record"}), "-not recorded: No such file or directory");
+    EXPECT_EQ(counted("command_refused"), 1U);
+    EXPECT_EQ(job({"record"}), "-not recorded: No such file or directory") << "the next one is answered, too";
+    send(alice, {"record"});
+    EXPECT_EQ(ask(bob, {"save_map", "cellar"}), "-busy with another recording: try again");
+    ale_recorder_stop(exchange.recorder);
+    exchange.recorder = nullptr;
 }
 
 TEST_F(Commands, NonsenseIsAnsweredInWords)

@@ -77,6 +77,21 @@ class Recorder : public surroundings::WithPort
         }
         return found;
     }
+    /* Triggers a recording and waits until it is on the disk. */
+    void record(ale_record_reason_t reason)
+    {
+        const uint32_t before = ale_recorder_written(recorder);
+        ale_recorder_trigger(recorder, reason);
+        ASSERT_TRUE(comes_true([&] { return ale_recorder_written(recorder) != before; }));
+    }
+    void leave(const std::string &name) const
+    {
+        std::ofstream(folder / name) << "a recording";
+    }
+    bool is_there(const std::string &name) const
+    {
+        return fs::exists(folder / name);
+    }
     /* Asks for a recording and waits for it. */
     std::string recorded()
     {
@@ -164,6 +179,38 @@ TEST_F(Recorder, WritersNeverWaitAndWhatIsRefusedIsCounted)
     EXPECT_GT(ale_recorder_refused(recorder), 0u);
     std::this_thread::sleep_for(std::chrono::milliseconds(1200));
     EXPECT_GT(recorded().size(), 1000u) << "a ring full of intact chunks";
+}
+
+TEST_F(Recorder, AskedRecordingsTakeNoFaultsPlace)
+{
+    for (int k = 0; k < ALE_FLIGHTS_OF_FAULTS; k++) {
+        leave("flight-0000000" + std::to_string(k) + "-20260101T000000.000Z-fault.scip");
+    }
+    for (int k = 0; k < 12; k++) {
+        record(ALE_RECORD_COMMAND);
+    }
+    int faults = 0;
+    int asked = 0;
+    for (const fs::path &path : written()) {
+        faults += path.string().find("-fault.scip") != std::string::npos;
+        asked += path.string().find("-command.scip") != std::string::npos;
+    }
+    EXPECT_EQ(faults, ALE_FLIGHTS_OF_FAULTS);
+    EXPECT_EQ(asked, ALE_FLIGHTS_ASKED);
+}
+
+TEST_F(Recorder, AClockThatIsSetBackTakesNoNewRecordingAway)
+{
+    leave("flight-20991231T235959.000Z-command.scip"); /* without a number */
+    for (int k = 1; k < ALE_FLIGHTS_ASKED; k++) {
+        leave("flight-0000000" + std::to_string(k) + "-20990101T000000.000Z-command.scip");
+    }
+    record(ALE_RECORD_COMMAND);
+    record(ALE_RECORD_COMMAND);
+    EXPECT_EQ(written().size(), static_cast<size_t>(ALE_FLIGHTS_ASKED));
+    EXPECT_FALSE(is_there("flight-20991231T235959.000Z-command.scip"));
+    EXPECT_FALSE(is_there("flight-00000001-20990101T000000.000Z-command.scip"));
+    EXPECT_TRUE(is_there("flight-00000002-20990101T000000.000Z-command.scip"));
 }
 
 TEST_F(Recorder, WithoutARecorderNothingHappens)
