@@ -1,7 +1,5 @@
 #include "lcm/bus.h"
 
-#include <errno.h>
-#include <lcm/lcm.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,10 +12,11 @@
 
 #include "lcm/convert.h"
 
-enum { MAX_HANDLED = 64, MAX_WAITING = 256, MESSAGE_BYTES = 16384, FARTHEST_UM = 2000000000 };
+/* What may wait in the kernel between two looks at the bus is looked at in one go. */
+enum { MAX_DATAGRAMS = 256, MESSAGE_BYTES = 16384, FARTHEST_UM = 2000000000 };
 
 struct ale_bus {
-    lcm_t *lcm;
+    ale_wire_t *wire;
     uint64_t refused;
     uint64_t unsent;
     ale_bus_odometry_t take_odometry;
@@ -39,16 +38,13 @@ _Static_assert(ALE_MAX_LINES * 48 + ALE_MAX_CORNERS * 29 + 64 <= MESSAGE_BYTES, 
 
 ale_bus_t *ale_bus_open(const char *url, char error[ALE_BUS_ERROR])
 {
-    const char *chosen = ale_lcm_url(url, error);
-    if (!chosen) {
+    ale_bus_t *bus = calloc(1, sizeof *bus);
+    if (!bus) {
+        snprintf(error, ALE_BUS_ERROR, "LCM: out of memory");
         return NULL;
     }
-    ale_bus_t *bus = calloc(1, sizeof *bus);
-    if (bus) {
-        bus->lcm = lcm_create(chosen);
-    }
-    if (!bus || !bus->lcm) {
-        snprintf(error, ALE_BUS_ERROR, "LCM: %.100s cannot be opened", chosen);
+    bus->wire = ale_wire_open(url, error);
+    if (!bus->wire) {
         free(bus);
         return NULL;
     }
@@ -58,7 +54,7 @@ ale_bus_t *ale_bus_open(const char *url, char error[ALE_BUS_ERROR])
 void ale_bus_close(ale_bus_t *bus)
 {
     if (bus) {
-        lcm_destroy(bus->lcm);
+        ale_wire_close(bus->wire);
         free(bus);
     }
 }
@@ -66,7 +62,7 @@ void ale_bus_close(ale_bus_t *bus)
 /* `length` is what the encoder returned: negative when the message did not fit. */
 static int send_bytes(ale_bus_t *bus, const char *channel, int length)
 {
-    if (length < 0 || lcm_publish(bus->lcm, channel, bus->bytes, (unsigned)length) < 0) {
+    if (length < 0 || ale_wire_send(bus->wire, channel, bus->bytes, (size_t)length) < 0) {
         bus->unsent++;
         return -1;
     }
@@ -201,13 +197,13 @@ int ale_bus_send_bot_pose(ale_bus_t *bus, const ale_pose_report_t *report)
                       lcmtypes_bot_core_pose_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
 }
 
-static void take_odometry(const lcm_recv_buf_t *received, const char *channel, void *user)
+static void take_odometry(void *user, const char *channel, const uint8_t *bytes, size_t count)
 {
     (void)channel;
     ale_bus_t *bus = user;
     lcmtypes_ale_odometry_t message;
     ale_odometry_t sample;
-    if (lcmtypes_ale_odometry_t_decode(received->data, 0, (int)received->data_size, &message) < 0 ||
+    if (lcmtypes_ale_odometry_t_decode(bytes, 0, (int)count, &message) < 0 ||
         ale_take_odometry(&message, &sample) < 0) {
         bus->refused++;
         return;
@@ -222,13 +218,13 @@ static bool is_beyond(int32_t um)
     return um < -FARTHEST_UM || um > FARTHEST_UM;
 }
 
-static void take_exact_odometry(const lcm_recv_buf_t *received, const char *channel, void *user)
+static void take_exact_odometry(void *user, const char *channel, const uint8_t *bytes, size_t count)
 {
     (void)channel;
     ale_bus_t *bus = user;
     lcmtypes_ale_odometry_exact_t message;
-    if (lcmtypes_ale_odometry_exact_t_decode(received->data, 0, (int)received->data_size, &message) < 0 ||
-        message.utime <= 0 || is_beyond(message.x_um) || is_beyond(message.y_um)) {
+    if (lcmtypes_ale_odometry_exact_t_decode(bytes, 0, (int)count, &message) < 0 || message.utime <= 0 ||
+        is_beyond(message.x_um) || is_beyond(message.y_um)) {
         bus->refused++;
         return;
     }
@@ -239,55 +235,42 @@ static void take_exact_odometry(const lcm_recv_buf_t *received, const char *chan
     bus->take_odometry(bus->odometry_user, &sample);
 }
 
-/* LCM drops without a word what waits beyond a channel's queue, 30 messages unless told otherwise. */
-static int subscribe(ale_bus_t *bus, const char *channel, lcm_msg_handler_t take)
-{
-    lcm_subscription_t *subscription = lcm_subscribe(bus->lcm, channel, take, bus);
-    return subscription ? lcm_subscription_set_queue_capacity(subscription, MAX_WAITING) : -1;
-}
-
 int ale_bus_on_odometry(ale_bus_t *bus, ale_bus_odometry_t take, void *user)
 {
     bus->take_odometry = take;
     bus->odometry_user = user;
-    return subscribe(bus, ALE_CHANNEL_ODOMETRY_EXACT, take_exact_odometry) < 0
+    return ale_wire_subscribe(bus->wire, ALE_CHANNEL_ODOMETRY_EXACT, take_exact_odometry, bus) < 0
                ? -1
-               : subscribe(bus, ALE_CHANNEL_ODOMETRY, take_odometry);
+               : ale_wire_subscribe(bus->wire, ALE_CHANNEL_ODOMETRY, take_odometry, bus);
 }
 
-static void take_command(const lcm_recv_buf_t *received, const char *channel, void *user)
+static void take_command(void *user, const char *channel, const uint8_t *bytes, size_t count)
 {
     (void)channel;
     ale_bus_t *bus = user;
-    bus->take_command(bus->command_user, received->data, received->data_size);
+    bus->take_command(bus->command_user, bytes, count);
 }
 
 int ale_bus_on_command(ale_bus_t *bus, ale_bus_command_t take, void *user)
 {
     bus->take_command = take;
     bus->command_user = user;
-    return subscribe(bus, ALE_CHANNEL_COMMAND, take_command);
+    return ale_wire_subscribe(bus->wire, ALE_CHANNEL_COMMAND, take_command, bus);
 }
 
 int ale_bus_descriptor(ale_bus_t *bus)
 {
-    return lcm_get_fileno(bus->lcm);
+    return ale_wire_descriptor(bus->wire);
 }
 
 int ale_bus_receive(ale_bus_t *bus, int timeout_ms)
 {
-    int handled = 0;
-    while (handled < MAX_HANDLED) {
-        const int result = lcm_handle_timeout(bus->lcm, handled ? 0 : timeout_ms);
-        if (result < 0) {
-            return errno == EINTR ? handled : -1;
-        }
-        if (result == 0) {
-            break;
-        }
-        handled++;
-    }
-    return handled;
+    return ale_wire_receive(bus->wire, timeout_ms, MAX_DATAGRAMS);
+}
+
+bool ale_bus_hears_itself(ale_bus_t *bus, int timeout_ms)
+{
+    return ale_wire_hears_itself(bus->wire, timeout_ms);
 }
 
 uint64_t ale_bus_refused(const ale_bus_t *bus)
@@ -298,4 +281,9 @@ uint64_t ale_bus_refused(const ale_bus_t *bus)
 uint64_t ale_bus_unsent(const ale_bus_t *bus)
 {
     return bus->unsent;
+}
+
+ale_lcm_dropped_t ale_bus_dropped(const ale_bus_t *bus)
+{
+    return ale_wire_dropped(bus->wire);
 }

@@ -1,15 +1,14 @@
-/* The LCM bus: open, send, receive. Own buffers; nothing is allocated per message.
+/* The LCM bus: the robot's messages over wire.h. Own buffers; nothing is allocated per message.
  *
  *   char error[ALE_BUS_ERROR];
  *   ale_bus_t *bus = ale_bus_open(url, error);
  *   if (!bus) ... error says in one line what is missing ...
- *   ale_bus_on_odometry(bus, take, user);          (only who receives; starts LCM's receive thread)
+ *   ale_bus_on_odometry(bus, take, user);          (only who receives)
  *   ale_bus_send_odometry(bus, &sample);
  *   ale_bus_receive(bus, 50);                      (calls `take` for what has come)
  *   ale_bus_close(bus);
  *
- * One owner thread. Sending is a system call and may block for milliseconds: never from the estimate task.
- * LCM's receive thread inherits policy, affinity and signal mask of the thread that first receives. */
+ * One owner thread. Sending is a system call: never from the estimate task. */
 #ifndef ALE_LCM_BUS_H
 #define ALE_LCM_BUS_H
 
@@ -17,7 +16,7 @@
 #include <stdint.h>
 
 #include "lcm/report.h"
-#include "lcm/url.h"
+#include "lcm/wire.h"
 
 #define ALE_CHANNEL_POSE "ALE_POSE"
 #define ALE_CHANNEL_TRACKING "ALE_TRACKING"
@@ -38,8 +37,7 @@ enum { ALE_BUS_ERROR = ALE_LCM_URL_ERROR };
 typedef struct ale_bus ale_bus_t;
 
 /* Joins the bus. url NULL or empty: the environment's LCM_DEFAULT_URL, else LCM's default. The bus is the
- * caller's to close. NULL and one line for people in error: what ale_lcm_url says, LCM cannot open the URL,
- * or no memory. */
+ * caller's to close. NULL and one line for people in error, as ale_wire_open. */
 ale_bus_t *ale_bus_open(const char *url, char error[ALE_BUS_ERROR]);
 
 /* NULL: nothing. */
@@ -68,24 +66,28 @@ int ale_bus_send_bot_lidar(ale_bus_t *bus, const ale_scan_t *scan, int64_t utime
 int ale_bus_send_bot_pose(ale_bus_t *bus, const ale_pose_report_t *report);
 
 /* Odometry as it arrives, checked; of a sample that came exactly, too, only that. sample->stamp_us is the
- * message's utime. What is not what it should be is refused and counted. 0, or -1: LCM cannot subscribe
- * (memory, threads). */
+ * message's utime. What is not what it should be is refused and counted. 0, or -1: the bus
+ * cannot be listened to (errno). */
 typedef void (*ale_bus_odometry_t)(void *user, const ale_odometry_t *sample);
 int ale_bus_on_odometry(ale_bus_t *bus, ale_bus_odometry_t take, void *user);
 
-/* Commands as they arrive: bytes that nobody has looked at yet (command/verify.h does). At most 256 wait
- * between two calls of ale_bus_receive, of either channel. 0, or -1 as above. */
+/* Commands as they arrive: bytes that nobody has looked at yet (command/verify.h does). What comes
+ * between two calls of ale_bus_receive waits in the kernel. 0, or -1 as above. */
 typedef void (*ale_bus_command_t)(void *user, const uint8_t *bytes, size_t count);
 int ale_bus_on_command(ale_bus_t *bus, ale_bus_command_t take, void *user);
 
 /* A descriptor for poll that is readable while messages wait. -1 when there is none. */
 int ale_bus_descriptor(ale_bus_t *bus);
 
-/* Waits up to timeout_ms for a message (0: looks only), then handles all that have come, 64 at most.
- * The number handled (a signal ends the wait early), or -1 when LCM's receive thread is broken. */
+/* Waits up to timeout_ms for a message (0: looks only), then handles what has come, 256 datagrams at most.
+ * The number handled (a signal ends the wait early), or -1 when the bus can no longer be received. */
 int ale_bus_receive(ale_bus_t *bus, int timeout_ms);
 
-uint64_t ale_bus_refused(const ale_bus_t *bus); /* messages that were not what they should be */
-uint64_t ale_bus_unsent(const ale_bus_t *bus);  /* messages that did not go out */
+/* Whether what this machine sends arrives on it (wire.h). After one of the subscriptions. */
+bool ale_bus_hears_itself(ale_bus_t *bus, int timeout_ms);
+
+uint64_t ale_bus_refused(const ale_bus_t *bus);          /* messages that were not what they should be */
+uint64_t ale_bus_unsent(const ale_bus_t *bus);           /* messages that did not go out */
+ale_lcm_dropped_t ale_bus_dropped(const ale_bus_t *bus); /* datagrams that no message came of */
 
 #endif

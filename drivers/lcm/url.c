@@ -1,7 +1,6 @@
 #include "lcm/url.h"
 
 #include <arpa/inet.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,69 +11,140 @@
 #define DEFAULT_GROUP "239.255.76.67"
 #define DEFAULT_PORT "7667"
 
-enum { GROUP_BYTES = 64, MOST_PORT = 65535 };
+enum { PART_BYTES = 64, MOST_PORT = 65535, MOST_TTL = 255, MOST_RECEIVE_BYTES = 1 << 30 };
 
 /* A copy of the first characters before any of `ends`; `otherwise` where there are none. */
-static void take_part(const char *from, const char *ends, const char *otherwise, char part[GROUP_BYTES])
+static void take_part(const char *from, const char *ends, const char *otherwise, char part[PART_BYTES])
 {
     const int length = (int)strcspn(from, ends);
-    snprintf(part, GROUP_BYTES, "%.*s", length > 0 ? length : GROUP_BYTES, length > 0 ? from : otherwise);
+    snprintf(part, PART_BYTES, "%.*s", length > 0 ? length : PART_BYTES, length > 0 ? from : otherwise);
 }
 
-static bool is_port(const char *text)
+/* A whole number from least to most; -1: it is none. */
+static long number_of(const char *text, long least, long most)
 {
     char *end = NULL;
-    const long port = strtol(text, &end, 10);
-    return *end == '\0' && port > 0 && port <= MOST_PORT;
+    const long number = strtol(text, &end, 10);
+    return end != text && *end == '\0' && number >= least && number <= most ? number : -1;
 }
 
-static bool is_reachable(const struct sockaddr_in *to)
+static bool is_reachable(const ale_lcm_group_t *group)
 {
+    const struct sockaddr_in to = {
+        .sin_family = AF_INET, .sin_port = htons(group->port), .sin_addr.s_addr = htonl(group->address)};
     const int probe = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    const bool reachable = probe >= 0 && connect(probe, (const struct sockaddr *)to, sizeof *to) == 0;
+    const bool reachable = probe >= 0 && connect(probe, (const struct sockaddr *)&to, sizeof to) == 0;
     if (probe >= 0) {
         close(probe);
     }
     return reachable;
 }
 
-/* udpm://GROUP:PORT?OPTIONS, each of which may be missing. */
-static int check_group(const char *url, char error[ALE_LCM_URL_ERROR])
+static int take_address(const char *rest, ale_lcm_group_t *group, char error[ALE_LCM_URL_ERROR])
 {
-    char group[GROUP_BYTES];
-    char port[GROUP_BYTES];
-    const char *rest = url + strlen(UDPM);
-    take_part(rest, ":?/", DEFAULT_GROUP, group);
+    char address[PART_BYTES];
+    char port[PART_BYTES];
+    take_part(rest, ":?/", DEFAULT_GROUP, address);
     rest += strcspn(rest, ":?/");
     take_part(*rest == ':' ? rest + 1 : "", "?/", DEFAULT_PORT, port);
-    struct sockaddr_in to = {.sin_family = AF_INET, .sin_port = htons(7667)};
-    if (inet_pton(AF_INET, group, &to.sin_addr) != 1) {
-        snprintf(error, ALE_LCM_URL_ERROR, "LCM: %s is not an address", group);
-    } else if (!IN_MULTICAST(ntohl(to.sin_addr.s_addr))) {
+    const long number = number_of(port, 1, MOST_PORT);
+    struct in_addr parsed = {0};
+    const bool is_address = inet_pton(AF_INET, address, &parsed) == 1;
+    group->address = ntohl(parsed.s_addr);
+    group->port = (uint16_t)number;
+    if (!is_address) {
+        snprintf(error, ALE_LCM_URL_ERROR, "LCM: %s is not an address", address);
+    } else if (!IN_MULTICAST(group->address)) {
         snprintf(error, ALE_LCM_URL_ERROR,
-                 "LCM: %s is not a multicast address (224.0.0.0 to 239.255.255.255)", group);
-    } else if (!is_port(port)) {
+                 "LCM: %s is not a multicast address (224.0.0.0 to 239.255.255.255)", address);
+    } else if (number < 0) {
         snprintf(error, ALE_LCM_URL_ERROR, "LCM: %s is not a port", port);
-    } else if (!is_reachable(&to)) {
-        snprintf(error, ALE_LCM_URL_ERROR,
-                 "LCM: no route for multicast to %s; without a network, as root: "
-                 "ip link set lo multicast on && ip route add 224.0.0.0/4 dev lo",
-                 group);
     } else {
         return 0;
     }
     return -1;
 }
 
+/* One option, as in "ttl=0". LCM's own transmit_only has lost its meaning, there too. */
+static int take_option(const char *option, ale_lcm_group_t *group)
+{
+    const char *value = strchr(option, '=');
+    const size_t name = value ? (size_t)(value - option) : strlen(option);
+    if (name == strlen("ttl") && strncmp(option, "ttl", name) == 0 && value) {
+        const long ttl = number_of(value + 1, 0, MOST_TTL);
+        group->ttl = (uint8_t)ttl;
+        return ttl < 0 ? -1 : 0;
+    }
+    if (name == strlen("recv_buf_size") && strncmp(option, "recv_buf_size", name) == 0 && value) {
+        const long bytes = number_of(value + 1, 1, MOST_RECEIVE_BYTES);
+        group->receive_bytes = (int32_t)bytes;
+        return bytes < 0 ? -1 : 0;
+    }
+    return name == strlen("transmit_only") && strncmp(option, "transmit_only", name) == 0 ? 0 : -1;
+}
+
+static int take_options(const char *options, ale_lcm_group_t *group, char error[ALE_LCM_URL_ERROR])
+{
+    while (*options) {
+        char option[PART_BYTES];
+        take_part(options, "&", "", option);
+        if (*option && take_option(option, group) < 0) {
+            snprintf(error, ALE_LCM_URL_ERROR, "LCM: \"%s\": udpm takes ttl=0 to 255 and recv_buf_size=BYTES",
+                     option);
+            return -1;
+        }
+        options += strcspn(options, "&");
+        options += *options == '&';
+    }
+    return 0;
+}
+
+bool ale_lcm_is_group(const char *url)
+{
+    return strncmp(url, UDPM, strlen(UDPM)) == 0;
+}
+
+int ale_lcm_group(const char *url, ale_lcm_group_t *group, char error[ALE_LCM_URL_ERROR])
+{
+    *group = (ale_lcm_group_t){0};
+    const char *options = strchr(url, '?');
+    return take_address(url + strlen(UDPM), group, error) < 0
+               ? -1
+               : take_options(options ? options + 1 : "", group, error);
+}
+
+static int check_group(const char *url, char error[ALE_LCM_URL_ERROR])
+{
+    ale_lcm_group_t group;
+    if (ale_lcm_group(url, &group, error) < 0) {
+        return -1;
+    }
+    if (!is_reachable(&group)) {
+        char address[INET_ADDRSTRLEN];
+        const struct in_addr unreachable = {htonl(group.address)};
+        inet_ntop(AF_INET, &unreachable, address, sizeof address);
+        snprintf(error, ALE_LCM_URL_ERROR,
+                 "LCM: no route for multicast to %s; without a network, as root: "
+                 "ip link set lo multicast on && ip route add 224.0.0.0/4 dev lo",
+                 address);
+        return -1;
+    }
+    return 0;
+}
+
 static int check(const char *url, char error[ALE_LCM_URL_ERROR])
 {
-    static const char *const kinds[] = {UDPM, "mpudpm://", "tcpq://", "memq://", "file://"};
-    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
-        if (strncmp(url, kinds[k], strlen(kinds[k])) == 0) {
-            return k == 0 ? check_group(url, error) : 0;
+    static const char *const others[] = {"tcpq://", "memq://", "file://"};
+    if (ale_lcm_is_group(url)) {
+        return check_group(url, error);
+    }
+    for (size_t k = 0; k < sizeof others / sizeof others[0]; k++) {
+        if (strncmp(url, others[k], strlen(others[k])) == 0) {
+            return 0;
         }
     }
-    snprintf(error, ALE_LCM_URL_ERROR, "LCM: %.100s is no URL that LCM knows (udpm://..., tcpq://...)", url);
+    snprintf(error, ALE_LCM_URL_ERROR, "LCM: %.100s is no URL that is known here (udpm://..., tcpq://...)",
+             url);
     return -1;
 }
 

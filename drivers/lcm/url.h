@@ -1,12 +1,30 @@
-/* Where LCM is joined, looked at before LCM is asked: it prints a page of advice where one line is wanted. */
+/* Where LCM is joined: a URL looked at before anything is opened, so that what is wrong with it is told in
+ * one line. */
 #ifndef ALE_LCM_URL_H
 #define ALE_LCM_URL_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 enum { ALE_LCM_URL_ERROR = 256 };
 
+/* udpm://GROUP:PORT?ttl=N&recv_buf_size=N, each part of which may be missing. */
+typedef struct {
+    uint32_t address; /* a multicast address, 239.255.76.67 as 0xefff4c43 */
+    uint16_t port;
+    uint8_t ttl;           /* 0: messages stay on this machine */
+    int32_t receive_bytes; /* asked from the kernel; 0: not said */
+} ale_lcm_group_t;
+
 /* The URL to open: url, or where that is NULL or empty the environment's LCM_DEFAULT_URL, else LCM's default.
- * NULL, and one line for people in error: no kind of URL that LCM knows, no multicast address, no port, no
- * route to the group. Makes a socket and closes it again; sends nothing. */
+ * NULL, and one line for people in error: a kind of URL that is not spoken here, no multicast address, no
+ * port, no such option, no route to the group. Makes a socket and closes it again; sends nothing. */
 const char *ale_lcm_url(const char *url, char error[ALE_LCM_URL_ERROR]);
+
+/* True for a URL of udpm, of which ale_lcm_group then takes the parts. */
+bool ale_lcm_is_group(const char *url);
+
+/* 0, or -1 and one line in error; the route is not looked at. *group is then undefined. */
+int ale_lcm_group(const char *url, ale_lcm_group_t *group, char error[ALE_LCM_URL_ERROR]);
 
 #endif

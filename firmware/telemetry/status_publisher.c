@@ -25,6 +25,11 @@ void ale_status_publisher_send(ale_status_publisher_t *publisher)
     ale_commands_counters(publisher->commands, report);
     report->counter[report->counters++] =
         (ale_counter_t){.name = "words_left_out", .value = ale_logger_dropped(publisher->logger)};
+    const ale_lcm_dropped_t dropped = ale_bus_dropped(publisher->bus);
+    report->counter[report->counters++] =
+        (ale_counter_t){.name = "datagrams_refused", .value = dropped.malformed};
+    report->counter[report->counters++] =
+        (ale_counter_t){.name = "datagrams_unheard", .value = dropped.unheard};
     ale_bus_send_status(publisher->bus, report);
     publisher->last_ns = ale_rt_now_ns();
     publisher->news = false;

@@ -21,6 +21,7 @@
 #include "telemetry/supervisor.h"
 
 #define NS_PER_S 1000000000
+#define SELF_TEST_MS 1000
 
 struct ale_telemetry {
     const ale_config_t *config;
@@ -133,6 +134,12 @@ static void listen_to_lcm(ale_telemetry_t *telemetry)
     }
     if (ale_bus_on_command(telemetry->bus, take_command, telemetry) < 0) {
         ale_logger_log(telemetry->logger, "LCM refuses the subscription of commands: none will be taken");
+    }
+    if (!ale_bus_hears_itself(telemetry->bus, SELF_TEST_MS)) {
+        ale_logger_log(
+            telemetry->logger,
+            "LCM: what is sent does not come back, and commands may not come in: is there a firewall, "
+            "an IPAddressDeny of the service, or a route that is missing?");
     }
     sem_post(&telemetry->listening);
 }

@@ -57,7 +57,7 @@ LCM_STAMP = $(BUILD)/lcmtypes/stamp
 $(LCM_STAMP): $(LCM_FILES)
 	$(call say,lcm-gen,$(LCM_FILES))
 	$(Q)rm -rf $(@D) $(BUILD)/python/ale $(BUILD)/java && mkdir -p $(@D) $(BUILD)/python $(BUILD)/java
-	$(Q)lcm-gen -c --c-cpath $(@D) --c-hpath $(@D) --package-prefix lcmtypes $(LCM_FILES)
+	$(Q)lcm-gen -c --c-no-pubsub --c-cpath $(@D) --c-hpath $(@D) --package-prefix lcmtypes $(LCM_FILES)
 	$(Q)lcm-gen -x --cpp-hpath $(@D) --cpp-std c++11 $(LCM_FILES)
 	$(Q)lcm-gen -p --ppath $(BUILD)/python $(LCM_FILES)
 	$(Q)lcm-gen -j --jpath $(BUILD)/java $(LCM_FILES)

@@ -10,7 +10,9 @@
 #define ALE_COMMON_FEED_LCM_FEED_H
 
 #include <cerrno>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <functional>
 #include <limits>
@@ -19,46 +21,40 @@
 #include <string>
 #include <vector>
 
-#include <lcm/lcm.h>
-
 extern "C" {
-#include "lcm/url.h"
+#include "lcm/wire.h"
 }
 
 namespace feed
 {
 
-using Lcm = std::unique_ptr<lcm_t, decltype(&lcm_destroy)>;
+using Wire = std::unique_ptr<ale_wire_t, decltype(&ale_wire_close)>;
 
 /* Empty url: the environment's LCM_DEFAULT_URL, else LCM's own default. Throws std::runtime_error. */
-inline Lcm join_lcm(const std::string &url)
+inline Wire join_lcm(const std::string &url)
 {
     char error[ALE_LCM_URL_ERROR];
-    const char *chosen = ale_lcm_url(url.c_str(), error);
-    if (!chosen) {
+    Wire wire(ale_wire_open(url.c_str(), error), ale_wire_close);
+    if (!wire) {
         throw std::runtime_error(error);
     }
-    Lcm lcm(lcm_create(chosen), lcm_destroy);
-    if (!lcm) {
-        throw std::runtime_error(std::string("LCM: ") + chosen + " cannot be opened");
-    }
-    return lcm;
+    return wire;
 }
 
 class LcmFeed
 {
   public:
     /* url: as join_lcm. */
-    explicit LcmFeed(const std::string &url) : lcm_(join_lcm(url))
+    explicit LcmFeed(const std::string &url) : wire_(join_lcm(url))
     {
     }
 
     template <class Message> void on(const std::string &channel, std::function<void(const Message &)> handler)
     {
-        receivers_.push_back([handler](const lcm_recv_buf_t &buffer) {
+        receivers_.push_back([handler](const uint8_t *bytes, size_t count) {
             Message message;
-            if (buffer.data_size > static_cast<uint32_t>(std::numeric_limits<int>::max()) ||
-                message.decode(buffer.data, 0, static_cast<int>(buffer.data_size)) < 0) {
+            if (count > static_cast<size_t>(std::numeric_limits<int>::max()) ||
+                message.decode(bytes, 0, static_cast<int>(count)) < 0) {
                 throw std::runtime_error("truncated, or of another type");
             }
             handler(message);
@@ -70,23 +66,20 @@ class LcmFeed
      * fails. */
     bool wait(int timeout_ms)
     {
-        errno = 0;
-        const int handled = lcm_handle_timeout(lcm_.get(), timeout_ms);
-        if (handled < 0 && errno != EINTR) {
+        const int handled = ale_wire_receive(wire_.get(), timeout_ms, 1);
+        if (handled < 0) {
             throw std::runtime_error("LCM stopped receiving");
         }
         return handled > 0;
     }
 
+    /* Messages that could not be decoded or made no sense, and datagrams that are no messages. */
     uint64_t malformed() const
     {
-        return malformed_;
+        return malformed_ + ale_wire_dropped(wire_.get()).malformed;
     }
 
   private:
-    /* Enough for a burst that fills the kernel's buffer; more would only hide that we are too slow. */
-    static constexpr int queue_messages = 1000;
-
     struct Subscription {
         LcmFeed *feed;
         size_t receiver;
@@ -95,28 +88,25 @@ class LcmFeed
     void subscribe(const std::string &channel)
     {
         subscriptions_.push_back(std::make_unique<Subscription>(Subscription{this, receivers_.size() - 1}));
-        lcm_subscription_t *subscription =
-            lcm_subscribe(lcm_.get(), channel.c_str(), receive, subscriptions_.back().get());
-        if (subscription == nullptr) {
-            throw std::runtime_error("cannot subscribe to " + channel);
+        if (ale_wire_subscribe(wire_.get(), channel.c_str(), receive, subscriptions_.back().get()) < 0) {
+            throw std::runtime_error("cannot subscribe to " + channel + ": " + std::strerror(errno));
         }
-        lcm_subscription_set_queue_capacity(subscription, queue_messages);
     }
 
-    static void receive(const lcm_recv_buf_t *buffer, const char *, void *user) noexcept
+    static void receive(void *user, const char *, const uint8_t *bytes, size_t count) noexcept
     {
         const auto *subscription = static_cast<const Subscription *>(user);
         try {
-            subscription->feed->receivers_[subscription->receiver](*buffer);
+            subscription->feed->receivers_[subscription->receiver](bytes, count);
         } catch (const std::exception &) {
             subscription->feed->malformed_++;
         }
     }
 
-    std::vector<std::function<void(const lcm_recv_buf_t &)>> receivers_;
+    std::vector<std::function<void(const uint8_t *, size_t)>> receivers_;
     std::vector<std::unique_ptr<Subscription>> subscriptions_;
     uint64_t malformed_ = 0;
-    Lcm lcm_;
+    Wire wire_;
 };
 
 } // namespace feed

@@ -3,12 +3,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <poll.h>
-
 #include "lab/sim/units.h"
 
 extern "C" {
-#include "lcm/url.h"
 #include "lcmtypes_ale_drive_t.h"
 }
 
@@ -19,7 +16,7 @@ namespace
 {
 
 constexpr int64_t dead_man_us = 500000;
-constexpr char drive_channel[] = "ALE_DRIVE";
+constexpr int most_datagrams = 256;
 
 } // namespace
 
@@ -42,29 +39,28 @@ void OdometryOut::publish(int64_t utime, const Pose &pose)
 DriveIn::DriveIn(const std::string &url)
 {
     char error[ALE_LCM_URL_ERROR];
-    const char *joined = ale_lcm_url(url.c_str(), error);
-    if (!joined) {
+    wire_.reset(ale_wire_open(url.c_str(), error));
+    if (!wire_) {
         throw std::runtime_error(error);
     }
-    lcm_.reset(lcm_create(joined));
-    if (!lcm_ || !lcm_subscribe(lcm_.get(), drive_channel, take, this)) {
+    if (ale_wire_subscribe(wire_.get(), ALE_CHANNEL_DRIVE, take, this) < 0) {
         throw std::runtime_error("LCM: cannot listen to ALE_DRIVE");
     }
 }
 
 int DriveIn::descriptor() const
 {
-    return lcm_get_fileno(lcm_.get());
+    return ale_wire_descriptor(wire_.get());
 }
 
-void DriveIn::take(const lcm_recv_buf_t *message, const char *, void *self)
+void DriveIn::take(void *self, const char *, const uint8_t *bytes, size_t count)
 {
     auto &drive = *static_cast<DriveIn *>(self);
     /* The C type: the generated C++ reads floats through integers, which an optimiser may take apart. */
     lcmtypes_ale_drive_t set_point = {};
-    const int size = static_cast<int>(message->data_size);
-    if (lcmtypes_ale_drive_t_decode(message->data, 0, size, &set_point) == size &&
-        std::isfinite(set_point.v) && std::isfinite(set_point.w)) {
+    const int size = static_cast<int>(count);
+    if (lcmtypes_ale_drive_t_decode(bytes, 0, size, &set_point) == size && std::isfinite(set_point.v) &&
+        std::isfinite(set_point.w)) {
         drive.command_ = {set_point.v, set_point.w};
         drive.taken_us_ = drive.now_us_;
     }
@@ -73,10 +69,7 @@ void DriveIn::take(const lcm_recv_buf_t *message, const char *, void *self)
 void DriveIn::receive(int64_t now_us)
 {
     now_us_ = now_us;
-    pollfd ready = {descriptor(), POLLIN, 0};
-    while (poll(&ready, 1, 0) > 0) {
-        lcm_handle(lcm_.get());
-    }
+    ale_wire_receive(wire_.get(), 0, most_datagrams);
 }
 
 Twist DriveIn::command(int64_t now_us) const

@@ -2,16 +2,16 @@
 #ifndef ALE_LAB_SIM_BUS_H
 #define ALE_LAB_SIM_BUS_H
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
-
-#include <lcm/lcm.h>
 
 #include "lab/sim/world/robot.h"
 
 extern "C" {
 #include "lcm/bus.h"
+#include "lcm/wire.h"
 }
 
 namespace sim
@@ -48,15 +48,15 @@ class DriveIn
     Twist command(int64_t now_us) const;
 
   private:
-    static void take(const lcm_recv_buf_t *message, const char *channel, void *self);
+    static void take(void *self, const char *channel, const uint8_t *bytes, size_t count);
 
     struct Close {
-        void operator()(lcm_t *lcm) const
+        void operator()(ale_wire_t *wire) const
         {
-            lcm_destroy(lcm);
+            ale_wire_close(wire);
         }
     };
-    std::unique_ptr<lcm_t, Close> lcm_;
+    std::unique_ptr<ale_wire_t, Close> wire_;
     Twist command_;
     int64_t now_us_ = 0;
     int64_t taken_us_ = too_early_us;

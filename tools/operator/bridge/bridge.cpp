@@ -9,7 +9,6 @@
 #include <poll.h>
 
 #include "common/command_line/wrong_use.h"
-#include "common/feed/lcm_feed.h"
 #include "operator/bridge/frame.h"
 
 namespace bridge
@@ -20,7 +19,6 @@ namespace
 
 constexpr int64_t hello_period_us = 500000;
 constexpr int look_ms = 100;
-constexpr int queue_messages = 1000;
 constexpr int most_at_once = 256;
 
 int64_t now_us()
@@ -32,25 +30,22 @@ int64_t now_us()
 } // namespace
 
 Bridge::Bridge(const std::string &lcm_url, UdpLink link, const Selection &send, const Selection &accept)
-    : lcm_(feed::join_lcm(lcm_url)), link_(std::move(link)), send_(send), accept_(accept),
+    : wire_(feed::join_lcm(lcm_url)), link_(std::move(link)), send_(send), accept_(accept),
       session_(std::random_device{}())
 {
     for (const std::string &channel : send_.names()) {
         if (accept_.contains(channel)) {
             throw cli::WrongUse(channel + " is both sent and accepted: it would go round for ever");
         }
-        lcm_subscription_t *subscription = lcm_subscribe(lcm_.get(), channel.c_str(), on_message, this);
-        if (!subscription) {
+        if (ale_wire_subscribe(wire_.get(), channel.c_str(), on_message, this) < 0) {
             throw std::runtime_error("cannot subscribe to " + channel);
         }
-        lcm_subscription_set_queue_capacity(subscription, queue_messages);
     }
 }
 
-void Bridge::on_message(const lcm_recv_buf_t *buffer, const char *channel, void *user) noexcept
+void Bridge::on_message(void *user, const char *channel, const uint8_t *bytes, size_t count) noexcept
 {
-    static_cast<Bridge *>(user)->carry_out(channel, static_cast<const uint8_t *>(buffer->data),
-                                           buffer->data_size);
+    static_cast<Bridge *>(user)->carry_out(channel, bytes, count);
 }
 
 void Bridge::carry_out(const char *channel, const uint8_t *bytes, size_t count)
@@ -82,7 +77,7 @@ void Bridge::carry_in(const Frame &frame)
         return;
     }
     if (arrivals_.take(frame)) {
-        lcm_publish(lcm_.get(), frame.channel.c_str(), frame.message, static_cast<unsigned>(frame.size));
+        ale_wire_send(wire_.get(), frame.channel.c_str(), frame.message, frame.size);
         counts_.received++;
     }
 }
@@ -130,13 +125,12 @@ void Bridge::tell_changes(int64_t now)
 
 void Bridge::step()
 {
-    pollfd sources[] = {{lcm_get_fileno(lcm_.get()), POLLIN, 0}, {link_.descriptor(), POLLIN, 0}};
+    pollfd sources[] = {{ale_wire_descriptor(wire_.get()), POLLIN, 0}, {link_.descriptor(), POLLIN, 0}};
     poll(sources, 2, look_ms);
     if (sources[1].revents != 0) {
         receive_datagrams();
     }
-    for (int k = 0; k < most_at_once && lcm_handle_timeout(lcm_.get(), 0) > 0; k++) {
-    }
+    ale_wire_receive(wire_.get(), 0, most_at_once);
     say_hello();
     tell_changes(now_us());
 }

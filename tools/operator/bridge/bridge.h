@@ -4,12 +4,10 @@
 #define BRIDGE_BRIDGE_H
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include <lcm/lcm.h>
-
+#include "common/feed/lcm_feed.h"
 #include "operator/bridge/arrivals.h"
 #include "operator/bridge/selection.h"
 #include "operator/bridge/udp_link.h"
@@ -45,14 +43,14 @@ class Bridge
     }
 
   private:
-    static void on_message(const lcm_recv_buf_t *buffer, const char *channel, void *user) noexcept;
+    static void on_message(void *user, const char *channel, const uint8_t *bytes, size_t count) noexcept;
     void carry_out(const char *channel, const uint8_t *bytes, size_t count);
     void carry_in(const Frame &frame);
     void receive_datagrams();
     void say_hello();
     void tell_changes(int64_t now);
 
-    std::unique_ptr<lcm_t, decltype(&lcm_destroy)> lcm_;
+    feed::Wire wire_;
     UdpLink link_;
     Selection send_;
     Selection accept_;

@@ -44,6 +44,7 @@ const COUNTERS = {
   resets: "scanner reset", reopens: "port opened again", hardware_faults: "scanner faults",
   identity_warnings: "odd identity lines", odometry: "odometry received", odometry_ring_full: "odometry, no room",
   odometry_refused: "odometry refused", messages_unsent: "messages not sent",
+  datagrams_refused: "datagrams that are no messages", datagrams_unheard: "datagrams kept off, or too many",
   command_malformed: "commands, malformed", command_unsigned: "commands, unsigned",
   command_stranger: "commands, of a stranger", command_forged: "commands, forged",
   command_other_robot: "commands for another robot", command_replayed: "commands, replayed",
@@ -51,7 +52,7 @@ const COUNTERS = {
   command_late: "commands, too late", command_lasting: "commands, lasting too long",
 };
 const DROPS = ["scans_lost", "overloaded", "scan_ring_full", "result_ring_full"];
-const TRAFFIC = ["odometry", "identity_warnings"];
+const TRAFFIC = ["odometry", "identity_warnings", "datagrams_unheard"];
 const USUAL = { maps: 1 }; // what is no trouble unless there is more of it
 
 export const counterInWords = (name) => COUNTERS[name] ?? name.replaceAll("_", " ");
