@@ -57,6 +57,9 @@ static int prepare(ale_daemon_t *daemon)
     if (!daemon->bus) {
         return fail(1, error);
     }
+    if (daemon->options->vouches) {
+        ale_bus_vouch(daemon->bus, &daemon->options->own_key, daemon->options->scale_ppm);
+    }
     if (ale_exchange_open(&daemon->exchange, ale_clock_start(daemon->options->scale_ppm)) < 0) {
         return fail(1, "out of memory");
     }

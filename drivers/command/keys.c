@@ -13,8 +13,26 @@
 #include "file/text.h"
 #include "file/whole_file.h"
 
-static const char KEYS_HEAD[] = "ALE-SLAM keys 1";
-static const char SECRET_HEAD[] = "ALE-SLAM operator key 1";
+/* How a kind of file begins, what is written into it for people, and what is said of another one. */
+typedef struct {
+    const char *head;
+    const char *comment;
+    const char *wrong;
+} form_t;
+
+static const form_t KEYS = {
+    "ALE-SLAM keys 1",
+    "Who may command the robot: name and public key. Taking a line away takes the right away.",
+    "not a robot's list of keys (ale-keys makes it)"};
+static const form_t ROBOTS = {
+    "ALE-SLAM robots 1", "Robots that are believed: name and public key, as ale-keys --own prints them.",
+    "not a list of robots (ale-keys makes it)"};
+static const form_t OPERATOR_KEY = {"ALE-SLAM operator key 1", "",
+                                    "not an operator's key (ale-keys makes it)"};
+static const form_t ROBOT_KEY = {"ALE-SLAM robot key 1", "",
+                                 "not a robot's own key (ale-keys --own makes it)"};
+static const form_t DRIVE_KEY = {"ALE-SLAM drive key 1", "",
+                                 "not a key for set points (ale-keys --drive makes it)"};
 
 enum {
     SEED_BYTES = crypto_sign_SEEDBYTES,
@@ -26,6 +44,7 @@ enum {
 
 _Static_assert((int)ALE_PUBLIC_KEY_BYTES == (int)crypto_sign_PUBLICKEYBYTES, "libsodium's sizes");
 _Static_assert((int)ALE_SECRET_KEY_BYTES == (int)crypto_sign_SECRETKEYBYTES, "libsodium's sizes");
+_Static_assert((int)ALE_DRIVE_KEY_BYTES == (int)SEED_BYTES, "one line of a file holds a key");
 _Static_assert((int)ALE_SIGNATURE_BYTES == (int)crypto_sign_BYTES, "libsodium's sizes");
 _Static_assert((int)ALE_PUBLIC_KEY_BYTES == (int)SEED_BYTES, "a line of either file holds as much");
 
@@ -119,11 +138,12 @@ static const char *take_key(ale_span_t line, ale_keys_t *keys)
     return NULL;
 }
 
-static int parse_keys(const char *path, ale_text_t text, ale_keys_t *keys, char error[ALE_KEYS_ERROR])
+static int parse_keys(const form_t *form, const char *path, ale_text_t text, ale_keys_t *keys,
+                      char error[ALE_KEYS_ERROR])
 {
     ale_span_t line;
-    if (!ale_text_line(&text, &line) || !ale_text_is(line, KEYS_HEAD)) {
-        return fail(error, path, "not a robot's list of keys (ale-keys makes it)");
+    if (!ale_text_line(&text, &line) || !ale_text_is(line, form->head)) {
+        return fail(error, path, form->wrong);
     }
     while (ale_text_line(&text, &line)) {
         const char *wrong = is_comment(line) ? NULL : take_key(line, keys);
@@ -157,7 +177,7 @@ static const char *read_guarded(const char *path, const guard_t *guard, ale_byte
     return (file.st_mode & guard->forbidden) != 0 ? guard->others_have_it : NULL;
 }
 
-int ale_keys_load(const char *path, ale_keys_t *keys, char error[ALE_KEYS_ERROR])
+static int load_list(const form_t *form, const char *path, ale_keys_t *keys, char error[ALE_KEYS_ERROR])
 {
     static const guard_t guard = {
         .forbidden = S_IWGRP | S_IWOTH,
@@ -172,7 +192,8 @@ int ale_keys_load(const char *path, ale_keys_t *keys, char error[ALE_KEYS_ERROR]
     const char *wrong = read_guarded(path, &guard, &bytes);
     ale_keys_t read = {0};
     const int status =
-        wrong ? fail(error, path, wrong) : parse_keys(path, ale_text(bytes.at, bytes.count), &read, error);
+        wrong ? fail(error, path, wrong)
+              : parse_keys(form, path, ale_text(bytes.at, bytes.count), &read, error);
     ale_bytes_free(&bytes);
     if (status == 0) {
         *keys = read;
@@ -180,18 +201,42 @@ int ale_keys_load(const char *path, ale_keys_t *keys, char error[ALE_KEYS_ERROR]
     return status;
 }
 
-int ale_keys_save(const char *path, const ale_keys_t *keys, char error[ALE_KEYS_ERROR])
+int ale_keys_load(const char *path, ale_keys_t *keys, char error[ALE_KEYS_ERROR])
+{
+    return load_list(&KEYS, path, keys, error);
+}
+
+int ale_robots_load(const char *path, ale_keys_t *robots, char error[ALE_KEYS_ERROR])
+{
+    return load_list(&ROBOTS, path, robots, error);
+}
+
+void ale_public_key_text(const ale_public_key_t *key, char text[ALE_PUBLIC_KEY_TEXT])
+{
+    char hex[HEX_BYTES];
+    sodium_bin2hex(hex, sizeof hex, key->key, ALE_PUBLIC_KEY_BYTES);
+    snprintf(text, ALE_PUBLIC_KEY_TEXT, "%s %s", key->name, hex);
+}
+
+int ale_public_key_parse(const char *text, ale_public_key_t *key)
+{
+    ale_keys_t one = {0};
+    const ale_span_t line = {.at = text, .end = text + strlen(text)};
+    if (sodium_init() < 0 || take_key(line, &one)) {
+        return -1;
+    }
+    *key = one.operator_key[0];
+    return 0;
+}
+
+static int save_list(const form_t *form, const char *path, const ale_keys_t *keys, char error[ALE_KEYS_ERROR])
 {
     char text[LINE_BYTES * (ALE_MAX_KEYS + 2)];
-    size_t length = (size_t)snprintf(text, sizeof text,
-                                     "%s\n# Who may command the robot: name and public key. "
-                                     "Taking a line away takes the right away.\n",
-                                     KEYS_HEAD);
+    size_t length = (size_t)snprintf(text, sizeof text, "%s\n# %s\n", form->head, form->comment);
     for (uint32_t k = 0; k < keys->count; k++) {
-        char hex[HEX_BYTES];
-        sodium_bin2hex(hex, sizeof hex, keys->operator_key[k].key, ALE_PUBLIC_KEY_BYTES);
-        length +=
-            (size_t)snprintf(text + length, sizeof text - length, "%s %s\n", keys->operator_key[k].name, hex);
+        char line[ALE_PUBLIC_KEY_TEXT];
+        ale_public_key_text(&keys->operator_key[k], line);
+        length += (size_t)snprintf(text + length, sizeof text - length, "%s\n", line);
     }
     ale_whole_file_t file;
     int status = ale_whole_file_begin(&file, path, LIST_RIGHTS);
@@ -202,14 +247,24 @@ int ale_keys_save(const char *path, const ale_keys_t *keys, char error[ALE_KEYS_
     return status < 0 ? fail(error, path, ale_whole_file_words(errno)) : 0;
 }
 
-int ale_secret_key_save(const char *path, const ale_secret_key_t *secret, char error[ALE_KEYS_ERROR])
+int ale_keys_save(const char *path, const ale_keys_t *keys, char error[ALE_KEYS_ERROR])
 {
-    uint8_t seed[SEED_BYTES];
+    return save_list(&KEYS, path, keys, error);
+}
+
+int ale_robots_save(const char *path, const ale_keys_t *robots, char error[ALE_KEYS_ERROR])
+{
+    return save_list(&ROBOTS, path, robots, error);
+}
+
+/* A new file with one secret line, for its owner alone. */
+static int save_secret(const form_t *form, const char *path, const char *name, const uint8_t seed[SEED_BYTES],
+                       char error[ALE_KEYS_ERROR])
+{
     char hex[HEX_BYTES];
     char text[LINE_BYTES];
-    crypto_sign_ed25519_sk_to_seed(seed, secret->key);
-    sodium_bin2hex(hex, sizeof hex, seed, sizeof seed);
-    const int length = snprintf(text, sizeof text, "%s\n%s %s\n", SECRET_HEAD, secret->name, hex);
+    sodium_bin2hex(hex, sizeof hex, seed, SEED_BYTES);
+    const int length = snprintf(text, sizeof text, "%s\n%s %s\n", form->head, name, hex);
     const int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
     int status = file < 0 ? fail(error, path, strerror(errno)) : 0;
     if (file >= 0) {
@@ -218,29 +273,60 @@ int ale_secret_key_save(const char *path, const ale_secret_key_t *secret, char e
         }
         close(file);
     }
-    sodium_memzero(seed, sizeof seed);
     sodium_memzero(hex, sizeof hex);
     sodium_memzero(text, sizeof text);
     return status;
 }
 
-static bool parse_secret(ale_text_t text, ale_secret_key_t *secret)
+static int save_key(const form_t *form, const char *path, const ale_secret_key_t *secret,
+                    char error[ALE_KEYS_ERROR])
+{
+    uint8_t seed[SEED_BYTES];
+    crypto_sign_ed25519_sk_to_seed(seed, secret->key);
+    const int status = save_secret(form, path, secret->name, seed, error);
+    sodium_memzero(seed, sizeof seed);
+    return status;
+}
+
+int ale_secret_key_save(const char *path, const ale_secret_key_t *secret, char error[ALE_KEYS_ERROR])
+{
+    return save_key(&OPERATOR_KEY, path, secret, error);
+}
+
+int ale_robot_key_save(const char *path, const ale_secret_key_t *secret, char error[ALE_KEYS_ERROR])
+{
+    return save_key(&ROBOT_KEY, path, secret, error);
+}
+
+int ale_drive_key_save(const char *path, const ale_drive_key_t *key, char error[ALE_KEYS_ERROR])
+{
+    return save_secret(&DRIVE_KEY, path, "drive", key->key, error);
+}
+
+int ale_drive_key_make(ale_drive_key_t *key)
+{
+    if (sodium_init() < 0) {
+        return -1;
+    }
+    randombytes_buf(key->key, sizeof key->key);
+    return 0;
+}
+
+static bool parse_secret(const form_t *form, ale_text_t text, char name[ALE_NAME_BYTES],
+                         uint8_t seed[SEED_BYTES])
 {
     ale_span_t line;
-    uint8_t seed[SEED_BYTES];
-    uint8_t public_key[ALE_PUBLIC_KEY_BYTES];
-    if (!ale_text_line(&text, &line) || !ale_text_is(line, SECRET_HEAD)) {
+    if (!ale_text_line(&text, &line) || !ale_text_is(line, form->head)) {
         return false;
     }
     while (ale_text_line(&text, &line) && is_comment(line)) {
     }
-    const bool found =
-        take_line(line, secret->name, seed) && crypto_sign_seed_keypair(public_key, secret->key, seed) == 0;
-    sodium_memzero(seed, sizeof seed);
-    return found;
+    return take_line(line, name, seed);
 }
 
-int ale_secret_key_load(const char *path, ale_secret_key_t *secret, char error[ALE_KEYS_ERROR])
+/* The one line of a file with a secret. */
+static int load_secret(const form_t *form, const char *path, char name[ALE_NAME_BYTES],
+                       uint8_t seed[SEED_BYTES], char error[ALE_KEYS_ERROR])
 {
     static const guard_t guard = {
         .forbidden = S_IRWXG | S_IRWXO,
@@ -252,16 +338,56 @@ int ale_secret_key_load(const char *path, ale_secret_key_t *secret, char error[A
         return -1;
     }
     const char *wrong = read_guarded(path, &guard, &bytes);
-    ale_secret_key_t read = {0};
-    if (!wrong && !parse_secret(ale_text(bytes.at, bytes.count), &read)) {
-        wrong = "not an operator's key (ale-keys makes it)";
+    if (!wrong && !parse_secret(form, ale_text(bytes.at, bytes.count), name, seed)) {
+        wrong = form->wrong;
     }
-    if (!wrong) {
-        *secret = read;
-    }
-    sodium_memzero(&read, sizeof read);
     ale_bytes_free(&bytes);
     return wrong ? fail(error, path, wrong) : 0;
+}
+
+static int load_key(const form_t *form, const char *path, ale_secret_key_t *secret,
+                    char error[ALE_KEYS_ERROR])
+{
+    char name[ALE_NAME_BYTES];
+    uint8_t seed[SEED_BYTES];
+    uint8_t public_key[ALE_PUBLIC_KEY_BYTES];
+    int status = load_secret(form, path, name, seed, error);
+    if (status == 0) {
+        memcpy(secret->name, name, sizeof secret->name);
+        status = crypto_sign_seed_keypair(public_key, secret->key, seed);
+    }
+    sodium_memzero(seed, sizeof seed);
+    return status;
+}
+
+int ale_secret_key_load(const char *path, ale_secret_key_t *secret, char error[ALE_KEYS_ERROR])
+{
+    return load_key(&OPERATOR_KEY, path, secret, error);
+}
+
+int ale_robot_key_load(const char *path, ale_secret_key_t *secret, char error[ALE_KEYS_ERROR])
+{
+    return load_key(&ROBOT_KEY, path, secret, error);
+}
+
+int ale_drive_key_load(const char *path, ale_drive_key_t *key, char error[ALE_KEYS_ERROR])
+{
+    char name[ALE_NAME_BYTES];
+    uint8_t bytes[SEED_BYTES];
+    const int status = load_secret(&DRIVE_KEY, path, name, bytes, error);
+    if (status == 0) {
+        memcpy(key->key, bytes, sizeof key->key);
+    }
+    sodium_memzero(bytes, sizeof bytes);
+    return status;
+}
+
+ale_public_key_t ale_public_half(const ale_secret_key_t *secret)
+{
+    ale_public_key_t half;
+    memcpy(half.name, secret->name, sizeof half.name);
+    crypto_sign_ed25519_sk_to_pk(half.key, secret->key);
+    return half;
 }
 
 size_t ale_command_sign(ale_command_t *command, const ale_secret_key_t *secret,

@@ -1,8 +1,16 @@
-/* Keys of operators (ed25519): made, kept in files, and used to sign.
+/* Keys (ed25519) of operators and robots: made, kept in files, and used to sign.
  *
- *   operator's file, readable by him alone     robot's file, one line an operator
+ *   alice.key, readable by her alone           robot.keys: whom the robot obeys, one line an operator
  *     ALE-SLAM operator key 1                    ALE-SLAM keys 1
  *     alice 3f09...  (32 bytes in hex)           alice a71c...  (32 bytes in hex)
+ *
+ *   robot.keys.secret, the robot's own         alice.key.robots: whom she believes, one line a robot
+ *     ALE-SLAM robot key 1                       ALE-SLAM robots 1
+ *     rover 77b0...                              rover 5d12...
+ *
+ *   drive.key, the robot's and its motor controller's (the same file on both)
+ *     ALE-SLAM drive key 1
+ *     drive 19ce...
  *
  * Lines with # are for people. Names: 1 to 31 letters, digits, '-', '_', '.'. Files are read by ordinary
  * threads; errors are one line that names the file. */
@@ -16,6 +24,7 @@
 #include "command/command.h"
 
 enum { ALE_MAX_KEYS = 16, ALE_PUBLIC_KEY_BYTES = 32, ALE_SECRET_KEY_BYTES = 64, ALE_KEYS_ERROR = 320 };
+enum { ALE_DRIVE_KEY_BYTES = 32, ALE_PUBLIC_KEY_TEXT = ALE_NAME_BYTES + 2 * ALE_PUBLIC_KEY_BYTES + 1 };
 
 typedef struct {
     char name[ALE_NAME_BYTES];
@@ -32,6 +41,11 @@ typedef struct {
     char name[ALE_NAME_BYTES];
     uint8_t key[ALE_SECRET_KEY_BYTES];
 } ale_secret_key_t;
+
+/* The first half is for what the robot says, the second for what the motor side says. */
+typedef struct {
+    uint8_t key[ALE_DRIVE_KEY_BYTES];
+} ale_drive_key_t;
 
 /* Could be the name of an operator. */
 bool ale_is_name(const char *text);
@@ -57,6 +71,30 @@ int ale_secret_key_save(const char *path, const ale_secret_key_t *secret, char e
 /* 0, or -1 with one line in error: as for the robot's file, and others may read it, no operator's key, no
  * random numbers, no memory. Then *secret is untouched. */
 int ale_secret_key_load(const char *path, ale_secret_key_t *secret, char error[ALE_KEYS_ERROR]);
+
+/* The same for a robot's own key, and for an operator's list of the robots that he believes. */
+int ale_robot_key_save(const char *path, const ale_secret_key_t *secret, char error[ALE_KEYS_ERROR]);
+int ale_robot_key_load(const char *path, ale_secret_key_t *secret, char error[ALE_KEYS_ERROR]);
+int ale_robots_save(const char *path, const ale_keys_t *robots, char error[ALE_KEYS_ERROR]);
+int ale_robots_load(const char *path, ale_keys_t *robots, char error[ALE_KEYS_ERROR]);
+
+/* The same for the key that a robot shares with its motor controller: any 32 bytes. ale_drive_key_make: 0, or
+ * -1 when libsodium finds no random numbers. */
+int ale_drive_key_make(ale_drive_key_t *key);
+int ale_drive_key_save(const char *path, const ale_drive_key_t *key, char error[ALE_KEYS_ERROR]);
+int ale_drive_key_load(const char *path, ale_drive_key_t *key, char error[ALE_KEYS_ERROR]);
+
+/* Where the robot's own key lies beside its list, and the robots that an operator believes beside his key,
+ * when nothing else is said: the path with ALE_OWN_KEY_ENDING or ALE_ROBOTS_ENDING behind. */
+#define ALE_OWN_KEY_ENDING ".secret"
+#define ALE_ROBOTS_ENDING ".robots"
+
+/* The public half of a secret key. */
+ale_public_key_t ale_public_half(const ale_secret_key_t *secret);
+
+/* The key's line in a list, "NAME HEX", without an end of line; and back: 0, or -1 when it is none. */
+void ale_public_key_text(const ale_public_key_t *key, char text[ALE_PUBLIC_KEY_TEXT]);
+int ale_public_key_parse(const char *text, ale_public_key_t *key);
 
 /* Signs in the name of the key's owner: command->operator_name is set. Length of the message, or 0 when the
  * command is too long. About 0.1 ms. */

@@ -1,6 +1,7 @@
 #include "command/verify.h"
 
 #include <sodium.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include "command/message.h"
@@ -36,6 +37,11 @@ static int key_of(const ale_keys_t *keys, const char *name)
     return NOBODY;
 }
 
+static bool is_stop(const ale_command_t *command)
+{
+    return strcmp(command->verb, "stop") == 0;
+}
+
 /* Of a command that its owner has signed. */
 static ale_verdict_t judge(const ale_verifier_t *verifier, const ale_command_t *command, int key,
                            int64_t now_utime)
@@ -43,13 +49,25 @@ static ale_verdict_t judge(const ale_verifier_t *verifier, const ale_command_t *
     if (strcmp(command->robot, verifier->robot) != 0) {
         return ALE_REFUSED_ADDRESS;
     }
-    if (command->boot != verifier->boot || command->counter <= verifier->newest[key]) {
+    const int64_t newest = is_stop(command) ? verifier->newest_stop[key] : verifier->newest[key];
+    if (command->boot != verifier->boot || command->counter <= newest) {
         return ALE_REFUSED_REPLAYED;
     }
     if (command->expiry_utime < now_utime) {
         return ALE_REFUSED_LATE;
     }
-    return command->expiry_utime > now_utime + ALE_COMMAND_LIFE_US ? ALE_REFUSED_LASTING : ALE_GENUINE;
+    const int64_t latest = now_utime + ALE_COMMAND_LIFE_US;
+    return command->expiry_utime > latest || command->counter > latest ? ALE_REFUSED_LASTING : ALE_GENUINE;
+}
+
+static void note(ale_verifier_t *verifier, int key, const ale_command_t *command)
+{
+    if (is_stop(command)) {
+        verifier->newest_stop[key] = command->counter;
+    }
+    if (command->counter > verifier->newest[key]) {
+        verifier->newest[key] = command->counter;
+    }
 }
 
 static ale_verdict_t verdict_of(ale_verifier_t *verifier, const uint8_t *bytes, size_t count,
@@ -70,7 +88,7 @@ static ale_verdict_t verdict_of(ale_verifier_t *verifier, const uint8_t *bytes, 
     }
     const ale_verdict_t verdict = judge(verifier, command, key, now_utime);
     if (verdict == ALE_GENUINE) {
-        verifier->newest[key] = command->counter;
+        note(verifier, key, command);
     }
     return verdict;
 }

@@ -5,7 +5,10 @@
  *   if (ale_verify(&verifier, bytes, count, now_utime, &command) == ALE_GENUINE) ... obey command ...
  *
  * A replayed command is refused within one start of the robot by the counter of its key, which only grows,
- * and after a restart by the boot nonce: nothing has to be kept on disk. One owner thread. */
+ * and after a restart by the boot nonce: nothing has to be kept on disk. A stop is compared with stops alone:
+ * one that was overtaken on its way, or that another program of the same operator has numbered lower, still
+ * stops. A counter is of use for as long as a command lasts, so none may be farther ahead of the robot's clock:
+ * no command, however it came to be signed, locks its operator out for longer. One owner thread. */
 #ifndef ALE_COMMAND_VERIFY_H
 #define ALE_COMMAND_VERIFY_H
 
@@ -24,7 +27,7 @@ typedef enum {
     ALE_REFUSED_ADDRESS,  /* for another robot */
     ALE_REFUSED_REPLAYED, /* for an earlier start, or not newer than the key's last one */
     ALE_REFUSED_LATE,     /* after its expiry */
-    ALE_REFUSED_LASTING,  /* expires later than a command may */
+    ALE_REFUSED_LASTING,  /* expires, or is numbered, later than a command may */
     ALE_VERDICTS
 } ale_verdict_t;
 
@@ -32,7 +35,8 @@ typedef struct {
     ale_keys_t keys;
     char robot[ALE_NAME_BYTES];
     int64_t boot;
-    int64_t newest[ALE_MAX_KEYS]; /* counter of the last genuine command of each key */
+    int64_t newest[ALE_MAX_KEYS];      /* counter of the last genuine command of each key, */
+    int64_t newest_stop[ALE_MAX_KEYS]; /* and of its last stop */
     uint64_t count[ALE_VERDICTS];
 } ale_verifier_t;
 

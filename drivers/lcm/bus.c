@@ -11,6 +11,7 @@
 #include <lcmtypes_bot_core_pose_t.h>
 
 #include "lcm/convert.h"
+#include "lcm/vouch.h"
 
 /* What may wait in the kernel between two looks at the bus is looked at in one go. */
 enum { MAX_DATAGRAMS = 256, MESSAGE_BYTES = 16384, FARTHEST_UM = 2000000000 };
@@ -24,6 +25,7 @@ struct ale_bus {
     int64_t exact_utime; /* of the last sample that came exactly */
     ale_bus_command_t take_command;
     void *command_user;
+    ale_vouch_t vouch;
     ale_features_buffer_t features;
     ale_scan_buffer_t scan;
     ale_map_buffer_t map;
@@ -69,12 +71,21 @@ static int send_bytes(ale_bus_t *bus, const char *channel, int length)
     return 0;
 }
 
+void ale_bus_vouch(ale_bus_t *bus, const ale_secret_key_t *key, int32_t clock_ppm)
+{
+    bus->vouch = (ale_vouch_t){.key = key, .clock_ppm = clock_ppm};
+}
+
 int ale_bus_send_pose(ale_bus_t *bus, const ale_pose_report_t *report)
 {
     lcmtypes_ale_pose_t message;
     ale_convert_pose(report, &message);
-    return send_bytes(bus, ALE_CHANNEL_POSE,
-                      lcmtypes_ale_pose_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
+    const int length = lcmtypes_ale_pose_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message);
+    const int sent = send_bytes(bus, ALE_CHANNEL_POSE, length);
+    if (bus->vouch.key && sent == 0) {
+        ale_vouch_pose(&bus->vouch, message.scan, bus->bytes, (size_t)length);
+    }
+    return sent;
 }
 
 int ale_bus_send_tracking(ale_bus_t *bus, const ale_estimate_t *estimate)
@@ -123,8 +134,11 @@ int ale_bus_send_status(ale_bus_t *bus, const ale_status_report_t *report)
 {
     lcmtypes_ale_status_t message;
     ale_convert_status(report, &bus->status, &message);
-    return send_bytes(bus, ALE_CHANNEL_STATUS,
-                      lcmtypes_ale_status_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
+    const int sent = send_bytes(bus, ALE_CHANNEL_STATUS,
+                                lcmtypes_ale_status_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
+    return bus->vouch.key ? send_bytes(bus, ALE_CHANNEL_VOUCHED,
+                                       ale_vouch_encode(&bus->vouch, &message, bus->bytes, MESSAGE_BYTES))
+                          : sent;
 }
 
 int ale_bus_send_odometry(ale_bus_t *bus, const ale_odometry_t *sample)

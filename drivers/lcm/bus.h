@@ -15,6 +15,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "command/keys.h"
 #include "lcm/report.h"
 #include "lcm/wire.h"
 
@@ -25,6 +26,7 @@
 #define ALE_CHANNEL_MAP "ALE_MAP"
 #define ALE_CHANNEL_MAP_PIECES "ALE_MAP_PIECES"
 #define ALE_CHANNEL_STATUS "ALE_STATUS"
+#define ALE_CHANNEL_VOUCHED "ALE_VOUCHED"
 #define ALE_CHANNEL_ODOMETRY "ALE_ODOMETRY"
 #define ALE_CHANNEL_ODOMETRY_EXACT "ALE_ODOMETRY_EXACT"
 #define ALE_CHANNEL_COMMAND "ALE_COMMAND"
@@ -42,6 +44,10 @@ ale_bus_t *ale_bus_open(const char *url, char error[ALE_BUS_ERROR]);
 
 /* NULL: nothing. */
 void ale_bus_close(ale_bus_t *bus);
+
+/* From here on every status goes out a second time, signed with the robot's own key and with the digests of
+ * the newest poses (ALE_VOUCHED). The key must outlive the bus. clock_ppm: how fast the clock of utime runs. */
+void ale_bus_vouch(ale_bus_t *bus, const ale_secret_key_t *key, int32_t clock_ppm);
 
 /* Sends one message; reports as in report.h. Each: 0, or -1 when the message was too long for the bus or the
  * system refused it (counted: ale_bus_unsent). Nobody hears: no error. */

@@ -15,6 +15,7 @@ ale_config_t ale_config_default(void)
         .lock_memory = true,
         .map_folder = "/var/lib/ale-slam",
         .name = "robot",
+        .drive_baud = 115200,
         .drive_um_s = 500000,
         .drive_urad_s = 1000000,
         .keep_seconds = 10,

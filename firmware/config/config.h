@@ -43,6 +43,10 @@ typedef struct {
     char map_folder[ALE_CONFIG_PATH];
     char name[ALE_NAME_BYTES];  /* the robot's */
     char keys[ALE_CONFIG_PATH]; /* of those who may command it; empty: nobody */
+    char own_key[ALE_CONFIG_PATH]; /* the robot's; empty: beside keys, if it is there */
+    char drive_key[ALE_CONFIG_PATH];  /* shared with the motor controller; empty: none */
+    char drive_port[ALE_CONFIG_PATH]; /* serial line to the motor controller; empty: none */
+    int32_t drive_baud;
     int32_t drive_um_s;         /* most that an operator may drive, */
     int32_t drive_urad_s;       /* and turn */
     char keep[ALE_CONFIG_PATH]; /* map and pose, kept while running, taken up at start; empty: not kept */

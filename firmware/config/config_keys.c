@@ -107,8 +107,17 @@ const ale_config_key_t ale_config_keys[] = {
     {"commands", "robot", TEXT(name), "The robot's name: a command is for one robot."},
     {"commands", "keys", TEXT(keys),
      "Public keys of those who may command it (ale-keys makes them). Empty: it takes no commands."},
+    {"commands", "own_key", TEXT(own_key),
+     "The robot's own secret key, with which it vouches for its status (ale-keys makes it).\n"
+     "Empty: what keys says with .secret behind, if that is there."},
     {"commands", "drive_speed", NUMBER(drive_um_s, 6, 0, 20000000), "Most that an operator may drive, m/s,"},
     {"commands", "drive_turn", NUMBER(drive_urad_s, 6, 0, 20000000), "and turn, rad/s."},
+
+    {"drive", "port", TEXT(drive_port),
+     "Serial line to the motor controller, for set points that no bus can reach. Empty: none."},
+    {"drive", "baud", NUMBER(drive_baud, 0, 1200, 4000000), "Its rate in bit/s."},
+    {"drive", "key", TEXT(drive_key),
+     "Key that the motor controller knows, for set points over LCM (ale-keys --drive makes it). Empty: none."},
 
     {"map", "keep", TEXT(keep),
      "Where map and pose are kept while running; the robot goes on from there at the next start,\n"

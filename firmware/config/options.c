@@ -188,6 +188,35 @@ static bool read_keys(const char *path, ale_keys_t *keys)
     return true;
 }
 
+/* The robot's own key: the one that is named, or the one beside its list. */
+static bool read_own_key(ale_options_t *options)
+{
+    const ale_config_t *config = &options->config;
+    char path[ALE_CONFIG_PATH + sizeof ALE_OWN_KEY_ENDING];
+    char error[ALE_KEYS_ERROR];
+    const bool named = config->own_key[0] != '\0';
+    snprintf(path, sizeof path, "%s%s", named ? config->own_key : config->keys,
+             named ? "" : ALE_OWN_KEY_ENDING);
+    options->vouches = named || (config->keys[0] != '\0' && access(path, F_OK) == 0);
+    if (options->vouches && ale_robot_key_load(path, &options->own_key, error) < 0) {
+        fprintf(stderr, "ale-slamd: %s\n", error);
+        return false;
+    }
+    return true;
+}
+
+static bool read_drive_key(ale_options_t *options)
+{
+    char error[ALE_KEYS_ERROR];
+    const char *path = options->config.drive_key;
+    options->keyed = path[0] != '\0';
+    if (options->keyed && ale_drive_key_load(path, &options->drive_key, error) < 0) {
+        fprintf(stderr, "ale-slamd: %s\n", error);
+        return false;
+    }
+    return true;
+}
+
 /* A map to start from is read again by whoever starts: here it is only looked at. */
 static bool check_map(const char *path)
 {
@@ -209,7 +238,8 @@ ale_options_result_t ale_options_read(int count, char **arguments, ale_options_t
         return result;
     }
     if (!read_config(&words, &options->config) || !read_scale(words.time_scale, &options->scale_ppm) ||
-        !read_keys(options->config.keys, &options->keys)) {
+        !read_keys(options->config.keys, &options->keys) || !read_own_key(options) ||
+        !read_drive_key(options)) {
         return ALE_OPTIONS_REFUSED;
     }
     if (words.print) {

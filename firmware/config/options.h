@@ -18,7 +18,11 @@ typedef enum {
 typedef struct {
     ale_config_t config; /* the file's, with what the command line sets over it */
     ale_keys_t keys;     /* of those who may command the robot */
-    int32_t scale_ppm;   /* of the clock */
+    bool vouches;        /* own_key is set */
+    ale_secret_key_t own_key;
+    bool keyed; /* drive_key is set */
+    ale_drive_key_t drive_key;
+    int32_t scale_ppm; /* of the clock */
 } ale_options_t;
 
 /* Answers go to `out`, messages to stderr. */

@@ -10,6 +10,8 @@ import time
 import ale
 import lcm
 
+from signing import Key, digest, signed
+
 WALLS = [  # x1 y1 x2 y2: two rooms with a door between them, and a pillar
     (-2.0, -1.6, 3.0, -1.6), (3.0, -1.6, 3.0, -0.4), (3.0, 0.5, 3.0, 2.0), (3.0, 2.0, -2.0, 2.0),
     (-2.0, 2.0, -2.0, -1.6), (3.0, -1.6, 6.0, -1.6), (6.0, -1.6, 6.0, 2.0), (6.0, 2.0, 3.0, 2.0),
@@ -49,8 +51,13 @@ def to_robot(pose, x, y):
 
 
 class RobotDouble:
-    def __init__(self, url, boot=1):
+    def __init__(self, url, boot=1, own_key=None):
+        """own_key: the file of its secret key; it vouches as soon as that is there."""
         self.bus = lcm.LCM(url)
+        self.name = "double"
+        self.own_key = own_key
+        self.vouched = 0
+        self.sent = []  # (scan, digest) of poses
         self.boot = boot
         self.scan = 0
         self.state = 2
@@ -106,7 +113,9 @@ class RobotDouble:
         return pose
 
     def publish_pose(self):
-        self.bus.publish("ALE_POSE", self.pose().encode())
+        data = self.pose().encode()
+        self.bus.publish("ALE_POSE", data)
+        self.sent = self.sent[-31:] + [(self.scan, digest(data))]
 
     def publish_tracking(self):
         tracking = ale.tracking_t()
@@ -176,7 +185,24 @@ class RobotDouble:
         self.bus.publish("ALE_MAP_PIECES", pieces.encode())
 
     def publish_status(self):
+        status = self.status()
+        self.bus.publish("ALE_STATUS", status.encode())
+        if self.own_key and self.own_key.exists():
+            self.bus.publish("ALE_VOUCHED", self.vouch(status))
+
+    def vouch(self, status):
+        key = Key(self.own_key)
+        self.vouched += 1
+        message = ale.vouched_t()
+        message.utime, message.key, message.boot, message.counter = status.utime, key.number, status.boot, self.vouched
+        message.clock_ppm, message.status = 1000000, status
+        message.num_poses = len(self.sent)
+        message.pose_scan, message.pose_digest = [scan for scan, _ in self.sent], [number for _, number in self.sent]
+        return signed(message, key)
+
+    def status(self):
         status = ale.status_t()
+        status.utime = time.time_ns() // 1000
         status.boot, status.scans, status.poses, status.state = self.boot, self.scan, self.scan, self.state
         status.stage_last_us = [41, 190, 240, 310, 60, 841]
         status.stage_p99_us = [55, 260, 330, 480, 110, 1170]
@@ -190,7 +216,7 @@ class RobotDouble:
         status.counter_name = ["bad_checksum", "scans_lost", "odometry", "resets"]
         status.counter_value = [3, 1, 200, 0]
         status.num_counters = 4
-        status.robot, status.takes_commands = "double", True
+        status.robot, status.takes_commands = self.name, True
         status.who_drives, status.command_obeyed = self.who_drives, True
         status.command_operator, status.command_counter, status.command_result = self.answer
-        self.bus.publish("ALE_STATUS", status.encode())
+        return status

@@ -67,8 +67,9 @@ def commands(lcm_url):
 
 
 @pytest.fixture
-def robot(lcm_url):
-    return RobotDouble(lcm_url)
+def robot(lcm_url, tmp_path):
+    """It vouches once there is a key: in tests with `alice`."""
+    return RobotDouble(lcm_url, own_key=tmp_path / "robot.keys.secret")
 
 
 @pytest.fixture

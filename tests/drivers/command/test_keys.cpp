@@ -53,6 +53,47 @@ TEST_F(Keys, ComeBackFromTheirFilesAsTheyWere)
     EXPECT_EQ(std::memcmp(&secret, &alice.secret, sizeof secret), 0);
 }
 
+TEST_F(Keys, OfRobotsAndMotorControllersComeBackAndAreNotTakenForOthers)
+{
+    const Operator rover("rover");
+    ale_keys_t known{};
+    ale_keys_t again{};
+    known.operator_key[known.count++] = rover.known;
+    const std::string list = folder / "alice.key.robots";
+    const std::string own_key = folder / "robot.keys.secret";
+    const std::string drive = folder / "drive.key";
+    ASSERT_EQ(ale_robots_save(list.c_str(), &known, error), 0) << error;
+    ASSERT_EQ(ale_robots_load(list.c_str(), &again, error), 0) << error;
+    EXPECT_EQ(std::memcmp(&again, &known, sizeof again), 0);
+    EXPECT_LT(ale_keys_load(list.c_str(), &again, error), 0) << "no list of operators";
+    ale_secret_key_t secret{};
+    ASSERT_EQ(ale_robot_key_save(own_key.c_str(), &rover.secret, error), 0) << error;
+    ASSERT_EQ(ale_robot_key_load(own_key.c_str(), &secret, error), 0) << error;
+    EXPECT_EQ(std::memcmp(&secret, &rover.secret, sizeof secret), 0);
+    EXPECT_LT(ale_secret_key_load(own_key.c_str(), &secret, error), 0) << "no operator's";
+    const ale_public_key_t half = ale_public_half(&secret);
+    EXPECT_EQ(std::memcmp(&half, &rover.known, sizeof half), 0);
+    ale_drive_key_t made{};
+    ale_drive_key_t read{};
+    ASSERT_EQ(ale_drive_key_make(&made), 0);
+    ASSERT_EQ(ale_drive_key_save(drive.c_str(), &made, error), 0) << error;
+    ASSERT_EQ(ale_drive_key_load(drive.c_str(), &read, error), 0) << error;
+    EXPECT_EQ(std::memcmp(&made, &read, sizeof made), 0);
+    EXPECT_LT(ale_robot_key_load(drive.c_str(), &secret, error), 0);
+}
+
+TEST_F(Keys, APublicKeyGoesThroughALineOfText)
+{
+    char text[ALE_PUBLIC_KEY_TEXT];
+    ale_public_key_text(&alice.known, text);
+    ale_public_key_t again{};
+    ASSERT_EQ(ale_public_key_parse(text, &again), 0) << text;
+    EXPECT_EQ(std::memcmp(&again, &alice.known, sizeof again), 0);
+    for (const char *wrong : {"", "alice", "alice 12", "alice zz"}) {
+        EXPECT_LT(ale_public_key_parse(wrong, &again), 0) << wrong;
+    }
+}
+
 TEST_F(Keys, ASecretKeyIsForItsOwnerAloneAndNeverWrittenOver)
 {
     ASSERT_EQ(ale_secret_key_save(own.c_str(), &alice.secret, error), 0) << error;

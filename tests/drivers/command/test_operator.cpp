@@ -1,6 +1,8 @@
 /* The operator's end against the robot's: what the one makes the other takes. */
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <cstdio>
 #include <cstring>
 
 #include "drivers/command/signed_command.hpp"
@@ -79,6 +81,120 @@ TEST_F(OperatorEnd, FollowsARobotThatHasStartedAgain)
     EXPECT_EQ(send(1000, now_utime + 1000), ALE_REFUSED_REPLAYED);
     ale_operator_saw(&end, "rover", boot, now_utime + 5000, 5000);
     EXPECT_EQ(send(6000, now_utime + 6000), ALE_GENUINE);
+}
+
+/* Nobody vouches for these: what goes on is followed, what contradicts it is not. */
+TEST_F(OperatorEnd, AForgedClockIsNotFollowedWhileTheOtherOneGoesOn)
+{
+    constexpr int64_t second = 1000000;
+    for (int64_t k = 0; k < 5; k++) {
+        EXPECT_TRUE(ale_operator_saw(&end, "rover", boot, now_utime + k * second, k * second));
+        if (k > 0) {
+            EXPECT_FALSE(ale_operator_saw(&end, "rover", boot, now_utime + (k + 60) * second, k * second + 200000));
+            EXPECT_FALSE(ale_operator_saw(&end, "rover", boot, INT64_MAX, k * second + 400000));
+        }
+        EXPECT_EQ(send(k * second + 500000, now_utime + k * second + 500000), ALE_GENUINE);
+    }
+}
+
+TEST_F(OperatorEnd, ACounterThatAWrongClockMadeDoesNotStay)
+{
+    ale_operator_saw(&end, "rover", boot, now_utime + 3600000000, 0);
+    EXPECT_EQ(send(1000, now_utime), ALE_REFUSED_LASTING);
+    ale_operator_saw(&end, "rover", boot, now_utime + 5000000, 5000000);
+    EXPECT_EQ(send(5000000, now_utime + 5000000), ALE_GENUINE) << "silent since: the other clock is taken";
+    EXPECT_EQ(taken.counter, now_utime + 5000000);
+}
+
+TEST_F(OperatorEnd, CommandsAreForTheFirstRobotAndTheOtherOneIsTold)
+{
+    ale_operator_saw(&end, "rover", boot, now_utime, 0);
+    EXPECT_EQ(ale_operator_rival(&end, 0), nullptr);
+    EXPECT_FALSE(ale_operator_saw(&end, "scout", 5, now_utime, 1000));
+    EXPECT_STREQ(ale_operator_rival(&end, 2000), "scout");
+    EXPECT_EQ(send(2000, now_utime + 2000), ALE_GENUINE);
+    EXPECT_FALSE(ale_operator_saw(&end, "scout", 5, now_utime, 9000000)) << "silence makes no other robot his";
+    EXPECT_EQ(ale_operator_rival(&end, 20000000), nullptr) << "gone again";
+}
+
+TEST_F(OperatorEnd, TwoRobotsOfOneNameAreFoundAndBothHearAStop)
+{
+    constexpr int64_t step = 300000;
+    int64_t host = 0;
+    for (int k = 0; k < 6; k++, host += step) {
+        ale_operator_saw(&end, "rover", k % 2 ? boot : boot + 1, now_utime + host, host);
+    }
+    EXPECT_STREQ(ale_operator_rival(&end, host), "rover");
+    const bool first = send(host, now_utime + host) == ALE_GENUINE;
+    ale_command_t stop{};
+    uint8_t bytes[ALE_COMMAND_BYTES];
+    std::snprintf(stop.verb, sizeof stop.verb, "stop");
+    bool other = false;
+    for (int k = 0; k < ALE_OPERATOR_OTHERS; k++) {
+        ale_command_t same = stop;
+        const size_t count = ale_operator_command_other(&end, k, host, 1000000, &same, bytes);
+        other = other ||
+                (count > 0 && ale_verify(&verifier, bytes, count, now_utime + host, &taken) == ALE_GENUINE);
+    }
+    EXPECT_TRUE(first || other);
+}
+
+/* As a robot that he believes says it. */
+class Believing : public OperatorEnd
+{
+  protected:
+    void SetUp() override
+    {
+        OperatorEnd::SetUp();
+        end.robots.operator_key[end.robots.count++] = Operator("rover").known;
+    }
+    bool hear(int64_t start_boot, int64_t counter, int64_t utime, int64_t host_us)
+    {
+        ale_start_t start{};
+        std::snprintf(start.robot, sizeof start.robot, "rover");
+        start.key = 77;
+        start.boot = start_boot;
+        start.counter = counter;
+        start.utime = utime;
+        start.rate_ppm = 1000000;
+        return ale_operator_saw_vouched(&end, &start, host_us);
+    }
+};
+
+TEST_F(Believing, WhatNobodyVouchesForIsNothing)
+{
+    EXPECT_FALSE(ale_operator_saw(&end, "rover", boot, now_utime, 0));
+    EXPECT_EQ(send(0, now_utime), ALE_REFUSED_MALFORMED) << "nothing was made";
+    EXPECT_TRUE(hear(boot, 1, now_utime, 0));
+    EXPECT_FALSE(ale_operator_saw(&end, "rover", boot + 1, now_utime + 1000, 1000));
+    EXPECT_EQ(send(2000, now_utime + 2000), ALE_GENUINE);
+}
+
+TEST_F(Believing, WordsThatWereHeardAndEarlierOnesAreNotHeardAgain)
+{
+    EXPECT_TRUE(hear(boot, 10, now_utime, 0));
+    for (const int64_t counter : {10, 9, 1}) {
+        EXPECT_FALSE(hear(boot, counter, now_utime + 5000000, 1000));
+    }
+    EXPECT_FALSE(hear(boot - 1, 400, now_utime - 60000000, 1000)) << "an earlier start, recorded then";
+    EXPECT_FALSE(hear(boot - 1, 401, now_utime - 59000000, 2000));
+    EXPECT_EQ(ale_operator_rival(&end, 2000), nullptr);
+    EXPECT_EQ(send(2000, now_utime + 2000), ALE_GENUINE);
+}
+
+TEST_F(Believing, ARobotThatStartsAgainIsFollowedAlsoWithAClockThatWasSetBack)
+{
+    EXPECT_TRUE(hear(boot - 1, 900, now_utime, 0));
+    EXPECT_TRUE(hear(boot, 1, now_utime + 2000000, 2000000));
+    EXPECT_EQ(send(2000000, now_utime + 2000000), ALE_GENUINE);
+    EXPECT_FALSE(hear(boot + 1, 1, 1000000, 3000000)) << "1970: it might be a memory";
+    EXPECT_TRUE(hear(boot + 1, 2, 4100000, 6100000)) << "the other one is silent since";
+}
+
+TEST_F(Believing, NumbersOutOfThisWorldAreRefused)
+{
+    EXPECT_FALSE(hear(boot, 1, -1, 0));
+    EXPECT_FALSE(hear(boot, 1, INT64_MAX, 0));
 }
 
 TEST_F(OperatorEnd, WordsThatDoNotFitAreRefused)

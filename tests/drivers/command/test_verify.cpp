@@ -85,6 +85,31 @@ TEST_F(Verify, ARefusedCommandDoesNotMoveTheCounter)
     EXPECT_EQ(verdict(signed_by(alice, drive(1))), ALE_GENUINE);
 }
 
+/* Whoever made an operator sign it, and whatever else is wrong with it: it must not lock him out. */
+TEST_F(Verify, ACounterFarAheadOfTheClockIsRefused)
+{
+    EXPECT_EQ(verdict(signed_by(alice, drive(now_utime + ALE_COMMAND_LIFE_US + 1))), ALE_REFUSED_LASTING);
+    EXPECT_EQ(verdict(signed_by(alice, drive(INT64_MAX))), ALE_REFUSED_LASTING);
+    EXPECT_EQ(verdict(signed_by(alice, drive(now_utime))), ALE_GENUINE);
+}
+
+TEST_F(Verify, AStopThatWasOvertakenStillStopsButOnlyOnce)
+{
+    const auto stop = [](int64_t counter) {
+        ale_command_t made = drive(counter);
+        std::strcpy(made.verb, "stop");
+        made.args = 0;
+        return made;
+    };
+    EXPECT_EQ(verdict(signed_by(alice, drive(9))), ALE_GENUINE);
+    EXPECT_EQ(verdict(signed_by(alice, stop(8))), ALE_GENUINE);
+    EXPECT_EQ(verdict(signed_by(alice, stop(8))), ALE_REFUSED_REPLAYED);
+    EXPECT_EQ(verdict(signed_by(alice, stop(7))), ALE_REFUSED_REPLAYED);
+    EXPECT_EQ(verdict(signed_by(alice, drive(9))), ALE_REFUSED_REPLAYED) << "it opens no way for others";
+    EXPECT_EQ(verdict(signed_by(alice, stop(10))), ALE_GENUINE);
+    EXPECT_EQ(verdict(signed_by(alice, drive(10))), ALE_REFUSED_REPLAYED);
+}
+
 TEST_F(Verify, ACommandOfAnEarlierStartIsAReplay)
 {
     const std::vector<uint8_t> old = signed_by(alice, drive(7));

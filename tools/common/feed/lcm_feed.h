@@ -62,6 +62,15 @@ class LcmFeed
         subscribe(channel);
     }
 
+    /* The same with the bytes as they came: for what is looked at before it is decoded. */
+    void on_bytes(const std::string &channel, std::function<void(const uint8_t *, size_t)> handler)
+    {
+        receivers_.push_back([handler](const lcm_recv_buf_t &buffer) {
+            handler(static_cast<const uint8_t *>(buffer.data), buffer.data_size);
+        });
+        subscribe(channel);
+    }
+
     /* Waits for one message and handles it. False when the time is over or a signal came; throws when LCM
      * fails. */
     bool wait(int timeout_ms)

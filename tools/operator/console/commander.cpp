@@ -1,6 +1,8 @@
 #include "operator/console/commander.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstring>
 #include <stdexcept>
 
 namespace console
@@ -28,26 +30,73 @@ Sent refused(const char *why)
 
 } // namespace
 
-Commander::Commander(const std::string &lcm_url, const std::string &key_file)
+Commander::Commander(const Credentials &credentials)
 {
-    if (key_file.empty()) {
+    operator_.robots = feed::believed(credentials.robots_file, credentials.key_file);
+    std::snprintf(operator_.wanted, sizeof operator_.wanted, "%s", credentials.robot.c_str());
+    if (credentials.key_file.empty()) {
         return;
     }
     char error[ALE_KEYS_ERROR];
-    if (ale_secret_key_load(key_file.c_str(), &operator_.key, error) < 0) {
+    if (ale_secret_key_load(credentials.key_file.c_str(), &operator_.key, error) < 0) {
         throw std::runtime_error(error);
     }
     char bus_error[ALE_BUS_ERROR];
-    bus_.reset(ale_bus_open(lcm_url.c_str(), bus_error));
+    bus_.reset(ale_bus_open(credentials.lcm_url.c_str(), bus_error));
     if (!bus_) {
         throw std::runtime_error(bus_error);
     }
 }
 
-void Commander::saw(const ale::status_t &status)
+bool Commander::saw(const ale::status_t &status)
 {
     const std::lock_guard lock(mutex_);
-    ale_operator_saw(&operator_, status.robot.c_str(), status.boot, status.utime, host_us());
+    if (!believes()) {
+        return ale_operator_saw(&operator_, status.robot.c_str(), status.boot, status.utime, host_us());
+    }
+    unbelieved_ = status.robot;
+    return operator_.present.robot[0] == '\0';
+}
+
+std::optional<ale::vouched_t> Commander::saw_vouched(const uint8_t *bytes, size_t count)
+{
+    const std::lock_guard lock(mutex_);
+    auto message = feed::vouched_by(operator_.robots, bytes, count);
+    const ale_start_t start = message ? feed::start_of(*message) : ale_start_t{};
+    if (message && !ale_operator_saw_vouched(&operator_, &start, host_us())) {
+        message.reset();
+    }
+    return message;
+}
+
+/* Why it cannot be known who is spoken to; empty: it is known. */
+std::string Commander::doubt() const
+{
+    const char *rival = ale_operator_rival(&operator_, host_us());
+    if (operator_.present.robot[0] == '\0') {
+        return unbelieved_.empty() ? "no robot has been heard yet"
+                                   : unbelieved_ + " is heard, but no robot whose key is known vouches for it";
+    }
+    if (rival && std::strcmp(rival, operator_.present.robot) == 0) {
+        return std::string("two robots call themselves ") + rival + ": they obey STOP alone";
+    }
+    return rival ? std::string("two robots are heard, ") + operator_.present.robot + " and " + rival +
+                       ": choose one (ale-console --robot NAME)"
+                 : "";
+}
+
+std::vector<std::string> Commander::warnings()
+{
+    const std::lock_guard lock(mutex_);
+    std::vector<std::string> lines;
+    const std::string in_doubt = doubt();
+    if (!in_doubt.empty()) {
+        lines.push_back("Not sure who is heard: " + in_doubt + ".");
+    }
+    if (bus_ && !believes()) {
+        lines.emplace_back("Nobody vouches for what is shown: no robot's key is known (ale-keys --know).");
+    }
+    return lines;
 }
 
 bool Commander::may_drive(uint64_t page, Clock::time_point now)
@@ -83,16 +132,38 @@ Sent Commander::sign_and_send(const std::vector<std::string> &words)
     if (ale_command_from_words(texts.data(), static_cast<uint32_t>(texts.size()), &command) < 0) {
         return refused("too many words, or one that is too long");
     }
+    const bool stop = words[0] == "stop";
+    const std::string in_doubt = doubt();
+    if (!in_doubt.empty() && (!stop || operator_.present.robot[0] == '\0')) {
+        return {0, in_doubt};
+    }
     uint8_t bytes[ALE_COMMAND_BYTES];
     const int64_t life = words[0] == "drive" ? drive_life_us : life_us;
     const size_t count = ale_operator_command(&operator_, host_us(), life, &command, bytes);
     if (count == 0) {
-        return refused("no robot has been heard yet");
+        return refused("a word that is too long");
     }
     if (ale_bus_send_command(bus_.get(), bytes, count) < 0) {
         return refused("LCM does not take the command");
     }
+    if (stop) {
+        send_to_others(command, life);
+    }
     return {command.counter, {}};
+}
+
+/* A stop reaches the robot, whichever of the starts that were heard is the true one. */
+void Commander::send_to_others(const ale_command_t &command, int64_t life)
+{
+    uint8_t bytes[ALE_COMMAND_BYTES];
+    for (int other = 0; other < ALE_OPERATOR_OTHERS; other++) {
+        ale_command_t same = command;
+        const size_t count =
+            ale_operator_command_other(&operator_, other, host_us(), life, &same, bytes);
+        if (count > 0) {
+            ale_bus_send_command(bus_.get(), bytes, count);
+        }
+    }
 }
 
 } // namespace console

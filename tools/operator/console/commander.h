@@ -1,9 +1,11 @@
 /* What pages ask for, signed with the operator's key and sent to the robot.
  *
- *   Commander commander(lcm_url, "alice.key");      (throws std::runtime_error; no file: nobody commands
- * here) commander.saw(status);                          (LCM thread, every ALE_STATUS) sent =
- * commander.send(page, {"drive", "0.2", "0"});                                      (web thread)
+ *   Commander commander({lcm_url, "alice.key"});     (throws std::runtime_error; no file: nobody commands)
+ *   if (commander.saw(status)) ...                   (LCM thread, every ALE_STATUS)
+ *   status = commander.saw_vouched(bytes, count);    (LCM thread, every ALE_VOUCHED)
+ *   sent = commander.send(page, {"drive", "0.2", "0"});                  (web thread)
  *
+ * With robots that are believed only what they vouch for is true; nothing is signed for another one.
  * Every page of one console has the same operator's key, so who of them drives is settled here: the first one
  * that does, until it has not for two seconds. */
 #ifndef CONSOLE_COMMANDER_H
@@ -13,18 +15,27 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "ale/status_t.hpp"
+#include "common/feed/vouched.h"
 
 extern "C" {
-#include "command/operator.h"
 #include "lcm/bus.h"
 }
 
 namespace console
 {
+
+/* Where the robot is, and with whose keys. Empty: none. */
+struct Credentials {
+    std::string lcm_url;
+    std::string key_file;
+    std::string robots_file; /* empty: the one beside the key */
+    std::string robot;       /* empty: the one that is heard */
+};
 
 /* What became of a page's wish: the command's number, or why it was not sent. */
 struct Sent {
@@ -37,7 +48,7 @@ class Commander
   public:
     using Clock = std::chrono::steady_clock;
 
-    Commander(const std::string &lcm_url, const std::string &key_file);
+    explicit Commander(const Credentials &credentials);
 
     /* Empty: there is no key. */
     std::string operator_name() const
@@ -45,7 +56,20 @@ class Commander
         return operator_.key.name;
     }
 
-    void saw(const ale::status_t &status);
+    /* Whether only what robots vouch for is believed. */
+    bool believes() const
+    {
+        return operator_.robots.count > 0;
+    }
+
+    /* Whether it is to be shown as the robot's: of this robot, and nobody has vouched for another one. */
+    bool saw(const ale::status_t &status);
+
+    /* Nothing: no robot that is believed has signed it, it is of another one, or it was heard before. */
+    std::optional<ale::vouched_t> saw_vouched(const uint8_t *bytes, size_t count);
+
+    /* What an operator must know of whom he hears, a line each. */
+    std::vector<std::string> warnings();
 
     /* page: any number that tells the pages apart. */
     Sent send(uint64_t page, const std::vector<std::string> &words);
@@ -53,12 +77,15 @@ class Commander
   private:
     bool may_drive(uint64_t page, Clock::time_point now);
     Sent sign_and_send(const std::vector<std::string> &words);
+    void send_to_others(const ale_command_t &command, int64_t life);
+    std::string doubt() const;
 
     std::mutex mutex_;
     ale_operator_t operator_{};
     std::unique_ptr<ale_bus_t, decltype(&ale_bus_close)> bus_{nullptr, ale_bus_close};
     uint64_t driving_page_ = 0;
     Clock::time_point drove_at_{};
+    std::string unbelieved_; /* a robot that is heard, and that nobody vouches for */
 };
 
 } // namespace console

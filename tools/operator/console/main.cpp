@@ -33,6 +33,8 @@ constexpr char usage[] =
     "  --token TEXT      only those who have it in the address may open the page; without one given, a page\n"
     "                    that can be reached from elsewhere gets one of its own\n"
     "  --keys FILE       the operator's key (ale-keys makes it); without it the page only watches\n"
+    "  --robots FILE     the robots whose word is believed (default: the file of --keys with .robots behind)\n"
+    "  --robot NAME      which robot is shown and commanded; needed where more than one is heard\n"
     "  --help, --version\n"
     "Prints the page's address on stdout. Ends with Ctrl-C or SIGTERM. Exit: 0 fine, 1 failed, 2 wrong "
     "use.\n";
@@ -44,6 +46,8 @@ struct Options {
     std::string lcm_url;
     std::string http = "127.0.0.1:8080";
     std::string keys;
+    std::string robots;
+    std::string robot;
     std::string token;
 };
 
@@ -109,7 +113,7 @@ void run(const Options &options, const sigset_t &endings)
     const console::HttpAddress address = console::parse_http_address(options.http);
     console::Board board;
     feed::LcmFeed feed(options.lcm_url);
-    console::Commander commander(options.lcm_url, options.keys);
+    console::Commander commander({options.lcm_url, options.keys, options.robots, options.robot});
     console::RobotWatch watch(board, commander);
     watch.subscribe(feed);
     console::WebServer server(board, commander, address, token_for(options, address));
@@ -149,6 +153,8 @@ int main(int argc, char **argv)
     line.text("http", options.http);
     line.text("token", options.token);
     line.text("keys", options.keys);
+    line.text("robots", options.robots);
+    line.text("robot", options.robot);
     return line.run(argc, argv, [&] {
         check(options);
         const sigset_t endings = block_endings();

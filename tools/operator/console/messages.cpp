@@ -197,7 +197,7 @@ std::string map_message(const ale::map_t &map, const feed::MapPieces &pieces)
                     {"corners", corners_of(map.corners)}});
 }
 
-std::string status_message(const ale::status_t &status)
+std::string status_message(const ale::status_t &status, const Trust &trust)
 {
     json counters = json::array();
     const size_t count = std::min(status.counter_name.size(), status.counter_value.size());
@@ -224,6 +224,8 @@ std::string status_message(const ale::status_t &status)
                     {"scan_rate_hz", number(status.scan_rate_hz, 100)},
                     {"counters", counters},
                     {"robot", status.robot},
+                    {"vouched", trust.vouched},
+                    {"warnings", trust.warnings},
                     {"takes_commands", status.takes_commands != 0},
                     {"who_drives", status.who_drives},
                     {"exploration", status.exploration},

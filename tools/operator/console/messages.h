@@ -29,7 +29,12 @@ std::string tracking_message(const ale::tracking_t &tracking);
 std::string features_message(const ale::features_t &features);
 std::string scan_message(const ale::scan_t &scan, const std::optional<Stain> &stain = {});
 std::string map_message(const ale::map_t &map, const feed::MapPieces &pieces = {});
-std::string status_message(const ale::status_t &status);
+/* Whether the robot vouches for a status, and what an operator must know of whom he hears. */
+struct Trust {
+    bool vouched = false;
+    std::vector<std::string> warnings;
+};
+std::string status_message(const ale::status_t &status, const Trust &trust = {});
 std::string trail_message(const TrailPiece &piece);
 std::string link_message(const LinkHealth &link, uint64_t skipped);
 

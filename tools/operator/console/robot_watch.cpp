@@ -1,6 +1,9 @@
 #include "operator/console/robot_watch.h"
 
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "common/feed/checks.h"
 #include "operator/console/messages.h"
@@ -24,7 +27,8 @@ constexpr int32_t largest_gap = 100000;
 
 void RobotWatch::subscribe(feed::LcmFeed &feed)
 {
-    feed.on<ale::pose_t>("ALE_POSE", [this](const ale::pose_t &message) { pose(message); });
+    feed.on_bytes("ALE_POSE", [this](const uint8_t *bytes, size_t count) { pose_bytes(bytes, count); });
+    feed.on_bytes("ALE_VOUCHED", [this](const uint8_t *bytes, size_t count) { vouched_bytes(bytes, count); });
     feed.on<ale::tracking_t>("ALE_TRACKING", [this](const ale::tracking_t &message) { tracking(message); });
     feed.on<ale::features_t>("ALE_FEATURES", [this](const ale::features_t &message) { features(message); });
     feed.on<ale::scan_t>("ALE_SCAN", [this](const ale::scan_t &message) { scan(message); });
@@ -44,11 +48,22 @@ void RobotWatch::restarted()
     restart_known_ = true;
 }
 
+void RobotWatch::pose_bytes(const uint8_t *bytes, size_t count)
+{
+    ale::pose_t message;
+    feed::require(message.decode(bytes, 0, static_cast<int>(count)) >= 0, "truncated, or of another type");
+    pose(message);
+    if (commander_.believes()) {
+        witness_.heard(message.scan, ale_digest(bytes, count), PoseWitness::Clock::now());
+    }
+}
+
 void RobotWatch::pose(const ale::pose_t &pose)
 {
     feed::check(pose);
     if (last_pose_ && pose.scan <= last_pose_->scan) {
-        if (pose.scan > last_pose_->scan - overtaken_scans) {
+        /* Where a robot vouches for its starts a pose tells of none. */
+        if (pose.scan > last_pose_->scan - overtaken_scans || commander_.believes()) {
             return;
         }
         restarted();
@@ -109,13 +124,40 @@ void RobotWatch::map_pieces(const ale::map_pieces_t &part)
 
 void RobotWatch::status(const ale::status_t &status)
 {
+    if (commander_.saw(status)) {
+        show(status, false);
+    }
+}
+
+/* After a forged pose the next one counts whatever its number: the true ones are mostly behind it. */
+void RobotWatch::vouched_bytes(const uint8_t *bytes, size_t count)
+{
+    const auto message = commander_.saw_vouched(bytes, count);
+    if (!message) {
+        return;
+    }
+    if (boot_ && *boot_ != message->boot) {
+        witness_ = PoseWitness();
+    }
+    if (witness_.compare(*message, PoseWitness::Clock::now()) > 0) {
+        last_pose_.reset();
+    }
+    show(message->status, true);
+}
+
+void RobotWatch::show(const ale::status_t &status, bool vouched)
+{
     if (boot_ && *boot_ != status.boot && !restart_known_) {
         restarted();
     }
     boot_ = status.boot;
     restart_known_ = false;
-    commander_.saw(status);
-    board_.pin(Topic::status, status_message(status));
+    std::vector<std::string> warnings = commander_.warnings();
+    if (witness_.is_alarmed(PoseWitness::Clock::now())) {
+        warnings.push_back("Do not believe the position: " + std::to_string(witness_.forged()) +
+                           " poses on the bus are not the robot's own.");
+    }
+    board_.pin(Topic::status, status_message(status, {vouched, std::move(warnings)}));
 }
 
 } // namespace console

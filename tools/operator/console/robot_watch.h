@@ -16,6 +16,7 @@
 #include "common/feed/map_pieces.h"
 #include "operator/console/board.h"
 #include "operator/console/commander.h"
+#include "operator/console/pose_witness.h"
 #include "operator/console/window_watch.h"
 
 namespace console
@@ -39,7 +40,12 @@ class RobotWatch
     void map_pieces(const ale::map_pieces_t &part);
     void status(const ale::status_t &status);
 
+    /* The bytes of an ALE_POSE and an ALE_VOUCHED, as they came. */
+    void pose_bytes(const uint8_t *bytes, size_t count);
+    void vouched_bytes(const uint8_t *bytes, size_t count);
+
   private:
+    void show(const ale::status_t &status, bool vouched);
     void restarted();
     void extend_trail(const ale::pose_t &pose);
 
@@ -48,6 +54,7 @@ class RobotWatch
     feed::MapParts map_parts_;
     feed::MapPieces map_pieces_;
     WindowWatch window_;
+    PoseWitness witness_;
     std::optional<ale::pose_t> last_pose_;
     std::optional<int64_t> boot_;
     bool restart_known_ = false; /* the scan numbers told before the next status does */

@@ -7,6 +7,7 @@
 
 #include "common/command_line/command_line.h"
 #include "common/command_line/interrupt.h"
+#include "common/feed/vouched.h"
 #include "operator/send/robot_link.h"
 
 extern "C" {
@@ -17,10 +18,13 @@ namespace
 {
 
 constexpr char usage[] =
-    "usage: ale-send --keys FILE [--robot NAME] [--lcm-url URL] [--seconds S] VERB [ARGUMENT]...\n"
+    "usage: ale-send --keys FILE [--robots FILE] [--robot NAME] [--lcm-url URL] [--seconds S] VERB "
+    "[ARGUMENT]...\n"
     "Sends the robot a signed command and says what came of it.\n"
     "  --keys FILE    the operator's secret key (ale-keys makes it)\n"
-    "  --robot NAME   which robot (default: the first one that is heard)\n"
+    "  --robots FILE  the robots whose word is believed (default: the file of --keys with .robots behind);\n"
+    "                 where there is none, every robot's, and that is said\n"
+    "  --robot NAME   which robot; needed where more than one is heard\n"
     "  --lcm-url URL  where the robot is (default: LCM_DEFAULT_URL, else LCM's own default)\n"
     "  --seconds S    goes on driving for S seconds (drive only; without it the robot moves for 300 ms)\n"
     "  --help, --version\n"
@@ -37,12 +41,14 @@ constexpr char usage[] =
 
 constexpr int first_status_ms = 4000;
 constexpr int answer_ms = 4000;
+constexpr int settle_ms = 1500; /* a robot says its status once a second */
 constexpr int drive_period_ms = 100;
 constexpr int64_t drive_life_us = 1000000;
 constexpr int64_t life_us = 5000000;
 
 struct Options {
     std::string keys;
+    std::string robots;
     std::string robot;
     std::string lcm_url;
     double seconds = 0;
@@ -123,25 +129,73 @@ void keep_driving(send::RobotLink &link, const Options &options)
     }
 }
 
-int run(const Options &options)
+ale_secret_key_t key_of(const Options &options)
 {
     ale_secret_key_t key;
     char error[ALE_KEYS_ERROR];
     if (ale_secret_key_load(options.keys.c_str(), &key, error) < 0) {
         throw std::runtime_error(error);
     }
-    send::RobotLink link(options.lcm_url, options.robot, key);
+    return key;
+}
+
+std::string nobody(const send::RobotLink &link, const Options &options)
+{
+    const std::string name = options.robot.empty() ? "" : " " + options.robot;
+    if (link.unbelieved().empty()) {
+        return "no robot" + name + " is heard";
+    }
+    return link.unbelieved() + " is heard, but nothing that a robot of " +
+           (options.robots.empty() ? options.keys + ALE_ROBOTS_ENDING : options.robots) +
+           " vouches for (ale-keys --own, --know)";
+}
+
+/* Waits until it is known which robot is meant; says why it is not. A stop for robots of one name goes to all
+ * of them. */
+void find_robot(send::RobotLink &link, const Options &options, size_t believed)
+{
     if (!link.wait(first_status_ms, [&] { return link.status().has_value(); })) {
-        throw std::runtime_error("no robot" + (options.robot.empty() ? "" : " " + options.robot) +
-                                 " is heard");
+        throw std::runtime_error(nobody(link, options));
     }
+    if (options.robot.empty() && believed != 1) {
+        link.wait(settle_ms, [&] { return !link.rival().empty() || cli::interrupted(); });
+    }
+    const std::string &name = link.status()->robot;
+    const std::string rival = link.rival();
+    if (!rival.empty() && rival != name) {
+        throw std::runtime_error("two robots are heard, " + name + " and " + rival +
+                                 ": which one is meant? (--robot NAME)");
+    }
+    if (!rival.empty() && options.words[0] != "stop") {
+        throw std::runtime_error("two robots call themselves " + name +
+                                 ": give them names (commands.robot); they obey stop alone");
+    }
+    if (!link.status()->takes_commands) {
+        throw std::runtime_error(name + " takes no commands (ale-slamd --keys)");
+    }
+    if (!link.is_vouched()) {
+        std::fprintf(stderr,
+                     "ale-send: nobody vouches for what %s says: no robot's key is known (ale-keys --know)\n",
+                     name.c_str());
+    }
+}
+
+int run(const Options &options)
+{
+    const ale_keys_t robots = feed::believed(options.robots, options.keys);
+    send::RobotLink link(options.lcm_url, options.robot, key_of(options), robots);
+    find_robot(link, options, robots.count);
     const ale::status_t before = *link.status();
-    if (!before.takes_commands) {
-        throw std::runtime_error(before.robot + " takes no commands (ale-slamd --keys)");
-    }
     const bool driving = options.words[0] == "drive";
-    const int64_t counter = link.command(command_of(options.words), driving ? drive_life_us : life_us);
-    if (!link.wait(answer_ms, [&] { return link.answered(counter) || cli::interrupted(); })) {
+    const auto send = [&] { link.command(command_of(options.words), driving ? drive_life_us : life_us); };
+    const auto answered = [&] {
+        if (link.was_misled()) {
+            send();
+        }
+        return link.answered() || (driving && link.drives_since()) || cli::interrupted();
+    };
+    send();
+    if (!link.wait(answer_ms, answered) || cli::interrupted()) {
         throw std::runtime_error(before.robot + ": " + refusal(before, *link.status()));
     }
     const ale::status_t &answer = *link.status();
@@ -160,6 +214,7 @@ int main(int argc, char **argv)
     Options options;
     cli::CommandLine line("ale-send", usage);
     line.text("keys", options.keys);
+    line.text("robots", options.robots);
     line.text("robot", options.robot);
     line.text("lcm-url", options.lcm_url);
     line.number("seconds", options.seconds, 0.001, 3600.0);

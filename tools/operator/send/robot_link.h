@@ -7,9 +7,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ale/status_t.hpp"
 #include "common/feed/lcm_feed.h"
+#include "common/feed/vouched.h"
 
 extern "C" {
 #include "command/operator.h"
@@ -23,27 +25,57 @@ namespace send
 class RobotLink
 {
   public:
-    /* robot empty: the first one that is heard. Throws std::runtime_error when LCM cannot be joined. */
-    RobotLink(const std::string &url, const std::string &robot, const ale_secret_key_t &key);
+    /* robot empty: the one that is heard. robots: that are believed; none: every one. Throws
+     * std::runtime_error when LCM cannot be joined. */
+    RobotLink(const std::string &url, const std::string &robot, const ale_secret_key_t &key,
+              const ale_keys_t &robots);
 
     /* Listens until the condition holds, or the time is over: then false. */
     bool wait(int timeout_ms, const std::function<bool()> &condition);
 
-    /* Completes, signs and sends; the command's counter. Throws when there is no robot yet or LCM refuses. */
-    int64_t command(ale_command_t command, int64_t life_us);
+    /* Completes, signs and sends. A stop goes to every start of the robot that was heard lately. Throws when
+     * there is no robot yet or LCM refuses. */
+    void command(ale_command_t command, int64_t life_us);
+
+    /* The last command was made by the word of an earlier start, or of an earlier hour, which somebody has
+     * played again: no robot can obey it, or it was a stop. */
+    bool was_misled() const;
+
+    /* What the robot says is signed with a key that is believed. */
+    bool is_vouched() const
+    {
+        return operator_.robots.count > 0;
+    }
+
+    /* Another robot that is heard beside this one; empty: none. */
+    std::string rival() const;
+
+    /* A robot that is heard, and that nobody vouches for, while only others are believed; empty: none. */
+    const std::string &unbelieved() const
+    {
+        return unbelieved_;
+    }
 
     const std::optional<ale::status_t> &status() const
     {
         return status_;
     }
 
-    /* The newest status answers the command of this counter, or a later one. */
-    bool answered(int64_t counter) const;
+    /* The newest status answers a command that was sent from here, and no other one. */
+    bool answered() const;
+
+    /* This operator has gone on driving since the last command, from here or with another program. */
+    bool drives_since() const;
 
   private:
     void take(const ale::status_t &status);
+    void take_vouched(const uint8_t *bytes, size_t count);
+    void send(const uint8_t *bytes, size_t count);
 
-    std::string robot_;
+    std::string unbelieved_;
+    std::vector<int64_t> counters_; /* of commands that were sent */
+    ale_command_t last_{};
+    int64_t last_host_us_ = 0;
     ale_operator_t operator_{};
     std::optional<ale::status_t> status_;
     feed::LcmFeed feed_;

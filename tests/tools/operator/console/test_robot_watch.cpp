@@ -34,7 +34,7 @@ class RobotWatched : public testing::Test
 {
   protected:
     Board board;
-    console::Commander commander{"", ""};
+    console::Commander commander{console::Credentials{}};
     RobotWatch watch{board, commander};
 };
 

@@ -53,7 +53,7 @@ export class Health {
     show("state-word", word);
     show("state-text", text);
     showAlarm(state, scene, word, text);
-    const advice = [adviceOnScanner(scene.status?.driver, scene.scan?.stain), ...adviceOnTracking(scene.tracking)];
+    const advice = [...(scene.status?.warnings ?? []), adviceOnScanner(scene.status?.driver, scene.scan?.stain), ...adviceOnTracking(scene.tracking)];
     showAdvice(state === "up" || state === "lost" ? advice.filter(Boolean) : []);
   }
 
