@@ -123,7 +123,8 @@ static bool start_telemetry_and_drive(ale_daemon_t *daemon, const ale_rt_report_
     daemon->telemetry =
         ale_telemetry_start(config, &daemon->options->keys, &daemon->exchange, daemon->bus, realtime);
     if (daemon->telemetry && takes_commands(daemon)) {
-        daemon->drive = ale_drive_start(config, &daemon->exchange);
+        const ale_drive_key_t *key = daemon->options->keyed ? &daemon->options->drive_key : NULL;
+        daemon->drive = ale_drive_start(config, key, &daemon->exchange);
     }
     return daemon->telemetry && (daemon->drive || !takes_commands(daemon));
 }

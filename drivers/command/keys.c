@@ -24,9 +24,9 @@ static const form_t KEYS = {
     "ALE-SLAM keys 1",
     "Who may command the robot: name and public key. Taking a line away takes the right away.",
     "not a robot's list of keys (ale-keys makes it)"};
-static const form_t ROBOTS = {
-    "ALE-SLAM robots 1", "Robots that are believed: name and public key, as ale-keys --own prints them.",
-    "not a list of robots (ale-keys makes it)"};
+static const form_t ROBOTS = {"ALE-SLAM robots 1",
+                              "Robots that are believed: name and public key, as ale-keys --own prints them.",
+                              "not a list of robots (ale-keys makes it)"};
 static const form_t OPERATOR_KEY = {"ALE-SLAM operator key 1", "",
                                     "not an operator's key (ale-keys makes it)"};
 static const form_t ROBOT_KEY = {"ALE-SLAM robot key 1", "",
@@ -191,9 +191,8 @@ static int load_list(const form_t *form, const char *path, ale_keys_t *keys, cha
     }
     const char *wrong = read_guarded(path, &guard, &bytes);
     ale_keys_t read = {0};
-    const int status =
-        wrong ? fail(error, path, wrong)
-              : parse_keys(form, path, ale_text(bytes.at, bytes.count), &read, error);
+    const int status = wrong ? fail(error, path, wrong)
+                             : parse_keys(form, path, ale_text(bytes.at, bytes.count), &read, error);
     ale_bytes_free(&bytes);
     if (status == 0) {
         *keys = read;

@@ -202,8 +202,8 @@ int64_t ale_operator_utime(const ale_operator_t *end, int64_t host_us)
     return end->present.robot[0] != '\0' ? utime_at(&end->present, host_us) : 0;
 }
 
-/* A robot has taken none that is farther ahead than a command lasts: then the last one was made by a clock that
- * was not the robot's, and nothing has to be above it. */
+/* A robot has taken none that is farther ahead than a command lasts: then the last one was made by a clock
+ * that was not the robot's, and nothing has to be above it. */
 static int64_t counter_after(int64_t last, int64_t utime)
 {
     return utime > last || last - utime >= ALE_COMMAND_LIFE_US ? utime : last + 1;

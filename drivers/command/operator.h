@@ -57,8 +57,8 @@ bool ale_operator_saw(ale_operator_t *end, const char *robot, int64_t boot, int6
 /* The same of a message for which a robot that he believes has vouched. */
 bool ale_operator_saw_vouched(ale_operator_t *end, const ale_start_t *start, int64_t host_us);
 
-/* Another robot that was heard lately: of another name, while none is wanted by its name, or of the same name,
- * so that nobody can tell which of both is meant. NULL: none. */
+/* Another robot that was heard lately: of another name, while none is wanted by its name, or of the same
+ * name, so that nobody can tell which of both is meant. NULL: none. */
 const char *ale_operator_rival(const ale_operator_t *end, int64_t host_us);
 
 /* The robot's clock, as it is believed at host_us; 0: no robot seen yet. */

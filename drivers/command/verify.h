@@ -7,8 +7,8 @@
  * A replayed command is refused within one start of the robot by the counter of its key, which only grows,
  * and after a restart by the boot nonce: nothing has to be kept on disk. A stop is compared with stops alone:
  * one that was overtaken on its way, or that another program of the same operator has numbered lower, still
- * stops. A counter is of use for as long as a command lasts, so none may be farther ahead of the robot's clock:
- * no command, however it came to be signed, locks its operator out for longer. One owner thread. */
+ * stops. A counter is of use for as long as a command lasts, so none may be farther ahead of the robot's
+ * clock: no command, however it came to be signed, locks its operator out for longer. One owner thread. */
 #ifndef ALE_COMMAND_VERIFY_H
 #define ALE_COMMAND_VERIFY_H
 

@@ -167,14 +167,24 @@ int ale_bus_send_drive(ale_bus_t *bus, int64_t utime, int32_t v_um_s, int32_t w_
                       lcmtypes_ale_drive_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
 }
 
-int ale_bus_send_command(ale_bus_t *bus, const uint8_t *bytes, size_t count)
+static int send_made(ale_bus_t *bus, const char *channel, const uint8_t *bytes, size_t count)
 {
     if (count > MESSAGE_BYTES) {
         bus->unsent++;
         return -1;
     }
     memcpy(bus->bytes, bytes, count);
-    return send_bytes(bus, ALE_CHANNEL_COMMAND, (int)count);
+    return send_bytes(bus, channel, (int)count);
+}
+
+int ale_bus_send_command(ale_bus_t *bus, const uint8_t *bytes, size_t count)
+{
+    return send_made(bus, ALE_CHANNEL_COMMAND, bytes, count);
+}
+
+int ale_bus_send_keyed_drive(ale_bus_t *bus, const uint8_t *bytes, size_t count)
+{
+    return send_made(bus, ALE_CHANNEL_DRIVE_KEYED, bytes, count);
 }
 
 int ale_bus_send_bot_lidar(ale_bus_t *bus, const ale_scan_t *scan, int64_t utime)
@@ -270,6 +280,13 @@ int ale_bus_on_command(ale_bus_t *bus, ale_bus_command_t take, void *user)
     bus->take_command = take;
     bus->command_user = user;
     return ale_wire_subscribe(bus->wire, ALE_CHANNEL_COMMAND, take_command, bus);
+}
+
+int ale_bus_on_ready(ale_bus_t *bus, ale_bus_command_t take, void *user)
+{
+    bus->take_command = take;
+    bus->command_user = user;
+    return ale_wire_subscribe(bus->wire, ALE_CHANNEL_DRIVE_READY, take_command, bus);
 }
 
 int ale_bus_descriptor(ale_bus_t *bus)

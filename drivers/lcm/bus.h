@@ -31,6 +31,8 @@
 #define ALE_CHANNEL_ODOMETRY_EXACT "ALE_ODOMETRY_EXACT"
 #define ALE_CHANNEL_COMMAND "ALE_COMMAND"
 #define ALE_CHANNEL_DRIVE "ALE_DRIVE"
+#define ALE_CHANNEL_DRIVE_KEYED "ALE_DRIVE_KEYED"
+#define ALE_CHANNEL_DRIVE_READY "ALE_DRIVE_READY"
 #define ALE_CHANNEL_BOT_LIDAR "LASER" /* bot_core, when asked for */
 #define ALE_CHANNEL_BOT_POSE "POSE"
 
@@ -46,7 +48,8 @@ ale_bus_t *ale_bus_open(const char *url, char error[ALE_BUS_ERROR]);
 void ale_bus_close(ale_bus_t *bus);
 
 /* From here on every status goes out a second time, signed with the robot's own key and with the digests of
- * the newest poses (ALE_VOUCHED). The key must outlive the bus. clock_ppm: how fast the clock of utime runs. */
+ * the newest poses (ALE_VOUCHED). The key must outlive the bus. clock_ppm: how fast the clock of utime runs.
+ */
 void ale_bus_vouch(ale_bus_t *bus, const ale_secret_key_t *key, int32_t clock_ppm);
 
 /* Sends one message; reports as in report.h. Each: 0, or -1 when the message was too long for the bus or the
@@ -67,6 +70,9 @@ int ale_bus_send_drive(ale_bus_t *bus, int64_t utime, int32_t v_um_s, int32_t w_
 /* A signed command (command/operator.h makes it). */
 int ale_bus_send_command(ale_bus_t *bus, const uint8_t *bytes, size_t count);
 
+/* A set point with a tag (motor/set_point.h makes it). */
+int ale_bus_send_keyed_drive(ale_bus_t *bus, const uint8_t *bytes, size_t count);
+
 /* The same scan and pose for viewers that know bot_core's types. */
 int ale_bus_send_bot_lidar(ale_bus_t *bus, const ale_scan_t *scan, int64_t utime);
 int ale_bus_send_bot_pose(ale_bus_t *bus, const ale_pose_report_t *report);
@@ -81,6 +87,10 @@ int ale_bus_on_odometry(ale_bus_t *bus, ale_bus_odometry_t take, void *user);
  * between two calls of ale_bus_receive waits in the kernel. 0, or -1 as above. */
 typedef void (*ale_bus_command_t)(void *user, const uint8_t *bytes, size_t count);
 int ale_bus_on_command(ale_bus_t *bus, ale_bus_command_t take, void *user);
+
+/* What a motor controller says (ALE_DRIVE_READY): bytes that nobody has looked at yet. On a bus that takes no
+ * commands. 0, or -1 as above. */
+int ale_bus_on_ready(ale_bus_t *bus, ale_bus_command_t take, void *user);
 
 /* A descriptor for poll that is readable while messages wait. -1 when there is none. */
 int ale_bus_descriptor(ale_bus_t *bus);

@@ -41,9 +41,9 @@ typedef struct {
     bool lock_memory;
     char map[ALE_CONFIG_PATH]; /* loaded at start; empty: none */
     char map_folder[ALE_CONFIG_PATH];
-    char name[ALE_NAME_BYTES];  /* the robot's */
-    char keys[ALE_CONFIG_PATH]; /* of those who may command it; empty: nobody */
-    char own_key[ALE_CONFIG_PATH]; /* the robot's; empty: beside keys, if it is there */
+    char name[ALE_NAME_BYTES];        /* the robot's */
+    char keys[ALE_CONFIG_PATH];       /* of those who may command it; empty: nobody */
+    char own_key[ALE_CONFIG_PATH];    /* the robot's; empty: beside keys, if it is there */
     char drive_key[ALE_CONFIG_PATH];  /* shared with the motor controller; empty: none */
     char drive_port[ALE_CONFIG_PATH]; /* serial line to the motor controller; empty: none */
     int32_t drive_baud;

@@ -117,7 +117,8 @@ const ale_config_key_t ale_config_keys[] = {
      "Serial line to the motor controller, for set points that no bus can reach. Empty: none."},
     {"drive", "baud", NUMBER(drive_baud, 0, 1200, 4000000), "Its rate in bit/s."},
     {"drive", "key", TEXT(drive_key),
-     "Key that the motor controller knows, for set points over LCM (ale-keys --drive makes it). Empty: none."},
+     "Key that the motor controller knows, for set points over LCM (ale-keys --drive makes it). Empty: "
+     "none."},
 
     {"map", "keep", TEXT(keep),
      "Where map and pose are kept while running; the robot goes on from there at the next start,\n"

@@ -4,13 +4,13 @@
 
 #include "base/fixed.h"
 #include "exchange/wake.h"
-#include "lcm/bus.h"
+#include "operator/motor_link.h"
 #include "plan/safe_speed.h"
 
 struct ale_drive {
     const ale_config_t *config;
     ale_exchange_t *exchange;
-    ale_bus_t *bus;
+    ale_motor_link_t motors;
     ale_rt_task_t *task;
 };
 
@@ -53,15 +53,15 @@ int64_t ale_drive_wait_us(const ale_drive_orders_t *orders, const ale_velocity_r
 }
 
 /* now_us: the moment that the set point was chosen for. */
-static void publish(const ale_drive_t *drive, int64_t now_us, ale_set_point_t set_point)
+static void publish(ale_drive_t *drive, int64_t now_us, ale_set_point_t set_point)
 {
-    ale_bus_send_drive(drive->bus, ale_clock_to_utime(&drive->exchange->clock, now_us), set_point.v_um_s,
-                       set_point.w_urad_s);
+    ale_motor_link_send(&drive->motors, ale_clock_to_utime(&drive->exchange->clock, now_us), set_point.v_um_s,
+                        set_point.w_urad_s);
 }
 
 static void run(ale_rt_task_t *self, void *user)
 {
-    const ale_drive_t *drive = user;
+    ale_drive_t *drive = user;
     ale_exchange_t *exchange = drive->exchange;
     const ale_clock_t *clock = &exchange->clock;
     while (!ale_rt_task_stopping(self)) {
@@ -77,22 +77,23 @@ static void run(ale_rt_task_t *self, void *user)
     publish(drive, ale_clock_now_us(clock), (ale_set_point_t){0});
 }
 
-ale_drive_t *ale_drive_start(const ale_config_t *config, ale_exchange_t *exchange)
+ale_drive_t *ale_drive_start(const ale_config_t *config, const ale_drive_key_t *key, ale_exchange_t *exchange)
 {
     ale_drive_t *drive = calloc(1, sizeof *drive);
     if (!drive) {
         return NULL;
     }
-    char error[ALE_BUS_ERROR];
     drive->config = config;
     drive->exchange = exchange;
-    drive->bus = ale_bus_open(config->lcm_url, error);
-    if (drive->bus) {
+    const bool linked = ale_motor_link_open(&drive->motors, config, key) == 0;
+    if (linked) {
         drive->task = ale_rt_task_start(&(ale_rt_task_config_t){
             .name = "ale-drive", .kind = ALE_RT_ORDINARY, .body = run, .user = drive});
     }
     if (!drive->task) {
-        ale_bus_close(drive->bus);
+        if (linked) {
+            ale_motor_link_close(&drive->motors);
+        }
         free(drive);
         return NULL;
     }
@@ -107,6 +108,6 @@ void ale_drive_stop(ale_drive_t *drive)
     ale_rt_task_stop(drive->task);
     ale_wake_post(drive->exchange->drive_again);
     ale_rt_task_join(drive->task);
-    ale_bus_close(drive->bus);
+    ale_motor_link_close(&drive->motors);
     free(drive);
 }

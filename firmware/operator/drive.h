@@ -10,6 +10,7 @@
 #define ALE_FIRMWARE_OPERATOR_DRIVE_H
 
 #include "base/scan.h"
+#include "command/keys.h"
 #include "config/config.h"
 #include "exchange/exchange.h"
 
@@ -31,9 +32,10 @@ int64_t ale_drive_wait_us(const ale_drive_orders_t *orders, const ale_velocity_r
 
 typedef struct ale_drive ale_drive_t;
 
-/* Starts the thread with a bus of its own. NULL: no memory, threads or bus. config and exchange must outlive
- * it. */
-ale_drive_t *ale_drive_start(const ale_config_t *config, ale_exchange_t *exchange);
+/* Starts the thread with ways of its own to the motors (motor_link.h). key: shared with the motor controller;
+ * NULL: none. NULL: no memory, threads or bus. config, key and exchange must outlive it. */
+ale_drive_t *ale_drive_start(const ale_config_t *config, const ale_drive_key_t *key,
+                             ale_exchange_t *exchange);
 
 /* Publishes that the robot stands still, then stops. NULL: nothing. */
 void ale_drive_stop(ale_drive_t *drive);

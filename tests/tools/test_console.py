@@ -71,6 +71,54 @@ def test_a_command_of_the_page_leaves_signed_for_this_start_of_this_robot(alice,
         assert one.utime < one.expiry_utime <= one.utime + 10_000_000
 
 
+def test_what_others_say_in_the_robots_name_changes_nothing_that_is_signed(alice, robot, commands):
+    """Clocks, starts and names that nobody vouches for, before the robot's own word and after it."""
+    def forge():
+        for boot, ahead_us in ((robot.boot, 60_000_000), (robot.boot + 1, 0), (77, 2 ** 60)):
+            status = robot.status()
+            status.boot, status.utime = boot, status.utime + ahead_us
+            robot.bus.publish("ALE_STATUS", status.encode())
+
+    page = WebSocket(alice.url)
+    forge()
+    told = page.wait_for("status")
+    assert told["vouched"] is False and "no robot whose key is known vouches" in told["warnings"][0]
+    for words in (("stop",), ("drive", "0.1", "0")):
+        assert "no robot whose key is known" in command(page, *words)["refusal"]
+    robot.publish_status()
+    while not page.wait_for("status")["vouched"]:
+        pass
+    for words in (("drive", "0.1", "0"), ("stop",)) * 20:
+        forge()
+        assert command(page, *words)["refusal"] is None
+    now = time.time() * 1e6
+    for one in commands(40):
+        assert one.boot == robot.boot and one.robot == "double" and abs(one.utime - now) < 10_000_000
+
+
+def test_poses_that_are_not_the_robots_own_are_told_as_such(alice, robot):
+    page = WebSocket(alice.url)
+    robot.publish_status()
+    while not page.wait_for("status")["vouched"]:
+        pass
+    for _ in range(10):
+        robot.publish_pose()
+        forged = robot.pose()
+        forged.scan, forged.x, forged.map_x = robot.scan + 6, 9.0, 9.0
+        robot.bus.publish("ALE_POSE", forged.encode())
+        robot.scan += 1
+
+    def warned():
+        robot.publish_status()
+        return any("not the robot's own" in line for line in page.wait_for("status")["warnings"])
+    wait_until(warned, 180, "the warning")
+    robot.publish_pose()
+    pose = page.wait_for("pose")
+    while pose["scan"] != robot.scan:
+        pose = page.wait_for("pose")
+    assert abs(pose["map"][0]) < 3, "the true one is shown again"
+
+
 def test_one_page_drives_at_a_time(alice, robot, commands):
     robot.publish_status()
     first, second = WebSocket(alice.url), WebSocket(alice.url)

@@ -18,7 +18,7 @@ ORDER = {
     "lib": ("base", "extract", "motion", "observe", "map", "match", "relocate", "track", "graph", "plan", "messages"),
     "lib/graph": ("optimise", "walls", "loops"),
     "lib/track": ("evidence",),
-    "drivers": ("file", "serial", "scanner", "command", "store", "lcm", "log"),
+    "drivers": ("file", "serial", "scanner", "command", "motor", "store", "lcm", "log"),
     "drivers/scanner": ("urg",),
     "firmware": ("realtime", "config", "exchange", "system", "recorder", "acquire", "estimate", "mapping", "operator", "telemetry",
                  "deploy"),

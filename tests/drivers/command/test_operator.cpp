@@ -90,7 +90,8 @@ TEST_F(OperatorEnd, AForgedClockIsNotFollowedWhileTheOtherOneGoesOn)
     for (int64_t k = 0; k < 5; k++) {
         EXPECT_TRUE(ale_operator_saw(&end, "rover", boot, now_utime + k * second, k * second));
         if (k > 0) {
-            EXPECT_FALSE(ale_operator_saw(&end, "rover", boot, now_utime + (k + 60) * second, k * second + 200000));
+            EXPECT_FALSE(
+                ale_operator_saw(&end, "rover", boot, now_utime + (k + 60) * second, k * second + 200000));
             EXPECT_FALSE(ale_operator_saw(&end, "rover", boot, INT64_MAX, k * second + 400000));
         }
         EXPECT_EQ(send(k * second + 500000, now_utime + k * second + 500000), ALE_GENUINE);
@@ -113,7 +114,8 @@ TEST_F(OperatorEnd, CommandsAreForTheFirstRobotAndTheOtherOneIsTold)
     EXPECT_FALSE(ale_operator_saw(&end, "scout", 5, now_utime, 1000));
     EXPECT_STREQ(ale_operator_rival(&end, 2000), "scout");
     EXPECT_EQ(send(2000, now_utime + 2000), ALE_GENUINE);
-    EXPECT_FALSE(ale_operator_saw(&end, "scout", 5, now_utime, 9000000)) << "silence makes no other robot his";
+    EXPECT_FALSE(ale_operator_saw(&end, "scout", 5, now_utime, 9000000))
+        << "silence makes no other robot his";
     EXPECT_EQ(ale_operator_rival(&end, 20000000), nullptr) << "gone again";
 }
 

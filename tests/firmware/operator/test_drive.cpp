@@ -145,7 +145,7 @@ class DriveThread : public surroundings::WithExchange
         ale_bus_close(probe);
         lcm = lcm_create(config.lcm_url);
         lcm_subscription_set_queue_capacity(lcm_subscribe(lcm, "ALE_DRIVE", take, this), 0);
-        drive = ale_drive_start(&config, &exchange);
+        drive = ale_drive_start(&config, nullptr, &exchange);
         ASSERT_NE(drive, nullptr);
     }
     void TearDown() override

@@ -19,6 +19,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 extern "C" {
@@ -65,9 +66,7 @@ class LcmFeed
     /* The same with the bytes as they came: for what is looked at before it is decoded. */
     void on_bytes(const std::string &channel, std::function<void(const uint8_t *, size_t)> handler)
     {
-        receivers_.push_back([handler](const lcm_recv_buf_t &buffer) {
-            handler(static_cast<const uint8_t *>(buffer.data), buffer.data_size);
-        });
+        receivers_.push_back(std::move(handler));
         subscribe(channel);
     }
 

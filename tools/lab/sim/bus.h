@@ -2,6 +2,7 @@
 #ifndef ALE_LAB_SIM_BUS_H
 #define ALE_LAB_SIM_BUS_H
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -12,6 +13,7 @@
 extern "C" {
 #include "lcm/bus.h"
 #include "lcm/wire.h"
+#include "motor/receiver.h"
 }
 
 namespace sim
@@ -34,13 +36,15 @@ class OdometryOut
     std::unique_ptr<ale_bus_t, Close> bus_;
 };
 
-/* Listens to ALE_DRIVE. A set point holds for half a second of the sender's silence, then the motors stop. */
+/* Listens to ALE_DRIVE. A set point holds for half a second of the sender's silence, then the motors stop.
+ * With a key it is a motor controller as drivers/motor has it: it obeys ALE_DRIVE_KEYED alone. */
 class DriveIn
 {
   public:
     static constexpr int64_t too_early_us = INT64_MIN / 2; /* a time at which nothing holds */
 
-    explicit DriveIn(const std::string &url);
+    /* key_file empty: none. Throws std::runtime_error when LCM or the key cannot be had. */
+    explicit DriveIn(const std::string &url, const std::string &key_file = "");
 
     int descriptor() const;
     /* Takes what has come; now_us is the simulated time. What is not taken keeps the descriptor ready. */
@@ -49,6 +53,9 @@ class DriveIn
 
   private:
     static void take(void *self, const char *channel, const uint8_t *bytes, size_t count);
+    static void take_keyed(void *self, const char *channel, const uint8_t *bytes, size_t count);
+    void read_key(const std::string &key_file);
+    void say_ready();
 
     struct Close {
         void operator()(ale_wire_t *wire) const
@@ -57,6 +64,9 @@ class DriveIn
         }
     };
     std::unique_ptr<ale_wire_t, Close> wire_;
+    bool keyed_ = false;
+    ale_motor_t motor_{};
+    std::chrono::steady_clock::time_point ready_{};
     Twist command_;
     int64_t now_us_ = 0;
     int64_t taken_us_ = too_early_us;

@@ -89,7 +89,7 @@ void play(const sim::Options &options)
     std::unique_ptr<sim::Source> source;
     const sim::WorldSource *driven = nullptr;
     if (options.drive) {
-        drive = std::make_unique<sim::DriveIn>(options.lcm_url);
+        drive = std::make_unique<sim::DriveIn>(options.lcm_url, options.drive_key);
         auto world = driven_world(options, *drive);
         driven = world.get();
         source = std::move(world);

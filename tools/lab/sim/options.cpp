@@ -36,6 +36,7 @@ const char usage[] =
     "  --describe           print what is known of mounting and odometry as configuration of ale-slamd\n"
     "For worlds:\n"
     "  --drive              obey ALE_DRIVE (inertia, slip, collisions) instead of following the way\n"
+    "  --drive-key FILE     with --drive: obey only who has this key (ale-keys --drive), by ALE_DRIVE_KEYED\n"
     "  --noise NAME         real (default), white, none\n"
     "  --sensor X,Y,THETA   mounting of the laser, metres and radians (default: as the world says)\n"
     "  --odometry-lag S     odometry is so much younger than its stamp says (default 0)\n"
@@ -76,6 +77,7 @@ void bind_world(cli::CommandLine &line, Options &o)
 {
     line.text("world", o.world);
     line.flag("drive", o.drive);
+    line.text("drive-key", o.drive_key);
     line.text("noise", o.world_source.noise);
     line.option("sensor", [&o](const std::string &word) {
         const cli::Mounting at = cli::mounting_of("--sensor", word);
@@ -119,6 +121,7 @@ void check(const Options &o)
             "--truth: nobody knows the truth of a log, only of a --world");
     require(o.write_log.empty() || !o.world.empty(), "--write-log needs a --world");
     require(!o.drive || !o.world.empty(), "--drive needs a --world: a log cannot be steered");
+    require(o.drive_key.empty() || o.drive, "--drive-key is for --drive");
     require(!o.drive || play, "--drive needs somebody who drives: not with --write-log or --describe");
     cli::Files files;
     files.reads("--log", o.log);

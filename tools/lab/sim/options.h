@@ -20,6 +20,7 @@ struct Options {
     std::optional<Pose> sensor;
     bool once = false;
     bool drive = false;
+    std::string drive_key; /* empty: ALE_DRIVE of anybody */
     bool odometry = true;
     bool describe = false;
     std::string write_log;

@@ -74,8 +74,9 @@ std::string Commander::doubt() const
 {
     const char *rival = ale_operator_rival(&operator_, host_us());
     if (operator_.present.robot[0] == '\0') {
-        return unbelieved_.empty() ? "no robot has been heard yet"
-                                   : unbelieved_ + " is heard, but no robot whose key is known vouches for it";
+        return unbelieved_.empty()
+                   ? "no robot has been heard yet"
+                   : unbelieved_ + " is heard, but no robot whose key is known vouches for it";
     }
     if (rival && std::strcmp(rival, operator_.present.robot) == 0) {
         return std::string("two robots call themselves ") + rival + ": they obey STOP alone";
@@ -158,8 +159,7 @@ void Commander::send_to_others(const ale_command_t &command, int64_t life)
     uint8_t bytes[ALE_COMMAND_BYTES];
     for (int other = 0; other < ALE_OPERATOR_OTHERS; other++) {
         ale_command_t same = command;
-        const size_t count =
-            ale_operator_command_other(&operator_, other, host_us(), life, &same, bytes);
+        const size_t count = ale_operator_command_other(&operator_, other, host_us(), life, &same, bytes);
         if (count > 0) {
             ale_bus_send_command(bus_.get(), bytes, count);
         }

@@ -1,4 +1,5 @@
-/* ale-keys: makes the keys of operators, robots and motor controllers, and lists who obeys and believes whom. */
+/* ale-keys: makes the keys of operators, robots and motor controllers, and lists who obeys and believes whom.
+ */
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
@@ -20,7 +21,8 @@ constexpr char usage[] =
     "       ale-keys --own NAME [--robot FILE] | --know LINE --secret FILE | --drive FILE | --list FILE\n"
     "\n"
     "Makes a key for the operator NAME: a secret one, which he signs his commands with, and a line in the\n"
-    "robot's list, which says whom it obeys. The robot gets a key of its own beside that list, if it has none,\n"
+    "robot's list, which says whom it obeys. The robot gets a key of its own beside that list, if it has "
+    "none,\n"
     "and NAME believes from then on what it says.\n"
     "\n"
     "  --secret FILE  the operator's secret key, readable by its owner alone (default: NAME.key);\n"
@@ -164,7 +166,8 @@ void make(const Options &options)
     if (options.know.empty()) {
         const ale_secret_key_t own = own_key(robot_path + ALE_OWN_KEY_ENDING, "robot");
         believe(secret_path, ale_public_half(&own));
-        std::printf("%s%s: the robot's own key; it stays on the robot\n", robot_path.c_str(), ALE_OWN_KEY_ENDING);
+        std::printf("%s%s: the robot's own key; it stays on the robot\n", robot_path.c_str(),
+                    ALE_OWN_KEY_ENDING);
     } else {
         believe(secret_path, robot_of(options.know));
     }
@@ -202,8 +205,8 @@ void know(const Options &options)
 void run(const Options &options)
 {
     const bool knows = options.name.empty() && !options.know.empty();
-    const int wishes = !options.name.empty() + !options.list.empty() + !options.own.empty() +
-                       !options.drive.empty() + knows;
+    const int wishes =
+        !options.name.empty() + !options.list.empty() + !options.own.empty() + !options.drive.empty() + knows;
     if (wishes != 1) {
         throw cli::WrongUse("whose key, or which --list?");
     }

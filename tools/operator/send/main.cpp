@@ -142,10 +142,14 @@ ale_secret_key_t key_of(const Options &options)
 std::string nobody(const send::RobotLink &link, const Options &options)
 {
     const std::string name = options.robot.empty() ? "" : " " + options.robot;
-    if (link.unbelieved().empty()) {
+    if (!link.unbelieved()) {
         return "no robot" + name + " is heard";
     }
-    return link.unbelieved() + " is heard, but nothing that a robot of " +
+    const std::string &heard = link.unbelieved()->robot;
+    if (!link.unbelieved()->takes_commands) {
+        return heard + " takes no commands (ale-slamd --keys), as far as it can be believed";
+    }
+    return heard + " is heard, but nothing that a robot of " +
            (options.robots.empty() ? options.keys + ALE_ROBOTS_ENDING : options.robots) +
            " vouches for (ale-keys --own, --know)";
 }

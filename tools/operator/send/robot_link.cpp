@@ -52,7 +52,7 @@ void RobotLink::take(const ale::status_t &status)
         status_ = status;
     }
     if (is_vouched() && (operator_.wanted[0] == '\0' || status.robot == operator_.wanted)) {
-        unbelieved_ = status.robot;
+        unbelieved_ = status;
     }
 }
 

@@ -50,8 +50,8 @@ class RobotLink
     /* Another robot that is heard beside this one; empty: none. */
     std::string rival() const;
 
-    /* A robot that is heard, and that nobody vouches for, while only others are believed; empty: none. */
-    const std::string &unbelieved() const
+    /* A status that nobody vouches for, while only robots are believed that vouch for theirs. */
+    const std::optional<ale::status_t> &unbelieved() const
     {
         return unbelieved_;
     }
@@ -72,7 +72,7 @@ class RobotLink
     void take_vouched(const uint8_t *bytes, size_t count);
     void send(const uint8_t *bytes, size_t count);
 
-    std::string unbelieved_;
+    std::optional<ale::status_t> unbelieved_;
     std::vector<int64_t> counters_; /* of commands that were sent */
     ale_command_t last_{};
     int64_t last_host_us_ = 0;
