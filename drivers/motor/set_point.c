@@ -46,8 +46,8 @@ bool ale_set_point_ready(const uint8_t *bytes, size_t count, const ale_drive_key
 
 size_t ale_set_point_line(uint32_t counter, int32_t v_um_s, int32_t w_urad_s, char line[ALE_SET_POINT_LINE])
 {
-    const int body = snprintf(line, ALE_SET_POINT_LINE, "$ALE,%u,%d,%d", counter, v_um_s / MICRO_PER_MILLI,
-                              w_urad_s / MICRO_PER_MILLI);
-    const uint16_t sum = ale_motor_crc(line + 1, (size_t)body - 1);
-    return (size_t)(body + snprintf(line + body, (size_t)(ALE_SET_POINT_LINE - body), "*%04X\r\n", sum));
+    const size_t body = (size_t)snprintf(line, ALE_SET_POINT_LINE, "$ALE,%u,%d,%d", counter,
+                                         v_um_s / MICRO_PER_MILLI, w_urad_s / MICRO_PER_MILLI);
+    const uint16_t sum = ale_motor_crc(line + 1, body - 1);
+    return body + (size_t)snprintf(line + body, ALE_SET_POINT_LINE - body, "*%04X\r\n", sum);
 }

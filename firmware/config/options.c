@@ -217,6 +217,12 @@ static bool read_drive_key(ale_options_t *options)
     return true;
 }
 
+static bool read_all_keys(ale_options_t *options)
+{
+    return read_keys(options->config.keys, &options->keys) && read_own_key(options) &&
+           read_drive_key(options);
+}
+
 /* A map to start from is read again by whoever starts: here it is only looked at. */
 static bool check_map(const char *path)
 {
@@ -238,8 +244,7 @@ ale_options_result_t ale_options_read(int count, char **arguments, ale_options_t
         return result;
     }
     if (!read_config(&words, &options->config) || !read_scale(words.time_scale, &options->scale_ppm) ||
-        !read_keys(options->config.keys, &options->keys) || !read_own_key(options) ||
-        !read_drive_key(options)) {
+        !read_all_keys(options)) {
         return ALE_OPTIONS_REFUSED;
     }
     if (words.print) {

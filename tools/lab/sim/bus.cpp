@@ -20,7 +20,7 @@ namespace
 {
 
 constexpr int64_t dead_man_us = 500000;
-constexpr int64_t keyed_dead_man_us = ALE_MOTOR_DEAD_MAN_MS * 1000;
+constexpr int64_t keyed_dead_man_us = int64_t{ALE_MOTOR_DEAD_MAN_MS} * 1000;
 constexpr std::chrono::milliseconds ready_period{500};
 constexpr double micro = 1e-6;
 constexpr int most_datagrams = 256;
