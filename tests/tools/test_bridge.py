@@ -78,6 +78,32 @@ def start(*words):
                             stderr=subprocess.PIPE, text=True)
 
 
+class Keys:
+    """Of one robot and its operators."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.robot = folder / "robot.keys"
+        for name in ("alice", "bob"):
+            subprocess.run([BINARIES / "ale-keys", name], cwd=folder, check=True, capture_output=True)
+
+    def operator(self, name="alice"):
+        return self.folder / f"{name}.key"
+
+
+@pytest.fixture(name="keys")
+def some_keys(tmp_path):
+    return Keys(tmp_path)
+
+
+def robots_end(keys, address, url):
+    return start("--listen", address, "--keys", keys.robot, "--lcm-url", url)
+
+
+def operators_end(keys, address, url, name="alice"):
+    return start("--connect", address, "--keys", keys.operator(name), "--lcm-url", url)
+
+
 def end(process):
     """What it has counted."""
     process.terminate()
@@ -95,11 +121,11 @@ def sides():
 
 
 @pytest.fixture
-def ends(sides):
+def ends(sides, keys):
     """Both ends of a good link, which have found each other."""
     port = free_udp_port()
-    robot = start("--listen", f"127.0.0.1:{port}", "--lcm-url", sides[0].url)
-    operator = start("--connect", f"127.0.0.1:{port}", "--lcm-url", sides[1].url)
+    robot = robots_end(keys, f"127.0.0.1:{port}", sides[0].url)
+    operator = operators_end(keys, f"127.0.0.1:{port}", sides[1].url)
     assert "is there" in operator.stderr.readline()
     assert "is there" in robot.stderr.readline()
     yield robot, operator
@@ -149,26 +175,145 @@ def test_commands_go_to_the_robot_and_nothing_else_does(sides, ends):
     assert not robot.on("ALE_ODOMETRY")
 
 
-def test_what_a_stranger_injects_is_refused(sides, ends):
+def port_of(end_):
+    return int(end_.args[2].rsplit(":", 1)[1])
+
+
+def test_what_a_stranger_injects_is_refused_and_answered_by_nothing(sides, ends):
     robot, _ = sides
     stranger = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-    port = ends[0].args[2].rsplit(":", 1)[1]
-    frame = b"ALEB\x01\x01" + bytes(8) + bytes([11]) + b"ALE_COMMAND" + b"evil"
-    for data in (frame, b"", b"ALEB", b"\xff" * 60000):
-        stranger.sendto(data, ("127.0.0.1", int(port)))
+    stranger.settimeout(1)
+    old = b"ALEB\x01\x01" + bytes(8) + bytes([11]) + b"ALE_COMMAND" + b"evil"
+    data = b"ALEB\x02\x03" + bytes(16) + b"ALE_COMMAND" + bytes(100)
+    hello = b"ALEB\x02\x01" + bytes(250)
+    sent = (old, data, hello, b"", b"ALEB", b"\xff" * 60000)
+    for bytes_ in sent:
+        stranger.sendto(bytes_, ("127.0.0.1", port_of(ends[0])))
     robot.bus.publish("ALE_POSE", pose(1))
     wait_until(lambda: sides[1].on("ALE_POSE") == [pose(1)], 180, "the pose, still to the right end")
+    with pytest.raises(socket.timeout):
+        stranger.recv(65536)
     assert not robot.on("ALE_COMMAND")
-    assert end(ends[0])["refused"] == 4
+    assert end(ends[0])["refused"] == len(sent)
     stranger.close()
 
 
-def test_over_a_bad_link_nothing_comes_twice_or_out_of_order(sides):
+class Tap(BadLink):
+    """Somebody on the way who passes everything on and keeps it."""
+
+    def __init__(self, to_port):
+        self.passed = []
+        super().__init__(to_port)
+
+    def pass_on(self, data, to):
+        self.passed.append((data, to))
+        self.socket.sendto(data, to)
+
+
+def test_nothing_that_crosses_can_be_read_played_again_or_moved(sides, keys):
+    robot, operator = sides
+    port = free_udp_port()
+    tap = Tap(port)
+    both = [robots_end(keys, f"127.0.0.1:{port}", robot.url), operators_end(keys, f"127.0.0.1:{tap.port}", operator.url)]
+    try:
+        for process in both:
+            assert "is there" in process.stderr.readline()
+        operator.bus.publish("ALE_COMMAND", b"drive into the open")
+        wait_until(lambda: robot.on("ALE_COMMAND"), 180, "the command")
+        recorded = [data for data, to in list(tap.passed) if to == ("127.0.0.1", port)]
+        assert not any(b"ALE_COMMAND" in data or b"open" in data for data in recorded)
+        for data in recorded:
+            tap.socket.sendto(data, ("127.0.0.1", port))
+            if len(data) > 22 and data[5] == 3:  # its sequence far ahead
+                tap.socket.sendto(data[:18] + b"\x7f\xff\xff\xf0" + data[22:], ("127.0.0.1", port))
+        for k in range(20):
+            operator.bus.publish("ALE_COMMAND", b"stop %d" % k)
+        wait_until(lambda: len(robot.on("ALE_COMMAND")) >= 21, 180, "all that came after")
+        assert robot.on("ALE_COMMAND") == [b"drive into the open"] + [b"stop %d" % k for k in range(20)]
+    finally:
+        for process in both:
+            process.kill()
+            process.communicate()
+        tap.stop()
+
+
+def test_a_played_again_hello_does_not_take_the_operators_place(sides, keys):
+    """And brings whoever plays it no more than one short answer each."""
+    robot, operator = sides
+    port = free_udp_port()
+    tap = Tap(port)
+    both = [robots_end(keys, f"127.0.0.1:{port}", robot.url), operators_end(keys, f"127.0.0.1:{tap.port}", operator.url)]
+    stranger = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    stranger.setblocking(False)
+    try:
+        for process in both:
+            assert "is there" in process.stderr.readline()
+        hellos = [data for data, to in list(tap.passed) if data[5] == 1]
+        assert hellos
+        sent = received = 0
+        for k in range(200):
+            stranger.sendto(hellos[0], ("127.0.0.1", port))
+            sent += len(hellos[0])
+            robot.bus.publish("ALE_POSE", pose(k))
+            time.sleep(0.005)
+            try:
+                received += len(stranger.recv(65536))
+            except BlockingIOError:
+                pass
+        wait_until(lambda: operator.on("ALE_POSE") and ale.pose_t.decode(operator.on("ALE_POSE")[-1]).scan == 199, 180, "all poses")
+        assert received < sent
+    finally:
+        stranger.close()
+        for process in both:
+            process.kill()
+            process.communicate()
+        tap.stop()
+
+
+def test_two_operators_at_a_time(sides, ends, keys):
+    robot, first = sides
+    second = Side()
+    other = operators_end(keys, f"127.0.0.1:{port_of(ends[0])}", second.url, "bob")
+    try:
+        assert "is there" in other.stderr.readline()
+        assert "bob" in ends[0].stderr.readline()
+        robot.bus.publish("ALE_POSE", pose(3))
+        for side in (first, second):
+            wait_until(lambda to=side: to.on("ALE_POSE") == [pose(3)], 180, "the pose")
+        first.bus.publish("ALE_COMMAND", b"of alice")
+        second.bus.publish("ALE_COMMAND", b"of bob")
+        wait_until(lambda: sorted(robot.on("ALE_COMMAND")) == [b"of alice", b"of bob"], 180, "both commands")
+    finally:
+        other.kill()
+        other.communicate()
+        second.stop()
+
+
+def test_who_has_no_key_is_not_let_in(sides, keys, tmp_path):
+    """Nor is a robot believed that is another one."""
+    (tmp_path / "elsewhere").mkdir()
+    strangers = Keys(tmp_path / "elsewhere")
+    port = free_udp_port()
+    robot = robots_end(keys, f"127.0.0.1:{port}", sides[0].url)
+    operator = operators_end(strangers, f"127.0.0.1:{port}", sides[1].url)
+    try:
+        for k in range(20):
+            sides[0].bus.publish("ALE_POSE", pose(k))
+            sides[1].bus.publish("ALE_COMMAND", b"evil")
+            time.sleep(0.1)
+        assert not sides[1].on("ALE_POSE") and not sides[0].on("ALE_COMMAND")
+        assert end(robot)["refused"] >= 3
+    finally:
+        for process in (robot, operator):
+            process.kill()
+            process.communicate()
+
+
+def test_over_a_bad_link_nothing_comes_twice_or_out_of_order(sides, keys):
     robot, operator = sides
     port = free_udp_port()
     air = BadLink(port)
-    ends = [start("--listen", f"127.0.0.1:{port}", "--lcm-url", robot.url),
-            start("--connect", f"127.0.0.1:{air.port}", "--lcm-url", operator.url)]
+    ends = [robots_end(keys, f"127.0.0.1:{port}", robot.url), operators_end(keys, f"127.0.0.1:{air.port}", operator.url)]
     try:
         for process in ends:
             assert "is there" in process.stderr.readline()
@@ -189,14 +334,15 @@ def test_over_a_bad_link_nothing_comes_twice_or_out_of_order(sides):
         air.stop()
 
 
-def test_an_operator_who_comes_back_is_taken_up_again(sides, ends):
+def test_an_operator_who_comes_back_is_taken_up_again(sides, ends, keys):
     robot, operator = sides
     end(ends[1])
     port = ends[0].args[2].rsplit(":", 1)[1]
-    again = start("--connect", f"127.0.0.1:{port}", "--lcm-url", operator.url)
+    again = operators_end(keys, f"127.0.0.1:{port}", operator.url)
     try:
-        assert "is silent" in ends[0].stderr.readline()
+        assert "is there" in ends[0].stderr.readline(), "he does not wait until the robot has missed him"
         assert "is there" in again.stderr.readline()
+        assert "is silent" in ends[0].stderr.readline(), "of what was there before"
         robot.bus.publish("ALE_POSE", pose(7))
         wait_until(lambda: operator.on("ALE_POSE") == [pose(7)], 180, "the pose")
     finally:
@@ -204,19 +350,31 @@ def test_an_operator_who_comes_back_is_taken_up_again(sides, ends):
         again.communicate()
 
 
-def test_a_host_that_cannot_be_found_is_a_failure_and_no_wrong_use():
-    done = subprocess.run([BINARIES / "ale-bridge", "--connect", "no-such-host.invalid:7700"], capture_output=True, text=True,
+def test_a_host_that_cannot_be_found_is_a_failure_and_no_wrong_use(keys):
+    done = subprocess.run([BINARIES / "ale-bridge", "--connect", "no-such-host.invalid:7700", "--keys", keys.operator()], capture_output=True, text=True,
                           timeout=180, check=False)
     assert done.returncode == 1
     assert done.stderr.startswith("ale-bridge: no-such-host.invalid:7700: ") and done.stderr.count("\n") == 1
 
 
 @pytest.mark.parametrize("words, part", [
-    ([], "--listen"), (["--listen", "1", "--connect", "a:1"], "--listen"), (["--connect", "7700"], "HOST:PORT"),
-    (["--listen", "127.0.0.1:none"], "no such address"), (["--listen", "99999"], "no such address: 99999"), (["--listen", "0", "--send", "A:0"], "rate"),
-    (["--listen", "0", "--send", "ALE_COMMAND"], "round for ever"), (["word"], "word"),
+    ([], "--listen"), (["--listen", "1", "--connect", "a:1"], "--listen"), (["--listen", "0"], "--keys is missing"),
+    (["--connect", "7700", "--keys", "alice.key"], "HOST:PORT"),
+    (["--listen", "127.0.0.1:none", "--keys", "robot.keys"], "no such address"),
+    (["--listen", "99999", "--keys", "robot.keys"], "no such address: 99999"),
+    (["--listen", "0", "--keys", "robot.keys", "--send", "A:0"], "rate"),
+    (["--listen", "0", "--keys", "robot.keys", "--send", "ALE_COMMAND"], "round for ever"), (["word"], "word"),
 ])
-def test_wrong_use_is_told_in_one_line_and_ends_with_2(words, part):
-    done = subprocess.run([BINARIES / "ale-bridge", *words], capture_output=True, text=True, timeout=180, check=False)
+def test_wrong_use_is_told_in_one_line_and_ends_with_2(words, part, keys):
+    done = subprocess.run([BINARIES / "ale-bridge", *words], capture_output=True, text=True, timeout=180, check=False, cwd=keys.folder)
     assert done.returncode == 2
     assert part in done.stderr and done.stderr.count("\n") == 1
+
+
+def test_without_a_key_or_a_robot_to_believe_it_does_not_start(keys):
+    keys.folder.joinpath("alice.key.robots").unlink()
+    keys.folder.joinpath("robot.keys.secret").unlink()
+    for words, part in ((["--connect", "127.0.0.1:1", "--keys", "alice.key"], "no robot is believed"),
+                        (["--listen", "0", "--keys", "robot.keys"], "robot.keys.secret")):
+        done = subprocess.run([BINARIES / "ale-bridge", *words], capture_output=True, text=True, timeout=180, check=False, cwd=keys.folder)
+        assert done.returncode == 1 and part in done.stderr and done.stderr.count("\n") == 1

@@ -71,7 +71,7 @@ def test_every_option_of_its_help_is_one_of_its_own(name):
         assert not re.search(f"(unknown|unrecognized) option '?{option}", refused.stderr), refused.stderr
 
 
-@pytest.mark.parametrize("words", ["ale-bridge --connect 127.0.0.1:7700", "ale-console --http 127.0.0.1:0", "ale-latency",
+@pytest.mark.parametrize("words", ["ale-bridge --connect 127.0.0.1:7700 --keys KEY", "ale-console --http 127.0.0.1:0", "ale-latency",
                                    "ale-record --port urg --out file", "ale-screen --once", "ale-send --keys KEY stop",
                                    f"ale-sim --pty urg --world {ROOT}/tools/lab/worlds/home.world",
                                    f"ale-sim --pty urg --drive --world {ROOT}/tools/lab/worlds/home.world", "ale-slamd", "ale-watch"])

@@ -2,14 +2,13 @@
 
 #include <chrono>
 #include <cstdio>
-#include <random>
 #include <stdexcept>
 #include <utility>
 
 #include <poll.h>
 
 #include "common/command_line/wrong_use.h"
-#include "operator/bridge/frame.h"
+#include "operator/bridge/wire_bytes.h"
 
 namespace bridge
 {
@@ -29,9 +28,10 @@ int64_t now_us()
 
 } // namespace
 
-Bridge::Bridge(const std::string &lcm_url, UdpLink link, const Selection &send, const Selection &accept)
-    : wire_(feed::join_lcm(lcm_url)), link_(std::move(link)), send_(send), accept_(accept),
-      session_(std::random_device{}())
+Bridge::Bridge(const std::string &lcm_url, UdpSocket socket, Ends ends, const Selection &send,
+               const Selection &accept)
+    : wire_(feed::join_lcm(lcm_url)), socket_(std::move(socket)), ends_(std::move(ends)), send_(send),
+      accept_(accept)
 {
     for (const std::string &channel : send_.names()) {
         if (accept_.contains(channel)) {
@@ -48,6 +48,16 @@ void Bridge::on_message(void *user, const char *channel, const uint8_t *bytes, s
     static_cast<Bridge *>(user)->carry_out(channel, bytes, count);
 }
 
+bool Bridge::send_to_all(const Frame &frame)
+{
+    bool sent = false;
+    for (Session &session : ends_.sessions()) {
+        const std::vector<uint8_t> datagram = session.seal(frame);
+        sent = (!datagram.empty() && socket_.send(datagram, session.address())) || sent;
+    }
+    return sent;
+}
+
 void Bridge::carry_out(const char *channel, const uint8_t *bytes, size_t count)
 {
     if (!send_.take(channel, now_us())) {
@@ -55,84 +65,80 @@ void Bridge::carry_out(const char *channel, const uint8_t *bytes, size_t count)
         return;
     }
     Frame frame;
-    frame.kind = Kind::message;
-    frame.session = session_;
-    frame.sequence = sequence_ + 1;
     frame.channel = channel;
     frame.message = bytes;
     frame.size = count;
-    const std::vector<uint8_t> datagram = encode(frame);
-    if (datagram.empty() || !link_.send(datagram)) {
-        counts_.unsent++;
-        return;
-    }
-    sequence_++;
-    counts_.sent++;
+    (send_to_all(frame) ? counts_.sent : counts_.unsent)++;
 }
 
-void Bridge::carry_in(const Frame &frame)
+/* Of an end that has proved who it is. */
+bool Bridge::carry_in(const std::vector<uint8_t> &datagram, const Address &from)
 {
-    if (!accept_.contains(frame.channel)) {
-        counts_.refused++;
-        return;
+    Session *session = ends_.of(datagram);
+    const auto frame = session ? session->open(datagram, from, now_us()) : std::nullopt;
+    if (!frame) {
+        return false;
     }
-    if (arrivals_.take(frame)) {
-        ale_wire_send(wire_.get(), frame.channel.c_str(), frame.message, frame.size);
+    ends_.confirm(*session);
+    const bool in_order = session->is_in_order(*frame);
+    if (frame->channel.empty() || !accept_.contains(frame->channel)) {
+        return frame->channel.empty();
+    }
+    if (in_order) {
+        ale_wire_send(wire_.get(), frame->channel.c_str(), frame->message, frame->size);
         counts_.received++;
     }
+    return true;
+}
+
+bool Bridge::take(const std::vector<uint8_t> &datagram, const Address &from)
+{
+    const auto kind = kind_of(datagram);
+    if (kind == Kind::data) {
+        return carry_in(datagram, from);
+    }
+    if (kind == Kind::hello) {
+        const std::vector<uint8_t> answer = ends_.greet(datagram, from, now_us());
+        return !answer.empty() && socket_.send(answer, from);
+    }
+    const bool greeted = kind == Kind::answer && ends_.greeted(datagram, from, now_us());
+    hello_us_ = greeted ? 0 : hello_us_;
+    return greeted;
 }
 
 void Bridge::receive_datagrams()
 {
-    bool from_peer = false;
-    for (int k = 0; k < most_at_once && link_.receive(datagram_, from_peer); k++) {
-        const std::optional<Frame> frame = decode(datagram_.data(), datagram_.size());
-        const int64_t now = now_us();
-        tell_changes(now); /* that the peer was silent, before another takes its place */
-        if (!frame || (!from_peer && !link_.accept_sender(now))) {
-            counts_.refused++;
-            continue;
-        }
-        link_.heard(now);
-        if (frame->kind == Kind::message) {
-            carry_in(*frame);
-        }
+    Address from;
+    for (int k = 0; k < most_at_once && socket_.receive(datagram_, from); k++) {
+        counts_.refused += !take(datagram_, from);
     }
 }
 
+/* Who is known hears that this end is there; who is looked for, who asks for him. */
 void Bridge::say_hello()
 {
     const int64_t now = now_us();
     if (now < hello_us_) {
         return;
     }
-    Frame frame;
-    frame.session = session_;
-    frame.sequence = sequence_;
-    link_.send(encode(frame));
     hello_us_ = now + hello_period_us;
-}
-
-void Bridge::tell_changes(int64_t now)
-{
-    const bool up = link_.has_peer() && !link_.is_silent(now);
-    if (up != up_) {
-        std::fprintf(stderr, "ale-bridge: %s %s\n", link_.peer_name().c_str(),
-                     up ? "is there" : "is silent: waiting until it is there again");
+    send_to_all({});
+    const std::vector<uint8_t> hello = ends_.hello();
+    if (!hello.empty()) {
+        socket_.send(hello, ends_.wanted());
     }
-    up_ = up;
 }
 
 void Bridge::step()
 {
-    pollfd sources[] = {{ale_wire_descriptor(wire_.get()), POLLIN, 0}, {link_.descriptor(), POLLIN, 0}};
+    pollfd sources[] = {{ale_wire_descriptor(wire_.get()), POLLIN, 0}, {socket_.descriptor(), POLLIN, 0}};
     poll(sources, 2, look_ms);
     if (sources[1].revents != 0) {
         receive_datagrams();
     }
     ale_wire_receive(wire_.get(), 0, most_at_once);
+    ends_.forget_silent(now_us());
     say_hello();
-    tell_changes(now_us());
 }
 
 } // namespace bridge

@@ -1,5 +1,5 @@
-/* LCM on one side, the link on the other: what is selected goes out, what is accepted comes in. One thread.
- */
+/* LCM on one side, the link on the other: what is selected goes out to every other end that has proved who it
+ * is, what is accepted comes in from them. One thread. */
 #ifndef BRIDGE_BRIDGE_H
 #define BRIDGE_BRIDGE_H
 
@@ -8,19 +8,19 @@
 #include <vector>
 
 #include "common/feed/lcm_feed.h"
-#include "operator/bridge/arrivals.h"
+#include "operator/bridge/ends.h"
 #include "operator/bridge/selection.h"
-#include "operator/bridge/udp_link.h"
+#include "operator/bridge/udp_socket.h"
 
 namespace bridge
 {
 
 struct Counts {
-    uint64_t sent = 0;
+    uint64_t sent = 0; /* messages, to whom it may be */
     uint64_t thinned = 0;
     uint64_t unsent = 0; /* nobody there, too long, or the system refused */
     uint64_t received = 0;
-    uint64_t refused = 0; /* no datagram of this link, of a stranger, or on a channel that is not accepted */
+    uint64_t refused = 0; /* no datagram of this link, of a stranger, played again, or not accepted */
 };
 
 class Bridge
@@ -28,7 +28,8 @@ class Bridge
   public:
     /* Throws std::runtime_error when LCM cannot be joined, cli::WrongUse when a channel is both sent
      * and accepted: it would go round for ever. */
-    Bridge(const std::string &lcm_url, UdpLink link, const Selection &send, const Selection &accept);
+    Bridge(const std::string &lcm_url, UdpSocket socket, Ends ends, const Selection &send,
+           const Selection &accept);
 
     /* Waits up to 100 ms for something to carry. */
     void step();
@@ -37,29 +38,27 @@ class Bridge
     {
         return counts_;
     }
-    const Arrivals &arrivals() const
+    const Ends &ends() const
     {
-        return arrivals_;
+        return ends_;
     }
 
   private:
     static void on_message(void *user, const char *channel, const uint8_t *bytes, size_t count) noexcept;
     void carry_out(const char *channel, const uint8_t *bytes, size_t count);
-    void carry_in(const Frame &frame);
+    bool carry_in(const std::vector<uint8_t> &datagram, const Address &from);
+    bool take(const std::vector<uint8_t> &datagram, const Address &from);
     void receive_datagrams();
     void say_hello();
-    void tell_changes(int64_t now);
+    bool send_to_all(const Frame &frame);
 
     feed::Wire wire_;
-    UdpLink link_;
+    UdpSocket socket_;
+    Ends ends_;
     Selection send_;
     Selection accept_;
-    Arrivals arrivals_;
     Counts counts_;
-    uint32_t session_;
-    uint32_t sequence_ = 0;
     int64_t hello_us_ = 0;
-    bool up_ = false;
     std::vector<uint8_t> datagram_;
 };
 

@@ -1,4 +1,4 @@
-#include "operator/bridge/udp_link.h"
+#include "operator/bridge/udp_socket.h"
 
 #include <cerrno>
 #include <charconv>
@@ -68,24 +68,27 @@ AddressList resolve(const std::string &address, bool listen)
     return {found, freeaddrinfo};
 }
 
-bool same(const sockaddr_storage &a, socklen_t a_length, const sockaddr_storage &b, socklen_t b_length)
-{
-    return a_length == b_length && std::memcmp(&a, &b, a_length) == 0;
-}
-
 } // namespace
 
-UdpLink UdpLink::listening(const std::string &address)
+Address Address::of(const std::string &host_and_port)
 {
-    return UdpLink(address, true);
+    const AddressList found = resolve(host_and_port, false);
+    Address address;
+    std::memcpy(&address.storage, found->ai_addr, found->ai_addrlen);
+    address.length = found->ai_addrlen;
+    return address;
 }
 
-UdpLink UdpLink::connected(const std::string &address)
+std::string Address::name() const
 {
-    return UdpLink(address, false);
+    char host[NI_MAXHOST] = "";
+    char port[NI_MAXSERV] = "";
+    getnameinfo(reinterpret_cast<const sockaddr *>(&storage), length, host, sizeof host, port, sizeof port,
+                NI_NUMERICHOST | NI_NUMERICSERV);
+    return std::string(host) + ":" + port;
 }
 
-UdpLink::UdpLink(const std::string &address, bool listen) : learns_(listen)
+UdpSocket::UdpSocket(const std::string &address, bool listen)
 {
     const AddressList found = resolve(address, listen);
     socket_ = socket(found->ai_family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
@@ -96,65 +99,34 @@ UdpLink::UdpLink(const std::string &address, bool listen) : learns_(listen)
         }
         throw std::runtime_error(address + ": " + reason);
     }
-    if (!listen) {
-        std::memcpy(&peer_, found->ai_addr, found->ai_addrlen);
-        peer_length_ = found->ai_addrlen;
-    }
 }
 
-UdpLink::UdpLink(UdpLink &&other) noexcept
-    : socket_(std::exchange(other.socket_, -1)), learns_(other.learns_), peer_(other.peer_),
-      peer_length_(other.peer_length_), sender_(other.sender_), sender_length_(other.sender_length_),
-      heard_us_(other.heard_us_)
+UdpSocket::UdpSocket(UdpSocket &&other) noexcept : socket_(std::exchange(other.socket_, -1))
 {
 }
 
-UdpLink::~UdpLink()
+UdpSocket::~UdpSocket()
 {
     if (socket_ >= 0) {
         close(socket_);
     }
 }
 
-bool UdpLink::send(const std::vector<uint8_t> &bytes)
+bool UdpSocket::send(const std::vector<uint8_t> &bytes, const Address &to)
 {
-    return has_peer() &&
-           sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr *>(&peer_),
-                  peer_length_) == static_cast<ssize_t>(bytes.size());
+    return sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr *>(&to.storage),
+                  to.length) == static_cast<ssize_t>(bytes.size());
 }
 
-bool UdpLink::receive(std::vector<uint8_t> &bytes, bool &from_peer)
+bool UdpSocket::receive(std::vector<uint8_t> &bytes, Address &from)
 {
     bytes.resize(most_datagram);
-    sender_ = {};
-    sender_length_ = sizeof sender_;
+    from = {};
+    from.length = sizeof from.storage;
     const ssize_t count = recvfrom(socket_, bytes.data(), bytes.size(), 0,
-                                   reinterpret_cast<sockaddr *>(&sender_), &sender_length_);
-    if (count < 0) {
-        return false;
-    }
-    bytes.resize(static_cast<size_t>(count));
-    from_peer = has_peer() && same(sender_, sender_length_, peer_, peer_length_);
-    return true;
-}
-
-bool UdpLink::accept_sender(int64_t now_us)
-{
-    if (!learns_ || (has_peer() && !is_silent(now_us))) {
-        return false;
-    }
-    peer_ = sender_;
-    peer_length_ = sender_length_;
-    return true;
-}
-
-std::string UdpLink::peer_name() const
-{
-    char host[NI_MAXHOST] = "";
-    char port[NI_MAXSERV] = "";
-    getnameinfo(reinterpret_cast<const sockaddr *>(&peer_), peer_length_, host, sizeof host, port,
-                sizeof port, NI_NUMERICHOST | NI_NUMERICSERV);
-    return std::string(host) + ":" + port;
+                                   reinterpret_cast<sockaddr *>(&from.storage), &from.length);
+    bytes.resize(count < 0 ? 0 : static_cast<size_t>(count));
+    return count >= 0;
 }
 
 } // namespace bridge
