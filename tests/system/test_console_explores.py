@@ -68,7 +68,7 @@ def test_a_click_on_explore_makes_the_robot_map_the_arena(page, chain):
     lines = page.run("""
         return import("/scene.js").then(({ Scene }) => new Promise((done) => {
           const scene = new Scene();
-          const socket = new WebSocket(`ws://${location.host}/`);
+          const socket = new WebSocket(`ws://${location.host}/${location.search}`);
           socket.onmessage = (event) => {
             scene.take(JSON.parse(event.data));
             if (scene.map) { socket.close(); done(scene.map.lines); }

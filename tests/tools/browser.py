@@ -20,13 +20,13 @@ def missing():
 
 
 class Browser:
-    def __init__(self, width=1280, height=800, light=False):
+    def __init__(self, *flags, width=1280, height=800, light=False):
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         self.driver = subprocess.Popen(["chromedriver", "--port=0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
                                        text=True)
         try:
             self.base = f"http://127.0.0.1:{self._driver_port()}"
-            arguments = [*FLAGS, f"--user-data-dir={self.profile.name}", f"--window-size={width},{height}"]
+            arguments = [*FLAGS, *flags, f"--user-data-dir={self.profile.name}", f"--window-size={width},{height}"]
             if not light:
                 arguments.append("--blink-settings=preferredColorScheme=0")
             options = {"browserName": "chrome", "goog:chromeOptions": {"args": arguments},

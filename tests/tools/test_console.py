@@ -31,7 +31,8 @@ def one_line(text):
 
 
 @pytest.mark.parametrize("arguments", [["--http", "nonsense"], ["--http", "127.0.0.1:70000"], ["--http", "127.0.0.1:8x"],
-                                       ["--http", ":8080"], ["--token", "short"], ["--token", "with blanks in it"], ["--http", "no.such.host.invalid:80"], ["--unknown"], ["word"]])
+                                       ["--http", ":8080"], ["--token", "short"], ["--token", "with blanks in it"], ["--token", "abcdefghijkl1", "--token-file", "f"],
+                                       ["--cert", "f"], ["--key", "f"], ["--origin", "robot.example"], ["--origin", "https://a/b"], ["--http", "no.such.host.invalid:80"], ["--unknown"], ["word"]])
 def test_wrong_use_is_told_in_one_line_and_ends_with_2(arguments):
     done = run_console(*arguments)
     assert done.returncode == 2
@@ -129,6 +130,18 @@ def test_one_page_drives_at_a_time(alice, robot, commands):
     assert [c.verb for c in commands(2)] == ["drive", "stop"]
 
 
+@pytest.mark.parametrize("words", [("drive\0", "0.1", "0"), ("drive", "0.1\n", "0"), ("st\x1bop",), ("st\u00f6p",), ("\x7f",)])
+def test_words_with_characters_that_no_command_has_are_not_sent(alice, robot, commands, words):
+    """A NUL ends a word for some: with it a second page drove beside the first."""
+    robot.publish_status()
+    first, second = WebSocket(alice.url), WebSocket(alice.url)
+    first.wait_for("status")
+    assert command(first, "drive", "0.1", "0")["refusal"] is None
+    assert "character" in command(second, *words)["refusal"]
+    assert command(first, "stop")["refusal"] is None
+    assert [c.verb for c in commands(2)] == ["drive", "stop"]
+
+
 def test_a_console_without_a_key_sends_nothing(console, robot):
     page = WebSocket(console.url)
     assert page.wait_for("hello")["operator"] is None
@@ -137,9 +150,10 @@ def test_a_console_without_a_key_sends_nothing(console, robot):
     assert "--keys" in command(page, "stop")["refusal"]
 
 
-@pytest.mark.parametrize("options", [["--token", "abcdefghijkl1"], []], ids=["given", "its own, because it can be reached"])
-def test_with_a_token_page_and_web_socket_are_for_those_who_have_it(lcm_url, options):
-    running = Console(lcm_url, "127.0.0.1:0" if options else "0.0.0.0:0", *options)
+@pytest.mark.parametrize("http, options", [("127.0.0.1:0", ["--token", "abcdefghijkl1"]), ("0.0.0.0:0", []), ("127.0.0.1:0", [])],
+                         ids=["given", "its own, reached from elsewhere", "its own, on the loopback"])
+def test_page_and_web_socket_are_for_those_who_have_the_token(lcm_url, http, options):
+    running = Console(lcm_url, http, *options)
     address, token = re.sub("//[^:]+:", "//127.0.0.1:", running.url).split("?token=")
     assert len(token) >= 12
     for wrong in ("", "?token=", "?token=" + token[:-1], "?token=" + token + "x", "?token=" + "x" * len(token)):
@@ -190,14 +204,14 @@ def test_nothing_else_is_served(console, path):
 
 
 def test_a_web_socket_from_a_foreign_page_is_refused(console):
-    for origin, host in (("http://evil.example", None), ("null", None), (console.url.rstrip("/") + "1", None),
+    for origin, host in (("http://evil.example", None), ("null", None), (console.origin + "1", None), (console.origin.replace("http", "https"), None),
                          ("http://evil.example:80", "evil.example:80")):  # the last: a name made to resolve to us
         with pytest.raises(Refused, match="403"):
             WebSocket(console.url, origin=origin, host=host)
 
 
 def test_a_web_socket_from_its_own_page_is_accepted(console):
-    WebSocket(console.url, origin=console.url.rstrip("/")).wait_for("hello")
+    WebSocket(console.url, origin=console.origin).wait_for("hello")
 
 
 def test_a_pose_arrives_as_it_was_sent(console, robot):

@@ -175,8 +175,9 @@ def test_a_lost_link_shows_within_a_second(page, robot):
     assert "ago" in page.text("alarm-text")
 
 
-def test_a_console_that_ends_shows_within_a_second_and_one_that_returns_is_found(chromium, lcm_url, robot, pulse):
-    running = Console(lcm_url)
+def test_a_console_that_ends_shows_within_a_second_and_one_that_returns_is_found(chromium, lcm_url, robot, pulse, tmp_path):
+    with_token = ("--token-file", tmp_path / "token")
+    running = Console(lcm_url, "127.0.0.1:0", *with_token)
     chromium.open(running.url)
 
     def gone_and_found_again():
@@ -184,7 +185,7 @@ def test_a_console_that_ends_shows_within_a_second_and_one_that_returns_is_found
         chromium.wait_for(f"{LINK} === 'up'")
         assert running.end() == 0
         seconds = seconds_of(lambda: chromium.wait_for(f"{LINK} === 'gone'"))
-        running = Console(lcm_url, running.url.removeprefix("http://").rstrip("/"))
+        running = Console(lcm_url, running.origin.removeprefix("http://"), *with_token)
         chromium.wait_for(f"{LINK} === 'up'")
         return seconds
     try:
@@ -198,7 +199,7 @@ def test_nothing_comes_from_elsewhere(page, console, pulse):
     page.wait_for(f"{LINK} === 'up'")
     urls = page.run("return performance.getEntriesByType('resource').map((entry) => entry.name)")
     assert len(urls) >= 7
-    assert all(url.startswith(console.url) for url in urls)
+    assert all(url.startswith(console.address) for url in urls)
 
 
 def test_following_keeps_the_robot_in_the_middle(page, pulse):
@@ -351,7 +352,7 @@ def test_a_scan_taken_while_turning_is_straightened(page, robot):
     distances = page.run("""
         return import("/scene.js").then(({ Scene }) => new Promise((done) => {
           const scene = new Scene();
-          const socket = new WebSocket(`ws://${location.host}/`);
+          const socket = new WebSocket(`ws://${location.host}/${location.search}`);
           socket.onmessage = (event) => {
             scene.take(JSON.parse(event.data));
             if (!scene.map || !scene.pose || !scene.scan || !scene.points.length) return;

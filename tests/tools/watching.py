@@ -1,5 +1,7 @@
 """Fixtures for tests of the programs that watch the robot: a free LCM URL, ale-console, a pulse of scans."""
+import os
 import subprocess
+import tempfile
 import time
 import urllib.request
 
@@ -19,19 +21,27 @@ def lcm_url():
 
 
 class Console:
-    """ale-console on a free port."""
+    """ale-console on a free port, with a token of its own."""
 
     def __init__(self, lcm_url, http="127.0.0.1:0", *options):
-        self.process = subprocess.Popen([BINARIES / "ale-console", "--http", http, "--lcm-url", lcm_url, *options],
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.state = tempfile.TemporaryDirectory()
+        self.process = subprocess.Popen([BINARIES / "ale-console", "--http", http, "--lcm-url", lcm_url, *map(str, options)],
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                        env={**os.environ, "XDG_STATE_HOME": self.state.name})
         self.url = self.process.stdout.readline().strip()
+        self.address, _, self.token = self.url.partition("?token=")
+
+    @property
+    def origin(self):
+        return self.address.rstrip("/")
 
     def get(self, path=""):
-        return urllib.request.urlopen(self.url + path, timeout=180)
+        return urllib.request.urlopen(f"{self.address}{path}?token={self.token}", timeout=180)
 
     def end(self, signal_number=15):
         self.process.send_signal(signal_number)
-        self.process.communicate(timeout=180)
+        _, self.said = self.process.communicate(timeout=180)
+        self.state.cleanup()
         return self.process.returncode
 
 

@@ -13,9 +13,11 @@ class Refused(Exception):
 
 
 class WebSocket:
-    def __init__(self, url, origin=None, host=None):
+    def __init__(self, url, origin=None, host=None, tls=None):
         place = urllib.parse.urlsplit(url)
         self.socket = socket.create_connection((place.hostname, place.port), timeout=180)
+        if tls:
+            self.socket = tls.wrap_socket(self.socket, server_hostname=place.hostname)
         self.buffer = b""
         self.received = 0
         key = base64.b64encode(os.urandom(16)).decode()

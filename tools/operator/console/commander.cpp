@@ -110,6 +110,18 @@ bool Commander::may_drive(uint64_t page, Clock::time_point now)
     return true;
 }
 
+namespace
+{
+
+/* Printable ASCII, as the robot takes it. With anything else a word could look like another one, or like
+ * none, to those who read it: a NUL ends it for some. */
+bool is_plain(const std::string &word)
+{
+    return std::all_of(word.begin(), word.end(), [](char c) { return c >= ' ' && c <= '~'; });
+}
+
+} // namespace
+
 Sent Commander::send(uint64_t page, const std::vector<std::string> &words)
 {
     const std::lock_guard lock(mutex_);
@@ -118,6 +130,9 @@ Sent Commander::send(uint64_t page, const std::vector<std::string> &words)
     }
     if (words.empty()) {
         return refused("a command without a word");
+    }
+    if (!std::all_of(words.begin(), words.end(), is_plain)) {
+        return refused("a word with a character that no command has");
     }
     if (words[0] == "drive" && !may_drive(page, Clock::now())) {
         return refused("somebody drives from another page");

@@ -66,9 +66,9 @@ bool is_ip_address(const std::string &name)
 
 } // namespace
 
-std::string HttpAddress::url() const
+std::string HttpAddress::url(const std::string &scheme) const
 {
-    return "http://" + (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(port) + "/";
+    return scheme + "://" + (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(port) + "/";
 }
 
 HttpAddress reachable(const HttpAddress &address)
@@ -127,15 +127,24 @@ void require_free(const HttpAddress &address)
     }
 }
 
-bool origin_is_ours(const std::string &origin, const std::string &host, const std::string &machine_name)
+void check_origin(const std::string &text)
 {
-    if (origin.empty()) {
+    const size_t start = text.rfind("https://", 0) == 0 ? 8 : text.rfind("http://", 0) == 0 ? 7 : 0;
+    if (start == 0 || start == text.size() || text.find_first_of("/?# ", start) != std::string::npos) {
+        throw cli::WrongUse("--origin: not of the form https://HOST[:PORT]: " + text);
+    }
+}
+
+bool origin_is_ours(const std::string &origin, const std::string &host, const Ours &ours)
+{
+    if (origin.empty() || (!ours.proxy.empty() && origin == ours.proxy)) {
         return true;
     }
     const std::string name = name_of(host);
+    const std::string &machine = ours.machine_name;
     const bool known = is_ip_address(name) || name == "localhost" ||
-                       (!machine_name.empty() && (name == machine_name || name == machine_name + ".local"));
-    return known && origin == "http://" + host;
+                       (!machine.empty() && (name == machine || name == machine + ".local"));
+    return known && origin == ours.scheme + "://" + host;
 }
 
 } // namespace console

@@ -13,8 +13,8 @@ struct HttpAddress {
     uint16_t port = 0;
     bool ipv6 = false;
 
-    /* "http://127.0.0.1:8080/" */
-    std::string url() const;
+    /* "http://127.0.0.1:8080/", or with another scheme. */
+    std::string url(const std::string &scheme = "http") const;
 };
 
 /* What others can type for an address that stands for all of this machine's: the first that is not the
@@ -31,10 +31,21 @@ HttpAddress parse_http_address(const std::string &text);
 /* Throws std::runtime_error naming the address and the reason when nobody can listen there now. */
 void require_free(const HttpAddress &address);
 
+/* Throws cli::WrongUse: not of the form http://HOST[:PORT] or https://HOST[:PORT]. */
+void check_origin(const std::string &text);
+
+/* How browsers see our page. */
+struct Ours {
+    std::string scheme; /* "http" or "https" */
+    std::string machine_name;
+    std::string proxy; /* "https://robot.example": where a proxy shows the page; empty: there is none */
+};
+
 /* Whether a web socket with these Origin and Host headers comes from our own page (or, origin empty, from a
  * program that is no browser). The host must be an IP address, localhost or this machine's name: a foreign
- * name that was made to resolve to us (DNS rebinding) is refused. */
-bool origin_is_ours(const std::string &origin, const std::string &host, const std::string &machine_name);
+ * name that was made to resolve to us (DNS rebinding) is refused. What a proxy shows is ours whatever it
+ * makes of the Host. */
+bool origin_is_ours(const std::string &origin, const std::string &host, const Ours &ours);
 
 } // namespace console
 

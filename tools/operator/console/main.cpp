@@ -1,7 +1,5 @@
 /* ale-console: the operator's page. LCM in on one thread, the web on another, the board between them. */
-#include <algorithm>
 #include <atomic>
-#include <cctype>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -19,29 +17,32 @@
 #include "operator/console/commander.h"
 #include "operator/console/http_address.h"
 #include "operator/console/robot_watch.h"
+#include "operator/console/token.h"
 #include "operator/console/web_server.h"
 
 namespace
 {
 
 constexpr char usage[] =
-    "usage: ale-console [--lcm-url URL] [--http ADDR:PORT] [--token TEXT] [--keys FILE]\n"
+    "usage: ale-console [--lcm-url URL] [--http ADDR:PORT] [--keys FILE] [--token-file FILE]\n"
+    "                   [--cert FILE --key FILE] [--origin URL]\n"
     "The operator's console: serves a web page that shows what the robot publishes over LCM and commands "
     "it.\n"
     "  --lcm-url URL     where the robot publishes (default: LCM_DEFAULT_URL, else LCM's own default)\n"
     "  --http ADDR:PORT  where the page is served (default 127.0.0.1:8080; port 0: any free one)\n"
-    "  --token TEXT      only those who have it in the address may open the page; without one given, a page\n"
-    "                    that can be reached from elsewhere gets one of its own\n"
     "  --keys FILE       the operator's key (ale-keys makes it); without it the page only watches\n"
     "  --robots FILE     the robots whose word is believed (default: the file of --keys with .robots "
     "behind)\n"
     "  --robot NAME      which robot is shown and commanded; needed where more than one is heard\n"
+    "  --token-file FILE the token: who has it in the address may open the page. Made when it is not there\n"
+    "                    (default ~/.local/state/ale-slam/console.token)\n"
+    "  --token TEXT      the same on the command line, where others on this machine may see it\n"
+    "  --cert FILE       certificate (PEM) and\n"
+    "  --key FILE        its key: the page is served over TLS\n"
+    "  --origin URL      the page is shown by a proxy at https://HOST[:PORT]\n"
     "  --help, --version\n"
     "Prints the page's address on stdout. Ends with Ctrl-C or SIGTERM. Exit: 0 fine, 1 failed, 2 wrong "
     "use.\n";
-
-constexpr size_t least_token = 12;
-constexpr size_t longest_token = 128;
 
 struct Options {
     std::string lcm_url;
@@ -50,6 +51,10 @@ struct Options {
     std::string robots;
     std::string robot;
     std::string token;
+    std::string token_file;
+    std::string certificate;
+    std::string key;
+    std::string proxy;
 };
 
 /* A forged message may claim more elements than memory holds: it fails at this limit and is counted. The
@@ -62,22 +67,29 @@ void limit_memory()
 #endif
 }
 
-/* The token that is asked for; none on the loopback unless one was given. */
-std::string token_for(const Options &options, const console::HttpAddress &address)
+/* The token that is asked for: on the loopback, too, because others may be logged in on this machine. */
+std::string token_for(const Options &options)
 {
-    if (!options.token.empty() || console::is_loopback(address)) {
+    if (!options.token.empty()) {
         return options.token;
     }
-    unsigned char random[16];
-    char hex[2 * sizeof random + 1];
-    randombytes_buf(random, sizeof random);
-    return sodium_bin2hex(hex, sizeof hex, random, sizeof random);
+    const std::string file = options.token_file.empty() ? console::usual_token_file() : options.token_file;
+    return file.empty() ? console::random_token() : console::token_of_file(file);
 }
 
-bool is_token(const std::string &text)
+/* What is open to others though it works. */
+void warn(const Options &options, const console::HttpAddress &address)
 {
-    return text.size() >= least_token && text.size() <= longest_token &&
-           std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) != 0; });
+    if (!options.token.empty()) {
+        std::fputs("ale-console: others on this machine may have seen the token on the command line; "
+                   "--token-file keeps it to yourself\n",
+                   stderr);
+    }
+    if (!console::is_loopback(address) && options.certificate.empty() && options.proxy.empty()) {
+        std::fputs("ale-console: this page is not encrypted: who listens on the network learns the token "
+                   "(--cert and --key, or a tunnel)\n",
+                   stderr);
+    }
 }
 
 void follow_robot(feed::LcmFeed &feed, console::Board &board, const std::atomic<bool> &stopping)
@@ -101,8 +113,17 @@ sigset_t block_endings()
 
 void check(const Options &options)
 {
-    if (!options.token.empty() && !is_token(options.token)) {
+    if (!options.token.empty() && !console::is_token(options.token)) {
         throw cli::WrongUse("--token wants 12 to 128 letters and digits");
+    }
+    if (!options.token.empty() && !options.token_file.empty()) {
+        throw cli::WrongUse("--token or --token-file, not both");
+    }
+    if (options.certificate.empty() != options.key.empty()) {
+        throw cli::WrongUse("--cert and --key belong together");
+    }
+    if (!options.proxy.empty()) {
+        console::check_origin(options.proxy);
     }
     if (sodium_init() < 0) {
         throw std::runtime_error("no random numbers on this machine");
@@ -117,7 +138,9 @@ void run(const Options &options, const sigset_t &endings)
     console::Commander commander({options.lcm_url, options.keys, options.robots, options.robot});
     console::RobotWatch watch(board, commander);
     watch.subscribe(feed);
-    console::WebServer server(board, commander, address, token_for(options, address));
+    console::WebServer server(board, commander,
+                              {address, token_for(options), options.certificate, options.key, options.proxy});
+    warn(options, address);
     std::printf("%s\n", server.url().c_str());
     std::fflush(stdout);
 
@@ -153,11 +176,18 @@ int main(int argc, char **argv)
     line.text("lcm-url", options.lcm_url);
     line.text("http", options.http);
     line.text("token", options.token);
+    line.text("token-file", options.token_file);
+    line.text("cert", options.certificate);
+    line.text("key", options.key);
+    line.text("origin", options.proxy);
     line.text("keys", options.keys);
     line.text("robots", options.robots);
     line.text("robot", options.robot);
     return line.run(argc, argv, [&] {
         check(options);
+        if (!options.token.empty()) {
+            console::hide_in_arguments(options.token, argc, argv);
+        }
         const sigset_t endings = block_endings();
         std::signal(SIGPIPE, SIG_IGN);
         limit_memory();

@@ -84,6 +84,13 @@ int serve_file(lws *connection, const ale_page_file_t &file)
     return lws_http_transaction_completed(connection) != 0 ? -1 : 0;
 }
 
+std::string peer_of(lws *connection)
+{
+    char address[64] = "";
+    lws_get_peer_simple(connection, address, sizeof address);
+    return address;
+}
+
 constexpr char token_wanted[] =
     "<p>This console wants its token: open the address that ale-console printed when it started.";
 
@@ -117,12 +124,20 @@ struct WebCallbacks {
         auto *server = static_cast<WebServer *>(lws_context_user(lws_get_context(connection)));
         const std::string_view text(static_cast<const char *>(data), data == nullptr ? 0 : length);
         switch (reason) {
+        case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
+            server->came(connection);
+            return 0;
+        case LWS_CALLBACK_WSI_DESTROY:
+            server->antechamber_.leave(connection);
+            return 0;
         case LWS_CALLBACK_HTTP:
-            return serve(connection, text, server->has_token(connection));
+            return answer_request(*server, connection, text);
         case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION:
             return server->accepts(connection) ? 0 : refuse(connection);
         case LWS_CALLBACK_ESTABLISHED:
-            server->connections_.emplace(connection, WebServer::Connection{server->new_client(), {}});
+            server->antechamber_.leave(connection);
+            server->connections_.emplace(
+                connection, WebServer::Connection{server->new_client(), peer_of(connection), {}});
             lws_callback_on_writable(connection);
             return 0;
         case LWS_CALLBACK_SERVER_WRITEABLE:
@@ -139,6 +154,15 @@ struct WebCallbacks {
         default:
             return lws_callback_http_dummy(connection, reason, nullptr, data, length);
         }
+    }
+
+    static int answer_request(WebServer &server, lws *connection, std::string_view path)
+    {
+        const bool has_token = server.has_token(connection);
+        if (has_token) {
+            server.antechamber_.renew(connection, Antechamber::Clock::now());
+        }
+        return serve(connection, path, has_token);
     }
 
     static int refuse(lws *connection)
@@ -191,30 +215,42 @@ const lws_retry_bo_t keep_alive = {nullptr, 0, 0, 15, 30, 0};
 
 } // namespace
 
-WebServer::WebServer(Board &board, Commander &commander, const HttpAddress &address, std::string token)
-    : board_(board), commander_(commander), address_(address), token_(std::move(token))
+WebServer::WebServer(Board &board, Commander &commander, Door door)
+    : board_(board), commander_(commander), door_(std::move(door))
 {
-    require_free(address_);
+    require_free(door_.address);
     char name[256] = "";
     gethostname(name, sizeof name - 1);
-    machine_name_ = name;
+    ours_ = {door_.certificate.empty() ? "http" : "https", name, door_.proxy};
 
     lws_set_log_level(0, nullptr);
     lws_context_creation_info info{};
-    info.iface = address_.host.c_str();
-    info.port = address_.port;
+    info.iface = door_.address.host.c_str();
+    info.port = door_.address.port;
     info.protocols = protocols;
     info.user = this;
-    info.options = LWS_SERVER_OPTION_EXPLICIT_VHOSTS | (address_.ipv6 ? 0 : LWS_SERVER_OPTION_DISABLE_IPV6);
-    info.fd_limit_per_thread = most_connections;
+    info.options =
+        LWS_SERVER_OPTION_EXPLICIT_VHOSTS | (door_.address.ipv6 ? 0 : LWS_SERVER_OPTION_DISABLE_IPV6);
+    if (!door_.certificate.empty()) {
+        info.options |= LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT;
+        info.ssl_cert_filepath = door_.certificate.c_str();
+        info.ssl_private_key_filepath = door_.key.c_str();
+        info.alpn = "http/1.1"; /* files are written whole, which HTTP/2 does not take */
+    }
+    info.fd_limit_per_thread = most_descriptors;
+    info.max_http_header_pool = most_descriptors; /* who has not finished his request takes nobody's place */
     info.retry_and_idle_policy = &keep_alive;
     context_ = lws_create_context(&info);
     lws_vhost *host = context_ != nullptr ? lws_create_vhost(context_, &info) : nullptr;
     if (host == nullptr) {
         lws_context_destroy(context_);
-        throw std::runtime_error("cannot serve at " + address_.url());
+        throw std::runtime_error(
+            "cannot serve at " + door_.address.url(ours_.scheme) +
+            (door_.certificate.empty()
+                 ? ""
+                 : ": is " + door_.certificate + " a certificate, and " + door_.key + " its key?"));
     }
-    address_.port = static_cast<uint16_t>(lws_get_vhost_listen_port(host));
+    door_.address.port = static_cast<uint16_t>(lws_get_vhost_listen_port(host));
     board_.on_change([this] { wake(); });
 }
 
@@ -247,7 +283,9 @@ void WebServer::wake()
 
 std::string WebServer::url() const
 {
-    return reachable(address_).url() + (token_.empty() ? "" : "?token=" + token_);
+    const std::string page =
+        door_.proxy.empty() ? reachable(door_.address).url(ours_.scheme) : door_.proxy + "/";
+    return page + "?token=" + door_.token;
 }
 
 bool WebServer::has_token(lws *connection) const
@@ -257,8 +295,8 @@ bool WebServer::has_token(lws *connection) const
     const char *given =
         lws_get_urlarg_by_name(connection, "token=", argument, static_cast<int>(sizeof argument));
     const std::string_view text(given == nullptr ? "" : given);
-    return token_.empty() ||
-           (text.size() == token_.size() && sodium_memcmp(text.data(), token_.data(), token_.size()) == 0);
+    const std::string &token = door_.token;
+    return text.size() == token.size() && sodium_memcmp(text.data(), token.data(), token.size()) == 0;
 }
 
 Client WebServer::new_client()
@@ -270,8 +308,32 @@ Client WebServer::new_client()
 
 bool WebServer::accepts(lws *connection) const
 {
-    return has_token(connection) && origin_is_ours(header(connection, WSI_TOKEN_ORIGIN),
-                                                   header(connection, WSI_TOKEN_HOST), machine_name_);
+    return has_token(connection) && has_room_for(connection) &&
+           origin_is_ours(header(connection, WSI_TOKEN_ORIGIN), header(connection, WSI_TOKEN_HOST), ours_);
+}
+
+bool WebServer::has_room_for(lws *connection) const
+{
+    const std::string peer = peer_of(connection);
+    const auto of_peer = std::count_if(connections_.begin(), connections_.end(),
+                                       [&](const auto &entry) { return entry.second.peer == peer; });
+    return connections_.size() < most_pages && static_cast<size_t>(of_peer) < most_pages_of_a_peer;
+}
+
+void WebServer::came(lws *connection)
+{
+    const auto who = antechamber_.enter(connection, peer_of(connection), Antechamber::Clock::now());
+    if (who) {
+        lws_set_timeout(static_cast<lws *>(*who), PENDING_TIMEOUT_USER_REASON_BASE, LWS_TO_KILL_ASYNC);
+    }
+}
+
+void WebServer::end_overdue()
+{
+    for (void *who : antechamber_.overdue(Antechamber::Clock::now())) {
+        antechamber_.leave(who);
+        lws_set_timeout(static_cast<lws *>(who), PENDING_TIMEOUT_USER_REASON_BASE, LWS_TO_KILL_ASYNC);
+    }
 }
 
 void WebServer::send_next(lws *connection)
@@ -303,6 +365,7 @@ void WebServer::links_due()
         entry.second.client.link_due();
     }
     offer_all();
+    end_overdue();
 }
 
 } // namespace console

@@ -1,10 +1,9 @@
-/* The page over HTTP, and the board over a web socket to every browser that asks.
+/* The page over HTTP or HTTPS, and the board over a web socket to every browser that asks.
  *
- *   WebServer server(board, commander, parse_http_address("127.0.0.1:8080"), token);   (throws
- * std::runtime_error) server.run();                                                    (until another thread
- * stops it)
+ *   WebServer server(board, commander, door);   (throws std::runtime_error)
+ *   server.run();                               (until another thread stops it)
  *
- * With a token, page and web socket are for those who have it in the address (?token=...).
+ * Page and web socket are for those who have the token in the address (?token=...).
  * One thread runs the server; wake() and stop() may be called from any. */
 #ifndef CONSOLE_WEB_SERVER_H
 #define CONSOLE_WEB_SERVER_H
@@ -15,6 +14,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "operator/console/antechamber.h"
 #include "operator/console/board.h"
 #include "operator/console/client.h"
 #include "operator/console/commander.h"
@@ -26,11 +26,19 @@ struct lws_context;
 namespace console
 {
 
+/* Where and for whom the page is served. */
+struct Door {
+    HttpAddress address;
+    std::string token;
+    std::string certificate; /* PEM files; both empty: without TLS */
+    std::string key;
+    std::string proxy; /* as in Ours */
+};
+
 class WebServer
 {
   public:
-    /* token empty: none is asked for. */
-    WebServer(Board &board, Commander &commander, const HttpAddress &address, std::string token);
+    WebServer(Board &board, Commander &commander, Door door);
     ~WebServer();
     WebServer(const WebServer &) = delete;
     WebServer &operator=(const WebServer &) = delete;
@@ -38,7 +46,7 @@ class WebServer
     /* Where it listens: with the port that was found when any was asked for. */
     const HttpAddress &address() const
     {
-        return address_;
+        return door_.address;
     }
 
     /* What a person opens. */
@@ -51,16 +59,23 @@ class WebServer
   private:
     friend struct WebCallbacks;
 
-    /* More browsers than look at one robot; keeps a flood from eating the machine. */
-    static constexpr unsigned most_connections = 64;
+    /* More pages than look at one robot, and so many of one peer that another still comes in. */
+    static constexpr size_t most_pages = 64;
+    static constexpr size_t most_pages_of_a_peer = 48;
+    /* Pages, those who wait, and some that are on their way out: keeps a flood from eating the machine. */
+    static constexpr unsigned most_descriptors = 256;
 
     struct Connection {
         Client client;
+        std::string peer;
         std::string heard; /* of a message that has not come whole yet */
     };
 
     bool has_token(lws *connection) const;
     bool accepts(lws *connection) const;
+    bool has_room_for(lws *connection) const;
+    void came(lws *connection);
+    void end_overdue();
     Client new_client();
     void send_next(lws *connection);
     void offer_all();
@@ -68,10 +83,10 @@ class WebServer
 
     Board &board_;
     Commander &commander_;
-    HttpAddress address_;
-    std::string token_;
+    Door door_;
+    Ours ours_;
     uint64_t pages_ = 0;
-    std::string machine_name_;
+    Antechamber antechamber_;
     lws_context *context_ = nullptr;
     std::unordered_map<lws *, Connection> connections_;
     std::atomic<bool> stopping_{false};

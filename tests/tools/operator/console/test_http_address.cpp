@@ -46,34 +46,61 @@ TEST(HttpAddress, WhatIsNoAddressIsRefusedWithItsName)
 
 TEST(HttpAddress, ThePageOfThisConsoleIsOurs)
 {
-    EXPECT_TRUE(origin_is_ours("http://127.0.0.1:8080", "127.0.0.1:8080", "robot"));
-    EXPECT_TRUE(origin_is_ours("http://[::1]:8080", "[::1]:8080", "robot"));
-    EXPECT_TRUE(origin_is_ours("http://localhost:8080", "localhost:8080", "robot"));
-    EXPECT_TRUE(origin_is_ours("http://192.168.1.7", "192.168.1.7", "robot"));
-    EXPECT_TRUE(origin_is_ours("http://robot:8080", "robot:8080", "robot"));
-    EXPECT_TRUE(origin_is_ours("http://robot.local:8080", "robot.local:8080", "robot"));
+    EXPECT_TRUE(origin_is_ours("http://127.0.0.1:8080", "127.0.0.1:8080", {"http", "robot", ""}));
+    EXPECT_TRUE(origin_is_ours("http://[::1]:8080", "[::1]:8080", {"http", "robot", ""}));
+    EXPECT_TRUE(origin_is_ours("http://localhost:8080", "localhost:8080", {"http", "robot", ""}));
+    EXPECT_TRUE(origin_is_ours("http://192.168.1.7", "192.168.1.7", {"http", "robot", ""}));
+    EXPECT_TRUE(origin_is_ours("http://robot:8080", "robot:8080", {"http", "robot", ""}));
+    EXPECT_TRUE(origin_is_ours("http://robot.local:8080", "robot.local:8080", {"http", "robot", ""}));
 }
 
 TEST(HttpAddress, AProgramThatIsNoBrowserHasNoOrigin)
 {
-    EXPECT_TRUE(origin_is_ours("", "127.0.0.1:8080", "robot"));
+    EXPECT_TRUE(origin_is_ours("", "127.0.0.1:8080", {"http", "robot", ""}));
 }
 
 TEST(HttpAddress, AForeignPageIsNotOurs)
 {
-    EXPECT_FALSE(origin_is_ours("http://evil.example", "127.0.0.1:8080", "robot"));
-    EXPECT_FALSE(origin_is_ours("http://127.0.0.1:8081", "127.0.0.1:8080", "robot"));
-    EXPECT_FALSE(origin_is_ours("https://127.0.0.1:8080", "127.0.0.1:8080", "robot"));
-    EXPECT_FALSE(origin_is_ours("http://127.0.0.1:8080.evil.example", "127.0.0.1:8080", "robot"));
-    EXPECT_FALSE(origin_is_ours("null", "127.0.0.1:8080", "robot"));
-    EXPECT_FALSE(origin_is_ours("file://", "127.0.0.1:8080", "robot"));
+    EXPECT_FALSE(origin_is_ours("http://evil.example", "127.0.0.1:8080", {"http", "robot", ""}));
+    EXPECT_FALSE(origin_is_ours("http://127.0.0.1:8081", "127.0.0.1:8080", {"http", "robot", ""}));
+    EXPECT_FALSE(origin_is_ours("https://127.0.0.1:8080", "127.0.0.1:8080", {"http", "robot", ""}));
+    EXPECT_FALSE(
+        origin_is_ours("http://127.0.0.1:8080.evil.example", "127.0.0.1:8080", {"http", "robot", ""}));
+    EXPECT_FALSE(origin_is_ours("null", "127.0.0.1:8080", {"http", "robot", ""}));
+    EXPECT_FALSE(origin_is_ours("file://", "127.0.0.1:8080", {"http", "robot", ""}));
 }
 
 TEST(HttpAddress, AForeignNameMadeToResolveToUsIsNotOurs)
 {
-    EXPECT_FALSE(origin_is_ours("http://evil.example:8080", "evil.example:8080", "robot"));
-    EXPECT_FALSE(origin_is_ours("http://robot.evil.example", "robot.evil.example", "robot"));
-    EXPECT_FALSE(origin_is_ours("http://:8080", ":8080", ""));
+    EXPECT_FALSE(origin_is_ours("http://evil.example:8080", "evil.example:8080", {"http", "robot", ""}));
+    EXPECT_FALSE(origin_is_ours("http://robot.evil.example", "robot.evil.example", {"http", "robot", ""}));
+    EXPECT_FALSE(origin_is_ours("http://:8080", ":8080", {"http", "", ""}));
+}
+
+TEST(HttpAddress, APageServedOverTlsIsOursOverTlsOnly)
+{
+    const console::Ours ours = {"https", "robot", ""};
+    EXPECT_TRUE(origin_is_ours("https://127.0.0.1:8080", "127.0.0.1:8080", ours));
+    EXPECT_FALSE(origin_is_ours("http://127.0.0.1:8080", "127.0.0.1:8080", ours));
+}
+
+TEST(HttpAddress, WhatAProxyShowsIsOursWhateverItMakesOfTheHost)
+{
+    const console::Ours ours = {"http", "robot", "https://robot.example"};
+    EXPECT_TRUE(origin_is_ours("https://robot.example", "127.0.0.1:8080", ours));
+    EXPECT_TRUE(origin_is_ours("https://robot.example", "robot.example", ours));
+    EXPECT_FALSE(origin_is_ours("https://robot.example.evil.example", "robot.example", ours));
+    EXPECT_FALSE(origin_is_ours("http://robot.example", "robot.example", ours));
+}
+
+TEST(HttpAddress, AnOriginIsASchemeAndAHost)
+{
+    console::check_origin("https://robot.example");
+    console::check_origin("http://robot:8080");
+    for (const char *text :
+         {"", "robot.example", "https://", "https://robot.example/", "ftp://robot", "https://a b"}) {
+        EXPECT_THROW(console::check_origin(text), cli::WrongUse) << text;
+    }
 }
 
 TEST(HttpAddress, LoopbackIsWhatOnlyThisMachineReaches)

@@ -19,7 +19,8 @@ export class Link {
   }
 
   open() {
-    this.socket = new WebSocket(`ws://${location.host}/${location.search}`);
+    const scheme = location.protocol === "https:" ? "wss" : "ws";
+    this.socket = new WebSocket(`${scheme}://${location.host}/${location.search}`);
     this.received = 0;
     this.told = 0;
     this.posesSinceOpened = 0;
