@@ -61,7 +61,8 @@ typedef struct {
     uint64_t scans_lost; /* seen on the line and unusable, or missing by their stamps */
     uint64_t bad_checksum;
     uint64_t bad_frame;
-    uint64_t repeated; /* replies with a stamp that was there before */
+    uint64_t repeated;        /* replies with a stamp that was there before */
+    uint64_t losses_too_fast; /* damaged frames beyond what it can send: not scans, and not lost */
     uint64_t garbage_bytes;
     uint64_t stream_restarts;
     uint64_t resets;

@@ -52,6 +52,7 @@ void ale_statistics_counters(const ale_statistics_t *statistics, const ale_scann
     count(report, "bad_checksum", health->bad_checksum);
     count(report, "bad_frame", health->bad_frame);
     count(report, "repeated", health->repeated);
+    count(report, "losses_too_fast", health->losses_too_fast);
     count(report, "garbage_bytes", health->garbage_bytes);
     count(report, "stream_restarts", health->stream_restarts);
     count(report, "resets", health->resets);

@@ -3,6 +3,8 @@
 #ifndef ALE_BASE_LIMITS_H
 #define ALE_BASE_LIMITS_H
 
+#include <stdint.h>
+
 /* Largest scan that is accepted: a 270 degree scanner at 0.25 degrees a beam. The URG-04LX has 682. */
 #define ALE_MAX_BEAMS 1081
 
@@ -20,5 +22,12 @@
 /* Farthest range that the number formats are proved for: twice the squared moments of a scan of Q4
  * millimetres fit int64 (extract/moments.c). */
 #define ALE_MAX_RANGE_UM 80000000
+
+/* Farthest stamp from 0, either way, in microseconds: differences of stamps, and what is added to them, fit
+ * int64. 73,000 years; also milliseconds that a log takes for seconds are within. */
+#define ALE_MAX_STAMP_US (INT64_C(1) << 61)
+
+/* Longest time between a scan's stamp and one of its beams: two turns of a slow scanner. */
+#define ALE_MAX_SWEEP_US 2000000
 
 #endif

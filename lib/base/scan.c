@@ -9,6 +9,12 @@ int32_t ale_scan_beam_offset_us(const ale_scan_t *scan, int32_t beam)
     return (int32_t)ale_round_div((int64_t)(beam - scan->stamp_beam) * scan->beam_time_ns, 1000);
 }
 
+bool ale_scan_is_sweep(const ale_scan_t *scan)
+{
+    const int64_t most_beams = ale_abs64(scan->stamp_beam) + scan->beams;
+    return scan->beam_time_ns >= 0 && most_beams * scan->beam_time_ns <= 1000LL * ALE_MAX_SWEEP_US;
+}
+
 void ale_scan_mask(ale_scan_t *scan, const ale_sector_t *sectors, uint32_t count)
 {
     for (uint32_t s = 0; s < count; s++) {
@@ -24,7 +30,7 @@ void ale_scan_mask(ale_scan_t *scan, const ale_sector_t *sectors, uint32_t count
 
 void ale_scan_forgive_missing(ale_scan_t *scan)
 {
-    int32_t last = -ALE_MAX_GAP_BEAMS;
+    int32_t last = -ALE_MAX_GAP_BEAMS - 1; /* none: beams before the first echo lie between no two */
     for (int32_t k = 0; k < scan->beams; k++) {
         if (scan->flag[k] != ALE_BEAM_VALID) {
             continue;

@@ -49,6 +49,10 @@ static inline uint32_t ale_scan_bearing(const ale_scan_t *scan, int32_t beam)
 /* Time of a beam relative to the stamp, in microseconds, rounded; it must fit int32. Constant time. */
 int32_t ale_scan_beam_offset_us(const ale_scan_t *scan, int32_t beam);
 
+/* Whether all beams lie within ALE_MAX_SWEEP_US of the stamp, and follow one another: what readers of files
+ * and of the line let pass. Constant time. */
+bool ale_scan_is_sweep(const ale_scan_t *scan);
+
 /* A sector of bearings (sensor frame) that is never used: from..to counter-clockwise. */
 typedef struct {
     uint32_t from_bam;

@@ -6,7 +6,7 @@
 
 #include "base/fixed.h"
 
-enum { FIELDS = 9, STEP_BAM = 6, STAMPS = 1 << 24, AHEAD_US = 1000000 };
+enum { FIELDS = 9, STAMP_STEP = 3, STEP_NS = 4, STEP_BAM = 6, STAMPS = 1 << 24, AHEAD_US = 1000000 };
 
 /* What is beyond is no recording of a scanner; with these the times of a scan's beams fit 32 bits. */
 static const struct {
@@ -49,7 +49,8 @@ static bool read_fields(const char *text, int64_t field[FIELDS])
 bool ale_urg_played_parse(const char *text, ale_urg_played_t *out)
 {
     int64_t field[FIELDS];
-    if (!read_fields(text, field) || field[STEP_BAM] == 0) {
+    if (!read_fields(text, field) || field[STEP_BAM] == 0 ||
+        (ale_abs64(field[STAMP_STEP]) + ALE_MAX_BEAMS) * field[STEP_NS] > 1000LL * ALE_MAX_SWEEP_US) {
         return false;
     }
     *out = (ale_urg_played_t){.silence_ms = (int32_t)field[0],

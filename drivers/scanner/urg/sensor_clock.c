@@ -37,8 +37,9 @@ ale_stamp_kind_t ale_sensor_clock_judge(const ale_sensor_clock_t *clock, uint32_
         return ALE_STAMP_REPEATED;
     }
     const int64_t late_us = host_us - (int64_t)sensor_ms * 1000;
-    /* A late arrival (a busy host) says nothing against a stamp that continues the series. */
-    const bool continues = sensor_ms > 0 && sensor_ms < JUMP_US / 1000 && late_us < LATE_US;
+    /* A late arrival (a busy host), and one in time after it, says nothing against a stamp that continues the
+     * series. */
+    const bool continues = sensor_ms > 0 && sensor_ms < JUMP_US / 1000 && ale_abs64(late_us) < LATE_US;
     return continues || ale_abs64(late_us) < JUMP_US ? ALE_STAMP_NEW : ALE_STAMP_JUMPED;
 }
 

@@ -381,6 +381,7 @@ static void fill_health(ale_urg_t *urg)
     h->bad_checksum = urg->frames.bad_checksum;
     h->bad_frame = urg->frames.bad_frame;
     h->repeated = urg->frames.repeated;
+    h->losses_too_fast = urg->stream.losses_too_fast;
     h->garbage_bytes = ale_scip_counters(&urg->parser)->garbage_bytes;
 }
 

@@ -10,6 +10,8 @@ enum {
     REGULAR_ENOUGH = 3, /* intervals in a row before a gap is taken for lost scans */
     IRREGULAR = -20,    /* recorded logs that are played back have other intervals: there no gap is a loss */
     MOST_GAPS = 30,     /* more than that is an interruption */
+    LOST_AT_ONCE = 32, /* damaged frames that may come in one go, as after a line that was held up; then one a
+                        * turn, because a scanner sends no more */
     PERIOD_SMOOTHING = 32 /* scans over which the period is averaged: the stamps count in whole ms */
 };
 
@@ -17,6 +19,7 @@ void ale_urg_stream_init(ale_urg_stream_t *stream, bool reversed)
 {
     memset(stream, 0, sizeof *stream);
     stream->reversed = reversed;
+    stream->losses_until_us = INT64_MIN;
     ale_urg_identity_t identity;
     ale_urg_identity_init(&identity);
     ale_urg_stream_describe(stream, &identity.geometry, &identity.played);
@@ -109,11 +112,31 @@ static int64_t time_of_lost(const ale_urg_stream_t *stream, const ale_scip_event
                : event->first_us - ale_urg_period_us(&stream->geometry);
 }
 
+/* Whether so many scans can have been sent as would be lost with this one: noise, or whoever writes on the
+ * line, makes beginnings of frames as fast as the line takes them. */
+static bool can_be_lost(ale_urg_stream_t *stream, int64_t arrival_us)
+{
+    const int64_t turn_us = ale_urg_stream_turn_us(stream);
+    const int64_t least_us = arrival_us - LOST_AT_ONCE * turn_us;
+    if (stream->losses_until_us < least_us || stream->losses_until_us > arrival_us + turn_us) {
+        stream->losses_until_us = least_us;
+    }
+    if (stream->losses_until_us > arrival_us) {
+        stream->losses_too_fast++;
+        return false;
+    }
+    stream->losses_until_us += turn_us;
+    return true;
+}
+
 static ale_frame_t lose(ale_urg_stream_t *stream, const ale_scip_event_t *event)
 {
     const bool timed = event->stamp_known && stream->clock.started;
     if (timed && ale_stamp_difference_ms(event->stamp_ms, stream->clock.stamp_ms) == 0) {
         return ALE_FRAME_REPEATED;
+    }
+    if (!can_be_lost(stream, event->first_us)) {
+        return ALE_FRAME_LOST;
     }
     stream->losses++;
     stream->loss_waits = true;

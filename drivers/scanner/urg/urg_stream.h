@@ -23,7 +23,7 @@
 /* What became of a frame. */
 typedef enum {
     ALE_FRAME_SCAN,
-    ALE_FRAME_LOST,
+    ALE_FRAME_LOST,     /* damaged: a loss, if a scanner can have sent so many */
     ALE_FRAME_REPEATED, /* its stamp was there before: no scan, no loss */
     ALE_FRAME_FOREIGN   /* answers a request other than the present one: a left-over, dropped */
 } ale_frame_t;
@@ -47,6 +47,8 @@ typedef struct {
     bool scan_waits;
     ale_scan_t scan;
     uint64_t clock_jumps;
+    int64_t losses_until_us;  /* up to here every turn has its loss */
+    uint64_t losses_too_fast; /* damaged frames that are no scans: a scanner does not send so many */
 } ale_urg_stream_t;
 
 void ale_urg_stream_init(ale_urg_stream_t *stream, bool reversed);

@@ -40,7 +40,8 @@ export function codesInWords(codes) {
 const COUNTERS = {
   scans_lost: "scans lost on the line", overloaded: "scans skipped, too busy", scan_ring_full: "scans, no room",
   corrections_late: "map corrections, late", result_ring_full: "results, no room", bad_checksum: "wrong checksums", bad_frame: "broken replies",
-  repeated: "repeated replies", garbage_bytes: "garbage bytes", stream_restarts: "stream restarted",
+  repeated: "repeated replies", losses_too_fast: "beginnings of frames too fast to be scans",
+  garbage_bytes: "garbage bytes", stream_restarts: "stream restarted",
   resets: "scanner reset", reopens: "port opened again", hardware_faults: "scanner faults",
   identity_warnings: "odd identity lines", odometry: "odometry received", odometry_ring_full: "odometry, no room",
   odometry_refused: "odometry refused", messages_unsent: "messages not sent",
