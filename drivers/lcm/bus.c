@@ -248,7 +248,7 @@ static void take_exact_odometry(void *user, const char *channel, const uint8_t *
     ale_bus_t *bus = user;
     lcmtypes_ale_odometry_exact_t message;
     if (lcmtypes_ale_odometry_exact_t_decode(bytes, 0, (int)count, &message) < 0 || message.utime <= 0 ||
-        is_beyond(message.x_um) || is_beyond(message.y_um)) {
+        message.utime > ALE_MAX_STAMP_US || is_beyond(message.x_um) || is_beyond(message.y_um)) {
         bus->refused++;
         return;
     }

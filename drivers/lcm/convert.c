@@ -360,7 +360,8 @@ int ale_take_odometry(const lcmtypes_ale_odometry_t *message, ale_odometry_t *sa
     const float farthest = 2000;
     const float widest = 1e6f;
     const bool sane = fabsf(message->x) <= farthest && fabsf(message->y) <= farthest &&
-                      fabsf(message->theta) <= widest && message->utime > 0; /* false for NaN too */
+                      fabsf(message->theta) <= widest && message->utime > 0 &&
+                      message->utime <= ALE_MAX_STAMP_US; /* false for NaN too */
     if (!sane) {
         return -1;
     }

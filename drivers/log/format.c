@@ -36,6 +36,15 @@ void ale_log_pose_beyond(ale_log_t *log)
     log->statistics.poses_beyond++;
 }
 
+void ale_log_time_beyond(ale_log_t *log)
+{
+    const uint64_t offset = (uint64_t)((const uint8_t *)log->text.at - log->bytes.at);
+    snprintf(log->last_error, sizeof log->last_error,
+             "%s: before byte %llu: a stamp or a sweep that no clock and no scanner has", log->path,
+             (unsigned long long)offset);
+    log->statistics.times_beyond++;
+}
+
 void ale_log_bad_chunk(ale_log_t *log, const char *what)
 {
     const uint64_t offset = (uint64_t)((const uint8_t *)log->text.at - log->bytes.at);

@@ -70,6 +70,9 @@ void ale_log_cut_line(ale_log_t *log, uint32_t count, uint32_t wanted, const cha
  * read without. */
 void ale_log_pose_beyond(ale_log_t *log);
 
+/* Counts the record last taken as one whose times are beyond what the core reckons with: it is skipped. */
+void ale_log_time_beyond(ale_log_t *log);
+
 /* Counts a damaged part of a binary log, at about log->text.at, and remembers what it was. */
 void ale_log_bad_chunk(ale_log_t *log, const char *what);
 

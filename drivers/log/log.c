@@ -85,12 +85,40 @@ static void choose_odometry(ale_log_t *log, const survey_t *survey)
     log->use_odometry_of_scans = scans->changes || !records->changes || scans->count < 2;
 }
 
+static bool is_stamp(int64_t stamp_us)
+{
+    return stamp_us >= -ALE_MAX_STAMP_US && stamp_us <= ALE_MAX_STAMP_US;
+}
+
+/* Times that the core can reckon with. */
+static bool is_in_time(const ale_log_record_t *record)
+{
+    const ale_log_event_t *event = &record->event;
+    if (event->kind == ALE_LOG_ODOMETRY || record->with_odometry) {
+        return is_stamp(event->stamp_us) && is_stamp(event->odometry.stamp_us);
+    }
+    return is_stamp(event->stamp_us);
+}
+
+/* The next record that can be believed. */
+static bool next_record(ale_log_t *log)
+{
+    while (log->format->next(log, &log->record)) {
+        const ale_log_event_t *event = &log->record.event;
+        if (is_in_time(&log->record) && (event->kind != ALE_LOG_SCAN || ale_scan_is_sweep(&event->scan))) {
+            return true;
+        }
+        ale_log_time_beyond(log);
+    }
+    return false;
+}
+
 /* Reads the log once for what only the whole of it tells. */
 static int survey_log(ale_log_t *log, ale_log_error_t *error)
 {
     survey_t survey = {0};
     rewind_log(log);
-    while (log->format->next(log, &log->record)) {
+    while (next_record(log)) {
         survey_record(&survey, &log->record, log->statistics.scans == 0);
         log->statistics.scans += log->record.event.kind == ALE_LOG_SCAN;
     }
@@ -214,7 +242,7 @@ int ale_log_next(ale_log_t *log, ale_log_event_t *event)
     if (log->scan_waiting) {
         return hand_out_scan(log, event);
     }
-    while (log->format->next(log, &log->record)) {
+    while (next_record(log)) {
         const ale_log_kind_t kind = log->record.event.kind;
         const bool used = log->info.has_odometry && (kind == ALE_LOG_ODOMETRY ? log->use_odometry_of_records
                                                                               : log->use_odometry_of_scans);

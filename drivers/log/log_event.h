@@ -42,6 +42,7 @@ typedef struct {
     uint64_t bad_chunks;     /* of a recording: checksum, length */
     uint64_t too_many_beams; /* scans with more than ALE_MAX_BEAMS beams: skipped */
     uint64_t poses_beyond;   /* of the odometry, more than 2147 m off or no number: their scans are without */
+    uint64_t times_beyond;   /* records with a stamp or sweep beyond limits.h: skipped */
     uint64_t bytes_read;     /* of the unpacked log, for progress */
     uint64_t bytes_total;
     bool cut_short; /* a packed file that ends early or is damaged: what came before was read */

@@ -196,7 +196,11 @@ static bool next(ale_log_t *log, ale_log_record_t *record)
     ale_chunk_t chunk;
     bool taken = false;
     while (!taken && next_chunk(log, &chunk)) {
-        taken = take_chunk(log, &chunk, record);
+        if (chunk.stamp_us < -ALE_MAX_STAMP_US || chunk.stamp_us > ALE_MAX_STAMP_US) {
+            ale_log_time_beyond(log); /* the parser reckons with it */
+        } else {
+            taken = take_chunk(log, &chunk, record);
+        }
     }
     return taken;
 }

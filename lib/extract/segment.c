@@ -24,7 +24,7 @@ static jump_limit_t jump_limit(const ale_scan_noise_t *noise, int64_t step_nrad)
     const jump_limit_t limit = {
         .constant_um = NOISE_FACTOR * noise->sigma_um + SHARED_FACTOR * shared_um,
         .noise_q20 = NOISE_FACTOR * noise->sigma_per_range_q20,
-        .incidence_q20 = (step_nrad << 20) / 1000000000,
+        .incidence_q20 = step_nrad * (1 << 20) / 1000000000,
     };
     return limit;
 }

@@ -206,6 +206,10 @@ static void find_covariance(ale_fit_t *fit)
     ale_matrix_invert(&fit->factors, ALE_MATRIX_BITS, &fit->motion.cov);
 }
 
+/* A thousand kilometres, or as many microradians: what solves nonsense may be as large as its numbers, and
+ * their sums must fit. */
+static const int64_t most_step = INT64_C(1) << 40;
+
 /* One Gauss-Newton step on scan and prediction together; returns its size. */
 static int64_t step(const ale_matrix_t *prior, int64_t total[ALE_STATES], ale_fit_t *fit)
 {
@@ -221,6 +225,9 @@ static int64_t step(const ale_matrix_t *prior, int64_t total[ALE_STATES], ale_fi
     }
     ale_matrix_factor(&sum, &fit->factors);
     ale_matrix_solve(&fit->factors, gradient, ALE_MATRIX_BITS - ALE_GRADIENT_BITS, delta);
+    for (int i = 0; i < ALE_STATES; i++) {
+        delta[i] = ale_clamp64(delta[i], -most_step, most_step);
+    }
     ale_motion_correct(&fit->motion, delta);
     int64_t size = 0;
     for (int i = 0; i < ALE_STATES; i++) {

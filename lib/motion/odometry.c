@@ -49,10 +49,11 @@ static bool is_jump(const ale_wheels_t *w, const ale_odometry_t *before, const a
 static ale_pose_t part_of_way(ale_pose_t a, ale_pose_t b, int64_t num, int64_t den)
 {
     const int64_t turn_bam = ale_round_div((int64_t)ale_bam_diff(b.theta_bam, a.theta_bam) * num, den);
-    const ale_pose_t p = {a.x_um + (int32_t)ale_round_div(((int64_t)b.x_um - a.x_um) * num, den),
-                          a.y_um + (int32_t)ale_round_div(((int64_t)b.y_um - a.y_um) * num, den),
-                          a.theta_bam + (uint32_t)(uint64_t)turn_bam};
-    return p;
+    /* Beyond samples whose stamps crowd it may lie farther than a pose holds: then it wraps. */
+    const int64_t x_um = a.x_um + ale_round_div(((int64_t)b.x_um - a.x_um) * num, den);
+    const int64_t y_um = a.y_um + ale_round_div(((int64_t)b.y_um - a.y_um) * num, den);
+    return (ale_pose_t){(int32_t)(uint32_t)(uint64_t)x_um, (int32_t)(uint32_t)(uint64_t)y_um,
+                        a.theta_bam + (uint32_t)(uint64_t)turn_bam};
 }
 
 /* The interval that holds an instant, or the last one: the sample at its end. Needs two samples. */

@@ -78,5 +78,5 @@ int64_t ale_timestamp_filter_instant(ale_timestamp_filter_t *timestamp_filter, i
 
 bool ale_timestamp_filter_accepts(const ale_timestamp_filter_t *timestamp_filter, int64_t step_us)
 {
-    return step_us * PERIOD_PARTS >= timestamp_filter->usual_us;
+    return step_us >= (timestamp_filter->usual_us + PERIOD_PARTS - 1) / PERIOD_PARTS;
 }

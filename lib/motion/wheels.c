@@ -60,9 +60,12 @@ static int32_t rescaled(const ale_wheel_scale_t *scale, int64_t v)
     return (int32_t)ale_round_div(v * (scale->found_um >> 6), scale->counted_um >> 6);
 }
 
+/* No larger than (100 m)^2, far beyond var_most: broken wheels leap farther than sums of squares can hold. */
 static int64_t square(int64_t v)
 {
-    return v * v;
+    const int64_t most = 100000000;
+    const int64_t size = ale_min64(ale_abs64(v), most);
+    return size * size;
 }
 
 static int64_t part(int64_t v, int64_t ppm)
@@ -97,8 +100,8 @@ static void lag_variance(const ale_wheels_t *wheels, int32_t sigma_us, int64_t f
         ale_pose_t other;
         int32_t beyond_us;
         if (ale_wheels_motion(wheels, from_us + shift_us, to_us + shift_us, &other, &beyond_us)) {
-            var[0] = ale_max64(var[0], square(other.x_um - d.x_um));
-            var[1] = ale_max64(var[1], square(other.y_um - d.y_um));
+            var[0] = ale_max64(var[0], square((int64_t)other.x_um - d.x_um));
+            var[1] = ale_max64(var[1], square((int64_t)other.y_um - d.y_um));
             var[2] = ale_max64(var[2], square(turn_urad(other) - turn_urad(d)));
         }
     }

@@ -123,6 +123,18 @@ $(FUZZ_BUILD)/bin/%: tests/fuzz/%.cpp $(FUZZ_BUILD)/libale.a
 	@mkdir -p $(@D)
 	$(Q)clang++ -std=c++17 $(FUZZ_FLAGS) -fsanitize=fuzzer $(DRIVER_INCLUDES) -Itests $^ $(filter-out -lwebsockets -lpng,$(LIBRARIES)) -o $@
 
+# Files of every format, damaged, read by the real programs of the sanitized build.
+MUTATED_INPUTS ?= 2000
+MUTATED_FORMATS ?= $(shell $(PYTHON) tests/fuzz/mutated_files.py --formats)
+MUTATED = $(PYTHON) tests/fuzz/mutated_files.py --programs $(BUILD)/asan/bin --keep $(BUILD)/mutated
+export ALE_TYPES = $(ALE_BUILD)/python
+.PHONY: mutated
+mutated: programs lcm-types ## damaged files of every format, 2,000 of each (MUTATED_INPUTS=100; MUTATED_FORMATS="map scip")
+	@$(CHECKED) -j2 $(MUTATED_PROGRAMS)
+	@for format in $(MUTATED_FORMATS); do \
+	    $(PYTHON) tools/make/run_tests.py command "mutated $$format" $(MUTATED) --inputs $(MUTATED_INPUTS) --only $$format || failed=1; done; \
+	    test -z "$$failed"
+
 .PHONY: fuzz-programs fuzz
 fuzz-programs: $(FUZZ_PROGRAMS)
 fuzz: deps-test ## long run of the fuzzers (FUZZ_SECONDS=600 each)
@@ -159,6 +171,7 @@ SUB = $(MAKE) --no-print-directory -s DEBUG=-g1
 # By clang, which can be told in whose code to look for undefined behaviour: in Eigen's it doubles what the mapper costs.
 CHECKED = $(SUB) CC=$(CCACHE)clang CXX=$(CCACHE)clang++ BUILD=$(BUILD)/asan TEST_BUILD=$(BUILD) SANITIZE=address,undefined OPT=-O1 \
     SANITIZER_SCOPE=-fsanitize-ignorelist=tests/sanitizer_scope.txt
+MUTATED_PROGRAMS = $(addprefix $(BUILD)/asan/bin/,ale-replay ale-slamd ale-keys)
 ROBOT_TESTS = tests/lib tests/drivers tests/firmware
 THREADED = $(SUB) BUILD=$(BUILD)/tsan TEST_BUILD=$(BUILD) SANITIZE=thread OPT=-O1 T=tests/firmware
 RTAI_SYSTEM_TESTS = tests/system/test_daemon.py tests/system/test_latency.py
@@ -197,6 +210,9 @@ test-computing:
 	@$(PHASE) "the same bytes from another compiler and level, with sanitizers"
 	@$(CHECKED) -j2 $(BUILD)/asan/bin/ale-replay
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes" $(SUB) same-bytes SAME_BYTES_HOW=--quick SAME_BYTES_BUILDS=$(BUILD)/asan/bin/ale-replay
+	@$(PHASE) "damaged files, a share of them"
+	@$(CHECKED) -j2 $(MUTATED_PROGRAMS)
+	-@$(PYTHON) tools/make/run_tests.py command "mutated files" $(MUTATED) --inputs 25
 
 # A build with RTAI begins with the objects of the ordinary one: only the port is another, and what is linked with it.
 #
@@ -207,6 +223,8 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	-@$(SUB) --keep-going lint
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, -O0" $(SUB) same-bytes SAME_BYTES_HOW=--quick SAME_BYTES_BUILDS="gcc:-O0 clang:-O0"
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, every recording" $(SUB) same-bytes SAME_BYTES_BUILDS="gcc:-O3 clang:-O3"
+	@$(PHASE) "damaged files"
+	-@$(SUB) mutated
 	@$(PHASE) "the Debian package"
 	-@$(PYTHON) tools/make/run_tests.py command "install, remove, purge" $(SUB) test-deb
 	@$(PHASE) "the same bytes on other machines, emulated"

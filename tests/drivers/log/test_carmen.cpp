@@ -220,6 +220,20 @@ TEST(Carmen, AScanWhoseOdometryNoPoseHoldsIsReadWithoutIt)
     EXPECT_EQ(log.statistics.bad_lines, 1U);
 }
 
+TEST(Carmen, TimesThatNoClockAndNoScannerHasLeaveOutTheirScan)
+{
+    const auto log =
+        read_bytes(flaser(3, "0 0 0 0 0 0 1 h 1") + flaser(3, "0 0 0 0 0 0 4e12 h 1") +
+                   flaser(3, "0 0 0 0 0 0 -4e12 h 1") + flaser(3, "0 0 0 0 0 0 2 h 1"));
+    EXPECT_EQ(log.scans().size(), 2U);
+    EXPECT_EQ(log.statistics.times_beyond, 2U);
+    EXPECT_NE(log.last_error.find("a stamp or a sweep that no clock and no scanner has"), std::string::npos);
+    const auto swept =
+        read_bytes("# beam_time_us 97.656 stamp_beam 340000000\n" + flaser(3, "0 0 0 0 0 0 1 h 1"));
+    EXPECT_EQ(swept.scans().size(), 0U);
+    EXPECT_EQ(swept.statistics.times_beyond, 1U);
+}
+
 TEST(Carmen, ALaserPoseThatIsBeyondStatesNoMountingAndLeavesTheOdometry)
 {
     const auto log = read_bytes(flaser(3, "5000 0 0 1 2 0.5 1 h 1") + flaser(3, "1.3 2 0 1 2 0 2 h 1"));

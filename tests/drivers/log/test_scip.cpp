@@ -191,4 +191,19 @@ TEST(Scip, DamageInTheFileCostsItsChunkOnly)
     EXPECT_EQ(cut.statistics.bad_chunks, 2U);
 }
 
+TEST(Scip, StampsThatNoClockHasCostTheirChunk)
+{
+    Recording recording;
+    begin_stream(recording);
+    recording.put(ALE_CHUNK_RECEIVED, arrival_us(0), frame(0, 1000));
+    recording.put(ALE_CHUNK_RECEIVED, INT64_MIN, frame(1, 1000));
+    const ale_odometry_t sample = {INT64_MAX, {0, 0, 0}};
+    EXPECT_EQ(ale_recording_odometry(recording.file(), arrival_us(1), &sample), 0);
+    recording.put(ALE_CHUNK_RECEIVED, arrival_us(2), frame(2, 1000));
+    const auto log = read_bytes(recording.bytes());
+    EXPECT_EQ(log.scans().size(), 2U);
+    EXPECT_TRUE(log.odometry().empty());
+    EXPECT_EQ(log.statistics.times_beyond, 2U);
+}
+
 } // namespace

@@ -70,6 +70,38 @@ TEST(Scan, AMissingEchoIsForgivenBetweenTwoOthersThatAreNear)
     }
 }
 
+TEST(Scan, BeforeTheFirstEchoNothingIsForgivenAndNothingElseTouched)
+{
+    const auto scan = urg();
+    for (int32_t &range_um : scan->range_um) {
+        range_um = 0x01010101; /* each byte as a NO_RETURN would be */
+    }
+    for (uint16_t k = 0; k < scan->beams; k++) {
+        scan->flag[k] = k % 5 == 0 ? ALE_BEAM_VALID : ALE_BEAM_NO_RETURN;
+    }
+    scan->flag[0] = ALE_BEAM_VALID;
+    ale_scan_forgive_missing(scan.get());
+    for (const int32_t range_um : scan->range_um) {
+        ASSERT_EQ(range_um, 0x01010101);
+    }
+}
+
+TEST(Scan, ASweepEndsNearItsStamp)
+{
+    const auto scan = urg();
+    EXPECT_TRUE(ale_scan_is_sweep(scan.get()));
+    scan->stamp_beam = 340000000;
+    EXPECT_FALSE(ale_scan_is_sweep(scan.get()));
+    scan->stamp_beam = INT32_MIN;
+    scan->beam_time_ns = INT32_MAX;
+    EXPECT_FALSE(ale_scan_is_sweep(scan.get()));
+    scan->stamp_beam = 0;
+    scan->beam_time_ns = -1;
+    EXPECT_FALSE(ale_scan_is_sweep(scan.get()));
+    scan->beam_time_ns = 0;
+    EXPECT_TRUE(ale_scan_is_sweep(scan.get()));
+}
+
 TEST(Scan, ABlindSectorMayWrapAndBlindsNothingElse)
 {
     const auto scan = urg();

@@ -6,6 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "base/fixed.h"
 #include "common/export/map_tidy.h"
 
 extern "C" {
@@ -58,9 +59,25 @@ Extent extent_without_points(const MapScene &scene)
     return extent;
 }
 
+int32_t moved(int32_t um, int32_t by_um)
+{
+    return static_cast<int32_t>(ale_clamp64(int64_t{um} + by_um, INT32_MIN, INT32_MAX));
+}
+
+/* A map of nothing, or of a single point, is drawn a metre wide: no picture has a side of length 0. */
 Extent or_a_metre(const Extent &extent)
 {
-    return extent.left_um > extent.right_um ? Extent{-500000, -500000, 500000, 500000} : extent;
+    constexpr int32_t half_um = 500000;
+    if (extent.left_um > extent.right_um) {
+        return {-half_um, -half_um, half_um, half_um};
+    }
+    const int64_t width_um = int64_t{extent.right_um} - extent.left_um;
+    const int64_t height_um = int64_t{extent.top_um} - extent.bottom_um;
+    if (std::max(width_um, height_um) >= 1000) {
+        return extent;
+    }
+    return {moved(extent.left_um, -half_um), moved(extent.bottom_um, -half_um),
+            moved(extent.right_um, half_um), moved(extent.top_um, half_um)};
 }
 
 /* All points but the outermost of each side; left and right, bottom and top by themselves. */

@@ -94,7 +94,7 @@ void print_summary(const std::string &path, const LogReader &log, const ReplayCo
                      static_cast<unsigned long long>(counts.weak));
     }
     print_trouble(counts);
-    const unsigned long long bad = statistics.bad_lines + statistics.bad_chunks;
+    const unsigned long long bad = statistics.bad_lines + statistics.bad_chunks + statistics.times_beyond;
     const unsigned long long too_large = statistics.too_many_beams;
     if (statistics.poses_beyond > 0) {
         std::fprintf(stderr, "ale-replay: %llu poses of the odometry left out; last: %s\n",

@@ -24,8 +24,8 @@ namespace
 {
 
 constexpr char usage[] =
-    "usage: ale-console [--lcm-url URL] [--http ADDR:PORT] [--keys FILE] [--token-file FILE]\n"
-    "                   [--cert FILE --key FILE] [--origin URL]\n"
+    "usage: ale-console [--lcm-url URL] [--http ADDR:PORT] [--keys FILE] [--robots FILE] [--robot NAME]\n"
+    "                   [--token-file FILE] [--cert FILE --key FILE] [--origin URL]\n"
     "The operator's console: serves a web page that shows what the robot publishes over LCM and commands "
     "it.\n"
     "  --lcm-url URL     where the robot publishes (default: LCM_DEFAULT_URL, else LCM's own default)\n"

@@ -127,6 +127,18 @@ TEST_F(MapImage, AnEmptyMapIsAnEmptyPicture)
     }
 }
 
+TEST_F(MapImage, AMapOfASinglePointIsDrawnWhereverItLies)
+{
+    map_->line_count = 0;
+    map_->corner_count = 0;
+    for (const int32_t at : {0, INT32_MAX, INT32_MIN}) {
+        scene_.trajectory = {{0, {at, at, 0}}};
+        for (const char *name : {"point.png", "point.svg", "point.dxf", "point.pgm"}) {
+            EXPECT_GT(std::filesystem::file_size(write(name)), 50U) << name << " at " << at;
+        }
+    }
+}
+
 TEST_F(MapImage, TheSameSceneGivesTheSameBytes)
 {
     for (const char *extension : {".png", ".svg", ".dxf", ".pgm"}) {
