@@ -404,3 +404,16 @@ def test_random_bytes_are_survived(console, robot):
     robot.publish_pose()
     assert watching.wait_for("link", lambda link: link["malformed"] > 100)
     assert console.process.poll() is None
+
+
+def test_a_stop_that_was_made_by_a_recorded_word_is_made_again_by_the_robots_own(alice, robot, commands):
+    page = WebSocket(alice.url)
+    old = robot.status()
+    old.boot, old.utime = robot.boot + 5, old.utime - 3_600_000_000
+    robot.bus.publish("ALE_VOUCHED", robot.vouch(old))
+    while not page.wait_for("status")["vouched"]:
+        pass
+    assert command(page, "stop")["refusal"] is None
+    robot.publish_status()
+    heard = commands(lambda so_far: any(one.boot == robot.boot for one in so_far))
+    assert [one.verb for one in heard if one.boot == robot.boot][:1] == ["stop"]

@@ -237,6 +237,8 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	-@$(SUB) system-rtai
 	@$(PHASE) "the robot explores at a click in the browser"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=console_explores
+	@$(PHASE) "hostile messages, ten thousand of every kind"
+	-@ALE_LONG_TESTS=1 $(SUB) system T=whatever_is_sent
 	@$(PHASE) "explorations in a closed loop with the simulator, more of them"
 	@$(SUB) T=tools/lab/explore/test_exploration unit-programs
 	-@ALE_LONG_TESTS=1 $(SUB) T=tools/lab/explore/test_exploration unit

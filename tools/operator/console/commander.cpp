@@ -12,6 +12,7 @@ namespace
 {
 
 constexpr std::chrono::seconds driving_lasts{2};
+constexpr std::chrono::seconds stop_lasts{2};
 
 /* A set point that was held back on its way is worse than none; anything else may take its time. */
 constexpr int64_t drive_life_us = 500000;
@@ -63,10 +64,20 @@ std::optional<ale::vouched_t> Commander::saw_vouched(const uint8_t *bytes, size_
     const std::lock_guard lock(mutex_);
     auto message = feed::vouched_by(operator_.robots, bytes, count);
     const ale_start_t start = message ? feed::start_of(*message) : ale_start_t{};
+    const int64_t boot = operator_.present.boot;
     if (message && !ale_operator_saw_vouched(&operator_, &start, host_us())) {
         message.reset();
     }
+    stop_anew(boot);
     return message;
+}
+
+/* A stop that was made for what turns out to be a memory of the robot is made again for the robot itself. */
+void Commander::stop_anew(int64_t boot_before)
+{
+    if (bus_ && operator_.present.boot != boot_before && Clock::now() - stopped_at_ < stop_lasts) {
+        sign_and_send({"stop"});
+    }
 }
 
 /* Why it cannot be known who is spoken to; empty: it is known. */
@@ -162,6 +173,7 @@ Sent Commander::sign_and_send(const std::vector<std::string> &words)
     if (ale_bus_send_command(bus_.get(), bytes, count) < 0) {
         return refused("LCM does not take the command");
     }
+    stopped_at_ = stop ? Clock::now() : Clock::time_point{};
     if (stop) {
         send_to_others(command, life);
     }

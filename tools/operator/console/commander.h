@@ -77,6 +77,7 @@ class Commander
   private:
     bool may_drive(uint64_t page, Clock::time_point now);
     Sent sign_and_send(const std::vector<std::string> &words);
+    void stop_anew(int64_t boot_before);
     void send_to_others(const ale_command_t &command, int64_t life);
     std::string doubt() const;
 
@@ -85,6 +86,7 @@ class Commander
     std::unique_ptr<ale_bus_t, decltype(&ale_bus_close)> bus_{nullptr, ale_bus_close};
     uint64_t driving_page_ = 0;
     Clock::time_point drove_at_{};
+    Clock::time_point stopped_at_{};
     std::string unbelieved_; /* a robot that is heard, and that nobody vouches for */
 };
 
