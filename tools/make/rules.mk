@@ -48,17 +48,19 @@ $(FLAGS_STAMP):
 	@mkdir -p $(@D)
 	@echo '$(FLAGS)' > $@
 
-# Generated LCM types: C with the prefix lcmtypes_ (ale_pose_t is the core's own), C++, Python, Java.
+# Generated LCM types: C with the prefix lcmtypes_ (ale_pose_t is the core's own), C++, Python, Java. The C++ makes room for as
+# many elements as a message claims to have, gigabytes for a few bytes of anybody's: here for no more than it has bytes left.
 LCM_FILES = $(wildcard lib/messages/*.lcm)
 LCM_NAMES = $(foreach f,$(LCM_FILES),$(addprefix lcmtypes_$(basename $(notdir $(f)))_,$(shell sed -n 's/^struct \([a-z0-9_]*\).*/\1/p' $(f))))
 LCM_OBJECTS = $(patsubst %,$(OBJ)/lcmtypes/%.o,$(LCM_NAMES))
 LCM_STAMP = $(BUILD)/lcmtypes/stamp
 
-$(LCM_STAMP): $(LCM_FILES)
+$(LCM_STAMP): $(LCM_FILES) tools/make/rules.mk
 	$(call say,lcm-gen,$(LCM_FILES))
 	$(Q)rm -rf $(@D) $(BUILD)/python/ale $(BUILD)/java && mkdir -p $(@D) $(BUILD)/python $(BUILD)/java
 	$(Q)lcm-gen -c --c-no-pubsub --c-cpath $(@D) --c-hpath $(@D) --package-prefix lcmtypes $(LCM_FILES)
 	$(Q)lcm-gen -x --cpp-hpath $(@D) --cpp-std c++11 $(LCM_FILES)
+	$(Q)sed -i -E 's/^( *)this->\w+\.resize\(this->(\w+)\);/\1if(this->\2 < 0 || this->\2 > maxlen - pos) return -1;\n&/' $(@D)/*/*.hpp
 	$(Q)lcm-gen -p --ppath $(BUILD)/python $(LCM_FILES)
 	$(Q)lcm-gen -j --jpath $(BUILD)/java $(LCM_FILES)
 	$(Q)touch $@

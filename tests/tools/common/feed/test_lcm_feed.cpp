@@ -1,0 +1,71 @@
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include "ale/features_t.hpp"
+#include "ale/status_t.hpp"
+#include "common/feed/lcm_feed.h"
+#include "drivers/lcm/datagrams.hpp"
+#include "drivers/lcm/own_port.hpp"
+
+namespace
+{
+
+constexpr int kLong = 60000;
+
+long resident_kib()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+}
+
+template <class Message> std::string encoded(const Message &message)
+{
+    std::string bytes(static_cast<size_t>(message.getEncodedSize()), '\0');
+    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    return bytes;
+}
+
+/* Message with its only count, a zero, replaced. */
+std::string claiming(const std::string &bytes, size_t at, uint32_t count)
+{
+    std::string changed = bytes;
+    for (size_t k = 0; k < 4; k++) {
+        changed[at + k] = static_cast<char>(count >> (24 - 8 * k));
+    }
+    return changed;
+}
+
+TEST(LcmFeed, AMessageThatClaimsMoreThanItHasIsCountedAndTakesNoMemory)
+{
+    const std::string url = own_lcm_url();
+    std::unique_ptr<feed::LcmFeed> feed;
+    try {
+        feed = std::make_unique<feed::LcmFeed>(url);
+    } catch (const std::runtime_error &error) {
+        GTEST_SKIP() << error.what();
+    }
+    int heard = 0;
+    feed->on<ale::features_t>("ALE_FEATURES", [&](const ale::features_t &) { heard++; });
+    const datagrams::Sender sender(url);
+    const std::string honest = encoded(ale::features_t{});
+    sender.send(datagrams::whole("ALE_FEATURES", honest));
+    while (heard == 0) {
+        feed->wait(kLong);
+    }
+    const long before = resident_kib();
+    /* The last two counts are those of lines and corners, both zero. */
+    const size_t lines = honest.size() - 8;
+    for (const uint32_t count : {1U, 50000000U, 0x7fffffffU, 0x80000000U, 0xffffffffU}) {
+        sender.send(datagrams::whole("ALE_FEATURES", claiming(honest, lines, count)));
+        sender.send(datagrams::whole("ALE_FEATURES", claiming(honest, lines + 4, count)));
+    }
+    sender.send(datagrams::whole("ALE_FEATURES", honest));
+    while (heard < 2) {
+        feed->wait(kLong);
+    }
+    EXPECT_EQ(feed->malformed(), 10U);
+    EXPECT_LT(resident_kib() - before, 20000);
+}
+
+} // namespace
