@@ -37,10 +37,10 @@ def seconds_of(action):
 
 
 class Ear:
-    """Hands over what comes on LCM: take(channel, data), for each of the channels."""
+    """Hands over what comes on LCM: take(channel, data), for each of the channels. bus: another way than liblcm's."""
 
-    def __init__(self, url, channels, take):
-        self.bus = lcm.LCM(url)
+    def __init__(self, url, channels, take, bus=None):
+        self.bus = bus or lcm.LCM(url)
         with threads_as_hardware():  # LCM's own: it takes what comes off the socket, before the kernel drops it
             for channel in channels:
                 self.bus.subscribe(channel, take).set_queue_capacity(0)

@@ -81,8 +81,14 @@ class LcmFeed
         return handled > 0;
     }
 
-    /* Messages that could not be decoded or made no sense, and datagrams that are no messages. */
+    /* Messages that could not be decoded or made no sense. */
     uint64_t malformed() const
+    {
+        return malformed_;
+    }
+
+    /* These, and datagrams that are no messages. */
+    uint64_t refused() const
     {
         return malformed_ + ale_wire_dropped(wire_.get()).malformed;
     }

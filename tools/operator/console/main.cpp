@@ -96,7 +96,7 @@ void follow_robot(feed::LcmFeed &feed, console::Board &board, const std::atomic<
 {
     while (!stopping) {
         feed.wait(100);
-        board.note_malformed(feed.malformed());
+        board.note_malformed(feed.refused());
     }
 }
 

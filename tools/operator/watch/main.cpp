@@ -82,7 +82,7 @@ class Listener
         if (record_.counts().received != poses) {
             last_pose_ = now_;
         }
-        record_.set_malformed(feed_.malformed());
+        record_.set_malformed(feed_.refused());
         const bool silent =
             options_.until_silent_s > 0 && record_.newest().pose && silent_s() >= options_.until_silent_s;
         over_ = silent || (options_.seconds > 0 && elapsed_s() >= options_.seconds);
@@ -184,7 +184,7 @@ void watch_robot(const Options &options, feed::LcmFeed &feed, watch::Record &rec
     /* What is already here when a signal comes is taken along. */
     while (cli::interrupted() && feed.wait(0)) {
     }
-    record.set_malformed(feed.malformed());
+    record.set_malformed(feed.refused());
 }
 
 void run(const Options &options)
