@@ -80,6 +80,12 @@ static int first_not_zero(const int64_t b[ALE_STATES])
     return i;
 }
 
+/* a - b. Where the factors are those of nonsense it wraps: whoever takes the solution bounds it. */
+static inline int64_t less(int64_t a, int64_t b)
+{
+    return (int64_t)((uint64_t)a - (uint64_t)b);
+}
+
 void ale_matrix_solve(const ale_factors_t *factors, const int64_t b[ALE_STATES], int32_t shift,
                       int64_t x[ALE_STATES])
 {
@@ -88,7 +94,7 @@ void ale_matrix_solve(const ale_factors_t *factors, const int64_t b[ALE_STATES],
     const int first = first_not_zero(b);
     for (int i = first + 1; i < ALE_STATES; i++) {
         for (int k = first; k < i; k++) {
-            y[i] -= ale_mul_shift(factors->lower_q40[i][k], y[k], LOWER_BITS);
+            y[i] = less(y[i], ale_mul_shift(factors->lower_q40[i][k], y[k], LOWER_BITS));
         }
     }
     for (int i = first; i < ALE_STATES; i++) {
@@ -97,7 +103,7 @@ void ale_matrix_solve(const ale_factors_t *factors, const int64_t b[ALE_STATES],
     }
     for (int i = ALE_STATES - 1; i >= 0; i--) {
         for (int k = i + 1; k < ALE_STATES; k++) {
-            y[i] -= ale_mul_shift(factors->lower_q40[k][i], y[k], LOWER_BITS);
+            y[i] = less(y[i], ale_mul_shift(factors->lower_q40[k][i], y[k], LOWER_BITS));
         }
     }
     for (int i = 0; i < ALE_STATES; i++) {

@@ -99,7 +99,7 @@ def test_half_open_requests_hold_up_nobody(alice, text):
         begun = time.monotonic()
         WebSocket(alice.url).wait_for("hello")
         assert alice.get().status == 200
-        assert time.monotonic() - begun < 5
+        assert time.monotonic() - begun < 10  # who has to wait for the end of their patience waits longer
         held += half_open(alice, 50, text)
     for one in held:
         one.close()

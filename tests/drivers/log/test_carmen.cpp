@@ -222,9 +222,8 @@ TEST(Carmen, AScanWhoseOdometryNoPoseHoldsIsReadWithoutIt)
 
 TEST(Carmen, TimesThatNoClockAndNoScannerHasLeaveOutTheirScan)
 {
-    const auto log =
-        read_bytes(flaser(3, "0 0 0 0 0 0 1 h 1") + flaser(3, "0 0 0 0 0 0 4e12 h 1") +
-                   flaser(3, "0 0 0 0 0 0 -4e12 h 1") + flaser(3, "0 0 0 0 0 0 2 h 1"));
+    const auto log = read_bytes(flaser(3, "0 0 0 0 0 0 1 h 1") + flaser(3, "0 0 0 0 0 0 4e12 h 1") +
+                                flaser(3, "0 0 0 0 0 0 -4e12 h 1") + flaser(3, "0 0 0 0 0 0 2 h 1"));
     EXPECT_EQ(log.scans().size(), 2U);
     EXPECT_EQ(log.statistics.times_beyond, 2U);
     EXPECT_NE(log.last_error.find("a stamp or a sweep that no clock and no scanner has"), std::string::npos);

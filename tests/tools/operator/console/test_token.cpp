@@ -61,7 +61,8 @@ TEST_F(TokenFile, IsRefusedWithItsNameAndTheReason)
 {
     write("abcdefghijkl1\n", 0640);
     EXPECT_EQ(refusal(), path_ + ": readable by others: no longer secret (chmod 600)");
-    for (const std::string &text : {std::string("short"), std::string("not a token here"), std::string(300, 'x')}) {
+    for (const std::string &text :
+         {std::string("short"), std::string("not a token here"), std::string(300, 'x')}) {
         write(text);
         EXPECT_EQ(refusal().rfind(path_ + ": ", 0), 0U) << refusal();
     }
@@ -82,14 +83,15 @@ TEST_F(TokenFile, OfAnotherUserIsRefused)
 
 TEST(Token, IsHiddenInTheArguments)
 {
-    std::vector<std::string> words = {"ale-console", "--token", "abcdefghijkl1", "--tok=abcdefghijkl1", "--http"};
+    std::vector<std::string> words = {"ale-console", "--token", "abcdefghijkl1", "--tok=abcdefghijkl1",
+                                      "--http"};
     std::vector<char *> arguments;
     for (std::string &word : words) {
         arguments.push_back(word.data());
     }
     console::hide_in_arguments("abcdefghijkl1", static_cast<int>(arguments.size()), arguments.data());
-    EXPECT_EQ(words, (std::vector<std::string>{"ale-console", "--token", "*************", "--tok=*************",
-                                               "--http"}));
+    EXPECT_EQ(words, (std::vector<std::string>{"ale-console", "--token", "*************",
+                                               "--tok=*************", "--http"}));
 }
 
 } // namespace
