@@ -16,6 +16,7 @@ import os
 import pathlib
 import random
 import re
+import shutil
 import struct
 import subprocess
 import sys
@@ -347,9 +348,26 @@ def try_one(programs, seeds, name, number, keep):
             if wrong:
                 kept = keep / f"{name}-{number}"
                 kept.write_bytes(path.read_bytes())
-                again = " ".join(map(str, command)).replace(str(path), str(kept))
+                shutil.copytree(seeds, keep / "intact", dirs_exist_ok=True)
+                again = " ".join(map(str, command)).replace(str(path), str(kept)).replace(str(seeds), str(keep / "intact"))
                 return f"{name} {number}: {wrong}\n  again: {again}"
     return ""
+
+
+def try_all(args, seeds):
+    failed = 0
+    with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+        for name in [args.only] if args.only else FORMATS:
+            with tempfile.TemporaryDirectory() as folder:
+                intact = [wrong for command in FORMATS[name][2](Trial(args.programs, seeds, pathlib.Path(folder), 0), seeds / name)
+                          if (wrong := trouble(command))]
+            numbers = range(args.seed, args.seed + args.inputs)
+            wrong = intact + [text for text in pool.map(
+                lambda number, name=name: try_one(args.programs, seeds, name, number, args.keep), numbers) if text]
+            failed += len(wrong)
+            print(f"  {'FAILED' if wrong else 'ok':6} {name:12} {args.inputs} inputs, {len(wrong)} failed", flush=True)
+            print("".join(f"{text}\n" for text in wrong), end="", flush=True)
+    return 1 if failed else 0
 
 
 def main():
@@ -365,24 +383,9 @@ def main():
         print(*FORMATS)
         return 0
     args.keep.mkdir(parents=True, exist_ok=True)
-    seeds = args.keep / "intact"
-    seeds.mkdir(exist_ok=True)
-    for left in seeds.iterdir():
-        left.unlink()
-    write_seeds(args.programs, seeds)
-    failed = 0
-    with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-        for name in [args.only] if args.only else FORMATS:
-            with tempfile.TemporaryDirectory() as folder:
-                intact = [wrong for command in FORMATS[name][2](Trial(args.programs, seeds, pathlib.Path(folder), 0), seeds / name)
-                          if (wrong := trouble(command))]
-            numbers = range(args.seed, args.seed + args.inputs)
-            wrong = intact + [text for text in pool.map(
-                lambda number, name=name: try_one(args.programs, seeds, name, number, args.keep), numbers) if text]
-            failed += len(wrong)
-            print(f"  {'FAILED' if wrong else 'ok':6} {name:12} {args.inputs} inputs, {len(wrong)} failed", flush=True)
-            print("".join(f"{text}\n" for text in wrong), end="", flush=True)
-    return 1 if failed else 0
+    with tempfile.TemporaryDirectory() as folder:
+        write_seeds(args.programs, pathlib.Path(folder))
+        return try_all(args, pathlib.Path(folder))
 
 
 if __name__ == "__main__":

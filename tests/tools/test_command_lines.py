@@ -79,7 +79,7 @@ def test_an_lcm_that_cannot_be_joined_is_told_in_one_line(words, tmp_path):
     name, *arguments = words.split()
     run("ale-keys", "alice", "--secret", "KEY", "--robot", "robot.keys", cwd=tmp_path)
     for url, why in [("udpm://1.2.3.4:7667", "1.2.3.4 is not a multicast address"), ("udpm://239.255.76.67:99999", "99999 is not a port"),
-                     ("pigeon://x", "pigeon://x is no URL that LCM knows")]:
+                     ("pigeon://x", "pigeon://x is no URL that is known here")]:
         failed = run(name, "--lcm-url", url, *arguments, cwd=tmp_path)
         assert failed.returncode == 1
         assert failed.stderr.startswith(f"{name}: LCM: {why}") and failed.stderr.count("\n") == 1
