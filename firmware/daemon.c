@@ -117,6 +117,15 @@ static ale_rt_report_t tell_realtime(ale_daemon_t *daemon)
     return report;
 }
 
+/* Who takes commands should say who he is. */
+static void tell_unvouched(const ale_daemon_t *daemon)
+{
+    if (takes_commands(daemon) && !daemon->options->vouches) {
+        fprintf(stderr, "ale-slamd: no key of its own: operators cannot know whether its status is its own "
+                        "(ale-keys --own)\n");
+    }
+}
+
 static bool start_telemetry_and_drive(ale_daemon_t *daemon, const ale_rt_report_t *realtime)
 {
     const ale_config_t *config = &daemon->options->config;
@@ -135,6 +144,7 @@ static int start_tasks(ale_daemon_t *daemon)
 {
     const bool estimating = start_estimate_and_mapping(daemon);
     const ale_rt_report_t report = tell_realtime(daemon);
+    tell_unvouched(daemon);
     if (estimating && start_telemetry_and_drive(daemon, &report)) {
         daemon->acquire = ale_acquire_start(&daemon->options->config, &daemon->exchange);
     }

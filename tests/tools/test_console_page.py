@@ -270,6 +270,22 @@ def cockpit(chromium, alice, pulse):
     assert chromium.errors() == []
 
 
+def test_poses_of_others_are_told_over_the_map(cockpit, robot):
+    """While the robot vouches for its own: beside each of them one that is numbered ahead."""
+    def forge():
+        forged = robot.pose()
+        forged.scan, forged.map_x = robot.scan + 6, 9.0
+        robot.bus.publish("ALE_POSE", forged.encode())
+
+    cockpit.wait_for("document.getElementById('advice').hidden")
+    others = Pulse(0.1, forge)
+    try:
+        cockpit.wait_for("document.getElementById('advice').textContent.includes(\"are not the robot's own\")")
+    finally:
+        others.stop()
+    cockpit.wait_for("document.getElementById('advice').hidden")
+
+
 def middle(page, element_id):
     return page.run("const r = document.getElementById(arguments[0]).getBoundingClientRect();"
                     "return [r.x + r.width / 2, r.y + r.height / 2].map(Math.round)", element_id)

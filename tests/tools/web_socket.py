@@ -59,13 +59,15 @@ class WebSocket:
         return first, self._take(length)
 
     def next(self):
-        """The next message, decoded; pings are passed over."""
+        """The next message, decoded; pings are answered: the console hangs up on who does not."""
         text = b""
         while True:
             first, data = self._frame()
             opcode = first & 0x0F
             if opcode == 8:
                 raise ConnectionError("closed by the console")
+            if opcode == 9:
+                self._send(0x8A, data)
             if opcode in (9, 10):
                 continue
             text += data
@@ -74,10 +76,12 @@ class WebSocket:
                 return json.loads(text)
 
     def send(self, text):
-        data = text.encode()
+        self._send(0x81, text.encode())
+
+    def _send(self, kind, data):
         mask = os.urandom(4)
-        head = struct.pack(">BB", 0x81, 0x80 | len(data)) if len(data) < 126 else struct.pack(
-            ">BBH", 0x81, 0x80 | 126, len(data))
+        head = struct.pack(">BB", kind, 0x80 | len(data)) if len(data) < 126 else struct.pack(
+            ">BBH", kind, 0x80 | 126, len(data))
         self.socket.sendall(head + mask + bytes(b ^ mask[k % 4] for k, b in enumerate(data)))
 
     def got(self):

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -99,6 +100,40 @@ TEST(Options, WrongUseIsOneLineOnStderr)
         EXPECT_EQ(answer.out, "");
         EXPECT_EQ(std::count(answer.err.begin(), answer.err.end(), '\n'), 1) << answer.err;
         EXPECT_EQ(answer.err.rfind("ale-slamd: ", 0), 0u) << answer.err;
+    }
+}
+
+TEST(Options, ARobotsOwnKeysAreReadWhereTheyAreNamedAndBesideItsList)
+{
+    const files::TemporaryFolder folder;
+    const std::string list = folder / "robot.keys";
+    const std::string drive = folder / "drive.key";
+    const std::string ini = folder / "robot.ini";
+    char error[ALE_KEYS_ERROR] = "";
+    ale_keys_t keys{};
+    ale_secret_key_t own{};
+    ale_drive_key_t drive_key{};
+    ASSERT_EQ(ale_keys_make("rover", &own, &keys.operator_key[keys.count++]), 0);
+    ASSERT_EQ(ale_keys_save(list.c_str(), &keys, error), 0) << error;
+    EXPECT_FALSE(read({"--keys", list}).options->vouches) << "there is none";
+    ASSERT_EQ(ale_robot_key_save((list + ALE_OWN_KEY_ENDING).c_str(), &own, error), 0) << error;
+    ASSERT_EQ(ale_drive_key_make(&drive_key), 0);
+    ASSERT_EQ(ale_drive_key_save(drive.c_str(), &drive_key, error), 0) << error;
+    const Answer beside = read({"--keys", list});
+    EXPECT_EQ(beside.result, ALE_OPTIONS_RUN) << beside.err;
+    EXPECT_TRUE(beside.options->vouches);
+    EXPECT_FALSE(beside.options->keyed);
+    EXPECT_EQ(std::memcmp(beside.options->own_key.key, own.key, sizeof own.key), 0);
+
+    std::ofstream(ini) << "[drive]\nkey = " << drive << "\n[commands]\nown_key = " << list << ".secret\n";
+    const Answer named = read({"--config", ini});
+    EXPECT_EQ(named.result, ALE_OPTIONS_RUN) << named.err;
+    EXPECT_TRUE(named.options->vouches && named.options->keyed);
+    for (const char *wrong : {"[commands]\nown_key = /no/such", "[drive]\nkey = /no/such"}) {
+        std::ofstream(ini) << wrong << "\n";
+        const Answer refused = read({"--config", ini});
+        EXPECT_EQ(refused.result, ALE_OPTIONS_REFUSED);
+        EXPECT_NE(refused.err.find("/no/such"), std::string::npos) << refused.err;
     }
 }
 
