@@ -18,6 +18,12 @@ constexpr std::chrono::seconds vouched_within{3};
 /* Numbers so far behind are not those of poses that were held up. */
 constexpr int32_t overtaken_scans = 100;
 
+/* What the robot may be ahead of what is expected of it: words and poses are not held up alike. */
+constexpr double margin_scans = 3;
+constexpr double forgotten_scans = 50; /* behind: it has stood still meanwhile */
+constexpr double followed = 0.1;
+constexpr double ppm = 1e6;
+
 } // namespace
 
 void PoseWitness::heard(int32_t scan, int64_t digest, Clock::time_point now)
@@ -45,9 +51,33 @@ PoseWitness::Verdict PoseWitness::judge(const Heard &pose, const ale::vouched_t 
     return unknown ? Verdict::true_one : Verdict::forged;
 }
 
+double PoseWitness::expected(Clock::time_point now) const
+{
+    return reached_ + rate_hz_ * std::chrono::duration<double>(now - reached_at_).count();
+}
+
+void PoseWitness::note_reached(const ale::vouched_t &vouched, Clock::time_point now)
+{
+    if (vouched.pose_scan.empty()) {
+        return;
+    }
+    const double newest = *std::max_element(vouched.pose_scan.begin(), vouched.pose_scan.end());
+    const double ahead = expected(now) - newest;
+    const bool late = rate_hz_ > 0 && ahead > 0 && ahead < forgotten_scans;
+    reached_ = late ? newest + (1 - followed) * ahead : newest;
+    reached_at_ = now;
+    rate_hz_ = static_cast<double>(vouched.status.scan_rate_hz) * vouched.clock_ppm / ppm;
+}
+
+bool PoseWitness::is_beyond(int32_t scan, Clock::time_point now) const
+{
+    return is_alarmed(now) && rate_hz_ > 0 && scan > expected(now) + margin_scans;
+}
+
 uint64_t PoseWitness::compare(const ale::vouched_t &vouched, Clock::time_point now)
 {
     const uint64_t before = forged_;
+    note_reached(vouched, now);
     std::deque<Heard> open;
     for (const Heard &pose : heard_) {
         const Verdict verdict = judge(pose, vouched, now);

@@ -26,6 +26,10 @@ class PoseWitness
     /* Some were found within the last ten seconds. */
     bool is_alarmed(Clock::time_point now) const;
 
+    /* While alarmed: a number that the robot cannot have reached yet. Such a pose would keep its own from
+     * being shown. */
+    bool is_beyond(int32_t scan, Clock::time_point now) const;
+
     uint64_t forged() const
     {
         return forged_;
@@ -38,11 +42,16 @@ class PoseWitness
         Clock::time_point when;
     };
     enum class Verdict { true_one, forged, open };
+    double expected(Clock::time_point now) const;
+    void note_reached(const ale::vouched_t &vouched, Clock::time_point now);
     static Verdict judge(const Heard &pose, const ale::vouched_t &vouched, Clock::time_point now);
 
     std::deque<Heard> heard_; /* not yet judged */
     uint64_t forged_ = 0;
     Clock::time_point alarm_{};
+    double reached_ = 0; /* the robot's newest scan, by words that were held up least */
+    double rate_hz_ = 0; /* 0: not known yet */
+    Clock::time_point reached_at_{};
 };
 
 } // namespace console

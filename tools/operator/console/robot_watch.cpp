@@ -52,9 +52,13 @@ void RobotWatch::pose_bytes(const uint8_t *bytes, size_t count)
 {
     ale::pose_t message;
     feed::require(message.decode(bytes, 0, static_cast<int>(count)) >= 0, "truncated, or of another type");
-    pose(message);
+    const PoseWitness::Clock::time_point now = PoseWitness::Clock::now();
     if (commander_.believes()) {
-        witness_.heard(message.scan, ale_digest(bytes, count), PoseWitness::Clock::now());
+        feed::check(message);
+        witness_.heard(message.scan, ale_digest(bytes, count), now);
+    }
+    if (!witness_.is_beyond(message.scan, now)) {
+        pose(message);
     }
 }
 

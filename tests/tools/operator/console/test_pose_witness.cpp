@@ -78,3 +78,22 @@ TEST_F(Witness, OnesThatTheRobotNeverReachesAreForged)
     EXPECT_EQ(witness.compare(vouched(400, 431), now), 1U) << "nor those of long ago";
     EXPECT_EQ(witness.forged(), 2U);
 }
+
+TEST_F(Witness, WhileAlarmedNumbersThatTheRobotCannotHaveReachedAreBeyond)
+{
+    auto word = vouched(0, 20);
+    word.status.scan_rate_hz = 10;
+    word.clock_ppm = 1000000;
+    EXPECT_EQ(witness.compare(word, now), 0U);
+    EXPECT_FALSE(witness.is_beyond(1000, now)) << "no alarm: whatever comes is shown";
+    witness.heard(15, 7, now);
+    EXPECT_EQ(witness.compare(word, now), 1U);
+    EXPECT_FALSE(witness.is_beyond(21, now));
+    EXPECT_TRUE(witness.is_beyond(26, now));
+    EXPECT_FALSE(witness.is_beyond(26, now + milliseconds(400)));
+    auto late = vouched(0, 25);
+    late.status.scan_rate_hz = 10;
+    late.clock_ppm = 1000000;
+    EXPECT_EQ(witness.compare(late, now + seconds(1)), 0U);
+    EXPECT_FALSE(witness.is_beyond(31, now + seconds(1))) << "the word was held up, not the robot";
+}
