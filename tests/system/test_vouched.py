@@ -1,4 +1,5 @@
 """What steers is authenticated: forged, replayed and other robots' statuses move nobody's hand and hide no answer."""
+import pathlib
 import subprocess
 import time
 
@@ -6,7 +7,7 @@ import ale
 import pytest
 
 from at_hand import BINARIES
-from commanded import Commanded
+from commanded import Commanded, may_mount
 from lcm_url import free_lcm_url
 from robot_double import RobotDouble
 from signing import Key, digest
@@ -16,7 +17,7 @@ MINUTE_US = 60_000_000
 
 
 def tool(name, *words, cwd=None):
-    return subprocess.run([BINARIES / name, *map(str, words)], stdin=subprocess.DEVNULL, text=True, timeout=180, cwd=cwd,
+    return subprocess.run([BINARIES / name if name.startswith("ale-") else name, *map(str, words)], stdin=subprocess.DEVNULL, text=True, timeout=180, cwd=cwd,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
 
 
@@ -53,6 +54,20 @@ def forged_status(robot, ahead_us=0, boot=None):
     status.utime += ahead_us
     status.boot = status.boot if boot is None else boot
     return status.encode()
+
+
+@pytest.mark.skipif(not may_mount(), reason="another list of users wants root, and a kernel that allows namespaces of mounts")
+def test_the_services_own_key_is_the_services(tmp_path):
+    """Made by root beside its list: else the firmware could not read it. Anywhere else it is root's."""
+    users = tmp_path / "passwd"
+    users.write_text(pathlib.Path("/etc/passwd").read_text(encoding="utf-8") + "ale-slam:x:64123:64123::/:/bin/false\n", encoding="utf-8")
+    for folder, owner in (("ale-slam", 64123), ("elsewhere", 0)):
+        (tmp_path / folder).mkdir()
+        done = tool("unshare", "--mount", "sh", "-c", f"mount --bind {users} /etc/passwd && {BINARIES}/ale-keys --own rover --robot robot.keys",
+                    cwd=tmp_path / folder)
+        assert done.returncode == 0, done.stderr
+        own = (tmp_path / folder / "robot.keys.secret").stat()
+        assert (own.st_uid, own.st_mode & 0o777) == (owner, 0o600)
 
 
 def test_the_robot_vouches_for_every_status_and_for_the_poses_it_sent(chain):

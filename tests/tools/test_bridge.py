@@ -270,6 +270,55 @@ def test_a_played_again_hello_does_not_take_the_operators_place(sides, keys):
         tap.stop()
 
 
+def test_ten_thousand_hostile_datagrams_hold_up_no_command(sides, keys):
+    """Played again, changed, cut, invented: two thousand a second while the operator's commands cross."""
+    robot, operator = sides
+    port = free_udp_port()
+    tap = Tap(port)
+    both = [robots_end(keys, f"127.0.0.1:{port}", robot.url), operators_end(keys, f"127.0.0.1:{tap.port}", operator.url)]
+    stranger = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    try:
+        for process in both:
+            assert "is there" in process.stderr.readline()
+        for k in range(20):
+            operator.bus.publish("ALE_COMMAND", b"before %d" % k)
+        wait_until(lambda: len(robot.on("ALE_COMMAND")) == 20, 180, "commands")
+        recorded = [data for data, to in list(tap.passed) if to == ("127.0.0.1", port)]
+        chance = random.Random(3)
+
+        def hostile():
+            data = bytearray(chance.choice(recorded))
+            how = chance.randrange(4)
+            if how == 0:
+                data[chance.randrange(len(data))] ^= 1 << chance.randrange(8)
+            elif how == 1:
+                del data[chance.randrange(len(data)):]
+            elif how == 2:
+                data[6:] = chance.randbytes(chance.randrange(300))
+            return bytes(data)
+
+        sent, crossed, begin = 0, [], time.monotonic()
+        while sent < 10000:
+            for _ in range(100):
+                stranger.sendto(hostile(), ("127.0.0.1", port))
+            sent += 100
+            word, asked = b"after %d" % sent, time.monotonic()
+            operator.bus.publish("ALE_COMMAND", word)
+            wait_until(lambda of=word: of in robot.on("ALE_COMMAND")[-3:], 180, "the command")
+            crossed.append(time.monotonic() - asked)
+            time.sleep(max(0.0, begin + sent / 2000 - time.monotonic()))
+        crossed.sort()
+        print(f"{sent} hostile datagrams; a command crosses in {crossed[len(crossed) // 2] * 1000:.0f} ms, at most {crossed[-1] * 1000:.0f} ms")
+        assert crossed[int(0.9 * len(crossed))] < 0.3, "a busy machine may hold up some"
+        assert len(robot.on("ALE_COMMAND")) == 120, "and nothing else came in"
+    finally:
+        stranger.close()
+        for process in both:
+            process.kill()
+            process.communicate()
+        tap.stop()
+
+
 def test_two_operators_at_a_time(sides, ends, keys):
     robot, first = sides
     second = Side()

@@ -2,9 +2,11 @@
  */
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
+#include <pwd.h>
 #include <unistd.h>
 
 #include "common/command_line/command_line.h"
@@ -96,6 +98,16 @@ ale_keys_t extended(const std::string &path, ale_keys_t keys, const ale_public_k
     return keys;
 }
 
+/* Made by root beside the list of the service, it must be the service's, or that could not read it. */
+void give_to_service(const std::string &path)
+{
+    const std::string folder = std::filesystem::absolute(path).parent_path().filename().string();
+    const passwd *service = geteuid() == 0 && folder == "ale-slam" ? getpwnam("ale-slam") : nullptr;
+    if (service && chown(path.c_str(), service->pw_uid, service->pw_gid) < 0) {
+        throw std::runtime_error(path + ": cannot be given to the user ale-slam");
+    }
+}
+
 /* The robot's own key: what is there, or a new one. */
 ale_secret_key_t own_key(const std::string &path, const std::string &name)
 {
@@ -114,6 +126,7 @@ ale_secret_key_t own_key(const std::string &path, const std::string &name)
     if (ale_robot_key_save(path.c_str(), &own, error) < 0) {
         throw std::runtime_error(error);
     }
+    give_to_service(path);
     return own;
 }
 
