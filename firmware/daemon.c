@@ -139,7 +139,7 @@ static bool start_telemetry_and_drive(ale_daemon_t *daemon, const ale_rt_report_
 }
 
 /* The readers first, so that nothing fills up and no pose waits; telemetry after those of whom it tells what
- * they got, and before the scanner is spoken to: LCM takes its time until it hears itself. */
+ * they got, and before the scanner is spoken to: the bus may take a second to be heard. */
 static int start_tasks(ale_daemon_t *daemon)
 {
     const bool estimating = start_estimate_and_mapping(daemon);

@@ -15,11 +15,9 @@
 
 typedef struct ale_telemetry ale_telemetry_t;
 
-/* Takes the bus over as its only user. LCM's receive thread is started by this one: it shares locks with it,
- * so it must not wait behind other programs with a lower priority. keys: of those who are obeyed. Returns
- * when LCM hears itself: within a tenth of a second as a rule, twenty seconds where the network carries
- * nothing; what comes in before that waits as long. NULL: no memory or no threads. config and exchange must
- * outlive it. */
+/* Takes the bus over as its only user. keys: of those who are obeyed. Returns when the bus hears itself, at
+ * once as a rule, or after a second in which it does not. NULL: no memory or no threads. config and exchange
+ * must outlive it. */
 ale_telemetry_t *ale_telemetry_start(const ale_config_t *config, const ale_keys_t *keys,
                                      ale_exchange_t *exchange, ale_bus_t *bus,
                                      const ale_rt_report_t *realtime);

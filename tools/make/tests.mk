@@ -235,6 +235,9 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	@rm -rf $(BUILD)/rtai-build && mkdir -p $(BUILD)/rtai-build && cp -a $(BUILD)/obj $(BUILD)/lcmtypes $(BUILD)/rtai-build
 	-@$(PYTHON) tools/make/run_tests.py command "make RT=rtai" $(SUB) $(RTAI_BUILD) -j2 programs
 	-@$(SUB) system-rtai
+	@$(PHASE) "hostile datagrams and messages on every LCM socket, with sanitizers"
+	@$(CHECKED) -j2 programs lcm-types
+	-@ALE_LONG_TESTS=1 $(CHECKED) VENV=$(abspath $(VENV)) T=test_hostile system
 	@$(PHASE) "the robot explores at a click in the browser"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=console_explores
 	@$(PHASE) "hostile messages, ten thousand of every kind"

@@ -8,7 +8,6 @@
 #include <thread>
 
 #include <sodium.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "common/command_line/command_line.h"
@@ -56,16 +55,6 @@ struct Options {
     std::string key;
     std::string proxy;
 };
-
-/* A forged message may claim more elements than memory holds: it fails at this limit and is counted. The
- * sanitizers map far more than they use and must do without. */
-void limit_memory()
-{
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    const rlimit limit = {512U << 20U, 512U << 20U};
-    setrlimit(RLIMIT_DATA, &limit);
-#endif
-}
 
 /* The token that is asked for: on the loopback, too, because others may be logged in on this machine. */
 std::string token_for(const Options &options)
@@ -190,7 +179,6 @@ int main(int argc, char **argv)
         }
         const sigset_t endings = block_endings();
         std::signal(SIGPIPE, SIG_IGN);
-        limit_memory();
         run(options, endings);
     });
 }
