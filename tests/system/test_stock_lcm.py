@@ -1,12 +1,16 @@
 """Stock LCM on one machine, as before: lcm-logger and lcm-logplayer, Java's LCM (what lcm-spy reads by). PyPI's `lcm` is what all
 the other tests listen and send by."""
+import re
 import shutil
 import signal
+import socket
 import subprocess
 
 import lcm
 import pytest
 
+from at_hand import WORLDS
+from chain import Program
 from waiting import Ear, wait_until
 
 LCM_JAR = "/usr/share/java/lcm.jar"
@@ -72,3 +76,30 @@ def test_what_lcm_spy_reads_by_hears_it_and_is_heard(robot):
         java.kill()
         java.wait()
         ear.stop()
+
+
+@pytest.mark.skipif(shutil.which("java") is None, reason="no Java here")
+def test_lcm_through_a_hub_of_its_java_library(tmp_path):
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    url = f"tcpq://127.0.0.1:{port}"
+    running = [subprocess.Popen(["java", "-cp", LCM_JAR, "lcm.lcm.TCPService", str(port)], stdout=subprocess.DEVNULL,
+                                stderr=subprocess.DEVNULL)]
+    try:
+        wait_until(lambda: is_open(port), 180, "the hub")
+        for name, words in (("ale-sim", ("--world", WORLDS / "home.world", "--pty", tmp_path / "urg")),
+                            ("ale-slamd", ("--port", tmp_path / "urg"))):
+            running.append(Program(tmp_path, name, "--lcm-url", url, *words).process)
+        watch = Program(tmp_path, "ale-watch", "--lcm-url", url)
+        running.append(watch.process)
+        wait_until(lambda: re.search(r"poses +[1-9]", watch.out()), 180, "poses through the hub")
+    finally:
+        for process in running:
+            process.kill()
+            process.wait()
+
+
+def is_open(port):
+    with socket.socket() as probe:
+        return probe.connect_ex(("127.0.0.1", port)) == 0
