@@ -7,6 +7,7 @@
 #include <string.h>
 #include <zlib.h>
 
+#include "base/fixed.h"
 #include "file/bytes.h"
 #include "file/text.h"
 #include "file/whole_file.h"
@@ -18,7 +19,7 @@ static const char CORNER_LEGEND[] = "# corner: x y var_xx var_xy var_yy angle_ba
 
 static const char POSE_LEGEND[] = "# pose: x y theta_bam\n";
 
-enum { WALL_NUMBERS = 9, CORNER_NUMBERS = 9, POSE_NUMBERS = 3, RIGHTS = 0640 };
+enum { WALL_NUMBERS = 9, CORNER_NUMBERS = 9, POSE_NUMBERS = 3, RIGHTS = 0640, ROUNDING = 16 };
 
 /* What a file holds. */
 typedef struct {
@@ -114,9 +115,23 @@ static bool take_numbers(ale_span_t line, int64_t *numbers, uint32_t count)
     return !ale_text_word(&line, &word);
 }
 
+/* The distance of any two points of a map fits 32 bits. */
 static bool is_length(int64_t value)
 {
-    return value >= INT32_MIN && value <= INT32_MAX;
+    return value >= -ALE_MAP_FILE_FARTHEST_UM && value <= ALE_MAP_FILE_FARTHEST_UM;
+}
+
+/* Variances and the covariance between: positive but for rounding. What is far from it no map has, and the
+ * matching's sums do not hold it. */
+static bool is_covariance(int64_t var_a, int64_t cov, int64_t var_b)
+{
+    const int64_t most_var_um2 = INT64_C(1000000000000000000); /* of a length: 1 km */
+    if (var_a < 0 || var_b < 0 || var_b > most_var_um2) {
+        return false;
+    }
+    const int64_t limit =
+        ((int64_t)ale_isqrt((uint64_t)var_a) + 1) * ((int64_t)ale_isqrt((uint64_t)var_b) + 1);
+    return ale_abs64(cov / ROUNDING) <= limit;
 }
 
 static bool is_word32(int64_t value)
@@ -128,8 +143,8 @@ static bool take_wall(ale_span_t line, ale_map_t *map)
 {
     int64_t n[WALL_NUMBERS];
     if (map->line_count >= ALE_MAP_MAX_LINES || !take_numbers(line, n, WALL_NUMBERS) || !is_word32(n[0]) ||
-        !is_length(n[1]) || !is_length(n[2]) || !is_length(n[3]) || !is_length(n[4]) || n[5] < 0 ||
-        n[7] < 0 || !is_word32(n[8])) {
+        !is_length(n[1]) || !is_length(n[2]) || !is_length(n[3]) || !is_length(n[4]) ||
+        !is_covariance(n[5], n[6], n[7]) || !is_word32(n[8])) {
         return false;
     }
     map->line[map->line_count++] = (ale_map_line_t){.id = (uint32_t)n[0],
@@ -146,7 +161,7 @@ static bool take_corner(ale_span_t line, ale_map_t *map)
 {
     int64_t n[CORNER_NUMBERS];
     if (map->corner_count >= ALE_MAP_MAX_CORNERS || !take_numbers(line, n, CORNER_NUMBERS) ||
-        !is_length(n[0]) || !is_length(n[1]) || n[2] < 0 || n[4] < 0 || !is_word32(n[5]) ||
+        !is_length(n[0]) || !is_length(n[1]) || !is_covariance(n[2], n[3], n[4]) || !is_word32(n[5]) ||
         !is_word32(n[6]) || !is_word32(n[7]) || n[8] < ALE_CORNER_CONVEX || n[8] > ALE_CORNER_CONCAVE) {
         return false;
     }

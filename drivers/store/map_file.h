@@ -18,6 +18,9 @@
 
 #include "track/pipeline.h"
 
+/* No wall, corner or pose of a file is farther from the origin along either axis: 1073 m. */
+enum { ALE_MAP_FILE_FARTHEST_UM = 1 << 30 };
+
 /* No map is larger: its lines are at most so many, and none is longer than this. */
 enum { ALE_MAP_FILE_ERROR = 320, ALE_MAP_FILE_MOST = 256 * (ALE_MAP_MAX_LINES + ALE_MAP_MAX_CORNERS + 100) };
 

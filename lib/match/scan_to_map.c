@@ -219,8 +219,12 @@ static int64_t step(const ale_matrix_t *prior, int64_t total[ALE_STATES], ale_fi
     for (int i = 0; i < ALE_STATES; i++) {
         gradient[i] = fit->information.gradient[i];
         for (int j = 0; j < ALE_STATES; j++) {
-            gradient[i] -= ale_mul_shift(prior->m[i][j], total[j], ALE_MATRIX_BITS - ALE_GRADIENT_BITS);
-            sum.m[i][j] = prior->m[i][j] + fit->information.matrix.m[i > j ? i : j][i > j ? j : i];
+            /* Sums of saturated numbers wrap: there is no fit in them, only steps that are bounded below. */
+            gradient[i] = (int64_t)((uint64_t)gradient[i] -
+                                    (uint64_t)ale_mul_shift(prior->m[i][j], total[j],
+                                                            ALE_MATRIX_BITS - ALE_GRADIENT_BITS));
+            sum.m[i][j] = (int64_t)((uint64_t)prior->m[i][j] +
+                                    (uint64_t)fit->information.matrix.m[i > j ? i : j][i > j ? j : i]);
         }
     }
     ale_matrix_factor(&sum, &fit->factors);

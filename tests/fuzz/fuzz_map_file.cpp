@@ -7,7 +7,6 @@
 #include <memory>
 #include <string>
 
-#include <sys/mman.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -18,10 +17,21 @@ extern "C" {
 namespace
 {
 
+/* A regular file: links, as those to open descriptors are, are not followed. */
+struct MapOnDisk {
+    char path[32] = "/tmp/ale-fuzz-map-XXXXXX";
+    int file = mkstemp(path);
+    ~MapOnDisk()
+    {
+        unlink(path);
+    }
+};
+
 void load(const std::string &text)
 {
-    static const int file = memfd_create("map", 0);
-    static const std::string path = "/proc/self/fd/" + std::to_string(file);
+    static const MapOnDisk place;
+    const int file = place.file;
+    const std::string path = place.path;
     static const auto map = std::make_unique<ale_map_t>();
     char error[ALE_MAP_FILE_ERROR];
     if (ftruncate(file, 0) != 0 ||

@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <random>
@@ -43,21 +44,17 @@ std::unique_ptr<ale_map_t> some_map(uint16_t lines, uint16_t corners)
 {
     std::mt19937 random(4);
     const auto word = [&random] { return static_cast<uint32_t>(random()); };
-    const auto any = [&random] { return static_cast<int32_t>(random()); };
+    const auto any = [&random] { return static_cast<int32_t>(random()) / 2; };
+    const auto variance = [&random] { return static_cast<int64_t>(1000000 + random() % 1000000000); };
+    const auto covariance = [&random] { return static_cast<int64_t>(random() % 2000000) - 1000000; };
     auto map = std::make_unique<ale_map_t>();
     map->line_count = lines;
     map->corner_count = corners;
     for (int i = 0; i < lines; i++) {
-        map->line[i] = {word(),
-                        {any(), any()},
-                        {any(), any()},
-                        any() & INT32_MAX,
-                        -(any() & INT32_MAX),
-                        any() & INT32_MAX,
-                        word()};
+        map->line[i] = {word(), {any(), any()}, {any(), any()}, variance(), covariance(), variance(), word()};
     }
     for (int i = 0; i < corners; i++) {
-        map->corner[i] = {{any(), any()}, {any() & INT32_MAX, any(), any() & INT32_MAX},
+        map->corner[i] = {{any(), any()}, {variance(), covariance(), variance()},
                           word(),         word(),
                           word(),         static_cast<uint8_t>(i % 2)};
     }
@@ -95,7 +92,7 @@ TEST_F(MapFile, AMapComesBackAsItWas)
 TEST_F(MapFile, AMapMaySayWhereTheRobotWas)
 {
     const auto map = some_map(2, 1);
-    const ale_pose_t pose = {-1200345, INT32_MAX, 4294967295U};
+    const ale_pose_t pose = {-1200345, ALE_MAP_FILE_FARTHEST_UM, 4294967295U};
     ale_pose_t read = {1, 2, 3};
     bool known = true;
     saved(*map);
@@ -154,6 +151,24 @@ TEST_F(MapFile, AFailedSaveLeavesTheOldFileAndNothingElse)
     EXPECT_EQ(ale_map_file_save((folder_ / "folder").c_str(), loaded_.get(), error_), -1);
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 2);
     EXPECT_EQ(load_error(before), "");
+}
+
+TEST_F(MapFile, NumbersThatNoMapHasAreRefusedThoughTheSumIsRight)
+{
+    const auto refusal = [&](const std::function<void(ale_map_t &)> &spoil) {
+        const auto map = some_map(2, 1);
+        spoil(*map);
+        return load_error(saved(*map));
+    };
+    const auto at = [&](int line) {
+        return path_.string() + ": line " + std::to_string(line) + ": damaged or too large";
+    };
+    EXPECT_EQ(refusal([](ale_map_t &map) { map.line[0].start.y_um = INT32_MIN; }), at(4));
+    EXPECT_EQ(refusal([](ale_map_t &map) { map.line[1].end.x_um = ALE_MAP_FILE_FARTHEST_UM + 1; }), at(5));
+    EXPECT_EQ(refusal([](ale_map_t &map) { map.line[1].cov_alpha_rho = INT64_MIN; }), at(5));
+    EXPECT_EQ(refusal([](ale_map_t &map) { map.line[1].cov_alpha_rho = -728838383837000; }), at(5));
+    EXPECT_EQ(refusal([](ale_map_t &map) { map.line[1].var_rho_um2 = INT64_MAX; }), at(5));
+    EXPECT_EQ(refusal([](ale_map_t &map) { map.corner[0].cov_um2[1] = INT64_MAX; }), at(6));
 }
 
 TEST_F(MapFile, ALinkOrAPipeIsNoMap)
