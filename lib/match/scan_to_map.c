@@ -206,9 +206,9 @@ static void find_covariance(ale_fit_t *fit)
     ale_matrix_invert(&fit->factors, ALE_MATRIX_BITS, &fit->motion.cov);
 }
 
-/* A thousand kilometres, or as many microradians: what solves nonsense may be as large as its numbers, and
- * their sums must fit. */
-static const int64_t most_step = INT64_C(1) << 40;
+/* Eight kilometres, or as many microradians: what solves nonsense may be as large as its numbers, and their
+ * sums, and a turn in BAM, must fit. */
+static const int64_t most_step = INT64_C(1) << 33;
 
 /* One Gauss-Newton step on scan and prediction together; returns its size. */
 static int64_t step(const ale_matrix_t *prior, int64_t total[ALE_STATES], ale_fit_t *fit)
