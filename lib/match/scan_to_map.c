@@ -226,6 +226,7 @@ static int64_t step(const ale_matrix_t *prior, int64_t total[ALE_STATES], ale_fi
             sum.m[i][j] = (int64_t)((uint64_t)prior->m[i][j] +
                                     (uint64_t)fit->information.matrix.m[i > j ? i : j][i > j ? j : i]);
         }
+        gradient[i] = ale_max64(gradient[i], -INT64_MAX);
     }
     ale_matrix_factor(&sum, &fit->factors);
     ale_matrix_solve(&fit->factors, gradient, ALE_MATRIX_BITS - ALE_GRADIENT_BITS, delta);
