@@ -63,7 +63,7 @@ typedef struct {
  * read during the call alone. O(beams * count). */
 void ale_scan_mask(ale_scan_t *scan, const ale_sector_t *sectors, uint32_t count);
 
-/* Whether fewer than three in four echoes have an echo next to them. In recordings eight in nine have; a
+/* Whether fewer than three in four echoes have an echo next to them. A
  * scanner that leaves out beams, or surfaces that swallow them, give such a scan. O(beams); in the header
  * because the extractor, which asks for every scan, is compiled so that it takes many beams at once. */
 static inline bool ale_scan_is_sparse(const ale_scan_t *scan)

@@ -85,13 +85,6 @@ static void draw_landmarks(ale_likelihood_grid_t *grid, const ale_landmarks_t *l
     }
 }
 
-static inline uint64_t load(const uint8_t *cells)
-{
-    uint64_t word;
-    memcpy(&word, cells, sizeof word);
-    return word;
-}
-
 static inline void store(uint8_t *cells, uint64_t word)
 {
     memcpy(cells, &word, sizeof word);
@@ -104,13 +97,15 @@ static void spread(ale_likelihood_grid_t *grid)
     for (int32_t y = 1; y < ALE_GRID_CELLS - 1; y++) {
         for (int32_t x = 0; x < ALE_GRID_CELLS; x += ALIKE) {
             store(&column[ALIKE + x],
-                  (load(&grid->fine[y - 1][x]) | load(&grid->fine[y][x]) | load(&grid->fine[y + 1][x])) &
+                  (ale_grid_load(&grid->fine[y - 1][x]) | ale_grid_load(&grid->fine[y][x]) |
+                   ale_grid_load(&grid->fine[y + 1][x])) &
                       surfaces);
         }
         for (int32_t x = 0; x < ALE_GRID_CELLS; x += ALIKE) {
             const uint8_t *at = &column[ALIKE + x];
-            const uint64_t own = load(&grid->fine[y][x]);
-            store(&grid->fine[y][x], own | ((load(at - 1) | load(at) | load(at + 1)) & ~own) >> 1);
+            const uint64_t own = ale_grid_load(&grid->fine[y][x]);
+            store(&grid->fine[y][x],
+                  own | ((ale_grid_load(at - 1) | ale_grid_load(at) | ale_grid_load(at + 1)) & ~own) >> 1);
         }
     }
 }

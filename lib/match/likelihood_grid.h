@@ -5,6 +5,7 @@
 #define ALE_MATCH_LIKELIHOOD_GRID_H
 
 #include <stdint.h>
+#include <string.h>
 
 #include "map/local_map.h"
 
@@ -22,6 +23,14 @@ typedef struct {
     uint8_t fine[ALE_GRID_CELLS][ALE_GRID_CELLS];
     uint8_t coarse[ALE_GRID_COARSE][ALE_GRID_COARSE];
 } ale_likelihood_grid_t;
+
+/* Eight cells in a word, the first wherever it lies. Constant time. */
+static inline uint64_t ale_grid_load(const uint8_t *cells)
+{
+    uint64_t word;
+    memcpy(&word, cells, sizeof word);
+    return word;
+}
 
 /* Draws the walls near and the landmarks of the map that is selected, with `centre` in the middle. Bounded by
  * ALE_GRID_WORK, the grid's cells, and the capacities of walls and landmarks. */

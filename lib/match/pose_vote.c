@@ -71,13 +71,6 @@ static inline void turn(ale_pose_vote_t *vote, const level_t *level, ale_pose_t 
 _Static_assert(ALE_VOTE_POINTS *ALE_GRID_SURFACE <= UINT8_MAX && ALE_VOTE_SIDE % 8 == 0 && FINE_SIDE % 8 == 0,
                "eight sums to a word, none of which overflows into the next");
 
-static inline uint64_t load(const uint8_t *cells)
-{
-    uint64_t word;
-    memcpy(&word, cells, sizeof word);
-    return word;
-}
-
 /* Adds, for every displacement of the region in cells, what the cells of the displaced points hold: eight
  * columns and four rows at a time. */
 static inline void add_up(ale_pose_vote_t *vote, const level_t *level)
@@ -89,10 +82,10 @@ static inline void add_up(ale_pose_vote_t *vote, const level_t *level)
             uint64_t sum[4] = {0};
             for (uint32_t k = 0; k < vote->turned; k++) {
                 const uint8_t *at = &first[vote->cell[k]];
-                sum[0] += load(at);
-                sum[1] += load(at + side);
-                sum[2] += load(at + 2 * side);
-                sum[3] += load(at + 3 * side);
+                sum[0] += ale_grid_load(at);
+                sum[1] += ale_grid_load(at + side);
+                sum[2] += ale_grid_load(at + 2 * side);
+                sum[3] += ale_grid_load(at + 3 * side);
             }
             for (int32_t n = 0; n < 4; n++) {
                 memcpy(&vote->sum[(v + n) * level->region + u], &sum[n], sizeof sum[n]);

@@ -27,9 +27,8 @@ struct ale_keyframe {
     uint32_t map_id;     /* of the map that this pose is in; 0: the first, or the loaded one */
     ale_map_join_t join; /* the last join of two maps; all that was in the one moved before this keyframe */
     bool broken; /* put elsewhere, or in another map, since the keyframe before: smooth does not tie them */
-    uint32_t
-        tied_from; /* then: the first scan that smooth ties to it; nothing told where those before it were */
-    bool weak;     /* part of the pose rests on the prediction alone */
+    uint32_t tied_from; /* then: the first scan that smooth ties to this one */
+    bool weak;          /* part of the pose rests on the prediction alone */
     ale_pose_t sensor;
     ale_scan_t taken;
     bool straightened; /* bearing_bam holds, else the scan's own bearings */

@@ -13,7 +13,7 @@ bool ale_maps_is_home(const ale_pipeline_t *p);
 /* Nothing is known of where the robot is from here on, but what is claimed of its pose. */
 void ale_maps_lose(ale_pipeline_t *p, ale_claim_t claim);
 
-/* Whether the scan at hand shows enough to begin a map with, and the map may change. */
+/* Whether the scan at hand shows enough to begin a map with. */
 bool ale_maps_may_begin(const ale_pipeline_t *p);
 
 /* Begins a new map at the robot's pose; the scan at hand is to be its first. O(map). */

@@ -109,12 +109,14 @@ static int64_t compare(candidate_t *best, const candidate_t *candidate, int64_t 
     return rival_um;
 }
 
-/* Fits the places of the vote and takes them in. */
-static int64_t fit_places(ale_pipeline_t *p, const ale_motion_t *predicted, const ale_vote_region_t *region,
-                          candidate_t *best)
+/* Votes on the region, fits the best places, and takes them in. */
+static int64_t compare_region(ale_pipeline_t *p, const ale_motion_t *predicted,
+                              const ale_vote_region_t *region, candidate_t *best)
 {
     const ale_scene_t scene = ale_observed_scene(p);
     int64_t rival_um = INT64_MIN / 2;
+    ale_pipeline_approach(p, region->centre, p->observed.scan.range_max_um);
+    ale_pose_vote(&p->vote, &p->map, p->observed.observation, p->observed.count, region);
     for (uint32_t k = 0; k < CANDIDATES && k < p->vote.places; k++) {
         const ale_motion_t start = start_at(predicted, p->vote.place[k].pose);
         ale_register_pose(&start, &scene, &start_gate, &p->other);
@@ -133,9 +135,7 @@ bool ale_recover_in_region(ale_pipeline_t *p, ale_pose_t centre)
     candidate_t best = {&p->best, INT64_MIN / 2};
     const ale_scene_t scene = ale_observed_scene(p);
     ale_register_reject(&p->motion, &scene, &p->best);
-    ale_pipeline_approach(p, centre, p->observed.scan.range_max_um);
-    ale_pose_vote(&p->vote, &p->map, p->observed.observation, p->observed.count, &region);
-    const int64_t rival_um = fit_places(p, &p->motion, &region, &best);
+    const int64_t rival_um = compare_region(p, &p->motion, &region, &best);
     if (!ale_tracking_accepts(&p->best) || best.evidence_um < rival_um + MARGIN_UM) {
         return false;
     }
@@ -182,10 +182,8 @@ ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *predi
     const candidate_t given = {fit, evidence_um(p, fit)};
     candidate_t best = {&p->best, given.evidence_um};
     p->best = *fit;
-    ale_pipeline_approach(p, region.centre, p->observed.scan.range_max_um);
     p->voted = true;
-    ale_pose_vote(&p->vote, &p->map, p->observed.observation, p->observed.count, &region);
-    const int64_t rival_um = fit_places(p, &ways->believed, &region, &best);
+    const int64_t rival_um = compare_region(p, &ways->believed, &region, &best);
     const bool more = best.evidence_um > given.evidence_um + MARGIN_UM;
     const bool clear = best.evidence_um > rival_um + MARGIN_UM;
     if (clear && best.evidence_um == given.evidence_um) {
@@ -198,7 +196,7 @@ ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *predi
         return more || !ways->counted ? ALE_RECOVER_OPEN : ALE_RECOVER_STAYS;
     }
     if (p->advantage_um + gain_um(&ways->believed, &best, &given) <= MARGIN_UM) {
-        p->advantage_um += best.evidence_um - given.evidence_um;
+        p->advantage_um += more ? best.evidence_um - given.evidence_um : 0;
         return more ? ALE_RECOVER_UNDECIDED : ALE_RECOVER_STAYS;
     }
     const bool near = is_same(best.fit, fit);

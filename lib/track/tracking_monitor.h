@@ -51,10 +51,10 @@ bool ale_tracking_accepts(const ale_fit_t *fit);
  * which determine the pose. Fewer walls will do than where nobody has said anything. */
 bool ale_tracking_confirms(const ale_fit_t *fit);
 
-/* The robot was found again, or put somewhere: weak until the next scans agree. */
 /* The scan at hand contradicts all that is known: lost with it. */
 void ale_tracking_lose(ale_tracking_monitor_t *monitor);
 
+/* The robot was found again, or put somewhere: weak until the next scans agree. */
 void ale_tracking_found(ale_tracking_monitor_t *monitor);
 
 /* A scan that was dropped: the state by the predicted variance. Lost stays lost. */
