@@ -12,7 +12,7 @@ int32_t ale_scan_beam_offset_us(const ale_scan_t *scan, int32_t beam)
 bool ale_scan_is_sweep(const ale_scan_t *scan)
 {
     const int64_t most_beams = ale_abs64(scan->stamp_beam) + scan->beams;
-    return scan->beam_time_ns >= 0 && most_beams * scan->beam_time_ns <= 1000LL * ALE_MAX_SWEEP_US;
+    return most_beams * ale_abs64(scan->beam_time_ns) <= 1000LL * ALE_MAX_SWEEP_US;
 }
 
 void ale_scan_mask(ale_scan_t *scan, const ale_sector_t *sectors, uint32_t count)

@@ -49,8 +49,8 @@ static inline uint32_t ale_scan_bearing(const ale_scan_t *scan, int32_t beam)
 /* Time of a beam relative to the stamp, in microseconds, rounded; it must fit int32. Constant time. */
 int32_t ale_scan_beam_offset_us(const ale_scan_t *scan, int32_t beam);
 
-/* Whether all beams lie within ALE_MAX_SWEEP_US of the stamp, and follow one another: what readers of files
- * and of the line let pass. Constant time. */
+/* Whether all beams lie within ALE_MAX_SWEEP_US of the stamp, whichever way the mirror turns: what readers of
+ * files and of the line let pass. Constant time. */
 bool ale_scan_is_sweep(const ale_scan_t *scan);
 
 /* A sector of bearings (sensor frame) that is never used: from..to counter-clockwise. */
@@ -63,9 +63,9 @@ typedef struct {
  * read during the call alone. O(beams * count). */
 void ale_scan_mask(ale_scan_t *scan, const ale_sector_t *sectors, uint32_t count);
 
-/* Whether fewer than three in four echoes have an echo next to them. A
- * scanner that leaves out beams, or surfaces that swallow them, give such a scan. O(beams); in the header
- * because the extractor, which asks for every scan, is compiled so that it takes many beams at once. */
+/* Whether fewer than three in four echoes have an echo next to them. A scanner that leaves out beams, or
+ * surfaces that swallow them, give such a scan. O(beams); in the header because the extractor, which asks for
+ * every scan, is compiled so that it takes many beams at once. */
 static inline bool ale_scan_is_sparse(const ale_scan_t *scan)
 {
     int32_t echoes = 0;

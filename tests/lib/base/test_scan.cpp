@@ -86,7 +86,7 @@ TEST(Scan, BeforeTheFirstEchoNothingIsForgivenAndNothingElseTouched)
     }
 }
 
-TEST(Scan, ASweepEndsNearItsStamp)
+TEST(Scan, ASweepOfEitherDirectionEndsNearItsStamp)
 {
     const auto scan = urg();
     EXPECT_TRUE(ale_scan_is_sweep(scan.get()));
@@ -95,9 +95,12 @@ TEST(Scan, ASweepEndsNearItsStamp)
     scan->stamp_beam = INT32_MIN;
     scan->beam_time_ns = INT32_MAX;
     EXPECT_FALSE(ale_scan_is_sweep(scan.get()));
-    scan->stamp_beam = 0;
-    scan->beam_time_ns = -1;
+    scan->beam_time_ns = INT32_MIN;
     EXPECT_FALSE(ale_scan_is_sweep(scan.get()));
+    scan->stamp_beam = 0;
+    EXPECT_FALSE(ale_scan_is_sweep(scan.get()));
+    scan->beam_time_ns = -97656;
+    EXPECT_TRUE(ale_scan_is_sweep(scan.get()));
     scan->beam_time_ns = 0;
     EXPECT_TRUE(ale_scan_is_sweep(scan.get()));
 }
