@@ -158,6 +158,7 @@ static int parse_keys(const form_t *form, const char *path, ale_text_t text, ale
 /* Who may have which file of keys. */
 typedef struct {
     mode_t forbidden; /* rights that nobody but the owner may have */
+    bool root_reads;  /* root takes what is another user's: the service's own secret */
     const char *others_have_it;
     const char *others_own_it;
 } guard_t;
@@ -171,7 +172,8 @@ static const char *read_guarded(const char *path, const guard_t *guard, ale_byte
     if (wrong) {
         return wrong;
     }
-    if (file.st_uid != 0 && file.st_uid != geteuid()) {
+    const bool may_read = guard->root_reads && geteuid() == 0;
+    if (file.st_uid != 0 && file.st_uid != geteuid() && !may_read) {
         return guard->others_own_it;
     }
     return (file.st_mode & guard->forbidden) != 0 ? guard->others_have_it : NULL;
@@ -327,8 +329,9 @@ static bool parse_secret(const form_t *form, ale_text_t text, char name[ALE_NAME
 static int load_secret(const form_t *form, const char *path, char name[ALE_NAME_BYTES],
                        uint8_t seed[SEED_BYTES], char error[ALE_KEYS_ERROR])
 {
-    static const guard_t guard = {
+    const guard_t guard = {
         .forbidden = S_IRWXG | S_IRWXO,
+        .root_reads = form == &ROBOT_KEY,
         .others_have_it = "readable by others: no longer secret (chmod 600)",
         .others_own_it = "belongs to another user, who knows it: it must be root's or your own (chown)",
     };

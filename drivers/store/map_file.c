@@ -126,7 +126,8 @@ static bool is_length(int64_t value)
 static bool is_covariance(int64_t var_a, int64_t cov, int64_t var_b)
 {
     const int64_t most_var_um2 = INT64_C(1000000000000000000); /* of a length: 1 km */
-    if (var_a < 0 || var_b < 0 || var_b > most_var_um2) {
+    const int64_t most_cov = INT64_MAX / 4;
+    if (var_a < 0 || var_b < 0 || var_b > most_var_um2 || cov < -most_cov || cov > most_cov) {
         return false;
     }
     const int64_t limit =
@@ -161,8 +162,9 @@ static bool take_corner(ale_span_t line, ale_map_t *map)
 {
     int64_t n[CORNER_NUMBERS];
     if (map->corner_count >= ALE_MAP_MAX_CORNERS || !take_numbers(line, n, CORNER_NUMBERS) ||
-        !is_length(n[0]) || !is_length(n[1]) || !is_covariance(n[2], n[3], n[4]) || !is_word32(n[5]) ||
-        !is_word32(n[6]) || !is_word32(n[7]) || n[8] < ALE_CORNER_CONVEX || n[8] > ALE_CORNER_CONCAVE) {
+        !is_length(n[0]) || !is_length(n[1]) || !is_covariance(n[2], n[3], n[4]) ||
+        !is_covariance(n[4], n[3], n[2]) || !is_word32(n[5]) || !is_word32(n[6]) || !is_word32(n[7]) ||
+        n[8] < ALE_CORNER_CONVEX || n[8] > ALE_CORNER_CONCAVE) {
         return false;
     }
     map->corner[map->corner_count++] = (ale_map_corner_t){.p = {(int32_t)n[0], (int32_t)n[1]},

@@ -132,6 +132,18 @@ TEST_F(Keys, FilesOfAnotherUserAreRefused)
     EXPECT_NE(std::string(error).find("alice.key: belongs to another user"), std::string::npos) << error;
 }
 
+/* As the service's is, which root has made and given away. */
+TEST_F(Keys, TheRobotsOwnKeyIsReadByRootThoughItIsTheServices)
+{
+    if (geteuid() != 0) {
+        GTEST_SKIP() << "only root can give a file away";
+    }
+    ASSERT_EQ(ale_robot_key_save(own.c_str(), &alice.secret, error), 0) << error;
+    ASSERT_EQ(chown(own.c_str(), 65534, 0), 0);
+    ale_secret_key_t secret{};
+    EXPECT_EQ(ale_robot_key_load(own.c_str(), &secret, error), 0) << error;
+}
+
 TEST_F(Keys, APipeIsNoFileOfKeysAndHoldsNobodyUp)
 {
     ASSERT_EQ(mkfifo(robot.c_str(), 0600), 0);

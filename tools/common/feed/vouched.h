@@ -44,7 +44,7 @@ inline ale_start_t start_of(const ale::vouched_t &message)
 }
 
 /* The robots that are believed: those of the file that is named, else of the one beside the operator's key;
- * none when neither is there. Throws std::runtime_error for a file that cannot be read. */
+ * none when neither is there. Throws std::runtime_error for a file that cannot be read or names no robot. */
 inline ale_keys_t believed(const std::string &robots_file, const std::string &key_file)
 {
     const std::string path =
@@ -56,6 +56,9 @@ inline ale_keys_t believed(const std::string &robots_file, const std::string &ke
     char error[ALE_KEYS_ERROR];
     if (ale_robots_load(path.c_str(), &robots, error) < 0) {
         throw std::runtime_error(error);
+    }
+    if (robots.count == 0) {
+        throw std::runtime_error(path + ": no robot in it (ale-keys --know)");
     }
     return robots;
 }

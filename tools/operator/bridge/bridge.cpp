@@ -80,11 +80,10 @@ bool Bridge::carry_in(const std::vector<uint8_t> &datagram, const Address &from)
         return false;
     }
     ends_.confirm(*session);
-    const bool in_order = session->is_in_order(*frame);
-    if (frame->channel.empty() || !accept_.contains(frame->channel)) {
-        return frame->channel.empty();
+    if (!frame->channel.empty() && !accept_.contains(frame->channel)) {
+        return false;
     }
-    if (in_order) {
+    if (session->is_in_order(*frame) && !frame->channel.empty()) {
         ale_wire_send(wire_.get(), frame->channel.c_str(), frame->message, frame->size);
         counts_.received++;
     }

@@ -173,8 +173,8 @@ Sent Commander::sign_and_send(const std::vector<std::string> &words)
     if (ale_bus_send_command(bus_.get(), bytes, count) < 0) {
         return refused("LCM does not take the command");
     }
-    stopped_at_ = stop ? Clock::now() : Clock::time_point{};
     if (stop) {
+        stopped_at_ = Clock::now(); /* what is driven after it does not take it back */
         send_to_others(command, life);
     }
     return {command.counter, {}};

@@ -63,7 +63,18 @@ std::string token_for(const Options &options)
         return options.token;
     }
     const std::string file = options.token_file.empty() ? console::usual_token_file() : options.token_file;
-    return file.empty() ? console::random_token() : console::token_of_file(file);
+    if (file.empty()) {
+        return console::random_token();
+    }
+    try {
+        return console::token_of_file(file);
+    } catch (const std::runtime_error &error) {
+        if (!options.token_file.empty()) {
+            throw;
+        }
+        std::fprintf(stderr, "ale-console: %s; a token for this time alone\n", error.what());
+        return console::random_token();
+    }
 }
 
 /* What is open to others though it works. */

@@ -55,25 +55,29 @@ std::string read_token(const std::string &path)
     return text;
 }
 
-/* False when somebody else has made it meanwhile. */
+/* False when somebody else has made it meanwhile. The file has its name when it is whole. */
 bool make_token(const std::string &path)
 {
-    const int file =
-        open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR);
-    if (file < 0 && errno == EEXIST) {
-        return false;
-    }
+    const std::string unfinished = path + "." + std::to_string(getpid());
     const std::string line = random_token() + "\n";
-    const bool written =
-        file >= 0 && write(file, line.data(), line.size()) == static_cast<ssize_t>(line.size());
-    const int reason = errno;
-    if (file >= 0) {
-        close(file);
+    const int file =
+        open(unfinished.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR);
+    if (file < 0) {
+        fail(path, std::strerror(errno));
     }
-    if (!written) {
+    errno = 0;
+    bool made = write(file, line.data(), line.size()) == static_cast<ssize_t>(line.size());
+    int reason = made || errno != 0 ? errno : ENOSPC;
+    close(file);
+    if (made) {
+        made = link(unfinished.c_str(), path.c_str()) == 0;
+        reason = errno;
+    }
+    unlink(unfinished.c_str());
+    if (!made && reason != EEXIST) {
         fail(path, std::strerror(reason));
     }
-    return true;
+    return made;
 }
 
 } // namespace

@@ -103,7 +103,7 @@ void give_to_service(const std::string &path)
 {
     const std::string folder = std::filesystem::absolute(path).parent_path().filename().string();
     const passwd *service = geteuid() == 0 && folder == "ale-slam" ? getpwnam("ale-slam") : nullptr;
-    if (service && chown(path.c_str(), service->pw_uid, service->pw_gid) < 0) {
+    if (service && lchown(path.c_str(), service->pw_uid, service->pw_gid) < 0) {
         throw std::runtime_error(path + ": cannot be given to the user ale-slam");
     }
 }
