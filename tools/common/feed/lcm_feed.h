@@ -74,11 +74,14 @@ class LcmFeed
      * fails. */
     bool wait(int timeout_ms)
     {
-        const int handled = ale_wire_receive(wire_.get(), timeout_ms, 1);
-        if (handled < 0) {
-            throw std::runtime_error("LCM stopped receiving");
-        }
-        return handled > 0;
+        return receive(timeout_ms, 1) > 0;
+    }
+
+    /* Handles what has come already, however many datagrams of other channels lie before it. No more than the
+     * kernel may have kept until now: whoever floods the bus does not hold up the caller. */
+    void drain()
+    {
+        receive(0, most_kept);
     }
 
     /* Messages that could not be decoded or made no sense. */
@@ -99,15 +102,27 @@ class LcmFeed
         size_t receiver;
     };
 
+    /* Empty datagrams in a queue of 4 MiB, with what each costs the kernel. */
+    static constexpr int most_kept = 8192;
+
+    int receive(int timeout_ms, int most)
+    {
+        const int handled = ale_wire_receive(wire_.get(), timeout_ms, most);
+        if (handled < 0) {
+            throw std::runtime_error("LCM stopped receiving");
+        }
+        return handled;
+    }
+
     void subscribe(const std::string &channel)
     {
         subscriptions_.push_back(std::make_unique<Subscription>(Subscription{this, receivers_.size() - 1}));
-        if (ale_wire_subscribe(wire_.get(), channel.c_str(), receive, subscriptions_.back().get()) < 0) {
+        if (ale_wire_subscribe(wire_.get(), channel.c_str(), take, subscriptions_.back().get()) < 0) {
             throw std::runtime_error("cannot subscribe to " + channel + ": " + std::strerror(errno));
         }
     }
 
-    static void receive(void *user, const char *, const uint8_t *bytes, size_t count) noexcept
+    static void take(void *user, const char *, const uint8_t *bytes, size_t count) noexcept
     {
         const auto *subscription = static_cast<const Subscription *>(user);
         try {

@@ -182,7 +182,8 @@ void watch_robot(const Options &options, feed::LcmFeed &feed, watch::Record &rec
         print_lines(listener, record);
     }
     /* What is already here when a signal comes is taken along. */
-    while (cli::interrupted() && feed.wait(0)) {
+    if (cli::interrupted()) {
+        feed.drain();
     }
     record.set_malformed(feed.refused());
 }

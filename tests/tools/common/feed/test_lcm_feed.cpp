@@ -36,20 +36,48 @@ std::string claiming(const std::string &bytes, size_t at, uint32_t count)
     return changed;
 }
 
-TEST(LcmFeed, AMessageThatClaimsMoreThanItHasIsCountedAndTakesNoMemory)
+/* Counts ALE_FEATURES on a port of its own. */
+class LcmFeed : public testing::Test
 {
-    const std::string url = own_lcm_url();
-    std::unique_ptr<feed::LcmFeed> feed;
-    try {
-        feed = std::make_unique<feed::LcmFeed>(url);
-    } catch (const std::runtime_error &error) {
-        GTEST_SKIP() << error.what();
+  protected:
+    void SetUp() override
+    {
+        try {
+            feed = std::make_unique<feed::LcmFeed>(url);
+        } catch (const std::runtime_error &error) {
+            GTEST_SKIP() << error.what();
+        }
+        feed->on<ale::features_t>("ALE_FEATURES", [this](const ale::features_t &) { heard++; });
+        sender = std::make_unique<datagrams::Sender>(url);
     }
-    int heard = 0;
-    feed->on<ale::features_t>("ALE_FEATURES", [&](const ale::features_t &) { heard++; });
-    const datagrams::Sender sender(url);
+    void send(const std::string &channel, const std::string &bytes) const
+    {
+        sender->send(datagrams::whole(channel, bytes));
+    }
+
+    const std::string url = own_lcm_url();
     const std::string honest = encoded(ale::features_t{});
-    sender.send(datagrams::whole("ALE_FEATURES", honest));
+    std::unique_ptr<feed::LcmFeed> feed;
+    std::unique_ptr<datagrams::Sender> sender;
+    int heard = 0;
+};
+
+TEST_F(LcmFeed, WhatWaitsIsDrainedAlsoBehindMessagesOfOtherChannels)
+{
+    send("ALE_OTHER", honest);
+    for (int k = 0; k < 3; k++) {
+        send("ALE_FEATURES", honest);
+        send("ALE_OTHER", honest);
+    }
+    feed->drain();
+    EXPECT_EQ(heard, 3);
+    feed->drain();
+    EXPECT_EQ(heard, 3);
+}
+
+TEST_F(LcmFeed, AMessageThatClaimsMoreThanItHasIsCountedAndTakesNoMemory)
+{
+    send("ALE_FEATURES", honest);
     while (heard == 0) {
         feed->wait(kLong);
     }
@@ -57,10 +85,10 @@ TEST(LcmFeed, AMessageThatClaimsMoreThanItHasIsCountedAndTakesNoMemory)
     /* The last two counts are those of lines and corners, both zero. */
     const size_t lines = honest.size() - 8;
     for (const uint32_t count : {1U, 50000000U, 0x7fffffffU, 0x80000000U, 0xffffffffU}) {
-        sender.send(datagrams::whole("ALE_FEATURES", claiming(honest, lines, count)));
-        sender.send(datagrams::whole("ALE_FEATURES", claiming(honest, lines + 4, count)));
+        send("ALE_FEATURES", claiming(honest, lines, count));
+        send("ALE_FEATURES", claiming(honest, lines + 4, count));
     }
-    sender.send(datagrams::whole("ALE_FEATURES", honest));
+    send("ALE_FEATURES", honest);
     while (heard < 2) {
         feed->wait(kLong);
     }
