@@ -50,7 +50,7 @@ static void send_keyed(ale_motor_link_t *link, int64_t utime, int32_t v_um_s, in
     const ale_keyed_set_point_t point = {.utime = utime,
                                          .boot = link->boot,
                                          .nonce = link->nonce,
-                                         .counter = ++link->counter,
+                                         .counter = ++link->messages,
                                          .v_um_s = v_um_s,
                                          .w_urad_s = w_urad_s};
     ale_set_point_message(&point, link->key, bytes);
@@ -63,7 +63,7 @@ static void send_line(ale_motor_link_t *link, int32_t v_um_s, int32_t w_urad_s)
         return;
     }
     char line[ALE_SET_POINT_LINE];
-    const size_t length = ale_set_point_line((uint32_t)++link->counter, v_um_s, w_urad_s, line);
+    const size_t length = ale_set_point_line(++link->lines, v_um_s, w_urad_s, line);
     if (ale_port_write(link->port, (const uint8_t *)line, length, LINE_TIMEOUT_MS) != ALE_PORT_OK) {
         ale_port_close(link->port);
         link->port = NULL;

@@ -15,8 +15,9 @@ typedef struct {
     ale_bus_t *bus;
     const ale_drive_key_t *key; /* NULL: none is shared */
     int64_t boot;
-    int64_t nonce; /* of the motor side; 0: not heard of yet */
-    int64_t counter;
+    int64_t nonce;    /* of the motor side; 0: not heard of yet */
+    int64_t messages; /* that were tagged so far */
+    uint32_t lines;   /* that were written so far: each way counts its own, by one */
     const char *path; /* of the serial line; empty: none */
     int32_t baud;
     ale_port_t *port;

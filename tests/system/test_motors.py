@@ -170,10 +170,13 @@ def crc(text):
     return total
 
 
-def test_set_points_go_over_a_serial_line_that_no_bus_reaches(chain, pulses):
+def test_set_points_go_over_a_serial_line_that_no_bus_reaches(chain, heard, pulses):
+    """And by messages with a tag beside it: each way has a counter of its own."""
     controller = Controller()
+    key = chain.folder / "drive.key"
+    subprocess.run([BINARIES / "ale-keys", "--drive", key], check=True, stdout=subprocess.DEVNULL)
     try:
-        robot = Commanded(chain, f"[drive]\nport = {controller.path}\n")
+        robot = Commanded(chain, f"[drive]\nport = {controller.path}\nkey = {key}\n")
         pulses(0.01, lambda: chain.listener.bus.publish("ALE_DRIVE", set_point(0.7)))
         wait_until(lambda: len(controller.lines) > 10, 180, "lines")
         wait_until(lambda: chain.listener.poses, 180, "poses")
@@ -184,8 +187,8 @@ def test_set_points_go_over_a_serial_line_that_no_bus_reaches(chain, pulses):
         parsed = [re.fullmatch(r"\$(ALE,(\d+),(-?\d+),(-?\d+))\*([0-9A-F]{4})", line) for line in controller.lines[1:]]
         assert all(parsed), controller.lines
         assert all(crc(one[1]) == int(one[5], 16) for one in parsed)
-        counters = [int(one[2]) for one in parsed]
-        assert counters == list(range(counters[0], counters[0] + len(counters)))
+        for counters in ([int(one[2]) for one in parsed], [ale.drive_keyed_t.decode(data).counter for data in heard.keyed]):
+            assert len(counters) > 20 and counters == list(range(counters[0], counters[0] + len(counters)))
         assert {(int(one[3]), int(one[4])) for one in parsed} >= {(0, 0), (200, -100)}
         assert all(0 <= int(one[3]) <= 200 for one in parsed), "what others say on the bus is not in it"
         assert all(one[3] == "0" for one in parsed[before:]), "stands"
