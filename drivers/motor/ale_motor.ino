@@ -11,7 +11,7 @@ ale_motor_line_t line;
 #include <WiFi.h>
 #include <WiFiUdp.h>
 #include "receiver.h"
-const uint8_t KEY[ALE_MOTOR_KEY] = {0};  // the 64 digits of drive.key
+const uint8_t KEY[ALE_MOTOR_KEY] = {0};  // the 64 digits of drive.key, as 0x3f, 0x09 ...; zeros: nothing is obeyed
 const IPAddress GROUP(239, 255, 76, 67);
 const uint16_t PORT = 7667;
 WiFiUDP udp;

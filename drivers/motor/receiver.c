@@ -54,6 +54,16 @@ uint64_t ale_siphash(const uint8_t *key, const uint8_t *bytes, size_t count)
     return v[0] ^ v[1] ^ v[2] ^ v[3];
 }
 
+/* Zeros are a controller that nobody has given a key: everybody knows them. */
+static bool has_key(const ale_motor_t *motor)
+{
+    uint8_t any = 0;
+    for (int k = 0; k < ALE_MOTOR_KEY; k++) {
+        any |= motor->key[k];
+    }
+    return any != 0;
+}
+
 /* Of messages that were held up, those that come late are refused. A clock that drifts is followed. */
 static bool is_of_now(ale_motor_t *motor, uint32_t lead_ms, bool first)
 {
@@ -83,7 +93,7 @@ static bool is_next(ale_motor_t *motor, uint64_t boot, uint64_t nonce, uint64_t 
 
 bool ale_motor_take(ale_motor_t *motor, const uint8_t *bytes, size_t count, uint32_t now_ms)
 {
-    if (count != ALE_MOTOR_MESSAGE || number_at(bytes, 8, true) != KEYED_TYPE ||
+    if (!has_key(motor) || count != ALE_MOTOR_MESSAGE || number_at(bytes, 8, true) != KEYED_TYPE ||
         ale_siphash(motor->key, bytes, count - TAG) != number_at(bytes + count - TAG, TAG, false)) {
         return false;
     }

@@ -36,7 +36,7 @@ typedef struct {
     int32_t v_um_s, w_urad_s;
 } ale_motor_t;
 
-/* Any bytes. Whether they were taken. */
+/* Any bytes. Whether they were taken: with a key of zeros, which is none, nothing is. */
 bool ale_motor_take(ale_motor_t *motor, const uint8_t *bytes, size_t count, uint32_t now_ms);
 
 /* What the motors are to do now: both zero when nothing was taken for ALE_MOTOR_DEAD_MAN_MS. */
