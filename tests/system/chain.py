@@ -47,6 +47,11 @@ class Program:
     def wait(self, seconds):
         return self.process.wait(timeout=seconds)
 
+    def wait_until(self, condition, what):
+        """Fails at once, with its words, when the program has ended before the condition came."""
+        wait_until(lambda: condition() or not self.running(), 180, what)
+        assert self.running(), f"{self.name} ended with {self.process.returncode} before {what}: {self.err()}"
+
     def end(self, number=signal.SIGTERM, seconds=180):
         """Sends a signal; the exit status."""
         if self.running():
@@ -112,8 +117,7 @@ class Chain:
     def simulator(self, *words, speed=1):
         sim = self.start("ale-sim", "--pty", self.port, "--speed", speed, "--lcm-url", self.url, *words,
                          prepare=as_hardware)
-        wait_until(lambda: self.port.exists() or not sim.running(), 180, "the simulated scanner")
-        assert sim.running(), sim.err()
+        sim.wait_until(self.port.exists, "the simulated scanner")
         return sim
 
     def drive(self, world, *words, speed=1):

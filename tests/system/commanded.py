@@ -3,7 +3,6 @@ import os
 import subprocess
 
 from at_hand import BINARIES
-from waiting import wait_until
 
 
 class Commanded:
@@ -18,7 +17,7 @@ class Commanded:
             chain.simulator("--world", "tools/lab/worlds/home.world", "--drive")
         config = f"[commands]\nrobot = rover\n{config}"
         self.firmware = chain.firmware(config, "--keys", self.keys, **how)
-        wait_until(lambda: chain.listener.statuses and (chain.listener.poses or not simulator), 180, "the robot")
+        self.firmware.wait_until(lambda: chain.listener.statuses and (chain.listener.poses or not simulator), "the robot")
 
     def _tool(self, name, *words):
         return subprocess.run([BINARIES / name, *map(str, words)], stdin=subprocess.DEVNULL, text=True, timeout=180,

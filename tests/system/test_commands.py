@@ -53,13 +53,13 @@ class Rover:
         chain.simulator("--world", "tools/lab/worlds/home.world", "--drive")
         self.firmware = self.start()
         self.motors = Motors(chain.url)
-        wait_until(lambda: self.motors.set_points, 180, "set points")
+        self.firmware.wait_until(lambda: self.motors.set_points, "set points")
 
     def start(self, *words):
         config = f"[commands]\nrobot = rover\n[map]\nfolder = {self.chain.folder / 'maps'}\n[recorder]\nfolder =\n"
         before = len(self.chain.listener.poses)
         firmware = self.chain.firmware(config, "--keys", self.keys, *words)
-        wait_until(lambda: len(self.chain.listener.poses) > before + 5, 180, "poses")
+        firmware.wait_until(lambda: len(self.chain.listener.poses) > before + 5, "poses")
         return firmware
 
     def key(self, name):

@@ -120,10 +120,10 @@ def drive_under_attack(tmp_path, robot, url, attack):
     try:
         simulator = chain.start("ale-sim", "--pty", chain.port, "--speed", 4, "--lcm-url", url, "--world",
                                 "tools/lab/worlds/home.world", "--truth", chain.truth_path, "--once", prefix=robot.prefix)
-        wait_until(lambda: chain.port.exists() or not simulator.running(), 180, "the simulated scanner")
+        simulator.wait_until(chain.port.exists, "the simulated scanner")
         firmware = chain.firmware("[lcm]\npublish_scan = yes\n", speed=4, prefix=robot.prefix)
         watch = chain.start("ale-watch", "--lcm-url", url, prefix=robot.prefix)
-        wait_until(lambda: len(ear.poses) > 5 or not firmware.running(), 180, "poses")
+        firmware.wait_until(lambda: len(ear.poses) > 5, "poses")
         with attack:
             wait_until(lambda: not simulator.running() or not firmware.running(), 300, "the end of the drive")
         assert firmware.running(), f"the firmware ended with {firmware.process.returncode}"

@@ -85,7 +85,8 @@ $(VENV)/ready: tests/requirements.txt
 	@touch $@
 venv: $(VENV)/ready
 
-system: programs lcm-types venv ## tests of the real programs over pseudo terminals and LCM (T=word selects)
+SYSTEM_PROGRAMS ?= programs
+system: $(SYSTEM_PROGRAMS) lcm-types venv ## tests of the real programs over pseudo terminals and LCM (T=word selects)
 	@$(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(if $(T),-rP -k "$(T)")
 
 system-rtai: programs lcm-types venv $(BUILD)/rtai/ale-slamd ## the system tests with the firmware on an emulated RTAI (T=file of tests/system)
@@ -172,6 +173,8 @@ SUB = $(MAKE) --no-print-directory -s DEBUG=-g1
 CHECKED = $(SUB) CC=$(CCACHE)clang CXX=$(CCACHE)clang++ BUILD=$(BUILD)/asan TEST_BUILD=$(BUILD) SANITIZE=address,undefined OPT=-O1 \
     SANITIZER_SCOPE=-fsanitize-ignorelist=tests/sanitizer_scope.txt
 MUTATED_PROGRAMS = $(addprefix $(BUILD)/asan/bin/,ale-replay ale-slamd ale-keys)
+# What tests/system/test_hostile*.py start.
+HOSTILE_PROGRAMS = $(addprefix $(BUILD)/asan/bin/ale-,slamd keys send sim console watch latency record)
 ROBOT_TESTS = tests/lib tests/drivers tests/firmware
 THREADED = $(SUB) BUILD=$(BUILD)/tsan TEST_BUILD=$(BUILD) SANITIZE=thread OPT=-O1 T=tests/firmware
 RTAI_SYSTEM_TESTS = tests/system/test_daemon.py tests/system/test_latency.py
@@ -236,8 +239,8 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	-@$(PYTHON) tools/make/run_tests.py command "make RT=rtai" $(SUB) $(RTAI_BUILD) -j2 programs
 	-@$(SUB) system-rtai
 	@$(PHASE) "hostile datagrams and messages on every LCM socket, with sanitizers"
-	@$(CHECKED) -j2 programs lcm-types
-	-@ALE_LONG_TESTS=1 $(CHECKED) VENV=$(abspath $(VENV)) T=test_hostile system
+	@$(CHECKED) -j2 $(HOSTILE_PROGRAMS) lcm-types
+	-@ALE_LONG_TESTS=1 $(CHECKED) VENV=$(abspath $(VENV)) SYSTEM_PROGRAMS= T=test_hostile system
 	@$(PHASE) "the robot explores at a click in the browser"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=console_explores
 	@$(PHASE) "hostile messages, ten thousand of every kind"
