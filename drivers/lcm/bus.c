@@ -38,19 +38,35 @@ struct ale_bus {
 _Static_assert(ALE_MAX_BEAMS * 4 + 64 <= MESSAGE_BYTES, "a scan fits the message");
 _Static_assert(ALE_MAX_LINES * 48 + ALE_MAX_CORNERS * 29 + 64 <= MESSAGE_BYTES, "features fit the message");
 
-ale_bus_t *ale_bus_open(const char *url, char error[ALE_BUS_ERROR])
+static ale_bus_t *open_by(ale_wire_t *(*open_wire)(const char *, char *), const char *url,
+                          char error[ALE_BUS_ERROR])
 {
     ale_bus_t *bus = calloc(1, sizeof *bus);
     if (!bus) {
         snprintf(error, ALE_BUS_ERROR, "LCM: out of memory");
         return NULL;
     }
-    bus->wire = ale_wire_open(url, error);
+    bus->wire = open_wire(url, error);
     if (!bus->wire) {
         free(bus);
         return NULL;
     }
     return bus;
+}
+
+ale_bus_t *ale_bus_open(const char *url, char error[ALE_BUS_ERROR])
+{
+    return open_by(ale_wire_open, url, error);
+}
+
+ale_bus_t *ale_bus_open_early(const char *url, char error[ALE_BUS_ERROR])
+{
+    return open_by(ale_wire_open_early, url, error);
+}
+
+bool ale_bus_tend(ale_bus_t *bus)
+{
+    return ale_wire_tend(bus->wire);
 }
 
 void ale_bus_close(ale_bus_t *bus)

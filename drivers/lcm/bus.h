@@ -44,6 +44,12 @@ typedef struct ale_bus ale_bus_t;
  * caller's to close. NULL and one line for people in error, as ale_wire_open. */
 ale_bus_t *ale_bus_open(const char *url, char error[ALE_BUS_ERROR]);
 
+/* The same before there is a network, as ale_wire_open_early. */
+ale_bus_t *ale_bus_open_early(const char *url, char error[ALE_BUS_ERROR]);
+
+/* Joins the bus again where the network has changed, as ale_wire_tend. Whether there is a route. */
+bool ale_bus_tend(ale_bus_t *bus);
+
 /* NULL: nothing. */
 void ale_bus_close(ale_bus_t *bus);
 

@@ -1,6 +1,7 @@
 #include "lcm/udpm.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <linux/filter.h>
 #include <linux/if_packet.h>
 #include <net/if.h>
@@ -27,10 +28,12 @@ struct ale_udpm {
     struct sockaddr_in to;
     int out;
     int in; /* -1: does not listen */
+    bool joined;
     uint32_t sequence;
     buffers_t *buffers;
     uint64_t malformed;
-    uint32_t unheard;
+    uint32_t unheard; /* by the socket of now, and by those before it */
+    uint64_t unheard_before;
 };
 
 static int udp_socket(void)
@@ -92,20 +95,14 @@ static int keep_to_this_machine(int in)
     return setsockopt(in, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter);
 }
 
-/* On the interface that the route names, as LCM does; on the loopback, too, in case the route will be moved
- * there. */
-static int join(int in, const ale_udpm_t *udpm)
+/* On the loopback, too, in case the route will be moved there. */
+static void join_loopback(int in, const ale_udpm_t *udpm)
 {
-    struct ip_mreqn by_route = {.imr_multiaddr = udpm->to.sin_addr};
-    struct ip_mreqn loopback = by_route;
-    loopback.imr_ifindex = (int)if_nametoindex("lo");
-    if (setsockopt(in, IPPROTO_IP, IP_ADD_MEMBERSHIP, &by_route, sizeof by_route) < 0) {
-        return -1;
-    }
+    const struct ip_mreqn loopback = {.imr_multiaddr = udpm->to.sin_addr,
+                                      .imr_ifindex = (int)if_nametoindex("lo")};
     if (udpm->group.ttl == 0 && loopback.imr_ifindex > 0) {
         (void)setsockopt(in, IPPROTO_IP, IP_ADD_MEMBERSHIP, &loopback, sizeof loopback);
     }
-    return 0;
 }
 
 /* Bound to the group's address, so that nothing comes that was sent to an address of the machine's. The
@@ -120,7 +117,33 @@ static int prepare(int in, const ale_udpm_t *udpm)
     }
     (void)setsockopt(in, SOL_SOCKET, SO_RCVBUF, &room, sizeof room);
     (void)setsockopt(in, SOL_SOCKET, SO_RXQ_OVFL, &yes, sizeof yes);
-    return bind(in, (const struct sockaddr *)&udpm->to, sizeof udpm->to) < 0 ? -1 : join(in, udpm);
+    if (bind(in, (const struct sockaddr *)&udpm->to, sizeof udpm->to) < 0) {
+        return -1;
+    }
+    join_loopback(in, udpm);
+    return 0;
+}
+
+/* A socket that has the port, and no membership yet. -1: errno. */
+static int listening_socket(const ale_udpm_t *udpm)
+{
+    const int in = udp_socket();
+    if (in >= 0 && prepare(in, udpm) < 0) {
+        const int saved = errno;
+        close(in);
+        errno = saved;
+        return -1;
+    }
+    return in;
+}
+
+/* On the interface that the route names now, as LCM does. The kernel knows a membership by its interface: of
+ * one that is there it says so. */
+static int join_by_route(const ale_udpm_t *udpm)
+{
+    const struct ip_mreqn by_route = {.imr_multiaddr = udpm->to.sin_addr};
+    const int joined = setsockopt(udpm->in, IPPROTO_IP, IP_ADD_MEMBERSHIP, &by_route, sizeof by_route);
+    return joined < 0 && errno != EADDRINUSE ? -1 : 0;
 }
 
 int ale_udpm_listen(ale_udpm_t *udpm)
@@ -129,18 +152,40 @@ int ale_udpm_listen(ale_udpm_t *udpm)
         return 0;
     }
     udpm->buffers = udpm->buffers ? udpm->buffers : calloc(1, sizeof *udpm->buffers);
-    const int in = udpm->buffers ? udp_socket() : -1;
-    if (in < 0) {
+    udpm->in = udpm->buffers ? listening_socket(udpm) : -1;
+    if (udpm->in < 0) {
         return -1;
     }
-    if (prepare(in, udpm) < 0) {
-        const int saved = errno;
-        close(in);
-        errno = saved;
-        return -1;
-    }
-    udpm->in = in;
+    udpm->joined = join_by_route(udpm) == 0;
     return 0;
+}
+
+/* Memberships of interfaces that are gone stay with a socket, and a socket may have twenty: one without
+ * them takes the place of the other, under its number. */
+static void renew(ale_udpm_t *udpm)
+{
+    const int fresh = listening_socket(udpm);
+    if (fresh >= 0) {
+        (void)dup3(fresh, udpm->in, O_CLOEXEC);
+        close(fresh);
+        udpm->unheard_before += udpm->unheard;
+        udpm->unheard = 0;
+    }
+}
+
+int ale_udpm_join(ale_udpm_t *udpm)
+{
+    if (udpm->in < 0) {
+        char error[ALE_LCM_URL_ERROR];
+        return ale_lcm_route(&udpm->group, error);
+    }
+    const bool was_away = !udpm->joined;
+    udpm->joined = join_by_route(udpm) == 0;
+    if (udpm->joined ? was_away : errno == ENOBUFS) {
+        renew(udpm);
+        udpm->joined = join_by_route(udpm) == 0;
+    }
+    return udpm->joined ? 0 : -1;
 }
 
 int ale_udpm_descriptor(const ale_udpm_t *udpm)
@@ -217,5 +262,6 @@ int ale_udpm_receive(ale_udpm_t *udpm, ale_lcm_take_t take, void *user)
 ale_lcm_dropped_t ale_udpm_dropped(const ale_udpm_t *udpm)
 {
     const uint64_t parts = udpm->buffers ? udpm->buffers->assembly.refused : 0;
-    return (ale_lcm_dropped_t){.malformed = udpm->malformed + parts, .unheard = udpm->unheard};
+    return (ale_lcm_dropped_t){.malformed = udpm->malformed + parts,
+                               .unheard = udpm->unheard_before + udpm->unheard};
 }

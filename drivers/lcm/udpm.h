@@ -20,9 +20,15 @@ typedef struct ale_udpm ale_udpm_t;
 ale_udpm_t *ale_udpm_open(const ale_lcm_group_t *group);
 void ale_udpm_close(ale_udpm_t *udpm);
 
-/* Joins the group; again: nothing. From now on messages wait in the kernel, in 2 MiB where it grants them. 0,
- * or -1: no socket, no memory, or another program holds the port alone (errno). */
+/* Joins the group, if there is a route to it; again: nothing. From now on messages wait in the kernel, in
+ * 2 MiB where it grants them. 0, or -1: no socket, no memory, or another program holds the port alone
+ * (errno). */
 int ale_udpm_listen(ale_udpm_t *udpm);
+
+/* Looks where the route to the group leads at this moment, and joins the group there if that is not done yet:
+ * networks come late, and interfaces come and go. The descriptor stays the same. 0, or -1: there is no route.
+ * Waits no longer than the kernel takes to set up an interface. */
+int ale_udpm_join(ale_udpm_t *udpm);
 
 /* For poll. -1: does not listen. */
 int ale_udpm_descriptor(const ale_udpm_t *udpm);

@@ -28,18 +28,6 @@ static long number_of(const char *text, long least, long most)
     return end != text && *end == '\0' && number >= least && number <= most ? number : -1;
 }
 
-static bool is_reachable(const ale_lcm_group_t *group)
-{
-    const struct sockaddr_in to = {
-        .sin_family = AF_INET, .sin_port = htons(group->port), .sin_addr.s_addr = htonl(group->address)};
-    const int probe = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    const bool reachable = probe >= 0 && connect(probe, (const struct sockaddr *)&to, sizeof to) == 0;
-    if (probe >= 0) {
-        close(probe);
-    }
-    return reachable;
-}
-
 static int take_address(const char *rest, ale_lcm_group_t *group, char error[ALE_LCM_URL_ERROR])
 {
     char address[PART_BYTES];
@@ -113,30 +101,12 @@ int ale_lcm_group(const char *url, ale_lcm_group_t *group, char error[ALE_LCM_UR
                : take_options(options ? options + 1 : "", group, error);
 }
 
-static int check_group(const char *url, char error[ALE_LCM_URL_ERROR])
-{
-    ale_lcm_group_t group;
-    if (ale_lcm_group(url, &group, error) < 0) {
-        return -1;
-    }
-    if (!is_reachable(&group)) {
-        char address[INET_ADDRSTRLEN];
-        const struct in_addr unreachable = {htonl(group.address)};
-        inet_ntop(AF_INET, &unreachable, address, sizeof address);
-        snprintf(error, ALE_LCM_URL_ERROR,
-                 "LCM: no route for multicast to %s; without a network, as root: "
-                 "ip link set lo multicast on && ip route add 224.0.0.0/4 dev lo",
-                 address);
-        return -1;
-    }
-    return 0;
-}
-
 static int check(const char *url, char error[ALE_LCM_URL_ERROR])
 {
     static const char *const others[] = {"tcpq://", "memq://", "file://"};
     if (ale_lcm_is_group(url)) {
-        return check_group(url, error);
+        ale_lcm_group_t group;
+        return ale_lcm_group(url, &group, error);
     }
     for (size_t k = 0; k < sizeof others / sizeof others[0]; k++) {
         if (strncmp(url, others[k], strlen(others[k])) == 0) {
@@ -155,4 +125,31 @@ const char *ale_lcm_url(const char *url, char error[ALE_LCM_URL_ERROR])
         chosen = UDPM;
     }
     return check(chosen, error) < 0 ? NULL : chosen;
+}
+
+static bool is_reachable(const ale_lcm_group_t *group)
+{
+    const struct sockaddr_in to = {
+        .sin_family = AF_INET, .sin_port = htons(group->port), .sin_addr.s_addr = htonl(group->address)};
+    const int probe = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    const bool reachable = probe >= 0 && connect(probe, (const struct sockaddr *)&to, sizeof to) == 0;
+    if (probe >= 0) {
+        close(probe);
+    }
+    return reachable;
+}
+
+int ale_lcm_route(const ale_lcm_group_t *group, char error[ALE_LCM_URL_ERROR])
+{
+    if (is_reachable(group)) {
+        return 0;
+    }
+    char address[INET_ADDRSTRLEN];
+    const struct in_addr unreachable = {htonl(group->address)};
+    inet_ntop(AF_INET, &unreachable, address, sizeof address);
+    snprintf(error, ALE_LCM_URL_ERROR,
+             "LCM: no route for multicast to %s; without a network, as root: "
+             "ip link set lo multicast on && ip route add 224.0.0.0/4 dev lo",
+             address);
+    return -1;
 }

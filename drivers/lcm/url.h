@@ -18,7 +18,7 @@ typedef struct {
 
 /* The URL to open: url, or where that is NULL or empty the environment's LCM_DEFAULT_URL, else LCM's default.
  * NULL, and one line for people in error: a kind of URL that is not spoken here, no multicast address, no
- * port, no such option, no route to the group. Makes a socket and closes it again; sends nothing. */
+ * port, no such option. The route is not looked at. */
 const char *ale_lcm_url(const char *url, char error[ALE_LCM_URL_ERROR]);
 
 /* True for a URL of udpm, of which ale_lcm_group then takes the parts. */
@@ -26,5 +26,9 @@ bool ale_lcm_is_group(const char *url);
 
 /* 0, or -1 and one line in error; the route is not looked at. *group is then undefined. */
 int ale_lcm_group(const char *url, ale_lcm_group_t *group, char error[ALE_LCM_URL_ERROR]);
+
+/* 0 when the computer has a route to the group at this moment, or -1 and one line in error that says how to
+ * make one. Makes a socket and closes it again; sends nothing. */
+int ale_lcm_route(const ale_lcm_group_t *group, char error[ALE_LCM_URL_ERROR]);
 
 #endif

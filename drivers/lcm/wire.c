@@ -13,7 +13,7 @@
 
 #define SELF_TEST "LCM_SELF_TEST"
 
-enum { MAX_SUBSCRIPTIONS = 64, SELF_TEST_DATAGRAMS = 64 };
+enum { MAX_SUBSCRIPTIONS = 64, SELF_TEST_DATAGRAMS = 64, TEND_MS = 1000 };
 
 typedef struct {
     char channel[ALE_DATAGRAM_CHANNEL + 1];
@@ -29,9 +29,11 @@ struct ale_wire {
     subscription_t subscription[MAX_SUBSCRIPTIONS];
     int handled;
     bool heard_itself;
+    int64_t next_tend_ms;
+    bool has_route; /* when it was looked at last */
 };
 
-ale_wire_t *ale_wire_open(const char *url, char error[ALE_LCM_URL_ERROR])
+ale_wire_t *ale_wire_open_early(const char *url, char error[ALE_LCM_URL_ERROR])
 {
     const char *chosen = ale_lcm_url(url, error);
     ale_lcm_group_t group;
@@ -50,6 +52,17 @@ ale_wire_t *ale_wire_open(const char *url, char error[ALE_LCM_URL_ERROR])
         return NULL;
     }
     return wire;
+}
+
+ale_wire_t *ale_wire_open(const char *url, char error[ALE_LCM_URL_ERROR])
+{
+    const char *chosen = ale_lcm_url(url, error);
+    ale_lcm_group_t group;
+    if (!chosen || (ale_lcm_is_group(chosen) &&
+                    (ale_lcm_group(chosen, &group, error) < 0 || ale_lcm_route(&group, error) < 0))) {
+        return NULL;
+    }
+    return ale_wire_open_early(chosen, error);
 }
 
 void ale_wire_close(ale_wire_t *wire)
@@ -119,6 +132,19 @@ static int64_t now_ms(void)
     return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
 }
 
+bool ale_wire_tend(ale_wire_t *wire)
+{
+    if (!wire->udpm) {
+        return true;
+    }
+    const int64_t now = now_ms();
+    if (now >= wire->next_tend_ms) {
+        wire->next_tend_ms = now + TEND_MS;
+        wire->has_route = ale_udpm_join(wire->udpm) == 0;
+    }
+    return wire->has_route;
+}
+
 /* What waits, but `most` datagrams only: whoever floods the bus does not keep its reader from other work. */
 static int take_what_waits(ale_wire_t *wire, int most)
 {
@@ -134,6 +160,7 @@ int ale_wire_receive(ale_wire_t *wire, int timeout_ms, int most)
     const int64_t end_ms = now_ms() + timeout_ms;
     int64_t left_ms = timeout_ms;
     wire->handled = 0;
+    ale_wire_tend(wire);
     do {
         struct pollfd ready = {.fd = ale_wire_descriptor(wire), .events = POLLIN};
         const int found = poll(&ready, 1, (int)left_ms);

@@ -21,8 +21,16 @@
 typedef struct ale_wire ale_wire_t;
 
 /* url NULL or empty: the environment's LCM_DEFAULT_URL, else LCM's default. The wire is the caller's to
- * close. NULL and one line for people in error: what ale_lcm_url says, no socket, or no memory. */
+ * close. NULL and one line for people in error: what ale_lcm_url and ale_lcm_route say, no socket, no memory.
+ */
 ale_wire_t *ale_wire_open(const char *url, char error[ALE_LCM_URL_ERROR]);
+
+/* The same, where there is no route for multicast, too: the bus is joined when there is one. */
+ale_wire_t *ale_wire_open_early(const char *url, char error[ALE_LCM_URL_ERROR]);
+
+/* Joins the bus again where the network has changed: a route has come, an interface has gone and come back.
+ * Looks once a second at most; ale_wire_receive does so by itself. Whether there is a route. */
+bool ale_wire_tend(ale_wire_t *wire);
 
 /* NULL: nothing. */
 void ale_wire_close(ale_wire_t *wire);

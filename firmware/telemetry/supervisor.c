@@ -68,6 +68,23 @@ bool ale_supervisor_watch_wheels(ale_supervisor_t *supervisor, uint8_t wheel_fau
     return true;
 }
 
+bool ale_supervisor_watch_network(ale_supervisor_t *supervisor, bool has_route,
+                                  char line[ALE_SUPERVISOR_LINE])
+{
+    if (supervisor->without_network == !has_route) {
+        return false;
+    }
+    supervisor->without_network = !has_route;
+    snprintf(
+        line, ALE_SUPERVISOR_LINE, "%s",
+        has_route
+            ? "LCM: there is a route for multicast: joined"
+            : "LCM: no route for multicast: going on without, nobody hears the poses; joining when there "
+              "is a network (without one, as root: ip link set lo multicast on && ip route add "
+              "224.0.0.0/4 dev lo)");
+    return true;
+}
+
 static void say_wheels(uint8_t wheel_fault, ale_status_report_t *report)
 {
     if (wheel_fault != ALE_WHEELS_FINE) {

@@ -1,5 +1,5 @@
-/* Watches the scanner's health, and what scans say of the wheels, and puts it into words: for ALE_STATUS
- * always, for people only when it changes. Pure: health and time come in, texts go out. */
+/* Watches the scanner's health, what scans say of the wheels, and the network, and puts it into words: for
+ * ALE_STATUS always, for people only when it changes. Pure: health and time come in, texts go out. */
 #ifndef ALE_FIRMWARE_TELEMETRY_SUPERVISOR_H
 #define ALE_FIRMWARE_TELEMETRY_SUPERVISOR_H
 
@@ -18,7 +18,8 @@ typedef enum {
 typedef struct {
     ale_link_t link;
     uint8_t wheel_fault; /* ale_wheel_fault_t */
-} ale_supervisor_t;      /* all zero: just started */
+    bool without_network;
+} ale_supervisor_t; /* all zero: just started */
 
 enum { ALE_SUPERVISOR_LINE = 320 };
 
@@ -29,6 +30,10 @@ bool ale_supervisor_watch(ale_supervisor_t *supervisor, const ale_scanner_health
 /* The same for the wheels: ale_wheel_fault_t of the newest pose. */
 bool ale_supervisor_watch_wheels(ale_supervisor_t *supervisor, uint8_t wheel_fault,
                                  char line[ALE_SUPERVISOR_LINE]);
+
+/* The same for the network: has_route, whether there is a route for LCM's messages. */
+bool ale_supervisor_watch_network(ale_supervisor_t *supervisor, bool has_route,
+                                  char line[ALE_SUPERVISOR_LINE]);
 
 /* Fills driver_state, device, scans and scan_period_us of the report. now_us: clock of the health. While
  * scans come, driver_state says what they say of the wheels, too: "streaming; wheels: stalled". */

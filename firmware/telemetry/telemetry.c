@@ -22,6 +22,7 @@
 
 #define NS_PER_S 1000000000
 #define SELF_TEST_MS 1000
+#define SELF_TEST_AGAIN_MS 50 /* while scans come */
 
 struct ale_telemetry {
     const ale_config_t *config;
@@ -79,6 +80,28 @@ static void watch_wheels(ale_telemetry_t *telemetry)
     }
 }
 
+static void test_bus(ale_telemetry_t *telemetry, int timeout_ms)
+{
+    if (!ale_bus_hears_itself(telemetry->bus, timeout_ms)) {
+        ale_logger_log(
+            telemetry->logger,
+            "LCM: what is sent does not come back, and commands may not come in: is there a firewall, "
+            "an IPAddressDeny of the service, or a route that is missing?");
+    }
+}
+
+static void watch_network(ale_telemetry_t *telemetry)
+{
+    char line[ALE_SUPERVISOR_LINE];
+    const bool has_route = ale_bus_tend(telemetry->bus);
+    if (ale_supervisor_watch_network(&telemetry->supervisor, has_route, line)) {
+        ale_logger_log(telemetry->logger, line);
+        if (has_route) {
+            test_bus(telemetry, SELF_TEST_AGAIN_MS);
+        }
+    }
+}
+
 static void take_command(void *user, const uint8_t *bytes, size_t count)
 {
     ale_telemetry_t *telemetry = user;
@@ -115,6 +138,7 @@ static void work(ale_telemetry_t *telemetry)
     ale_result_publisher_work(&telemetry->results, ale_commands_publish_scan(telemetry->commands));
     watch_scanner(telemetry);
     watch_wheels(telemetry);
+    watch_network(telemetry);
     const int64_t now_ns = ale_rt_now_ns();
     ale_map_publisher_work(&telemetry->map, telemetry->results.epoch, now_ns);
     ale_commands_work(telemetry->commands);
@@ -135,11 +159,9 @@ static void listen_to_lcm(ale_telemetry_t *telemetry)
     if (ale_bus_on_command(telemetry->bus, take_command, telemetry) < 0) {
         ale_logger_log(telemetry->logger, "LCM refuses the subscription of commands: none will be taken");
     }
-    if (!ale_bus_hears_itself(telemetry->bus, SELF_TEST_MS)) {
-        ale_logger_log(
-            telemetry->logger,
-            "LCM: what is sent does not come back, and commands may not come in: is there a firewall, "
-            "an IPAddressDeny of the service, or a route that is missing?");
+    watch_network(telemetry);
+    if (ale_bus_tend(telemetry->bus)) {
+        test_bus(telemetry, SELF_TEST_MS);
     }
     sem_post(&telemetry->listening);
 }

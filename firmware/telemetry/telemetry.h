@@ -16,7 +16,8 @@
 typedef struct ale_telemetry ale_telemetry_t;
 
 /* Takes the bus over as its only user. keys: of those who are obeyed. Returns when the bus hears itself, at
- * once as a rule, or after a second in which it does not. NULL: no memory or no threads. config and exchange
+ * once as a rule, after a second in which it does not, or when there is no route for multicast: then the bus
+ * is joined as soon as there is one. NULL: no memory or no threads. config and exchange
  * must outlive it. */
 ale_telemetry_t *ale_telemetry_start(const ale_config_t *config, const ale_keys_t *keys,
                                      ale_exchange_t *exchange, ale_bus_t *bus,

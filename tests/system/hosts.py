@@ -51,20 +51,32 @@ def enter(namespace):
         raise OSError(ctypes.get_errno(), "setns")
 
 
+def cable(one, other):
+    """Between the two, a card on each end; nothing is up yet. A cable that was there before is gone when its card is deleted."""
+    subprocess.run(["ip", "link", "add", "card", "netns", str(one.holder.pid), "type", "veth",
+                    "peer", "name", "card", "netns", str(other.holder.pid)], check=True)
+
+
 @contextlib.contextmanager
-def two_hosts():
-    """The robot, and another computer on its cable."""
+def two_separate_hosts():
+    """The robot, and another computer: no cable, and nothing is up, not even the loopback."""
     if os.geteuid() != 0 or subprocess.run(["unshare", "--net", "true"], check=False, capture_output=True).returncode != 0:
         pytest.skip("network namespaces are not to be had here (root)")
     robot, other = Host("10.77.0.1"), Host("10.77.0.2")
     try:
         while not (robot.is_there() and other.is_there()):
             assert robot.holder.poll() is None and other.holder.poll() is None
-        subprocess.run(["ip", "link", "add", "card", "netns", str(robot.holder.pid), "type", "veth",
-                        "peer", "name", "card", "netns", str(other.holder.pid)], check=True)
-        robot.make_up()
-        other.make_up()
         yield robot, other
     finally:
         robot.end()
         other.end()
+
+
+@contextlib.contextmanager
+def two_hosts():
+    """The robot, and another computer on its cable."""
+    with two_separate_hosts() as (robot, other):
+        cable(robot, other)
+        robot.make_up()
+        other.make_up()
+        yield robot, other

@@ -55,6 +55,13 @@ def unit_lines(key):
     return [line.split("=", 1)[1].strip() for line in UNIT.read_text(encoding="utf-8").splitlines() if line.startswith(f"{key}=")]
 
 
+def test_it_is_started_again_for_ever():
+    """Also before there is a network, which it does not wait for."""
+    assert unit_lines("StartLimitIntervalSec") == ["0"]
+    assert unit_lines("Restart") == ["always"]
+    assert not any("network-online" in after for after in unit_lines("After") + unit_lines("Wants"))
+
+
 def behind_the_address_lists(host):
     """The unit's lists in the words of nft."""
     for rule in ("table inet unit", "chain inet unit in { type filter hook input priority 0; }",

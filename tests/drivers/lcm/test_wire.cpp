@@ -162,6 +162,17 @@ TEST_F(OnAPort, DatagramsToAnAddressOfThisMachineAreNotHeard)
     EXPECT_TRUE(heard.empty());
 }
 
+/* What happens to a network is in tests/system/test_network.py. */
+TEST_F(OnAPort, LookingAfterABusThatIsJoinedChangesNothing)
+{
+    const int descriptor = ale_wire_descriptor(wire);
+    send("before");
+    EXPECT_TRUE(ale_wire_tend(wire));
+    receive_to_the_end();
+    EXPECT_EQ(heard, std::vector<std::string>{"before"});
+    EXPECT_EQ(ale_wire_descriptor(wire), descriptor);
+}
+
 TEST_F(OnAPort, SubscriptionsAreBounded)
 {
     for (int k = 1; k < 64; k++) {
@@ -181,6 +192,7 @@ TEST(WireOpening, TheOptionsOfAUrlAreChecked)
                   std::string("LCM: \"") + option + "\": udpm takes ttl=0 to 255 and recv_buf_size=BYTES");
     }
     EXPECT_EQ(ale_wire_open("mpudpm://", error), nullptr);
+    EXPECT_EQ(ale_wire_open_early("mpudpm://", error), nullptr) << "is no matter of a route";
     ale_lcm_group_t group;
     ASSERT_EQ(ale_lcm_group("udpm://", &group, error), 0);
     EXPECT_EQ(group.address, 0xefff4c43U);

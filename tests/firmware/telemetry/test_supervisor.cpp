@@ -84,6 +84,20 @@ TEST(Supervisor, TheStatusSaysWhatTheDriverDoes)
     EXPECT_STREQ(report->driver_state, "no scanner: /dev/ttyACM0: permission denied");
 }
 
+TEST(Supervisor, ANetworkThatIsMissingIsSaidOnceAndItsComingToo)
+{
+    ale_supervisor_t supervisor{};
+    const auto heard = [&](bool has_route) -> std::string {
+        char line[ALE_SUPERVISOR_LINE] = "";
+        return ale_supervisor_watch_network(&supervisor, has_route, line) ? line : "";
+    };
+    EXPECT_EQ(heard(true), "") << "all is as it should be";
+    EXPECT_EQ(heard(false).rfind("LCM: no route for multicast: going on without", 0), 0U);
+    EXPECT_EQ(heard(false), "");
+    EXPECT_EQ(heard(true), "LCM: there is a route for multicast: joined");
+    EXPECT_EQ(heard(true), "");
+}
+
 TEST(Supervisor, WhatTheWheelsDoWrongIsSaidOnceAndStandsInTheStatus)
 {
     ale_supervisor_t supervisor{};
