@@ -18,7 +18,7 @@ enum { MAX_DATAGRAMS = 256, MESSAGE_BYTES = 16384, FARTHEST_UM = 2000000000 };
 
 struct ale_bus {
     ale_wire_t *wire;
-    uint64_t refused;
+    ale_bus_refused_t refused;
     uint64_t unsent;
     ale_bus_odometry_t take_odometry;
     void *odometry_user;
@@ -237,19 +237,28 @@ int ale_bus_send_bot_pose(ale_bus_t *bus, const ale_pose_report_t *report)
                       lcmtypes_bot_core_pose_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
 }
 
+/* Whether a clock may have said so; otherwise counted. */
+static bool is_stamped(ale_bus_t *bus, int64_t utime)
+{
+    const bool stamped = utime > 0 && utime <= ALE_MAX_STAMP_US;
+    bus->refused.unstamped += !stamped;
+    return stamped;
+}
+
 static void take_odometry(void *user, const char *channel, const uint8_t *bytes, size_t count)
 {
     (void)channel;
     ale_bus_t *bus = user;
     lcmtypes_ale_odometry_t message;
     ale_odometry_t sample;
-    if (lcmtypes_ale_odometry_t_decode(bytes, 0, (int)count, &message) < 0 ||
-        ale_take_odometry(&message, &sample) < 0) {
-        bus->refused++;
-        return;
-    }
-    if (sample.stamp_us != bus->exact_utime) {
-        bus->take_odometry(bus->odometry_user, &sample);
+    if (lcmtypes_ale_odometry_t_decode(bytes, 0, (int)count, &message) < 0) {
+        bus->refused.malformed++;
+    } else if (is_stamped(bus, message.utime)) {
+        if (ale_take_odometry(&message, &sample) < 0) {
+            bus->refused.malformed++;
+        } else if (sample.stamp_us != bus->exact_utime) {
+            bus->take_odometry(bus->odometry_user, &sample, ale_wire_sender(bus->wire));
+        }
     }
 }
 
@@ -263,16 +272,19 @@ static void take_exact_odometry(void *user, const char *channel, const uint8_t *
     (void)channel;
     ale_bus_t *bus = user;
     lcmtypes_ale_odometry_exact_t message;
-    if (lcmtypes_ale_odometry_exact_t_decode(bytes, 0, (int)count, &message) < 0 || message.utime <= 0 ||
-        message.utime > ALE_MAX_STAMP_US || is_beyond(message.x_um) || is_beyond(message.y_um)) {
-        bus->refused++;
+    if (lcmtypes_ale_odometry_exact_t_decode(bytes, 0, (int)count, &message) < 0 || is_beyond(message.x_um) ||
+        is_beyond(message.y_um)) {
+        bus->refused.malformed++;
+        return;
+    }
+    if (!is_stamped(bus, message.utime)) {
         return;
     }
     const ale_odometry_t sample = {
         .stamp_us = message.utime,
         .pose = {.x_um = message.x_um, .y_um = message.y_um, .theta_bam = (uint32_t)message.theta_bam}};
     bus->exact_utime = message.utime;
-    bus->take_odometry(bus->odometry_user, &sample);
+    bus->take_odometry(bus->odometry_user, &sample, ale_wire_sender(bus->wire));
 }
 
 int ale_bus_on_odometry(ale_bus_t *bus, ale_bus_odometry_t take, void *user)
@@ -320,7 +332,7 @@ bool ale_bus_hears_itself(ale_bus_t *bus, int timeout_ms)
     return ale_wire_hears_itself(bus->wire, timeout_ms);
 }
 
-uint64_t ale_bus_refused(const ale_bus_t *bus)
+ale_bus_refused_t ale_bus_refused(const ale_bus_t *bus)
 {
     return bus->refused;
 }

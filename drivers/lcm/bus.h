@@ -84,9 +84,9 @@ int ale_bus_send_bot_lidar(ale_bus_t *bus, const ale_scan_t *scan, int64_t utime
 int ale_bus_send_bot_pose(ale_bus_t *bus, const ale_pose_report_t *report);
 
 /* Odometry as it arrives, checked; of a sample that came exactly, too, only that. sample->stamp_us is the
- * message's utime. What is not what it should be is refused and counted. 0, or -1: the bus
- * cannot be listened to (errno). */
-typedef void (*ale_bus_odometry_t)(void *user, const ale_odometry_t *sample);
+ * message's utime: of the sender's clock (sender_clock.h); `sender` as ale_wire_sender. What is not what it
+ * should be is refused and counted. 0, or -1: the bus cannot be listened to (errno). */
+typedef void (*ale_bus_odometry_t)(void *user, const ale_odometry_t *sample, uint64_t sender);
 int ale_bus_on_odometry(ale_bus_t *bus, ale_bus_odometry_t take, void *user);
 
 /* Commands as they arrive: bytes that nobody has looked at yet (command/verify.h does). What comes
@@ -108,7 +108,13 @@ int ale_bus_receive(ale_bus_t *bus, int timeout_ms);
 /* Whether what this machine sends arrives on it (wire.h). After one of the subscriptions. */
 bool ale_bus_hears_itself(ale_bus_t *bus, int timeout_ms);
 
-uint64_t ale_bus_refused(const ale_bus_t *bus);          /* messages that were not what they should be */
+/* Odometry that was not what it should be. */
+typedef struct {
+    uint64_t malformed; /* no such message, or no number, or a place farther than 2000 m */
+    uint64_t unstamped; /* of before 1970, or of no time that a clock shows */
+} ale_bus_refused_t;
+
+ale_bus_refused_t ale_bus_refused(const ale_bus_t *bus);
 uint64_t ale_bus_unsent(const ale_bus_t *bus);           /* messages that did not go out */
 ale_lcm_dropped_t ale_bus_dropped(const ale_bus_t *bus); /* datagrams that no message came of */
 

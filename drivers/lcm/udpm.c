@@ -31,6 +31,7 @@ struct ale_udpm {
     bool joined;
     uint32_t sequence;
     buffers_t *buffers;
+    uint64_t from; /* who sent the last datagram: address and port, both as in the datagram */
     uint64_t malformed;
     uint32_t unheard; /* by the socket of now, and by those before it */
     uint64_t unheard_before;
@@ -224,7 +225,7 @@ static void note_unheard(ale_udpm_t *udpm, struct msghdr *message)
     }
 }
 
-static void take_datagram(ale_udpm_t *udpm, size_t count, uint64_t from, ale_lcm_take_t take, void *user)
+static void take_datagram(ale_udpm_t *udpm, size_t count, ale_lcm_take_t take, void *user)
 {
     ale_datagram_t datagram;
     if (ale_datagram_read(udpm->buffers->datagram, count, &datagram) < 0) {
@@ -232,7 +233,7 @@ static void take_datagram(ale_udpm_t *udpm, size_t count, uint64_t from, ale_lcm
     } else if (!datagram.is_part) {
         take(user, datagram.channel, datagram.bytes, datagram.count);
     } else {
-        const ale_partial_t *whole = ale_assembly_add(&udpm->buffers->assembly, from, &datagram);
+        const ale_partial_t *whole = ale_assembly_add(&udpm->buffers->assembly, udpm->from, &datagram);
         if (whole) {
             take(user, whole->channel, whole->bytes, whole->filled);
         }
@@ -255,8 +256,14 @@ int ale_udpm_receive(ale_udpm_t *udpm, ale_lcm_take_t take, void *user)
         return errno == EAGAIN || errno == EINTR ? 0 : -1;
     }
     note_unheard(udpm, &message);
-    take_datagram(udpm, (size_t)count, (uint64_t)from.sin_addr.s_addr << 16 | from.sin_port, take, user);
+    udpm->from = (uint64_t)from.sin_addr.s_addr << 16 | from.sin_port;
+    take_datagram(udpm, (size_t)count, take, user);
     return 1;
+}
+
+uint64_t ale_udpm_sender(const ale_udpm_t *udpm)
+{
+    return udpm->from;
 }
 
 ale_lcm_dropped_t ale_udpm_dropped(const ale_udpm_t *udpm)

@@ -41,6 +41,9 @@ int ale_udpm_send(ale_udpm_t *udpm, const char *channel, const uint8_t *bytes, s
  * was a datagram, 0 when none waits, -1 when the socket is broken (errno). Never waits. */
 int ale_udpm_receive(ale_udpm_t *udpm, ale_lcm_take_t take, void *user);
 
+/* Who sent the message that is just being handed on: a number for each socket that sends. */
+uint64_t ale_udpm_sender(const ale_udpm_t *udpm);
+
 /* What came and was not handed on. */
 ale_lcm_dropped_t ale_udpm_dropped(const ale_udpm_t *udpm);
 

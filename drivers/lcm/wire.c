@@ -190,6 +190,11 @@ bool ale_wire_hears_itself(ale_wire_t *wire, int timeout_ms)
     return wire->heard_itself;
 }
 
+uint64_t ale_wire_sender(const ale_wire_t *wire)
+{
+    return wire->udpm ? ale_udpm_sender(wire->udpm) : 0;
+}
+
 ale_lcm_dropped_t ale_wire_dropped(const ale_wire_t *wire)
 {
     return wire->udpm ? ale_udpm_dropped(wire->udpm) : (ale_lcm_dropped_t){0};

@@ -50,6 +50,10 @@ int ale_wire_descriptor(ale_wire_t *wire);
  * can no longer be received. */
 int ale_wire_receive(ale_wire_t *wire, int timeout_ms, int most);
 
+/* Who sent the message that is just being handed on: a number for each socket that sends, or 0 where the
+ * transport does not say (all but udpm://). Anybody may claim to be anybody. */
+uint64_t ale_wire_sender(const ale_wire_t *wire);
+
 /* Whether what is sent comes back, as it does unless a firewall or a missing route forbids it: sends on LCM's
  * channel for that, LCM_SELF_TEST, and waits up to timeout_ms. Other messages that come are handled
  * meanwhile. After the first subscription only. */

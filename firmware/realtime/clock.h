@@ -4,7 +4,9 @@
  *   in messages: utime = now + offset,   offset taken once at start so that utime = (time since 1970) * scale
  *
  * A simulator that follows the same rule agrees with it without any exchange. Setting the computer's date
- * while the robot runs does not disturb it. Integers throughout; any thread. */
+ * while the robot runs does not disturb it; utime then goes on from the date of the start, and senders that
+ * follow the new date are followed by their own clocks (lcm/sender_clock.h). Integers throughout; any thread.
+ */
 #ifndef ALE_FIRMWARE_REALTIME_CLOCK_H
 #define ALE_FIRMWARE_REALTIME_CLOCK_H
 

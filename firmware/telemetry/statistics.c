@@ -44,8 +44,7 @@ static void count(ale_status_report_t *report, const char *name, uint64_t value)
 }
 
 void ale_statistics_counters(const ale_statistics_t *statistics, const ale_scanner_health_t *health,
-                             const ale_exchange_t *exchange, uint64_t bus_refused, uint64_t bus_unsent,
-                             ale_status_report_t *report)
+                             const ale_exchange_t *exchange, uint64_t bus_unsent, ale_status_report_t *report)
 {
     report->counters = 0;
     count(report, "scans_lost", health->scans_lost);
@@ -67,7 +66,6 @@ void ale_statistics_counters(const ale_statistics_t *statistics, const ale_scann
     count(report, "result_ring_full", ale_ring_refused(exchange->results));
     count(report, "odometry", ale_ring_committed(exchange->odometry));
     count(report, "odometry_ring_full", ale_ring_refused(exchange->odometry));
-    count(report, "odometry_refused", bus_refused);
     count(report, "messages_unsent", bus_unsent);
     count(report, "flight_recordings", ale_recorder_written(exchange->recorder));
     count(report, "recorder_queue_full", ale_recorder_refused(exchange->recorder));

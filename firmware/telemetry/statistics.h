@@ -27,10 +27,9 @@ void ale_statistics_add(ale_statistics_t *statistics, const ale_result_t *result
 void ale_statistics_report(const ale_statistics_t *statistics, ale_status_report_t *report);
 
 /* Fills the report's counters: what the line, the driver, the rings and the bus lost, and why;
- * maps that are not joined, faults of the wheels.
- * bus_refused: messages that came in and were not what they should be; bus_unsent: that could not go out. */
+ * maps that are not joined, faults of the wheels. bus_unsent: messages that could not go out. */
 void ale_statistics_counters(const ale_statistics_t *statistics, const ale_scanner_health_t *health,
-                             const ale_exchange_t *exchange, uint64_t bus_refused, uint64_t bus_unsent,
+                             const ale_exchange_t *exchange, uint64_t bus_unsent,
                              ale_status_report_t *report);
 
 #endif

@@ -20,7 +20,8 @@ void ale_status_publisher_send(ale_status_publisher_t *publisher)
     ale_supervisor_report(publisher->health, ale_clock_now_us(clock), publisher->statistics->wheel_fault,
                           report);
     ale_statistics_counters(publisher->statistics, publisher->health, publisher->exchange,
-                            ale_bus_refused(publisher->bus), ale_bus_unsent(publisher->bus), report);
+                            ale_bus_unsent(publisher->bus), report);
+    ale_odometry_intake_counters(publisher->odometry, ale_bus_refused(publisher->bus), report);
     ale_commands_report(publisher->commands, &report->operation);
     ale_commands_counters(publisher->commands, report);
     report->counter[report->counters++] =

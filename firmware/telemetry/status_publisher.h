@@ -1,7 +1,8 @@
 /* Sends ALE_STATUS: once a second, and soon after something has happened that operators should hear of. For
  * the telemetry thread.
  *
- * What a status says comes from those who know it: statistics, supervisor, commands, logger. */
+ * What a status says comes from those who know it: statistics, odometry intake, supervisor, commands, logger.
+ */
 #ifndef ALE_FIRMWARE_TELEMETRY_STATUS_PUBLISHER_H
 #define ALE_FIRMWARE_TELEMETRY_STATUS_PUBLISHER_H
 
@@ -13,6 +14,7 @@
 #include "operator/commands.h"
 #include "scanner/scanner.h"
 #include "system/async_logger.h"
+#include "telemetry/odometry_intake.h"
 #include "telemetry/statistics.h"
 
 /* The sources must outlive the publisher. */
@@ -22,6 +24,7 @@ typedef struct {
     ale_commands_t *commands;
     const ale_logger_t *logger;
     const ale_statistics_t *statistics;
+    const ale_odometry_intake_t *odometry;
     const ale_scanner_health_t *health; /* the scanner's newest */
     ale_rt_report_t realtime;
     int64_t boot; /* the nonce of this start */

@@ -16,6 +16,7 @@
 #include "system/async_logger.h"
 #include "system/service.h"
 #include "telemetry/map_publisher.h"
+#include "telemetry/odometry_intake.h"
 #include "telemetry/result_publisher.h"
 #include "telemetry/status_publisher.h"
 #include "telemetry/supervisor.h"
@@ -34,6 +35,7 @@ struct ale_telemetry {
     ale_commands_t *commands;
     ale_supervisor_t supervisor;
     ale_result_publisher_t results;
+    ale_odometry_intake_t odometry;
     ale_status_publisher_t status;
     ale_map_publisher_t map;
     int64_t next_keep_ns;
@@ -41,17 +43,9 @@ struct ale_telemetry {
     ale_logger_t *logger; /* what a terminal or a disk does must not hold up poses */
 };
 
-static void take_odometry(void *user, const ale_odometry_t *sample)
+static void take_odometry(void *user, const ale_odometry_t *sample, uint64_t sender)
 {
-    ale_exchange_t *exchange = ((ale_telemetry_t *)user)->exchange;
-    ale_odometry_t *slot = ale_ring_reserve(exchange->odometry);
-    if (slot) {
-        ale_odometry_t inside = *sample;
-        inside.stamp_us = ale_clock_from_utime(&exchange->clock, sample->stamp_us);
-        *slot = inside;
-        ale_ring_commit(exchange->odometry);
-        ale_recorder_odometry(exchange->recorder, ale_ring_committed(exchange->odometry) - 1, &inside);
-    }
+    ale_odometry_intake_take(&((ale_telemetry_t *)user)->odometry, sample, sender);
 }
 
 static void watch_scanner(ale_telemetry_t *telemetry)
@@ -76,6 +70,14 @@ static void watch_wheels(ale_telemetry_t *telemetry)
     char line[ALE_SUPERVISOR_LINE];
     const ale_statistics_t *statistics = &telemetry->results.statistics;
     if (ale_supervisor_watch_wheels(&telemetry->supervisor, statistics->wheel_fault, line)) {
+        ale_logger_log(telemetry->logger, line);
+    }
+}
+
+static void watch_odometry(ale_telemetry_t *telemetry)
+{
+    char line[ALE_INTAKE_LINE];
+    if (ale_odometry_intake_word(&telemetry->odometry, line)) {
         ale_logger_log(telemetry->logger, line);
     }
 }
@@ -138,6 +140,7 @@ static void work(ale_telemetry_t *telemetry)
     ale_result_publisher_work(&telemetry->results, ale_commands_publish_scan(telemetry->commands));
     watch_scanner(telemetry);
     watch_wheels(telemetry);
+    watch_odometry(telemetry);
     watch_network(telemetry);
     const int64_t now_ns = ale_rt_now_ns();
     ale_map_publisher_work(&telemetry->map, telemetry->results.epoch, now_ns);
@@ -206,6 +209,7 @@ static void init_publishers(ale_telemetry_t *telemetry, const ale_rt_report_t *r
 {
     telemetry->results = (ale_result_publisher_t){
         .config = telemetry->config, .exchange = telemetry->exchange, .bus = telemetry->bus};
+    ale_odometry_intake_init(&telemetry->odometry, telemetry->exchange);
     ale_map_publisher_init(&telemetry->map, telemetry->exchange, telemetry->bus);
     telemetry->status = (ale_status_publisher_t){
         .exchange = telemetry->exchange,
@@ -213,6 +217,7 @@ static void init_publishers(ale_telemetry_t *telemetry, const ale_rt_report_t *r
         .commands = telemetry->commands,
         .logger = telemetry->logger,
         .statistics = &telemetry->results.statistics,
+        .odometry = &telemetry->odometry,
         .realtime = *realtime,
         .boot = boot,
         .next_ns = ale_rt_now_ns() + NS_PER_S,

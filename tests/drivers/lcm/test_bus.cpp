@@ -44,7 +44,7 @@ class Bus : public testing::Test
     ale_bus_t *bus = nullptr;
 };
 
-void collect(void *user, const ale_odometry_t *sample)
+void collect(void *user, const ale_odometry_t *sample, uint64_t)
 {
     static_cast<std::vector<ale_odometry_t> *>(user)->push_back(*sample);
 }
@@ -262,7 +262,8 @@ TEST_F(Wire, JunkOnTheOdometryChannelIsCountedAndOtherwiseIgnored)
     while (samples.empty() && ale_bus_receive(bus, 60000) > 0) {
     }
     ASSERT_EQ(samples.size(), 1u);
-    EXPECT_EQ(ale_bus_refused(bus), 4u);
+    EXPECT_EQ(ale_bus_refused(bus).malformed, 4u);
+    EXPECT_EQ(ale_bus_refused(bus).unstamped, 0u);
 }
 
 } // namespace

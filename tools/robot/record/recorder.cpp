@@ -60,6 +60,7 @@ Recorder::~Recorder()
 
 void Recorder::join_lcm()
 {
+    clocks_.scale_ppm = clock_.scale_ppm;
     char error[ALE_BUS_ERROR];
     bus_.reset(ale_bus_open(or_null(options_.lcm_url), error));
     if (!bus_) {
@@ -104,14 +105,17 @@ void Recorder::on_bytes(void *user, bool sent, const uint8_t *bytes, uint32_t co
                                          host_us, bytes, count));
 }
 
-/* Odometry comes in the time of messages; the recording has one clock, that of the bytes. */
-void Recorder::on_odometry(void *user, const ale_odometry_t *sample)
+/* Odometry comes in its sender's time; the recording has one clock, that of the bytes. */
+void Recorder::on_odometry(void *user, const ale_odometry_t *sample, uint64_t sender)
 {
     auto *self = static_cast<Recorder *>(user);
     ale_odometry_t inside = *sample;
-    inside.stamp_us = ale_clock_from_utime(&self->clock_, sample->stamp_us);
-    self->odometry_++;
-    self->note_write(ale_recording_odometry(&self->recording_, ale_clock_now_us(&self->clock_), &inside));
+    const int64_t now_us = ale_clock_now_us(&self->clock_);
+    if (ale_sender_clocks_take(&self->clocks_, sender, ale_clock_from_utime(&self->clock_, sample->stamp_us),
+                               now_us, &inside.stamp_us)) {
+        self->odometry_++;
+        self->note_write(ale_recording_odometry(&self->recording_, now_us, &inside));
+    }
 }
 
 /* What the driver says, when it is news; numbers once a second where somebody watches. */

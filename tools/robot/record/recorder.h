@@ -8,6 +8,7 @@
 
 extern "C" {
 #include "lcm/bus.h"
+#include "lcm/sender_clocks.h"
 #include "realtime/clock.h"
 #include "scanner/scanner.h"
 #include "store/recording.h"
@@ -45,7 +46,7 @@ class Recorder
 
   private:
     static void on_bytes(void *user, bool sent, const uint8_t *bytes, uint32_t count, int64_t host_us);
-    static void on_odometry(void *user, const ale_odometry_t *sample);
+    static void on_odometry(void *user, const ale_odometry_t *sample, uint64_t sender);
 
     void join_lcm();
     void open_line();
@@ -68,6 +69,7 @@ class Recorder
 
     Options options_;
     ale_clock_t clock_;
+    ale_sender_clocks_t clocks_{};             /* of who sends odometry */
     std::unique_ptr<ale_bus_t, CloseBus> bus_; /* nullptr without LCM */
     ale_recording_t recording_{};
     bool recording_open_ = false;

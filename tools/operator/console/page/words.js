@@ -44,7 +44,9 @@ const COUNTERS = {
   garbage_bytes: "garbage bytes", stream_restarts: "stream restarted",
   resets: "scanner reset", reopens: "port opened again", hardware_faults: "scanner faults",
   identity_warnings: "odd identity lines", odometry: "odometry received", odometry_ring_full: "odometry, no room",
-  odometry_refused: "odometry refused", messages_unsent: "messages not sent",
+  odometry_refused: "odometry refused", odometry_malformed: "odometry, malformed", odometry_unstamped: "odometry without a time",
+  odometry_misdated: "odometry whose time agrees with no clock", odometry_clock_steps: "odometry's clock was set",
+  odometry_senders: "senders of odometry", messages_unsent: "messages not sent",
   datagrams_refused: "datagrams that are no messages", datagrams_unheard: "datagrams kept off, or too many",
   command_malformed: "commands, malformed", command_unsigned: "commands, unsigned",
   command_stranger: "commands, of a stranger", command_forged: "commands, forged",
@@ -54,7 +56,7 @@ const COUNTERS = {
 };
 const DROPS = ["scans_lost", "overloaded", "scan_ring_full", "result_ring_full"];
 const TRAFFIC = ["odometry", "identity_warnings", "datagrams_unheard"];
-const USUAL = { maps: 1 }; // what is no trouble unless there is more of it
+const USUAL = { maps: 1, odometry_senders: 1 }; // what is no trouble unless there is more of it
 
 export const counterInWords = (name) => COUNTERS[name] ?? name.replaceAll("_", " ");
 export const isTrouble = ({ name, value }) => value > (USUAL[name] ?? 0) && !TRAFFIC.includes(name);
