@@ -46,6 +46,17 @@ bool ale_is_vouched(const ale_keys_t *robots, const uint8_t *bytes, size_t count
     return key && crypto_sign_verify_detached(bytes + signed_bytes, bytes, signed_bytes, key->key) == 0;
 }
 
+bool ale_may_be_called(const ale_keys_t *robots, int64_t key, const char *name)
+{
+    for (uint32_t k = 0; k < robots->count; k++) {
+        const ale_public_key_t *robot = &robots->operator_key[k];
+        if (strcmp(robot->name, name) == 0) {
+            return ale_vouched_key(robot) == key;
+        }
+    }
+    return true;
+}
+
 int64_t ale_digest(const uint8_t *bytes, size_t count)
 {
     uint8_t digest[ALE_DIGEST_BYTES];

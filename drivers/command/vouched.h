@@ -24,6 +24,10 @@ void ale_vouched_sign(const ale_secret_key_t *secret, uint8_t *bytes, size_t cou
  * one signature is checked, about 0.2 ms. */
 bool ale_is_vouched(const ale_keys_t *robots, const uint8_t *bytes, size_t count);
 
+/* Whether the robot of that key, as it stands in a message, may call itself so: a name in the list belongs to
+ * the key that it stands beside there. One that is not in the list is free. */
+bool ale_may_be_called(const ale_keys_t *robots, int64_t key, const char *name);
+
 /* The first 8 bytes of BLAKE2b (32 bytes) over the bytes, as vouched_t has it of a pose. */
 int64_t ale_digest(const uint8_t *bytes, size_t count);
 

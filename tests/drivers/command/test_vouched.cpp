@@ -61,6 +61,14 @@ TEST_F(Vouched, NotWhenCutOrLonger)
     EXPECT_FALSE(is_vouched(longer));
 }
 
+TEST_F(Vouched, ANameInTheListIsOfOneRobot)
+{
+    const int64_t key = ale_vouched_key(&rover.known);
+    EXPECT_TRUE(ale_may_be_called(&robots, key, "rover"));
+    EXPECT_TRUE(ale_may_be_called(&robots, key, "kitchen"));
+    EXPECT_FALSE(ale_may_be_called(&robots, key, "scout"));
+}
+
 TEST_F(Vouched, NotByAnotherOrByNobody)
 {
     const ale_keys_t nobody{};

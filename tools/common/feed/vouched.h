@@ -21,11 +21,14 @@ extern "C" {
 namespace feed
 {
 
-/* Nothing when none of these robots has signed the bytes. */
+/* Nothing when none of these robots has signed the bytes, or one that calls itself by the name of another
+ * one.
+ */
 inline std::optional<ale::vouched_t> vouched_by(const ale_keys_t &robots, const uint8_t *bytes, size_t count)
 {
     ale::vouched_t message;
-    if (!ale_is_vouched(&robots, bytes, count) || message.decode(bytes, 0, static_cast<int>(count)) < 0) {
+    if (!ale_is_vouched(&robots, bytes, count) || message.decode(bytes, 0, static_cast<int>(count)) < 0 ||
+        !ale_may_be_called(&robots, message.key, message.status.robot.c_str())) {
         return std::nullopt;
     }
     return message;
