@@ -17,11 +17,20 @@ enum { LONGEST_SPAN_US = 60000000 };
 /* So far apart may two messages of one clock be for what they were held up on their way. */
 enum { AGREE_US = 1000000, HELD_UP_US = 500000 };
 
-static int64_t utime_at(const ale_start_t *start, int64_t host_us)
+/* A command is not made again before. */
+enum { AGAIN_US = 100000 };
+
+/* On that robot's clock. */
+static int64_t passed_us(const ale_start_t *start, int64_t from_host_us, int64_t to_host_us)
 {
     const int64_t rate_ppm = start->rate_ppm > 0 ? start->rate_ppm : PPM;
-    const int64_t passed_us = host_us - start->host_us;
-    return start->utime + (passed_us < LONGEST_US ? passed_us : LONGEST_US) * rate_ppm / PPM;
+    const int64_t host_us = to_host_us - from_host_us;
+    return (host_us < LONGEST_US ? host_us : LONGEST_US) * rate_ppm / PPM;
+}
+
+static int64_t utime_at(const ale_start_t *start, int64_t host_us)
+{
+    return start->utime + passed_us(start, start->host_us, host_us);
 }
 
 static bool is_silent(const ale_start_t *start, int64_t host_us)
@@ -50,37 +59,43 @@ static bool is_replayed(const ale_operator_t *end, const ale_start_t *start)
     return start->key != 0 && known;
 }
 
+static bool is_same_start(const ale_start_t *a, const ale_start_t *b)
+{
+    return a->boot == b->boot && is_same_robot(a, b);
+}
+
+static ale_start_t *remembered(ale_operator_t *end, const ale_start_t *start)
+{
+    for (int k = 0; k < ALE_OPERATOR_OTHERS; k++) {
+        if (is_same_start(&end->other[k], start)) {
+            return &end->other[k];
+        }
+    }
+    return NULL;
+}
+
 /* In the place of the same start, or of the one that was not heard for longest. */
 static void remember(ale_operator_t *end, const ale_start_t *start)
 {
-    ale_start_t *place = &end->other[0];
-    for (int k = 0; k < ALE_OPERATOR_OTHERS; k++) {
-        ale_start_t *one = &end->other[k];
-        if (one->boot == start->boot && one->robot[0] != '\0') {
-            place = one;
-            break;
+    const bool same_robot = is_same_robot(&end->present, start);
+    const int last = same_robot ? ALE_OPERATOR_SAME : ALE_OPERATOR_OTHERS;
+    ale_start_t *place = remembered(end, start);
+    if (!place) {
+        end->met++;
+        place = &end->other[same_robot ? 0 : ALE_OPERATOR_SAME];
+        for (ale_start_t *one = place; one < &end->other[last]; one++) {
+            place = one->host_us < place->host_us ? one : place;
         }
-        place = one->host_us < place->host_us ? one : place;
     }
     *place = *start;
-}
-
-static bool is_remembered(const ale_operator_t *end, const ale_start_t *start)
-{
-    bool known = false;
-    for (int k = 0; k < ALE_OPERATOR_OTHERS; k++) {
-        known = known || (end->other[k].robot[0] != '\0' && end->other[k].boot == start->boot);
-    }
-    return known;
 }
 
 static bool adopt(ale_operator_t *end, const ale_start_t *start)
 {
     const bool another = end->present.robot[0] != '\0' && end->present.boot != start->boot;
-    for (int k = 0; k < ALE_OPERATOR_OTHERS; k++) {
-        if (end->other[k].boot == start->boot) {
-            end->other[k] = (ale_start_t){0};
-        }
+    ale_start_t *same = remembered(end, start);
+    if (same) {
+        *same = (ale_start_t){0};
     }
     if (another) {
         const ale_start_t before = end->present;
@@ -115,7 +130,7 @@ static void note_rival(ale_operator_t *end, const ale_start_t *start)
 static bool saw_another_start(ale_operator_t *end, const ale_start_t *start)
 {
     const bool fresh = is_fresh(&end->present, start);
-    if (fresh && !is_remembered(end, start)) {
+    if (fresh && !remembered(end, start)) {
         return adopt(end, start);
     }
     if (fresh) {
@@ -128,11 +143,14 @@ static bool saw_another_start(ale_operator_t *end, const ale_start_t *start)
 static bool saw(ale_operator_t *end, const ale_start_t *start)
 {
     const ale_start_t *present = &end->present;
-    if ((end->wanted[0] != '\0' && strcmp(end->wanted, start->robot) != 0) || is_replayed(end, start)) {
+    const bool unwanted = end->wanted[0] != '\0' && strcmp(end->wanted, start->robot) != 0;
+    const bool first = present->robot[0] == '\0';
+    if (unwanted || (!first && start->robot[0] == '\0') || is_replayed(end, start)) {
         return false;
     }
-    if (present->robot[0] != '\0' && !is_same_robot(present, start)) {
+    if (!first && !is_same_robot(present, start)) {
         note_rival(end, start);
+        remember(end, start);
         return false;
     }
     if (is_silent(present, start->host_us)) {
@@ -151,12 +169,12 @@ static bool saw(ale_operator_t *end, const ale_start_t *start)
 /* Nobody says how fast an open clock runs: what two messages tell, within reason. */
 static int64_t rate_of(const ale_start_t *before, int64_t utime, int64_t span_us)
 {
-    const int64_t passed_us = utime - before->utime;
+    const int64_t went_us = utime - before->utime;
     const int64_t most_us = span_us * (FASTEST_PPM / PPM);
-    if (span_us > LONGEST_SPAN_US || passed_us < 0 || passed_us > most_us) {
+    if (span_us > LONGEST_SPAN_US || went_us < 0 || went_us > most_us) {
         return 0;
     }
-    const int64_t rate_ppm = passed_us * PPM / span_us;
+    const int64_t rate_ppm = went_us * PPM / span_us;
     return rate_ppm >= SLOWEST_PPM ? rate_ppm : 0;
 }
 
@@ -228,6 +246,12 @@ size_t ale_operator_command(ale_operator_t *end, int64_t host_us, int64_t life_u
     }
     const size_t count = command_for(end, &end->present, host_us, life_us, command, bytes);
     end->counter = command->counter;
+    end->made = (ale_made_t){.stop = strcmp(command->verb, "stop") == 0,
+                             .met = end->met,
+                             .boot = command->boot,
+                             .utime = command->utime,
+                             .expiry_utime = command->expiry_utime,
+                             .host_us = host_us};
     return count;
 }
 
@@ -236,6 +260,18 @@ size_t ale_operator_command_other(ale_operator_t *end, int other, int64_t host_u
 {
     const ale_start_t *start = &end->other[other];
     return is_silent(start, host_us) ? 0 : command_for(end, start, host_us, life_us, command, bytes);
+}
+
+bool ale_operator_was_misled(const ale_operator_t *end, const ale_made_t *made, int64_t host_us)
+{
+    if (host_us - made->host_us < AGAIN_US) {
+        return false;
+    }
+    const int64_t utime = utime_at(&end->present, host_us);
+    const int64_t jump_us = utime - made->utime - passed_us(&end->present, made->host_us, host_us);
+    const bool unmet = made->stop && made->met != end->met;
+    const bool over = made->stop || utime > made->expiry_utime;
+    return end->present.boot != made->boot || unmet || (jump_us > HELD_UP_US && over);
 }
 
 static bool copy_word(char *field, size_t size, const char *word)

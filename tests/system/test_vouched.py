@@ -129,18 +129,32 @@ def test_ale_send_reports_the_answer_to_its_own_command_and_no_other(url, tmp_pa
     assert done.returncode == 1 and done.stdout == "" and "double: no answer" in done.stderr
 
 
+def believe_rover_and_scout(folder):
+    for name in ("rover", "scout"):
+        line = tool("ale-keys", "--own", name, "--robot", f"{name}.keys", cwd=folder).stdout.strip()
+        words = ("alice", "--robot", "rover.keys") if name == "rover" else ("--know", line, "--secret", "alice.key")
+        assert tool("ale-keys", *words, cwd=folder).returncode == 0
+
+
+def test_a_robot_that_is_believed_does_not_pass_for_another_one(url, tmp_path, pulses, commands):
+    believe_rover_and_scout(tmp_path)
+    pulses(0.3, double(url, tmp_path, "rover", "scout.keys").publish_status)
+    done = tool("ale-send", "--keys", tmp_path / "alice.key", "--lcm-url", url, "--robot", "rover", "record")
+    assert done.returncode == 1 and "rover is heard, but nothing" in done.stderr and commands == []
+
+
 def test_of_two_robots_the_one_that_is_named_is_commanded_and_none_that_is_not(url, tmp_path, pulses, commands):
-    tool("ale-keys", "--own", "rover", "--robot", "rover.keys", cwd=tmp_path)
-    tool("ale-keys", "--own", "scout", "--robot", "scout.keys", cwd=tmp_path)
-    tool("ale-keys", "alice", "--robot", "rover.keys", cwd=tmp_path)
-    scout = tool("ale-keys", "--own", "scout", "--robot", "scout.keys", cwd=tmp_path).stdout.strip()
-    assert tool("ale-keys", "--know", scout, "--secret", "alice.key", cwd=tmp_path).returncode == 0
+    believe_rover_and_scout(tmp_path)
     for name in ("rover", "scout"):
         pulses(0.5, double(url, tmp_path, name, f"{name}.keys").publish_status)
     for _ in range(5):
-        done = tool("ale-send", "--keys", tmp_path / "alice.key", "--lcm-url", url, "stop")
+        done = tool("ale-send", "--keys", tmp_path / "alice.key", "--lcm-url", url, "record")
         assert done.returncode == 1 and "two robots are heard" in done.stderr and "--robot" in done.stderr
     assert commands == []
+    done = tool("ale-send", "--keys", tmp_path / "alice.key", "--lcm-url", url, "stop")
+    assert done.returncode == 1 and "rover: no answer" in done.stderr and "scout: no answer" in done.stderr
+    assert {(one.robot, one.verb) for one in commands} == {("rover", "stop"), ("scout", "stop")}
+    commands.clear()
     for name in ("rover", "scout") * 3:
         tool("ale-send", "--keys", tmp_path / "alice.key", "--lcm-url", url, "--robot", name, "record")
         wait_until(lambda: commands, 180, "the command")
@@ -154,12 +168,23 @@ def test_two_robots_without_keys_are_told_apart_as_well(url, tmp_path, pulses, c
         path.unlink()
     for name in ("rover", "scout"):
         pulses(0.5, double(url, tmp_path, name, "none").publish_status)
-    done = tool("ale-send", "--keys", tmp_path / "alice.key", "--lcm-url", url, "stop")
+    done = tool("ale-send", "--keys", tmp_path / "alice.key", "--lcm-url", url, "record")
     assert done.returncode == 1 and "two robots are heard" in done.stderr and commands == []
     done = tool("ale-send", "--keys", tmp_path / "alice.key", "--lcm-url", url, "--robot", "scout", "stop")
     wait_until(lambda: commands, 180, "the stop")
     assert {one.robot for one in commands} == {"scout"}
     assert "nobody vouches for what scout says" in done.stderr
+
+
+def test_a_forged_name_keeps_no_robot_from_standing(chain, pulses):
+    """Where nobody vouches: heard first, and again and again. Who sends is told of the one that does not answer."""
+    robot = Commanded(chain)
+    robot.key.with_name("alice.key.robots").unlink()
+    pulses(0.05, double(chain.url, chain.folder, "ghost", "none").publish_status)
+    obeyed, words = robot.send("stop")
+    assert not obeyed and "rover: stopped by alice" in words and "ghost: no answer" in words
+    assert "two robots" in robot.send("--seconds", "0.3", "drive", "0.1", "0")[1]
+    assert robot.send("--robot", "rover", "stop")[0]
 
 
 def test_what_nobody_vouches_for_gets_no_command(url, tmp_path, pulses, commands):

@@ -412,14 +412,66 @@ def test_random_bytes_are_survived(console, robot):
     assert console.process.poll() is None
 
 
-def test_a_stop_that_was_made_by_a_recorded_word_is_made_again_by_the_robots_own(alice, robot, commands):
+HOUR_US = 3_600_000_000
+
+
+@pytest.mark.parametrize("boots_on", [5, 0], ids=["of an earlier start", "of this start"])
+def test_a_stop_that_was_made_by_a_recorded_word_is_made_again_by_the_robots_own(alice, robot, commands, boots_on):
     page = WebSocket(alice.url)
     old = robot.status()
-    old.boot, old.utime = robot.boot + 5, old.utime - 3_600_000_000
+    old.boot, old.utime = robot.boot + boots_on, old.utime - HOUR_US
     robot.bus.publish("ALE_VOUCHED", robot.vouch(old))
     while not page.wait_for("status")["vouched"]:
         pass
     assert command(page, "stop")["refusal"] is None
     robot.publish_status()
+
+    def of_now(so_far):
+        return [one for one in so_far if one.boot == robot.boot and one.utime > old.utime + HOUR_US // 2]
+    assert [one.verb for one in of_now(commands(of_now))] == ["stop"]
+
+
+@pytest.fixture(name="trusting")
+def a_console_that_believes_everybody(lcm_url, tmp_path):
+    """And a robot whose word nobody has vouched for."""
+    subprocess.run([BINARIES / "ale-keys", "alice"], cwd=tmp_path, check=True, capture_output=True, timeout=180)
+    (tmp_path / "alice.key.robots").unlink()
+    (tmp_path / "robot.keys.secret").unlink()
+    running = Console(lcm_url, "127.0.0.1:0", "--keys", str(tmp_path / "alice.key"))
+    yield running
+    assert running.end() == 0
+
+
+def forged_by_nobody(double, **different):
+    status = double.status()
+    for name, value in different.items():
+        setattr(status, name, value)
+    double.bus.publish("ALE_STATUS", status.encode())
+
+
+def test_a_stop_that_was_made_by_a_forged_start_is_made_again_where_nobody_vouches(trusting, robot, commands):
+    page = WebSocket(trusting.url)
+    forged_by_nobody(robot, boot=robot.boot + 5)
+    page.wait_for("status")
+    assert command(page, "stop")["refusal"] is None
+    commands(1)
+    robot.publish_status()
     heard = commands(lambda so_far: any(one.boot == robot.boot for one in so_far))
-    assert [one.verb for one in heard if one.boot == robot.boot][:1] == ["stop"]
+    assert {one.verb for one in heard} == {"stop"}
+
+
+def test_a_stop_goes_to_every_robot_that_is_heard_also_after_it(trusting, robot, commands):
+    """A name that somebody has forged is heard first: the robot itself is a rival, and stops none the less."""
+    page = WebSocket(trusting.url)
+    forged_by_nobody(robot, boot=7, robot="ghost")
+    page.wait_for("status")
+    assert command(page, "stop")["refusal"] is None
+    robot.publish_status()
+    heard = commands(lambda so_far: any(one.robot == "double" for one in so_far))
+    assert {(one.verb, one.robot, one.boot) for one in heard} == {("stop", "ghost", 7), ("stop", "double", robot.boot)}
+    forged_by_nobody(robot, boot=7, robot="ghost")
+    assert any("STOP goes to all" in line for line in page.wait_for("status")["warnings"])
+    assert "two robots" in command(page, "drive", "0.1", "0")["refusal"]
+    before = len(heard)
+    assert command(page, "stop")["refusal"] is None
+    assert {one.robot for one in commands(before + 2)[before:]} == {"ghost", "double"}

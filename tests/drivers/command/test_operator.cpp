@@ -36,6 +36,26 @@ class OperatorEnd : public testing::Test
         const size_t count = ale_operator_command(&end, host_us, 1000000, &command, bytes);
         return ale_verify(&verifier, bytes, count, robot_utime, &taken);
     }
+    void make(const char *verb, int64_t host_us)
+    {
+        ale_command_t command{};
+        uint8_t bytes[ALE_COMMAND_BYTES];
+        std::snprintf(command.verb, sizeof command.verb, "%s", verb);
+        EXPECT_GT(ale_operator_command(&end, host_us, 1000000, &command, bytes), 0U);
+    }
+    /* How many of the stops for other starts the robot takes. */
+    int stop_others(int64_t host_us, int64_t robot_utime)
+    {
+        int genuine = 0;
+        for (int k = 0; k < ALE_OPERATOR_OTHERS; k++) {
+            ale_command_t stop{};
+            uint8_t bytes[ALE_COMMAND_BYTES];
+            std::snprintf(stop.verb, sizeof stop.verb, "stop");
+            const size_t count = ale_operator_command_other(&end, k, host_us, 1000000, &stop, bytes);
+            genuine += count > 0 && ale_verify(&verifier, bytes, count, robot_utime, &taken) == ALE_GENUINE;
+        }
+        return genuine;
+    }
 
     const Operator alice{"alice"};
     ale_operator_t end{};
@@ -119,6 +139,39 @@ TEST_F(OperatorEnd, CommandsAreForTheFirstRobotAndTheOtherOneIsTold)
     EXPECT_EQ(ale_operator_rival(&end, 20000000), nullptr) << "gone again";
 }
 
+TEST_F(OperatorEnd, AStopIsForEveryRobotThatIsHeard)
+{
+    ale_operator_saw(&end, "ghost", 4, now_utime - 7, 0);
+    ale_operator_saw(&end, "rover", boot, now_utime, 0);
+    EXPECT_EQ(send(1000, now_utime + 1000), ALE_REFUSED_ADDRESS) << "for the first one";
+    EXPECT_EQ(stop_others(1000, now_utime + 1000), 1) << "and for the other one beside it";
+    EXPECT_EQ(stop_others(ALE_OPERATOR_SILENCE_US + 1, now_utime), 0) << "which is silent since";
+}
+
+TEST_F(OperatorEnd, AStopIsForNoOtherOneThanTheOneThatIsWanted)
+{
+    std::snprintf(end.wanted, sizeof end.wanted, "scout");
+    ale_operator_saw(&end, "scout", 4, now_utime, 0);
+    ale_operator_saw(&end, "rover", boot, now_utime, 0);
+    EXPECT_EQ(stop_others(1000, now_utime + 1000), 0);
+}
+
+TEST_F(OperatorEnd, AStopIsMadeAgainWhenAStartIsHeardThatItWasNotSentTo)
+{
+    ale_operator_saw(&end, "ghost", 4, now_utime, 0);
+    make("stop", 0);
+    EXPECT_FALSE(ale_operator_was_misled(&end, &end.made, 1000000));
+    ale_operator_saw(&end, "rover", boot, now_utime, 1000);
+    EXPECT_FALSE(ale_operator_was_misled(&end, &end.made, 50000)) << "not at once: others may follow";
+    EXPECT_TRUE(ale_operator_was_misled(&end, &end.made, 100000));
+    make("stop", 100000);
+    ale_operator_saw(&end, "rover", boot, now_utime + 900000, 900000);
+    EXPECT_FALSE(ale_operator_was_misled(&end, &end.made, 1000000)) << "it is known by now";
+    make("save_map", 1000000);
+    ale_operator_saw(&end, "scout", 8, now_utime, 1000000);
+    EXPECT_FALSE(ale_operator_was_misled(&end, &end.made, 2000000)) << "for the first one alone";
+}
+
 TEST_F(OperatorEnd, TwoRobotsOfOneNameAreFoundAndBothHearAStop)
 {
     constexpr int64_t step = 300000;
@@ -128,17 +181,7 @@ TEST_F(OperatorEnd, TwoRobotsOfOneNameAreFoundAndBothHearAStop)
     }
     EXPECT_STREQ(ale_operator_rival(&end, host), "rover");
     const bool first = send(host, now_utime + host) == ALE_GENUINE;
-    ale_command_t stop{};
-    uint8_t bytes[ALE_COMMAND_BYTES];
-    std::snprintf(stop.verb, sizeof stop.verb, "stop");
-    bool other = false;
-    for (int k = 0; k < ALE_OPERATOR_OTHERS; k++) {
-        ale_command_t same = stop;
-        const size_t count = ale_operator_command_other(&end, k, host, 1000000, &same, bytes);
-        other = other ||
-                (count > 0 && ale_verify(&verifier, bytes, count, now_utime + host, &taken) == ALE_GENUINE);
-    }
-    EXPECT_TRUE(first || other);
+    EXPECT_TRUE(first || stop_others(host, now_utime + host) > 0);
 }
 
 /* As a robot that he believes says it. */
@@ -182,6 +225,22 @@ TEST_F(Believing, WordsThatWereHeardAndEarlierOnesAreNotHeardAgain)
     EXPECT_FALSE(hear(boot - 1, 401, now_utime - 59000000, 2000));
     EXPECT_EQ(ale_operator_rival(&end, 2000), nullptr);
     EXPECT_EQ(send(2000, now_utime + 2000), ALE_GENUINE);
+}
+
+TEST_F(Believing, WhatWasMadeByHeldBackWordsIsMadeAgainByTheRobotsOwn)
+{
+    EXPECT_TRUE(hear(boot, 3, now_utime - 60000000, 0));
+    make("stop", 0);
+    EXPECT_TRUE(hear(boot, 70, now_utime, 1000));
+    EXPECT_TRUE(ale_operator_was_misled(&end, &end.made, 100000)) << "of this start, a minute ago";
+    make("stop", 100000);
+    EXPECT_TRUE(hear(boot, 71, now_utime + 1000000, 1001000));
+    EXPECT_FALSE(ale_operator_was_misled(&end, &end.made, 1100000));
+    make("drive", 1100000);
+    EXPECT_TRUE(hear(boot, 72, now_utime + 2700000, 2100000));
+    EXPECT_FALSE(ale_operator_was_misled(&end, &end.made, 1300000)) << "0.6 s: the robot takes it still";
+    EXPECT_TRUE(hear(boot + 1, 1, now_utime + 2900000, 2200000));
+    EXPECT_TRUE(ale_operator_was_misled(&end, &end.made, 2300000)) << "for a start that is over";
 }
 
 TEST_F(Believing, ARobotThatStartsAgainIsFollowedAlsoWithAClockThatWasSetBack)

@@ -1,9 +1,9 @@
 #include "operator/console/commander.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstring>
 #include <stdexcept>
+
+#include "common/feed/vouched.h"
 
 namespace console
 {
@@ -18,12 +18,6 @@ constexpr std::chrono::seconds stop_lasts{2};
 constexpr int64_t drive_life_us = 500000;
 constexpr int64_t life_us = 5000000;
 
-int64_t host_us()
-{
-    return std::chrono::duration_cast<std::chrono::microseconds>(Commander::Clock::now().time_since_epoch())
-        .count();
-}
-
 Sent refused(const char *why)
 {
     return {0, why};
@@ -32,50 +26,43 @@ Sent refused(const char *why)
 } // namespace
 
 Commander::Commander(const Credentials &credentials)
+    : end_(feed::believed(credentials.robots_file, credentials.key_file), credentials.robot)
 {
-    operator_.robots = feed::believed(credentials.robots_file, credentials.key_file);
-    std::snprintf(operator_.wanted, sizeof operator_.wanted, "%s", credentials.robot.c_str());
     if (credentials.key_file.empty()) {
         return;
     }
+    ale_secret_key_t key;
     char error[ALE_KEYS_ERROR];
-    if (ale_secret_key_load(credentials.key_file.c_str(), &operator_.key, error) < 0) {
+    if (ale_secret_key_load(credentials.key_file.c_str(), &key, error) < 0) {
         throw std::runtime_error(error);
     }
-    char bus_error[ALE_BUS_ERROR];
-    bus_.reset(ale_bus_open(credentials.lcm_url.c_str(), bus_error));
-    if (!bus_) {
-        throw std::runtime_error(bus_error);
-    }
+    end_.take_key(credentials.lcm_url, key);
 }
 
 bool Commander::saw(const ale::status_t &status)
 {
     const std::lock_guard lock(mutex_);
     if (!believes()) {
-        return ale_operator_saw(&operator_, status.robot.c_str(), status.boot, status.utime, host_us());
+        return end_.saw(status);
     }
     unbelieved_ = status.robot;
-    return operator_.present.robot[0] == '\0';
+    return end_.robot().empty();
 }
 
 std::optional<ale::vouched_t> Commander::saw_vouched(const uint8_t *bytes, size_t count)
 {
     const std::lock_guard lock(mutex_);
-    auto message = feed::vouched_by(operator_.robots, bytes, count);
-    const ale_start_t start = message ? feed::start_of(*message) : ale_start_t{};
-    const int64_t boot = operator_.present.boot;
-    if (message && !ale_operator_saw_vouched(&operator_, &start, host_us())) {
+    auto message = feed::vouched_by(end_.robots(), bytes, count);
+    if (message && !end_.saw(*message)) {
         message.reset();
     }
-    stop_anew(boot);
     return message;
 }
 
-/* A stop that was made for what turns out to be a memory of the robot is made again for the robot itself. */
-void Commander::stop_anew(int64_t boot_before)
+void Commander::keep_stopped()
 {
-    if (bus_ && operator_.present.boot != boot_before && Clock::now() - stopped_at_ < stop_lasts) {
+    const std::lock_guard lock(mutex_);
+    if (stop_.stop && Clock::now() - stopped_at_ < stop_lasts && end_.was_misled(stop_)) {
         sign_and_send({"stop"});
     }
 }
@@ -83,18 +70,19 @@ void Commander::stop_anew(int64_t boot_before)
 /* Why it cannot be known who is spoken to; empty: it is known. */
 std::string Commander::doubt() const
 {
-    const char *rival = ale_operator_rival(&operator_, host_us());
-    if (operator_.present.robot[0] == '\0') {
+    const std::string robot = end_.robot();
+    const std::string rival = end_.rival();
+    if (robot.empty()) {
         return unbelieved_.empty()
                    ? "no robot has been heard yet"
                    : unbelieved_ + " is heard, but no robot whose key is known vouches for it";
     }
-    if (rival && std::strcmp(rival, operator_.present.robot) == 0) {
-        return std::string("two robots call themselves ") + rival + ": they obey STOP alone";
+    if (rival.empty()) {
+        return "";
     }
-    return rival ? std::string("two robots are heard, ") + operator_.present.robot + " and " + rival +
-                       ": choose one (ale-console --robot NAME)"
-                 : "";
+    return rival == robot ? "two robots call themselves " + rival + ": they obey STOP alone"
+                          : "two robots are heard, " + robot + " and " + rival +
+                                ": choose one (ale-console --robot NAME); STOP goes to all";
 }
 
 std::vector<std::string> Commander::warnings()
@@ -105,7 +93,7 @@ std::vector<std::string> Commander::warnings()
     if (!in_doubt.empty()) {
         lines.push_back("Not sure who is heard: " + in_doubt + ".");
     }
-    if (bus_ && !believes()) {
+    if (end_.has_key() && !believes()) {
         lines.emplace_back("Nobody vouches for what is shown: no robot's key is known (ale-keys --know).");
     }
     return lines;
@@ -136,7 +124,7 @@ bool is_plain(const std::string &word)
 Sent Commander::send(uint64_t page, const std::vector<std::string> &words)
 {
     const std::lock_guard lock(mutex_);
-    if (!bus_) {
+    if (!end_.has_key()) {
         return refused("this console has no key: it only watches (ale-console --keys FILE)");
     }
     if (words.empty()) {
@@ -148,7 +136,11 @@ Sent Commander::send(uint64_t page, const std::vector<std::string> &words)
     if (words[0] == "drive" && !may_drive(page, Clock::now())) {
         return refused("somebody drives from another page");
     }
-    return sign_and_send(words);
+    const Sent sent = sign_and_send(words);
+    if (words[0] == "stop" && sent.refusal.empty()) {
+        stopped_at_ = Clock::now();
+    }
+    return sent;
 }
 
 Sent Commander::sign_and_send(const std::vector<std::string> &words)
@@ -161,35 +153,19 @@ Sent Commander::sign_and_send(const std::vector<std::string> &words)
     }
     const bool stop = words[0] == "stop";
     const std::string in_doubt = doubt();
-    if (!in_doubt.empty() && (!stop || operator_.present.robot[0] == '\0')) {
+    if (!in_doubt.empty() && (!stop || end_.robot().empty())) {
         return {0, in_doubt};
     }
-    uint8_t bytes[ALE_COMMAND_BYTES];
-    const int64_t life = words[0] == "drive" ? drive_life_us : life_us;
-    const size_t count = ale_operator_command(&operator_, host_us(), life, &command, bytes);
-    if (count == 0) {
-        return refused("a word that is too long");
-    }
-    if (ale_bus_send_command(bus_.get(), bytes, count) < 0) {
-        return refused("LCM does not take the command");
-    }
-    if (stop) {
-        stopped_at_ = Clock::now(); /* what is driven after it does not take it back */
-        send_to_others(command, life);
-    }
-    return {command.counter, {}};
-}
-
-/* A stop reaches the robot, whichever of the starts that were heard is the true one. */
-void Commander::send_to_others(const ale_command_t &command, int64_t life)
-{
-    uint8_t bytes[ALE_COMMAND_BYTES];
-    for (int other = 0; other < ALE_OPERATOR_OTHERS; other++) {
-        ale_command_t same = command;
-        const size_t count = ale_operator_command_other(&operator_, other, host_us(), life, &same, bytes);
-        if (count > 0) {
-            ale_bus_send_command(bus_.get(), bytes, count);
+    try {
+        const std::vector<int64_t> numbers =
+            end_.send(command, words[0] == "drive" ? drive_life_us : life_us);
+        if (numbers.empty()) {
+            return refused("a word that is too long");
         }
+        stop_ = stop ? end_.made() : stop_;
+        return {numbers.front(), {}};
+    } catch (const std::runtime_error &error) {
+        return refused(error.what());
     }
 }
 

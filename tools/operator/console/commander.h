@@ -3,6 +3,7 @@
  *   Commander commander({lcm_url, "alice.key"});     (throws std::runtime_error; no file: nobody commands)
  *   if (commander.saw(status)) ...                   (LCM thread, every ALE_STATUS)
  *   status = commander.saw_vouched(bytes, count);    (LCM thread, every ALE_VOUCHED)
+ *   commander.keep_stopped();                        (LCM thread, after messages and ten times a second)
  *   sent = commander.send(page, {"drive", "0.2", "0"});                  (web thread)
  *
  * With robots that are believed only what they vouch for is true; nothing is signed for another one.
@@ -13,18 +14,12 @@
 
 #include <chrono>
 #include <cstdint>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "ale/status_t.hpp"
-#include "common/feed/vouched.h"
-
-extern "C" {
-#include "lcm/bus.h"
-}
+#include "common/command/operators_end.h"
 
 namespace console
 {
@@ -53,13 +48,13 @@ class Commander
     /* Empty: there is no key. */
     std::string operator_name() const
     {
-        return operator_.key.name;
+        return end_.name();
     }
 
     /* Whether only what robots vouch for is believed. */
     bool believes() const
     {
-        return operator_.robots.count > 0;
+        return end_.believes();
     }
 
     /* Whether it is to be shown as the robot's: of this robot, and nobody has vouched for another one. */
@@ -67,6 +62,10 @@ class Commander
 
     /* Nothing: no robot that is believed has signed it, it is of another one, or it was heard before. */
     std::optional<ale::vouched_t> saw_vouched(const uint8_t *bytes, size_t count);
+
+    /* A stop of the last two seconds that did not reach whom it was for (ale_operator_was_misled) is made
+     * again, whatever was driven since. */
+    void keep_stopped();
 
     /* What an operator must know of whom he hears, a line each. */
     std::vector<std::string> warnings();
@@ -77,17 +76,15 @@ class Commander
   private:
     bool may_drive(uint64_t page, Clock::time_point now);
     Sent sign_and_send(const std::vector<std::string> &words);
-    void stop_anew(int64_t boot_before);
-    void send_to_others(const ale_command_t &command, int64_t life);
     std::string doubt() const;
 
     std::mutex mutex_;
-    ale_operator_t operator_{};
-    std::unique_ptr<ale_bus_t, decltype(&ale_bus_close)> bus_{nullptr, ale_bus_close};
+    command::OperatorsEnd end_;
     uint64_t driving_page_ = 0;
     Clock::time_point drove_at_{};
-    Clock::time_point stopped_at_{};
-    std::string unbelieved_; /* a robot that is heard, and that nobody vouches for */
+    Clock::time_point stopped_at_{}; /* by a page */
+    ale_made_t stop_{};              /* the last one that was sent */
+    std::string unbelieved_;         /* a robot that is heard, and that nobody vouches for */
 };
 
 } // namespace console

@@ -92,10 +92,12 @@ void warn(const Options &options, const console::HttpAddress &address)
     }
 }
 
-void follow_robot(feed::LcmFeed &feed, console::Board &board, const std::atomic<bool> &stopping)
+void follow_robot(feed::LcmFeed &feed, console::Board &board, console::Commander &commander,
+                  const std::atomic<bool> &stopping)
 {
     while (!stopping) {
         feed.wait(100);
+        commander.keep_stopped();
         board.note_malformed(feed.refused());
     }
 }
@@ -149,7 +151,7 @@ void run(const Options &options, const sigset_t &endings)
     std::thread web([&] { server.run(); });
     std::thread lcm([&] {
         try {
-            follow_robot(feed, board, stopping);
+            follow_robot(feed, board, commander, stopping);
         } catch (const std::exception &error) {
             std::fprintf(stderr, "ale-console: %s\n", error.what());
             failed = true;

@@ -8,6 +8,10 @@
 #include "common/feed/checks.h"
 #include "operator/console/messages.h"
 
+extern "C" {
+#include "command/vouched.h"
+}
+
 namespace console
 {
 

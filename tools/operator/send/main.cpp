@@ -12,6 +12,7 @@
 
 extern "C" {
 #include "command/verb.h"
+#include "command/verify.h"
 }
 
 namespace
@@ -24,7 +25,7 @@ constexpr char usage[] =
     "  --keys FILE    the operator's secret key (ale-keys makes it)\n"
     "  --robots FILE  the robots whose word is believed (default: the file of --keys with .robots behind);\n"
     "                 where there is none, every robot's, and that is said\n"
-    "  --robot NAME   which robot; needed where more than one is heard\n"
+    "  --robot NAME   which robot; needed where more than one is heard, but for stop, which goes to all\n"
     "  --lcm-url URL  where the robot is (default: LCM_DEFAULT_URL, else LCM's own default)\n"
     "  --seconds S    goes on driving for S seconds (drive only; without it the robot moves for 300 ms)\n"
     "  --help, --version\n"
@@ -154,41 +155,94 @@ std::string nobody(const send::RobotLink &link, const Options &options)
            " vouches for (ale-keys --own, --know)";
 }
 
-/* Waits until it is known which robot is meant; says why it is not. A stop for robots of one name goes to all
- * of them. */
-void find_robot(send::RobotLink &link, const Options &options, size_t believed)
+void wait_for_robot(send::RobotLink &link, const Options &options)
 {
     if (!link.wait(first_status_ms, [&] { return link.status().has_value(); })) {
         throw std::runtime_error(nobody(link, options));
     }
-    if (options.robot.empty() && believed != 1) {
+    if (!link.is_vouched()) {
+        std::fprintf(stderr,
+                     "ale-send: nobody vouches for what %s says: no robot's key is known (ale-keys --know)\n",
+                     link.status()->robot.c_str());
+    }
+}
+
+/* One robot that is believed, or wanted by its name: no other one is listened for. */
+bool is_alone(const Options &options, size_t believed)
+{
+    return !options.robot.empty() || believed == 1;
+}
+
+std::string takes_none(const std::string &robot)
+{
+    return robot + " takes no commands (ale-slamd --keys)";
+}
+
+/* Waits until it is known which robot is meant; says why it is not. */
+void find_robot(send::RobotLink &link, bool alone)
+{
+    if (!alone) {
         link.wait(settle_ms, [&] { return !link.rival().empty() || cli::interrupted(); });
     }
     const std::string &name = link.status()->robot;
     const std::string rival = link.rival();
-    if (!rival.empty() && rival != name) {
-        throw std::runtime_error("two robots are heard, " + name + " and " + rival +
-                                 ": which one is meant? (--robot NAME)");
-    }
-    if (!rival.empty() && options.words[0] != "stop") {
-        throw std::runtime_error("two robots call themselves " + name +
-                                 ": give them names (commands.robot); they obey stop alone");
+    if (!rival.empty()) {
+        throw std::runtime_error(rival == name
+                                     ? "two robots call themselves " + name +
+                                           ": give them names (commands.robot); they obey stop alone"
+                                     : "two robots are heard, " + name + " and " + rival +
+                                           ": which one is meant? (--robot NAME; stop goes to all)");
     }
     if (!link.status()->takes_commands) {
-        throw std::runtime_error(name + " takes no commands (ale-slamd --keys)");
-    }
-    if (!link.is_vouched()) {
-        std::fprintf(stderr,
-                     "ale-send: nobody vouches for what %s says: no robot's key is known (ale-keys --know)\n",
-                     name.c_str());
+        throw std::runtime_error(takes_none(name));
     }
 }
 
-int run(const Options &options)
+/* What robots have said to it, and who of those that are heard has said nothing. */
+int report(const send::RobotLink &link, const ale::status_t &before)
 {
-    const ale_keys_t robots = feed::believed(options.robots, options.keys);
-    send::RobotLink link(options.lcm_url, options.robot, key_of(options), robots);
-    find_robot(link, options, robots.count);
+    bool obeyed = true;
+    for (const auto &[robot, answer] : link.answers()) {
+        std::printf("%s: %s\n", robot.c_str(), answer.command_result.c_str());
+        obeyed = obeyed && answer.command_obeyed;
+    }
+    std::fflush(stdout);
+    std::string silent;
+    for (const std::string &robot : link.unanswered()) {
+        const bool known = robot == before.robot;
+        silent += silent.empty() ? "" : "; ";
+        silent += known && !before.takes_commands
+                      ? takes_none(robot)
+                      : robot + ": " + (known ? refusal(before, *link.status()) : "no answer");
+    }
+    if (!silent.empty()) {
+        throw std::runtime_error(silent);
+    }
+    return obeyed ? 0 : 1;
+}
+
+/* Goes out at once, to all that are heard and to whom is heard soon after: one robot that stands too many
+ * does no harm, and a name that somebody has forged keeps no robot from standing. */
+int stop(send::RobotLink &link, bool alone)
+{
+    const ale::status_t before = *link.status();
+    const ale_command_t command = command_of({"stop"});
+    const auto again = [&] {
+        if (link.was_misled()) {
+            link.command(command, life_us);
+        }
+        return cli::interrupted();
+    };
+    link.command(command, life_us);
+    if (!alone) {
+        link.wait(settle_ms, again);
+    }
+    link.wait(answer_ms, [&] { return again() || link.unanswered().empty(); });
+    return report(link, before);
+}
+
+int command(send::RobotLink &link, const Options &options)
+{
     const ale::status_t before = *link.status();
     const bool driving = options.words[0] == "drive";
     const auto send = [&] { link.command(command_of(options.words), driving ? drive_life_us : life_us); };
@@ -209,6 +263,19 @@ int run(const Options &options)
         keep_driving(link, options);
     }
     return answer.command_obeyed ? 0 : 1;
+}
+
+int run(const Options &options)
+{
+    const ale_keys_t robots = feed::believed(options.robots, options.keys);
+    send::RobotLink link(options.lcm_url, options.robot, key_of(options), robots);
+    const bool alone = is_alone(options, robots.count);
+    wait_for_robot(link, options);
+    if (options.words[0] == "stop") {
+        return stop(link, alone);
+    }
+    find_robot(link, alone);
+    return command(link, options);
 }
 
 } // namespace

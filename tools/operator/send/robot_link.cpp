@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
-#include <cstring>
 #include <stdexcept>
+
+#include "common/feed/vouched.h"
 
 namespace send
 {
@@ -15,60 +15,56 @@ namespace
 using Clock = std::chrono::steady_clock;
 
 constexpr int look_ms = 20;
-constexpr int64_t ppm = 1000000;
-constexpr int64_t much_us = 500000; /* more than a message is held up on its way */
-
-bool is_stop(const ale_command_t &command)
-{
-    return std::strcmp(command.verb, "stop") == 0;
-}
-
-int64_t host_us()
-{
-    return std::chrono::duration_cast<std::chrono::microseconds>(Clock::now().time_since_epoch()).count();
-}
 
 } // namespace
 
 RobotLink::RobotLink(const std::string &url, const std::string &robot, const ale_secret_key_t &key,
                      const ale_keys_t &robots)
-    : feed_(url)
+    : wanted_(robot), end_(robots, robot), feed_(url)
 {
-    char error[ALE_BUS_ERROR];
-    bus_.reset(ale_bus_open(url.c_str(), error));
-    if (!bus_) {
-        throw std::runtime_error(error);
-    }
-    operator_.key = key;
-    operator_.robots = robots;
-    std::snprintf(operator_.wanted, sizeof operator_.wanted, "%s", robot.c_str());
+    end_.take_key(url, key);
     feed_.on<ale::status_t>("ALE_STATUS", [this](const ale::status_t &status) { take(status); });
     feed_.on_bytes("ALE_VOUCHED", [this](const uint8_t *bytes, size_t count) { take_vouched(bytes, count); });
 }
 
+bool RobotLink::answers(const ale::status_t &status) const
+{
+    return status.command_operator == end_.name() &&
+           std::find(numbers_.begin(), numbers_.end(), status.command_counter) != numbers_.end();
+}
+
+void RobotLink::note_answer(const ale::status_t &status)
+{
+    const std::vector<std::string> heard = end_.heard();
+    if (answers(status) && std::find(heard.begin(), heard.end(), status.robot) != heard.end()) {
+        answers_[status.robot] = status;
+    }
+}
+
 void RobotLink::take(const ale::status_t &status)
 {
-    if (ale_operator_saw(&operator_, status.robot.c_str(), status.boot, status.utime, host_us())) {
+    if (is_vouched()) {
+        if (wanted_.empty() || status.robot == wanted_) {
+            unbelieved_ = status;
+        }
+        return;
+    }
+    if (end_.saw(status)) {
         status_ = status;
     }
-    if (is_vouched() && (operator_.wanted[0] == '\0' || status.robot == operator_.wanted)) {
-        unbelieved_ = status;
-    }
+    note_answer(status);
 }
 
 void RobotLink::take_vouched(const uint8_t *bytes, size_t count)
 {
-    const auto message = feed::vouched_by(operator_.robots, bytes, count);
-    const ale_start_t start = message ? feed::start_of(*message) : ale_start_t{};
-    if (message && ale_operator_saw_vouched(&operator_, &start, host_us())) {
+    const auto message = feed::vouched_by(end_.robots(), bytes, count);
+    if (!message) {
+        return;
+    }
+    if (end_.saw(*message)) {
         status_ = message->status;
     }
-}
-
-std::string RobotLink::rival() const
-{
-    const char *name = ale_operator_rival(&operator_, host_us());
-    return name ? name : "";
+    note_answer(message->status);
 }
 
 bool RobotLink::wait(int timeout_ms, const std::function<bool()> &condition)
@@ -83,56 +79,41 @@ bool RobotLink::wait(int timeout_ms, const std::function<bool()> &condition)
     return true;
 }
 
-void RobotLink::send(const uint8_t *bytes, size_t count)
+void RobotLink::command(const ale_command_t &command, int64_t life_us)
 {
-    if (ale_bus_send_command(bus_.get(), bytes, count) < 0) {
-        throw std::runtime_error("LCM does not take the command");
-    }
-}
-
-void RobotLink::command(ale_command_t command, int64_t life_us)
-{
-    uint8_t bytes[ALE_COMMAND_BYTES];
-    const int64_t now_us = host_us();
-    const size_t count = ale_operator_command(&operator_, now_us, life_us, &command, bytes);
-    if (count == 0) {
+    const std::vector<int64_t> numbers = end_.send(command, life_us);
+    if (numbers.empty()) {
         throw std::runtime_error("no robot to command");
     }
-    send(bytes, count);
-    last_ = command;
-    last_host_us_ = now_us;
-    counters_.push_back(command.counter);
-    for (int other = 0; is_stop(command) && other < ALE_OPERATOR_OTHERS; other++) {
-        ale_command_t same = command;
-        const size_t more = ale_operator_command_other(&operator_, other, now_us, life_us, &same, bytes);
-        if (more > 0) {
-            send(bytes, more);
-            counters_.push_back(same.counter);
-        }
-    }
+    last_ = numbers.front();
+    numbers_.insert(numbers_.end(), numbers.begin(), numbers.end());
 }
 
 bool RobotLink::was_misled() const
 {
-    const int64_t now_us = host_us();
-    const int64_t utime = ale_operator_utime(&operator_, now_us);
-    const int64_t rate = operator_.present.rate_ppm > 0 ? operator_.present.rate_ppm : ppm;
-    const int64_t jump_us = utime - last_.utime - (now_us - last_host_us_) * rate / ppm;
-    const bool other_start = operator_.present.boot != last_.boot;
-    return other_start || (jump_us > much_us && (is_stop(last_) || utime > last_.expiry_utime));
+    return end_.was_misled(end_.made());
 }
 
 bool RobotLink::answered() const
 {
-    return status_ && status_->command_operator == operator_.key.name &&
-           std::find(counters_.begin(), counters_.end(), status_->command_counter) != counters_.end();
+    return status_ && answers(*status_);
+}
+
+std::vector<std::string> RobotLink::unanswered() const
+{
+    std::vector<std::string> names;
+    for (const std::string &name : end_.heard()) {
+        if (answers_.count(name) == 0) {
+            names.push_back(name);
+        }
+    }
+    return names;
 }
 
 bool RobotLink::drives_since() const
 {
-    return status_ && status_->command_operator == operator_.key.name &&
-           status_->command_counter > last_.counter && status_->command_obeyed &&
-           status_->who_drives == operator_.key.name;
+    return status_ && status_->command_operator == end_.name() && status_->command_counter > last_ &&
+           status_->command_obeyed && status_->who_drives == end_.name();
 }
 
 } // namespace send
