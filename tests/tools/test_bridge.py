@@ -1,4 +1,5 @@
 """ale-bridge: two LCM ports that do not hear each other, and a unicast link between them, good and bad."""
+import contextlib
 import random
 import socket
 import subprocess
@@ -120,18 +121,40 @@ def sides():
         side.stop()
 
 
+def kill(*processes):
+    for process in processes:
+        process.kill()
+        process.communicate()
+
+
+def wait_for_each_other(*processes):
+    for process in processes:
+        assert "is there" in process.stderr.readline()
+
+
+@contextlib.contextmanager
+def over(way, sides, keys):
+    """Both ends, which have found each other over this way (a class), and the way between them."""
+    port = free_udp_port()
+    between = way(port)
+    both = robots_end(keys, f"127.0.0.1:{port}", sides[0].url), operators_end(keys, f"127.0.0.1:{between.port}", sides[1].url)
+    try:
+        wait_for_each_other(*both)
+        yield both, between
+    finally:
+        kill(*both)
+        between.stop()
+
+
 @pytest.fixture
 def ends(sides, keys):
     """Both ends of a good link, which have found each other."""
     port = free_udp_port()
     robot = robots_end(keys, f"127.0.0.1:{port}", sides[0].url)
     operator = operators_end(keys, f"127.0.0.1:{port}", sides[1].url)
-    assert "is there" in operator.stderr.readline()
-    assert "is there" in robot.stderr.readline()
+    wait_for_each_other(operator, robot)
     yield robot, operator
-    for process in (robot, operator):
-        process.kill()
-        process.communicate()
+    kill(robot, operator)
 
 
 def pose(k):
@@ -212,47 +235,31 @@ class Tap(BadLink):
 
 def test_nothing_that_crosses_can_be_read_played_again_or_moved(sides, keys):
     robot, operator = sides
-    port = free_udp_port()
-    tap = Tap(port)
-    both = [robots_end(keys, f"127.0.0.1:{port}", robot.url), operators_end(keys, f"127.0.0.1:{tap.port}", operator.url)]
-    try:
-        for process in both:
-            assert "is there" in process.stderr.readline()
+    with over(Tap, sides, keys) as (_, tap):
         operator.bus.publish("ALE_COMMAND", b"drive into the open")
         wait_until(lambda: robot.on("ALE_COMMAND"), 180, "the command")
-        recorded = [data for data, to in list(tap.passed) if to == ("127.0.0.1", port)]
+        recorded = [data for data, to in list(tap.passed) if to == tap.robot]
         assert not any(b"ALE_COMMAND" in data or b"open" in data for data in recorded)
         for data in recorded:
-            tap.socket.sendto(data, ("127.0.0.1", port))
+            tap.socket.sendto(data, tap.robot)
             if len(data) > 22 and data[5] == 3:  # its sequence far ahead
-                tap.socket.sendto(data[:18] + b"\x7f\xff\xff\xf0" + data[22:], ("127.0.0.1", port))
+                tap.socket.sendto(data[:18] + b"\x7f\xff\xff\xf0" + data[22:], tap.robot)
         for k in range(20):
             operator.bus.publish("ALE_COMMAND", b"stop %d" % k)
         wait_until(lambda: len(robot.on("ALE_COMMAND")) >= 21, 180, "all that came after")
         assert robot.on("ALE_COMMAND") == [b"drive into the open"] + [b"stop %d" % k for k in range(20)]
-    finally:
-        for process in both:
-            process.kill()
-            process.communicate()
-        tap.stop()
 
 
 def test_a_played_again_hello_does_not_take_the_operators_place(sides, keys):
     """And brings whoever plays it no more than one short answer each."""
     robot, operator = sides
-    port = free_udp_port()
-    tap = Tap(port)
-    both = [robots_end(keys, f"127.0.0.1:{port}", robot.url), operators_end(keys, f"127.0.0.1:{tap.port}", operator.url)]
-    stranger = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-    stranger.setblocking(False)
-    try:
-        for process in both:
-            assert "is there" in process.stderr.readline()
+    with over(Tap, sides, keys) as (_, tap), socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as stranger:
+        stranger.setblocking(False)
         hellos = [data for data, to in list(tap.passed) if data[5] == 1]
         assert hellos
         sent = received = 0
         for k in range(200):
-            stranger.sendto(hellos[0], ("127.0.0.1", port))
+            stranger.sendto(hellos[0], tap.robot)
             sent += len(hellos[0])
             robot.bus.publish("ALE_POSE", pose(k))
             time.sleep(0.005)
@@ -262,28 +269,16 @@ def test_a_played_again_hello_does_not_take_the_operators_place(sides, keys):
                 pass
         wait_until(lambda: operator.on("ALE_POSE") and ale.pose_t.decode(operator.on("ALE_POSE")[-1]).scan == 199, 180, "all poses")
         assert received < sent
-    finally:
-        stranger.close()
-        for process in both:
-            process.kill()
-            process.communicate()
-        tap.stop()
 
 
 def test_ten_thousand_hostile_datagrams_hold_up_no_command(sides, keys):
     """Played again, changed, cut, invented: two thousand a second while the operator's commands cross."""
     robot, operator = sides
-    port = free_udp_port()
-    tap = Tap(port)
-    both = [robots_end(keys, f"127.0.0.1:{port}", robot.url), operators_end(keys, f"127.0.0.1:{tap.port}", operator.url)]
-    stranger = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-    try:
-        for process in both:
-            assert "is there" in process.stderr.readline()
+    with over(Tap, sides, keys) as (_, tap), socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as stranger:
         for k in range(20):
             operator.bus.publish("ALE_COMMAND", b"before %d" % k)
         wait_until(lambda: len(robot.on("ALE_COMMAND")) == 20, 180, "commands")
-        recorded = [data for data, to in list(tap.passed) if to == ("127.0.0.1", port)]
+        recorded = [data for data, to in list(tap.passed) if to == tap.robot]
         chance = random.Random(3)
 
         def hostile():
@@ -300,7 +295,7 @@ def test_ten_thousand_hostile_datagrams_hold_up_no_command(sides, keys):
         sent, crossed, begin = 0, [], time.monotonic()
         while sent < 10000:
             for _ in range(100):
-                stranger.sendto(hostile(), ("127.0.0.1", port))
+                stranger.sendto(hostile(), tap.robot)
             sent += 100
             word, asked = b"after %d" % sent, time.monotonic()
             operator.bus.publish("ALE_COMMAND", word)
@@ -311,12 +306,6 @@ def test_ten_thousand_hostile_datagrams_hold_up_no_command(sides, keys):
         print(f"{sent} hostile datagrams; a command crosses in {crossed[len(crossed) // 2] * 1000:.0f} ms, at most {crossed[-1] * 1000:.0f} ms")
         assert crossed[int(0.9 * len(crossed))] < 0.3, "a busy machine may hold up some"
         assert len(robot.on("ALE_COMMAND")) == 120, "and nothing else came in"
-    finally:
-        stranger.close()
-        for process in both:
-            process.kill()
-            process.communicate()
-        tap.stop()
 
 
 def test_two_operators_at_a_time(sides, ends, keys):
@@ -333,8 +322,7 @@ def test_two_operators_at_a_time(sides, ends, keys):
         second.bus.publish("ALE_COMMAND", b"of bob")
         wait_until(lambda: sorted(robot.on("ALE_COMMAND")) == [b"of alice", b"of bob"], 180, "both commands")
     finally:
-        other.kill()
-        other.communicate()
+        kill(other)
         second.stop()
 
 
@@ -353,19 +341,12 @@ def test_who_has_no_key_is_not_let_in(sides, keys, tmp_path):
         assert not sides[1].on("ALE_POSE") and not sides[0].on("ALE_COMMAND")
         assert end(robot)["refused"] >= 3
     finally:
-        for process in (robot, operator):
-            process.kill()
-            process.communicate()
+        kill(robot, operator)
 
 
 def test_over_a_bad_link_nothing_comes_twice_or_out_of_order(sides, keys):
     robot, operator = sides
-    port = free_udp_port()
-    air = BadLink(port)
-    ends = [robots_end(keys, f"127.0.0.1:{port}", robot.url), operators_end(keys, f"127.0.0.1:{air.port}", operator.url)]
-    try:
-        for process in ends:
-            assert "is there" in process.stderr.readline()
+    with over(BadLink, sides, keys) as (both, _):
         for k in range(300):
             robot.bus.publish("ALE_POSE", pose(k))
             time.sleep(0.002)
@@ -374,13 +355,8 @@ def test_over_a_bad_link_nothing_comes_twice_or_out_of_order(sides, keys):
         numbers = [ale.pose_t.decode(data).scan for data in operator.on("ALE_POSE")]
         assert numbers == sorted(set(numbers))
         assert len(numbers) > 200
-        counted = end(ends[1])
+        counted = end(both[1])
         assert counted["lost"] > 10 and counted["late"] > 10
-    finally:
-        for process in ends:
-            process.kill()
-            process.communicate()
-        air.stop()
 
 
 def test_an_operator_who_comes_back_is_taken_up_again(sides, ends, keys):
@@ -395,8 +371,7 @@ def test_an_operator_who_comes_back_is_taken_up_again(sides, ends, keys):
         robot.bus.publish("ALE_POSE", pose(7))
         wait_until(lambda: operator.on("ALE_POSE") == [pose(7)], 180, "the pose")
     finally:
-        again.kill()
-        again.communicate()
+        kill(again)
 
 
 def test_a_host_that_cannot_be_found_is_a_failure_and_no_wrong_use(keys):
