@@ -16,6 +16,7 @@ V ?= 0
 include tools/make/rules.mk
 include tools/make/tests.mk
 include tools/make/cross.mk
+include tools/make/toolchains.mk
 include tools/make/deploy.mk
 -include $(wildcard tools/*/*/*.mk)
 

@@ -19,12 +19,13 @@ COMMON_FLAGS = $(DEBUG) $(OPT) $(WARNINGS) $(SANITIZER_FLAGS) -MMD -MP
 C_FLAGS = -std=c11 -D_GNU_SOURCE $(COMMON_FLAGS) $(CFLAGS)
 # Generated LCM types read floats through pointers to integers.
 CXX_FLAGS = -std=c++17 -fno-strict-aliasing $(COMMON_FLAGS) $(CXXFLAGS)
-# Symbols are bound at start (-z now): the first call of a function would otherwise do it in the hard task.
+# Symbols are bound at start (-z now): the first call of a function would otherwise do it in the hard task. A build's id would
+# tell debug information, and with it the folder of the build: stripped programs are the same bytes wherever they were made.
 LINK_FLAGS = $(SANITIZER_FLAGS) -pthread -Wl,--as-needed,-z,now $(LDFLAGS)
-LIBRARIES = -llcm -lserialport -linih -lsodium -lwebsockets -lpng -lz -lbz2 -lm
+LIBRARIES = $(LCM_LIBRARIES) -lserialport -linih -lsodium -lwebsockets -lpng -lz -lbz2 -lm
 # Without vectors a structure of Eigen's is laid out alike in every file, whatever processor and flags it is compiled for.
 EIGEN = -isystem /usr/include/eigen3 -DEIGEN_DONT_VECTORIZE
-SYSTEM_INCLUDES = -isystem $(BUILD)/lcmtypes $(EIGEN)
+SYSTEM_INCLUDES = -isystem $(BUILD)/lcmtypes $(LCM_INCLUDES) $(EIGEN)
 CCACHE = $(if $(findstring ccache,$(CC)),ccache )
 # The extractor is short loops over all beams and short functions: unrolled and inlined it takes 6 % fewer instructions.
 EXTRACT_OPT = -O3 -funroll-loops
@@ -36,10 +37,16 @@ objects = $(patsubst %,$(OBJ)/%.o,$(1))
 
 $(OBJ)/lib/base/%.o $(OBJ)/lib/extract/%.o: OPT = $(EXTRACT_OPT)
 $(OBJ)/lib/graph/%.o: CXX_FLAGS += $(GRAPH_FLAGS)
+# Room for no further observation is an array of none for gcc 14, which then warns of what is never written there. clang knows
+# no such warning.
+$(OBJ)/lib/track/step_observe.c.o: C_FLAGS += $(if $(findstring clang,$(CC)),,-Wno-stringop-overflow)
 
-# Changes when objects are to be made by another compiler or with other flags: those at hand are old then. Debug
-# information and the compiler cache make no other object. Taken here, since a rule inherits the flags of what asks for it.
-FLAGS := $(strip $(filter-out ccache $(DEBUG),$(CC) $(C_FLAGS) $(CXX) $(CXX_FLAGS) $(EXTRACT_OPT) $(GRAPH_FLAGS) $(EIGEN)))
+# Changes when objects are to be made by another compiler (also one of the same name and another release) or with other
+# flags: those at hand are old then. Debug information and the compiler cache make no other object. Taken here, since a rule
+# inherits the flags of what asks for it.
+release_of = $(shell $(1) --version 2>/dev/null | head -n 1)
+FLAGS := $(strip $(filter-out ccache $(DEBUG),$(CC) $(call release_of,$(CC)) $(C_FLAGS) $(CXX) $(call release_of,$(CXX)) $(CXX_FLAGS) \
+    $(EXTRACT_OPT) $(GRAPH_FLAGS) $(EIGEN)))
 FLAGS_STAMP = $(OBJ)/flags
 ifneq ($(FLAGS),$(file < $(FLAGS_STAMP)))
 $(FLAGS_STAMP): FORCE
@@ -48,41 +55,7 @@ $(FLAGS_STAMP):
 	@mkdir -p $(@D)
 	@echo '$(FLAGS)' > $@
 
-# Generated LCM types: C with the prefix lcmtypes_ (ale_pose_t is the core's own), C++, Python, Java. The C++ makes room for as
-# many elements as a message claims to have, gigabytes for a few bytes of anybody's: here for no more than it has bytes left.
-LCM_FILES = $(wildcard lib/messages/*.lcm)
-LCM_NAMES = $(foreach f,$(LCM_FILES),$(addprefix lcmtypes_$(basename $(notdir $(f)))_,$(shell sed -n 's/^struct \([a-z0-9_]*\).*/\1/p' $(f))))
-LCM_OBJECTS = $(patsubst %,$(OBJ)/lcmtypes/%.o,$(LCM_NAMES))
-LCM_STAMP = $(BUILD)/lcmtypes/stamp
-
-$(LCM_STAMP): $(LCM_FILES) tools/make/rules.mk
-	$(call say,lcm-gen,$(LCM_FILES))
-	$(Q)rm -rf $(@D) $(BUILD)/python/ale $(BUILD)/java && mkdir -p $(@D) $(BUILD)/python $(BUILD)/java
-	$(Q)lcm-gen -c --c-no-pubsub --c-cpath $(@D) --c-hpath $(@D) --package-prefix lcmtypes $(LCM_FILES)
-	$(Q)lcm-gen -x --cpp-hpath $(@D) --cpp-std c++11 $(LCM_FILES)
-	$(Q)sed -i -E 's/^( *)this->\w+\.resize\(this->(\w+)\);/\1if(this->\2 < 0 || this->\2 > maxlen - pos) return -1;\n&/' $(@D)/*/*.hpp
-	$(Q)lcm-gen -p --ppath $(BUILD)/python $(LCM_FILES)
-	$(Q)lcm-gen -j --jpath $(BUILD)/java $(LCM_FILES)
-	$(Q)touch $@
-
-.SECONDARY:
-.DELETE_ON_ERROR:
-$(BUILD)/lcmtypes/%.c: $(LCM_STAMP) ;
-
-$(OBJ)/lcmtypes/%.o: $(BUILD)/lcmtypes/%.c $(FLAGS_STAMP)
-	@mkdir -p $(@D)
-	$(Q)$(CC) -std=gnu11 $(DEBUG) $(OPT) $(SANITIZER_FLAGS) -ffunction-sections -w -c $< -o $@
-
-LCM_JAR = $(BUILD)/ale-lcmtypes.jar
-$(LCM_JAR): $(LCM_STAMP)
-	$(call say,jar,$@)
-	$(Q)mkdir -p $(BUILD)/java/classes
-	$(Q)javac -nowarn -cp /usr/share/java/lcm.jar -d $(BUILD)/java/classes $$(find $(BUILD)/java -name '*.java')
-	$(Q)jar cf $@ -C $(BUILD)/java/classes .
-
-.PHONY: lcm-types
-lcm-types: $(LCM_JAR) ## the LCM types for lcm-spy (build/ale-lcmtypes.jar) and Python (build/python)
-
+include tools/make/lcm.mk
 include tools/make/rtai.mk
 
 # Floors of the house: each sees itself and what lies below.

@@ -36,7 +36,17 @@ PRELUDE_FLAGS = $(filter-out -Werror,$(TEST_FLAGS)) -Wno-sign-conversion -O0 -fp
 # ccache must be told that a precompiled header is known by its contents; the header itself names the folder it was made in.
 export CCACHE_SLOPPINESS = pch_defines,time_macros
 
-$(PRELUDE).pch: tests/prelude.hpp
+# Another release of these compilers refuses what was precompiled: all is made anew, where TEST_BUILD is another build's, too.
+TEST_COMPILERS := $(call release_of,$(TEST_CXX)) $(call release_of,$(TWIN_CXX))
+TEST_COMPILERS_STAMP = $(TEST_OBJ)/compilers
+ifneq ($(TEST_COMPILERS),$(file < $(TEST_COMPILERS_STAMP)))
+$(TEST_COMPILERS_STAMP): FORCE
+endif
+$(TEST_COMPILERS_STAMP):
+	@mkdir -p $(@D)
+	@echo '$(TEST_COMPILERS)' > $@
+
+$(PRELUDE).pch: tests/prelude.hpp $(TEST_COMPILERS_STAMP)
 	$(call say,c++,$<)
 	@mkdir -p $(@D)
 	$(Q)cp $< $(PRELUDE)
@@ -46,7 +56,7 @@ $(TEST_OBJ)/%.cpp.o: %.cpp $(LCM_FILES) $(PRELUDE).pch | $(LCM_STAMP)
 	$(call say,c++,$<)
 	@mkdir -p $(@D)
 	$(Q)$(TEST_CXX) -include-pch $(PRELUDE).pch $(PRELUDE_FLAGS) -c $< -o $@
-$(TEST_OBJ)/twins.hpp.gch:
+$(TEST_OBJ)/twins.hpp.gch: $(TEST_COMPILERS_STAMP)
 	$(call precompile,$(TWIN_CXX) $(filter-out -MMD -MP,$(TWIN_FLAGS)))
 define twin
 	$(call say,c++,$<)

@@ -66,7 +66,7 @@ static int64_t now_us(const ale_urg_t *urg)
 
 static void set_deadline(ale_urg_t *urg, int32_t ms)
 {
-    const int64_t floor_us = (int64_t)(LEAST_WALL_US * scale(urg));
+    const int64_t floor_us = (int64_t)((double)LEAST_WALL_US * scale(urg));
     urg->deadline_us = now_us(urg) + ale_max64((int64_t)ms * 1000, floor_us);
 }
 

@@ -61,7 +61,7 @@ Fault parse_fault(const std::string &text)
     const std::string what = text.substr(0, at);
     const std::string when = text.substr(at + 1);
     const size_t colon = what.find(':');
-    const Description &description = describe(what.substr(0, colon), text);
+    const Description description = describe(what.substr(0, colon), text);
     Fault fault = {description.kind, description.usual, -1, -1};
     if (colon != std::string::npos) {
         if (!description.has_argument) {

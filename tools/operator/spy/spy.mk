@@ -1,6 +1,6 @@
 # lcm-spy with our types. Debian's own script cannot start under Java 17 (it passes an option that is gone), so Java is called
 # here; LCM's Java part speaks IPv4 multicast only.
-SPY_CLASSES = /usr/share/java/lcm.jar:/usr/share/java/jchart2d.jar:$(LCM_JAR)
+SPY_CLASSES = $(LCM_CLASSES):/usr/share/java/jchart2d.jar:$(LCM_JAR)
 .PHONY: spy
 spy: deps ## lcm-spy with our types: every channel live, as a table and as graphs (needs a screen; LCM_DEFAULT_URL says where)
 	@tools/make/deps.sh tools/make/packages-spy.txt
