@@ -90,7 +90,8 @@ const ale_config_key_t ale_config_keys[] = {
 
     {"lcm", "url", TEXT(lcm_url),
      "Where messages go. Empty: the environment's LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0,\n"
-     "which stays on this computer; ttl=1 reaches the local network."},
+     "which stays on this computer. A laptop hears it by:  ale-bridge --connect ROBOT:7700 --keys KEY\n"
+     "(with ale-bridge --listen 7700 here). ttl=1 lets everybody on the local network hear and be heard."},
     {"lcm", "publish_scan", BOOL(publish_scan), "Send every scan's ranges as ALE_SCAN."},
     {"lcm", "publish_bot_core", BOOL(publish_bot_core),
      "Send scan and pose also as bot_core messages (LASER, POSE) for viewers that know those."},

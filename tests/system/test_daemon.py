@@ -102,6 +102,7 @@ def test_the_printed_configuration_is_accepted_and_prints_the_same(tmp_path):
     path.write_text(text)
     assert ask("--config", path, "--check-config")[0] == 0
     assert ask("--config", path, "--print-config")[1] == text
+    assert "ale-bridge --connect ROBOT:7700 --keys KEY" in text, "how a laptop hears it"
 
 
 @pytest.mark.parametrize("words", [["--lcm-url", "carrier-pigeon://"], ["--lcm-url", "udpm://nowhere:1"]])

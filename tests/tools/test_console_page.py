@@ -74,11 +74,13 @@ def number(text):
 def test_before_the_robot_is_heard_it_waits(page):
     page.wait_for(f"{LINK} === 'waiting'")
     assert page.text("state-word") == "waiting"
+    assert "ale-bridge --connect ROBOT:7700 --keys KEY" in page.text("advice"), "how it can be heard"
     assert page.run(f"return {ALARM}") is False
 
 
 def test_the_map_appears_and_the_pose_moves(page, pulse):
     page.wait_for(f"{STATE} === 'good' && {LINK} === 'up'")
+    assert "ale-bridge" not in page.text("advice")
     page.wait_for("document.getElementById('map-lines').textContent === '12'")
     first = page.text("x")
     page.wait_for(f"document.getElementById('x').textContent !== '{first}'")

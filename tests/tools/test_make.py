@@ -7,7 +7,7 @@ import subprocess
 import lcm
 import pytest
 
-from at_hand import ROOT
+from at_hand import BUILD, ROOT
 
 OBJECT = "obj/lib/graph/optimise/block_cholesky.cpp.o"
 
@@ -130,3 +130,27 @@ def test_another_release_of_lcm_is_taken_whole(tmp_path):
     assert generator(tmp_path).startswith("1.5") and generator(tmp_path) != of_the_machine
     types_compile(tmp_path)
     assert generator(tmp_path) == of_the_machine
+
+
+def manual_of(tmp_path, said):
+    program = tmp_path / "ale-planted"
+    program.write_text(f"#!/bin/sh\n[ \"$1\" = --version ] && echo ale-planted 1.2 || cat << 'END'\n{said}END\n", encoding="utf-8")
+    program.chmod(0o755)
+    return subprocess.run(["/usr/bin/python3", ROOT / "tools/make/man_page.py", program, "1"], check=True, capture_output=True, text=True).stdout
+
+
+def test_a_manual_page_is_what_help_says(tmp_path):
+    page = manual_of(tmp_path, "usage: ale-planted [--to FILE]\n                   [--loud]\nPlants a tree. It grows.\n"
+                               "  --to FILE  where it stands,\n             if at all\n  --loud     .with noise\nExit 0 fine.\n")
+    assert page.split("\n") == [
+        '.TH ALE-PLANTED 1 "" "ale-planted 1.2" "ALE\\-SLAM"', ".SH NAME", "ale\\-planted \\- plants a tree", ".SH SYNOPSIS", ".nf",
+        "ale\\-planted [\\fB\\-\\-to\\fR FILE]", "            [\\fB\\-\\-loud\\fR]", ".fi", ".SH DESCRIPTION", "Plants a tree. It grows.",
+        ".TP", "\\fB\\-\\-to\\fR FILE", "where it stands,", "if at all", ".TP", "\\fB\\-\\-loud\\fR", "\\&.with noise", ".PP", "Exit 0 fine.", ""]
+
+
+def test_the_list_of_symbols_is_what_the_library_shows():
+    make(BUILD, "libale.so")
+    shown = subprocess.run(["nm", "--dynamic", "--defined-only", "--format=posix", BUILD / "libale.so"], check=True, capture_output=True, text=True).stdout
+    listed = (ROOT / "firmware/deploy/debian/libale0.symbols").read_text(encoding="utf-8").splitlines()
+    assert listed[0] == "libale.so.0 libale0 #MINVER#"
+    assert {line.split("@")[0].strip() for line in listed[1:]} == {line.split()[0] for line in shown.splitlines()}

@@ -21,7 +21,7 @@ C_FLAGS = -std=c11 -D_GNU_SOURCE $(COMMON_FLAGS) $(CFLAGS)
 CXX_FLAGS = -std=c++17 -fno-strict-aliasing $(COMMON_FLAGS) $(CXXFLAGS)
 # Symbols are bound at start (-z now): the first call of a function would otherwise do it in the hard task. A build's id would
 # tell debug information, and with it the folder of the build: stripped programs are the same bytes wherever they were made.
-LINK_FLAGS = $(SANITIZER_FLAGS) -pthread -Wl,--as-needed,-z,now $(LDFLAGS)
+LINK_FLAGS = $(SANITIZER_FLAGS) -pthread -Wl,--as-needed,-z,now,--build-id=none $(LDFLAGS)
 LIBRARIES = $(LCM_LIBRARIES) -lserialport -linih -lsodium -lwebsockets -lpng -lz -lbz2 -lm
 # Without vectors a structure of Eigen's is laid out alike in every file, whatever processor and flags it is compiled for.
 EIGEN = -isystem /usr/include/eigen3 -DEIGEN_DONT_VECTORIZE

@@ -238,8 +238,9 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, every recording" $(SUB) same-bytes SAME_BYTES_BUILDS="gcc:-O3 clang:-O3"
 	@$(PHASE) "damaged files"
 	-@$(SUB) mutated
-	@$(PHASE) "the Debian package"
+	@$(PHASE) "the Debian packages"
 	-@$(PYTHON) tools/make/run_tests.py command "install, remove, purge" $(SUB) test-deb
+	-@$(PYTHON) tools/make/run_tests.py command "packages of the same bytes" $(SUB) same-packages
 	@$(PHASE) "the same bytes on other machines, emulated"
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, aarch64 armhf s390x" $(SUB) cross
 	@$(PHASE) "the firmware on a virtual robot PC"

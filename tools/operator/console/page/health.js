@@ -1,6 +1,6 @@
 // The health strip and panel: everything that is not the map.
 import {
-  adviceOnScanner, adviceOnTracking, codesInWords, counterInWords, countDrops, degrees, duration, heading, isTrouble, mapsInWords, metres, millimetres, STATES,
+  ADVICE_ON_HEARING, adviceOnScanner, adviceOnTracking, codesInWords, counterInWords, countDrops, degrees, duration, heading, isTrouble, mapsInWords, metres, millimetres, STATES,
   wheelsInWords,
 } from "./words.js";
 
@@ -54,7 +54,7 @@ export class Health {
     show("state-text", text);
     showAlarm(state, scene, word, text);
     const advice = [...(scene.status?.warnings ?? []), adviceOnScanner(scene.status?.driver, scene.scan?.stain), ...adviceOnTracking(scene.tracking)];
-    showAdvice(state === "up" || state === "lost" ? advice.filter(Boolean) : []);
+    showAdvice(state === "up" || state === "lost" ? advice.filter(Boolean) : state === "waiting" ? [ADVICE_ON_HEARING] : []);
   }
 
   frame() {

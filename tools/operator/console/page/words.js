@@ -116,3 +116,7 @@ export const STATES = {
   weak: ["weak", "position uncertain"],
   lost: ["lost", "position unknown"],
 };
+
+// While no robot has been heard: what a robot sends stays on it unless it is fetched.
+export const ADVICE_ON_HEARING =
+  "A robot's messages stay on the robot. For this computer to hear it, run here: ale-bridge --connect ROBOT:7700 --keys KEY (on the robot: ale-bridge --listen 7700, see its --help).";
