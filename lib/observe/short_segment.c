@@ -95,12 +95,18 @@ static moments_t moments_of(const segments_t *p, int32_t first, int32_t last)
     return c;
 }
 
+/* 786 m^2: points so far apart are no piece of one surface, and the squares of larger moments do not fit. */
+#define MOST_MOMENT INT64_C(768000000000)
+
 /* Direction of the longer axis, or false when it is about as wide as long: (l1 - l2) / (l1 + l2)
  * below 0.8. */
 static bool direction_of(const moments_t *c, uint32_t *direction_bam)
 {
     const int64_t sum = c->xx + c->yy;
     const int64_t difference = c->xx - c->yy;
+    if (sum > MOST_MOMENT) {
+        return false;
+    }
     const int64_t spread =
         (int64_t)ale_isqrt((uint64_t)(ale_round_shift(difference, 8) * ale_round_shift(difference, 8) +
                                       4 * ale_round_shift(c->xy, 8) * ale_round_shift(c->xy, 8)))

@@ -46,6 +46,22 @@ struct ShortSegment : testing::Test {
     }
 };
 
+/* As no scanner makes them: ten beams in a turn, and echoes at the end of its reach. */
+TEST_F(ShortSegment, PointsThatAreTensOfMetresApartHaveNoDirectionOfTheirOwn)
+{
+    scan->beams = 6;
+    scan->step_bam = static_cast<int32_t>(UINT32_MAX / 10);
+    for (int k = 0; k < scan->beams; k++) {
+        scan->flag[k] = ALE_BEAM_VALID;
+        scan->range_um[k] = ALE_MAX_RANGE_UM;
+    }
+    const std::vector<ale_observation_t> all = observe();
+    ASSERT_FALSE(all.empty());
+    for (const ale_observation_t &o : all) {
+        EXPECT_GT(static_cast<double>(o.var_angle_urad2), own_direction_urad * own_direction_urad);
+    }
+}
+
 TEST_F(ShortSegment, CentreAndNormalAreThoseOfItsPoints)
 {
     take({{-2, 3, 2, 2}, {3, -1, 2.5, 2}, {-1, -2, 2, -1.5}}, 0.002);
