@@ -457,7 +457,7 @@ def test_a_stop_that_was_made_by_a_forged_start_is_made_again_where_nobody_vouch
     commands(1)
     robot.publish_status()
     heard = commands(lambda so_far: any(one.boot == robot.boot for one in so_far))
-    assert {one.verb for one in heard} == {"stop"}
+    assert {(one.verb, one.boot) for one in heard} == {("stop", robot.boot + 5), ("stop", robot.boot)}
 
 
 def test_a_stop_goes_to_every_robot_that_is_heard_also_after_it(trusting, robot, commands):
