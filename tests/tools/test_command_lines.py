@@ -18,6 +18,7 @@ MISSING_FILE = {
     "ale-keys": (f"--list {ABSENT}", 1),
     "ale-latency": (ABSENT, 1),
     "ale-mounting": (ABSENT, 1),
+    "ale-odometry": ("", 0),
     "ale-record": (f"--port /dev/null --no-lcm --out {ABSENT}", 1),
     "ale-replay": (ABSENT, 1),
     "ale-screen": ("", 0),

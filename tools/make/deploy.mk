@@ -35,12 +35,13 @@ install-programs: all
 	ln -sf ale-lcmtypes-$(VERSION).jar $(SHARE)/java/ale-lcmtypes.jar
 
 install-documents: manuals
-	install -d $(SHARE)/man/man1 $(SHARE)/man/man8 $(SHARE)/doc/libale-dev/examples
+	install -d $(SHARE)/man/man1 $(SHARE)/man/man8 $(SHARE)/doc/libale-dev/examples $(SHARE)/doc/ale-slam-tools/examples
 	install -m 644 $(filter %.1,$(MANUALS)) $(SHARE)/man/man1
 	install -m 644 $(filter %.8,$(MANUALS)) $(SHARE)/man/man8
 	for page in README.md $$(git ls-files '*.md' | grep -E '^(lib|drivers|firmware|tools)/'); do \
 	    install -D -m 644 $$page $(SHARE)/doc/ale-slam/$$page || exit 1; done
 	install -m 644 $(wildcard tools/library/examples/*.c tools/library/examples/*.txt tools/library/python/*lines.py) $(SHARE)/doc/libale-dev/examples
+	install -m 644 $(filter-out %.md,$(wildcard tools/library/odometry/*)) $(SHARE)/doc/ale-slam-tools/examples
 
 install-service:
 	install -d $(DESTDIR)$(PREFIX)/lib/systemd/system
@@ -66,4 +67,4 @@ test-deb: deb ## lintian, and the packages installed into a layer over this mach
 	@$(PYTHON) tools/make/test_deb.py $(PACKAGES) || [ $$? = 77 ]
 
 same-packages: deb ## the packages built again in another folder, at another time, in another language: the same bytes
-	@tools/make/same_packages.sh $(PACKAGES)
+	@tools/make/same_packages.sh $(PACKAGES) CC="$(CC)" CXX="$(CXX)" CCACHE="$(CCACHE)"

@@ -113,7 +113,8 @@ def library(layer):
 
 
 def documents(layer):
-    for path in ("ale-slam/README.md", "ale-slam/firmware/deploy/README.md", "ale-slam-tools/tools/operator/console/README.md"):
+    for path in ("ale-slam/README.md", "ale-slam/firmware/deploy/README.md", "ale-slam-tools/tools/operator/console/README.md",
+                 "ale-slam-tools/examples/ale_odometry.ino"):
         assert layer.has(f"/usr/share/doc/{path}"), path
     layer.run("ale-sim", "--world", "/usr/share/ale-slam/worlds/home.world", "--write-log", "/tmp/drive.log")
     layer.run("python3", "-B", "-c", "import sys; sys.path.insert(0, '/usr/share/ale-slam/python'); import ale; ale.pose_t().encode()")

@@ -6,9 +6,11 @@
 
 #include "common/command_line/command_line.h"
 #include "common/command_line/files.h"
+#include "common/command_line/interrupt.h"
 #include "common/command_line/robot_files.h"
 #include "common/export/text_file.h"
 #include "robot/calibrate/configuration.h"
+#include "robot/calibrate/live.h"
 #include "robot/calibrate/mounting_report.h"
 #include "robot/calibrate/noise_plot.h"
 
@@ -19,6 +21,7 @@ constexpr char usage[] =
     "usage: ale-calibrate [noise] LOG [--out FILE] [--plot F.svg]\n"
     "       ale-calibrate mounting LOG [--out FILE] [--config FILE]\n"
     "       ale-calibrate wheels LOG [--out FILE] [--config FILE]\n"
+    "       ale-calibrate wheels --live [--lcm-url URL] [--seconds N]\n"
     "Finds what a robot's configuration needs from a recording in any format that ale-replay reads.\n"
     "  noise     [noise]: noise model of the scanner. Half a minute at rest, at a flat wall or anywhere "
     "with\n"
@@ -32,8 +35,13 @@ constexpr char usage[] =
     "  --config FILE  mounting, wheels: configuration, as for ale-slamd: noise of the scanner, blind "
     "sectors,\n"
     "                 upside down\n"
+    "  --live         wheels: no recording; listens while somebody drives, and says whether the odometry has "
+    "the\n"
+    "                 right sign, axes, units, scale and time\n"
+    "  --lcm-url URL  --live: where the robot publishes (default: LCM_DEFAULT_URL, else LCM's own default)\n"
+    "  --seconds N    --live: gives up after so long (default 120)\n"
     "  --help, --version\n"
-    "Exit 0 fine, 1 failed, 2 wrong use.\n";
+    "Exit 0 fine, 1 failed or something is wrong, 2 wrong use.\n";
 
 constexpr char mounting_usage[] =
     "usage: ale-mounting LOG [--out FILE] [--config FILE]\n"
@@ -51,6 +59,9 @@ struct Options {
     std::string out = "-";
     std::string plot;
     std::string config;
+    bool live = false;
+    std::string lcm_url;
+    int seconds = 120;
 };
 
 /* What fails names the log. */
@@ -117,6 +128,17 @@ void check(const Options &options)
     files.writes("--plot", options.plot);
 }
 
+/* "wheels --live" */
+int check_live(const Options &options, const std::string &first, const std::string &second)
+{
+    if (first != "wheels" || !second.empty() || options.out != "-" || !options.config.empty() ||
+        !options.plot.empty()) {
+        throw cli::WrongUse("--live is for wheels, and takes no recording and no file");
+    }
+    cli::catch_interrupts();
+    return calibrate::check_first_drive(options.lcm_url, options.seconds) ? 0 : 1;
+}
+
 /* "[SUBJECT] LOG" */
 void take_words(const std::string &first, const std::string &second, Options &options)
 {
@@ -146,10 +168,16 @@ int main(int argc, char **argv)
     if (!older) {
         line.possible_argument("LOG", second);
         cli::drawing(line, "plot", options.plot);
+        line.flag("live", options.live);
+        line.text("lcm-url", options.lcm_url);
+        line.number("seconds", options.seconds, 1, 600);
     }
     line.text("out", options.out);
     line.text("config", options.config);
     return line.run(argc, argv, [&] {
+        if (options.live) {
+            return check_live(options, first, second);
+        }
         if (older) {
             options.subject = Subject::mounting_and_wheels;
             options.log = first;
@@ -158,5 +186,6 @@ int main(int argc, char **argv)
         }
         check(options);
         options.subject == Subject::noise ? calibrate_noise(options) : calibrate_mounting(options);
+        return 0;
     });
 }
