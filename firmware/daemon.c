@@ -53,7 +53,7 @@ static int prepare(ale_daemon_t *daemon)
     }
     daemon->realtime_started = true;
     char error[ALE_BUS_ERROR];
-    daemon->bus = ale_bus_open_early(config->lcm_url, error);
+    daemon->bus = ale_bus_open_early(config->lcm_url, config->lcm_prefix, error);
     if (!daemon->bus) {
         return fail(1, error);
     }

@@ -7,6 +7,7 @@
 
 #include <lcmtypes_ale_drive_t.h>
 #include <lcmtypes_ale_odometry_exact_t.h>
+#include <lcmtypes_ale_speaker_t.h>
 #include <lcmtypes_bot_core_planar_lidar_t.h>
 #include <lcmtypes_bot_core_pose_t.h>
 
@@ -23,6 +24,8 @@ struct ale_bus {
     ale_bus_odometry_t take_odometry;
     void *odometry_user;
     int64_t exact_utime; /* of the last sample that came exactly */
+    ale_bus_speaker_t take_speaker;
+    void *speaker_user;
     ale_bus_command_t take_command;
     void *command_user;
     ale_vouch_t vouch;
@@ -59,9 +62,15 @@ ale_bus_t *ale_bus_open(const char *url, char error[ALE_BUS_ERROR])
     return open_by(ale_wire_open, url, error);
 }
 
-ale_bus_t *ale_bus_open_early(const char *url, char error[ALE_BUS_ERROR])
+ale_bus_t *ale_bus_open_early(const char *url, const char *prefix, char error[ALE_BUS_ERROR])
 {
-    return open_by(ale_wire_open_early, url, error);
+    ale_bus_t *bus = open_by(ale_wire_open_early, url, error);
+    if (bus && prefix[0] != '\0' && ale_wire_set_prefix(bus->wire, prefix) < 0) {
+        snprintf(error, ALE_BUS_ERROR, "LCM: no channel may begin with \"%.40s\"", prefix);
+        ale_bus_close(bus);
+        return NULL;
+    }
+    return bus;
 }
 
 bool ale_bus_tend(ale_bus_t *bus)
@@ -155,6 +164,18 @@ int ale_bus_send_status(ale_bus_t *bus, const ale_status_report_t *report)
     return bus->vouch.key ? send_bytes(bus, ALE_CHANNEL_VOUCHED,
                                        ale_vouch_encode(&bus->vouch, &message, bus->bytes, MESSAGE_BYTES))
                           : sent;
+}
+
+int ale_bus_send_speaker(ale_bus_t *bus, const ale_speaker_t *speaker)
+{
+    lcmtypes_ale_speaker_t message = {
+        .utime = speaker->now_us, .boot = speaker->boot, .process = speaker->process};
+    _Static_assert(sizeof speaker->host == sizeof message.host, "as long here as there");
+    _Static_assert(sizeof speaker->robot == sizeof message.robot, "as long here as there");
+    memcpy(message.host, speaker->host, sizeof message.host);
+    memcpy(message.robot, speaker->robot, sizeof message.robot);
+    return send_bytes(bus, ALE_CHANNEL_SPEAKER,
+                      lcmtypes_ale_speaker_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
 }
 
 int ale_bus_send_odometry(ale_bus_t *bus, const ale_odometry_t *sample)
@@ -294,6 +315,41 @@ int ale_bus_on_odometry(ale_bus_t *bus, ale_bus_odometry_t take, void *user)
     return ale_wire_subscribe(bus->wire, ALE_CHANNEL_ODOMETRY_EXACT, take_exact_odometry, bus) < 0
                ? -1
                : ale_wire_subscribe(bus->wire, ALE_CHANNEL_ODOMETRY, take_odometry, bus);
+}
+
+/* A name as others tell it: ends within its bytes, and nothing in it that a terminal would obey. */
+static void take_name(const uint8_t *told, size_t size, char *name)
+{
+    memcpy(name, told, size);
+    name[size - 1] = '\0';
+    const size_t length = strlen(name);
+    for (size_t k = 0; k < length; k++) {
+        if (name[k] < ' ' || name[k] > '~') {
+            name[k] = '?';
+        }
+    }
+    memset(name + length, 0, size - length);
+}
+
+static void take_speaker(void *user, const char *channel, const uint8_t *bytes, size_t count)
+{
+    (void)channel;
+    ale_bus_t *bus = user;
+    lcmtypes_ale_speaker_t message;
+    if (lcmtypes_ale_speaker_t_decode(bytes, 0, (int)count, &message) < 0) {
+        return;
+    }
+    ale_speaker_t speaker = {.now_us = message.utime, .boot = message.boot, .process = message.process};
+    take_name(message.host, sizeof speaker.host, speaker.host);
+    take_name(message.robot, sizeof speaker.robot, speaker.robot);
+    bus->take_speaker(bus->speaker_user, &speaker);
+}
+
+int ale_bus_on_speaker(ale_bus_t *bus, ale_bus_speaker_t take, void *user)
+{
+    bus->take_speaker = take;
+    bus->speaker_user = user;
+    return ale_wire_subscribe(bus->wire, ALE_CHANNEL_SPEAKER, take_speaker, bus);
 }
 
 static void take_command(void *user, const char *channel, const uint8_t *bytes, size_t count)

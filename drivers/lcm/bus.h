@@ -26,6 +26,7 @@
 #define ALE_CHANNEL_MAP "ALE_MAP"
 #define ALE_CHANNEL_MAP_PIECES "ALE_MAP_PIECES"
 #define ALE_CHANNEL_STATUS "ALE_STATUS"
+#define ALE_CHANNEL_SPEAKER "ALE_SPEAKER"
 #define ALE_CHANNEL_VOUCHED "ALE_VOUCHED"
 #define ALE_CHANNEL_ODOMETRY "ALE_ODOMETRY"
 #define ALE_CHANNEL_ODOMETRY_EXACT "ALE_ODOMETRY_EXACT"
@@ -44,8 +45,9 @@ typedef struct ale_bus ale_bus_t;
  * caller's to close. NULL and one line for people in error, as ale_wire_open. */
 ale_bus_t *ale_bus_open(const char *url, char error[ALE_BUS_ERROR]);
 
-/* The same before there is a network, as ale_wire_open_early. */
-ale_bus_t *ale_bus_open_early(const char *url, char error[ALE_BUS_ERROR]);
+/* The same before there is a network, as ale_wire_open_early. prefix: of all channels, as
+ * ale_wire_set_prefix; empty: what the URL says of it. */
+ale_bus_t *ale_bus_open_early(const char *url, const char *prefix, char error[ALE_BUS_ERROR]);
 
 /* Joins the bus again where the network has changed, as ale_wire_tend. Whether there is a route. */
 bool ale_bus_tend(ale_bus_t *bus);
@@ -69,6 +71,7 @@ int ale_bus_send_scan(ale_bus_t *bus, const ale_scan_t *scan, int64_t utime, uin
 int ale_bus_send_map_part(ale_bus_t *bus, const ale_map_t *map, int64_t utime, int16_t part);
 int ale_bus_send_map_pieces(ale_bus_t *bus, const ale_map_t *map, int64_t utime, int16_t part);
 int ale_bus_send_status(ale_bus_t *bus, const ale_status_report_t *report);
+int ale_bus_send_speaker(ale_bus_t *bus, const ale_speaker_t *speaker);
 int ale_bus_send_odometry(ale_bus_t *bus, const ale_odometry_t *sample);
 int ale_bus_send_exact_odometry(ale_bus_t *bus, const ale_odometry_t *sample); /* then the other, for all */
 int ale_bus_send_drive(ale_bus_t *bus, int64_t utime, int32_t v_um_s, int32_t w_urad_s);
@@ -88,6 +91,10 @@ int ale_bus_send_bot_pose(ale_bus_t *bus, const ale_pose_report_t *report);
  * should be is refused and counted. 0, or -1: the bus cannot be listened to (errno). */
 typedef void (*ale_bus_odometry_t)(void *user, const ale_odometry_t *sample, uint64_t sender);
 int ale_bus_on_odometry(ale_bus_t *bus, ale_bus_odometry_t take, void *user);
+
+/* Who speaks on these channels, itself among them: names are printable ASCII. 0, or -1 as above. */
+typedef void (*ale_bus_speaker_t)(void *user, const ale_speaker_t *speaker);
+int ale_bus_on_speaker(ale_bus_t *bus, ale_bus_speaker_t take, void *user);
 
 /* Commands as they arrive: bytes that nobody has looked at yet (command/verify.h does). What comes
  * between two calls of ale_bus_receive waits in the kernel. 0, or -1 as above. */

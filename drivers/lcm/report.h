@@ -36,6 +36,15 @@ typedef struct {
     uint64_t value;
 } ale_counter_t;
 
+/* ALE_SPEAKER: a program that is a robot's firmware. */
+typedef struct {
+    int64_t now_us;
+    int64_t boot; /* nonce of its start */
+    int32_t process;
+    char host[64];
+    char robot[ALE_NAME_BYTES];
+} ale_speaker_t;
+
 /* The operator's side of the robot. */
 typedef struct {
     char robot[ALE_NAME_BYTES];

@@ -53,22 +53,57 @@ static int take_address(const char *rest, ale_lcm_group_t *group, char error[ALE
     return -1;
 }
 
+bool ale_lcm_is_prefix(const char *text)
+{
+    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-/";
+    const size_t length = strspn(text, letters);
+    return text[length] == '\0' && length <= ALE_LCM_PREFIX;
+}
+
+static int take_prefix(const char *text, ale_lcm_group_t *group)
+{
+    if (!ale_lcm_is_prefix(text)) {
+        return -1;
+    }
+    snprintf(group->prefix, sizeof group->prefix, "%.*s", ALE_LCM_PREFIX, text);
+    return 0;
+}
+
+/* What stands behind "name=" of an option; NULL: it is another one. */
+static const char *value_of(const char *option, const char *name)
+{
+    const size_t length = strlen(name);
+    return strncmp(option, name, length) == 0 && option[length] == '=' ? option + length + 1 : NULL;
+}
+
+static int take_ttl(const char *text, ale_lcm_group_t *group)
+{
+    const long ttl = number_of(text, 0, MOST_TTL);
+    group->ttl = (uint8_t)ttl;
+    return ttl < 0 ? -1 : 0;
+}
+
+static int take_receive_bytes(const char *text, ale_lcm_group_t *group)
+{
+    const long bytes = number_of(text, 1, MOST_RECEIVE_BYTES);
+    group->receive_bytes = (int32_t)bytes;
+    return bytes < 0 ? -1 : 0;
+}
+
 /* One option, as in "ttl=0". LCM's own transmit_only has lost its meaning, there too. */
 static int take_option(const char *option, ale_lcm_group_t *group)
 {
-    const char *value = strchr(option, '=');
-    const size_t name = value ? (size_t)(value - option) : strlen(option);
-    if (name == strlen("ttl") && strncmp(option, "ttl", name) == 0 && value) {
-        const long ttl = number_of(value + 1, 0, MOST_TTL);
-        group->ttl = (uint8_t)ttl;
-        return ttl < 0 ? -1 : 0;
+    static const struct {
+        const char *name;
+        int (*take)(const char *text, ale_lcm_group_t *group);
+    } options[] = {{"ttl", take_ttl}, {"recv_buf_size", take_receive_bytes}, {"prefix", take_prefix}};
+    for (size_t k = 0; k < sizeof options / sizeof options[0]; k++) {
+        const char *value = value_of(option, options[k].name);
+        if (value) {
+            return options[k].take(value, group);
+        }
     }
-    if (name == strlen("recv_buf_size") && strncmp(option, "recv_buf_size", name) == 0 && value) {
-        const long bytes = number_of(value + 1, 1, MOST_RECEIVE_BYTES);
-        group->receive_bytes = (int32_t)bytes;
-        return bytes < 0 ? -1 : 0;
-    }
-    return name == strlen("transmit_only") && strncmp(option, "transmit_only", name) == 0 ? 0 : -1;
+    return strcmp(option, "transmit_only") == 0 || value_of(option, "transmit_only") ? 0 : -1;
 }
 
 static int take_options(const char *options, ale_lcm_group_t *group, char error[ALE_LCM_URL_ERROR])
@@ -77,8 +112,10 @@ static int take_options(const char *options, ale_lcm_group_t *group, char error[
         char option[PART_BYTES];
         take_part(options, "&", "", option);
         if (*option && take_option(option, group) < 0) {
-            snprintf(error, ALE_LCM_URL_ERROR, "LCM: \"%s\": udpm takes ttl=0 to 255 and recv_buf_size=BYTES",
-                     option);
+            snprintf(error, ALE_LCM_URL_ERROR,
+                     "LCM: \"%s\": udpm takes ttl=0 to 255, recv_buf_size=BYTES and prefix=TEXT "
+                     "(%d letters, digits and . _ - / at most)",
+                     option, ALE_LCM_PREFIX);
             return -1;
         }
         options += strcspn(options, "&");

@@ -6,14 +6,16 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { ALE_LCM_URL_ERROR = 256 };
+enum { ALE_LCM_URL_ERROR = 256, ALE_LCM_PREFIX = 16 };
 
-/* udpm://GROUP:PORT?ttl=N&recv_buf_size=N, each part of which may be missing. */
+/* udpm://GROUP:PORT?ttl=N&recv_buf_size=N&prefix=TEXT, each part of which may be missing. The last is ours:
+ * what the names of all channels begin with, where several robots share a network. */
 typedef struct {
     uint32_t address; /* a multicast address, 239.255.76.67 as 0xefff4c43 */
     uint16_t port;
     uint8_t ttl;           /* 0: messages stay on this machine */
     int32_t receive_bytes; /* asked from the kernel; 0: not said */
+    char prefix[ALE_LCM_PREFIX + 1];
 } ale_lcm_group_t;
 
 /* The URL to open: url, or where that is NULL or empty the environment's LCM_DEFAULT_URL, else LCM's default.
@@ -26,6 +28,9 @@ bool ale_lcm_is_group(const char *url);
 
 /* 0, or -1 and one line in error; the route is not looked at. *group is then undefined. */
 int ale_lcm_group(const char *url, ale_lcm_group_t *group, char error[ALE_LCM_URL_ERROR]);
+
+/* Whether names of channels may begin so: at most 16 letters, digits and . _ - /; or nothing. */
+bool ale_lcm_is_prefix(const char *text);
 
 /* 0 when the computer has a route to the group at this moment, or -1 and one line in error that says how to
  * make one. Makes a socket and closes it again; sends nothing. */

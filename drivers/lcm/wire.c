@@ -25,6 +25,7 @@ typedef struct {
 struct ale_wire {
     ale_udpm_t *udpm;
     ale_liblcm_t *liblcm;
+    char prefix[ALE_LCM_PREFIX + 1];
     int subscriptions;
     subscription_t subscription[MAX_SUBSCRIPTIONS];
     int handled;
@@ -43,6 +44,7 @@ ale_wire_t *ale_wire_open_early(const char *url, char error[ALE_LCM_URL_ERROR])
     ale_wire_t *wire = calloc(1, sizeof *wire);
     if (wire && ale_lcm_is_group(chosen)) {
         wire->udpm = ale_udpm_open(&group);
+        memcpy(wire->prefix, group.prefix, sizeof wire->prefix);
     } else if (wire) {
         wire->liblcm = ale_liblcm_open(chosen);
     }
@@ -74,10 +76,32 @@ void ale_wire_close(ale_wire_t *wire)
     }
 }
 
-int ale_wire_send(ale_wire_t *wire, const char *channel, const uint8_t *bytes, size_t count)
+int ale_wire_set_prefix(ale_wire_t *wire, const char *prefix)
+{
+    if (!ale_lcm_is_prefix(prefix)) {
+        return -1;
+    }
+    snprintf(wire->prefix, sizeof wire->prefix, "%s", prefix);
+    return 0;
+}
+
+/* As it is called on the bus. 0, or -1: longer than a channel may be, or nothing. */
+static int full_name(const ale_wire_t *wire, const char *channel, char name[ALE_DATAGRAM_CHANNEL + 1])
+{
+    const int length = snprintf(name, ALE_DATAGRAM_CHANNEL + 1, "%s%s", wire->prefix, channel);
+    return channel[0] == '\0' || length > ALE_DATAGRAM_CHANNEL ? -1 : 0;
+}
+
+static int send_as(ale_wire_t *wire, const char *channel, const uint8_t *bytes, size_t count)
 {
     return wire->udpm ? ale_udpm_send(wire->udpm, channel, bytes, count)
                       : ale_liblcm_send(wire->liblcm, channel, bytes, count);
+}
+
+int ale_wire_send(ale_wire_t *wire, const char *channel, const uint8_t *bytes, size_t count)
+{
+    char name[ALE_DATAGRAM_CHANNEL + 1];
+    return full_name(wire, channel, name) < 0 ? -1 : send_as(wire, name, bytes, count);
 }
 
 static void deliver(void *user, const char *channel, const uint8_t *bytes, size_t count)
@@ -88,7 +112,7 @@ static void deliver(void *user, const char *channel, const uint8_t *bytes, size_
         const subscription_t *subscription = &wire->subscription[k];
         if (strcmp(channel, subscription->channel) == 0) {
             wire->handled++;
-            subscription->take(subscription->user, channel, bytes, count);
+            subscription->take(subscription->user, channel + strlen(wire->prefix), bytes, count);
         }
     }
 }
@@ -100,14 +124,14 @@ static int listen_to_it(ale_wire_t *wire)
 
 int ale_wire_subscribe(ale_wire_t *wire, const char *channel, ale_lcm_take_t take, void *user)
 {
-    const size_t length = strlen(channel);
-    if (length == 0 || length > ALE_DATAGRAM_CHANNEL || wire->subscriptions == MAX_SUBSCRIPTIONS) {
+    char name[ALE_DATAGRAM_CHANNEL + 1];
+    if (full_name(wire, channel, name) < 0 || wire->subscriptions == MAX_SUBSCRIPTIONS) {
         errno = EINVAL;
         return -1;
     }
     subscription_t *subscription = &wire->subscription[wire->subscriptions];
     *subscription = (subscription_t){.take = take, .user = user};
-    memcpy(subscription->channel, channel, length + 1);
+    memcpy(subscription->channel, name, sizeof name);
     if (listen_to_it(wire) < 0) {
         return -1;
     }
@@ -180,7 +204,7 @@ bool ale_wire_hears_itself(ale_wire_t *wire, int timeout_ms)
     static const uint8_t words[] = "lcm self test";
     const int64_t end_ms = now_ms() + timeout_ms;
     wire->heard_itself = false;
-    ale_wire_send(wire, SELF_TEST, words, sizeof words - 1);
+    send_as(wire, SELF_TEST, words, sizeof words - 1);
     for (int64_t left_ms = timeout_ms; !wire->heard_itself && left_ms > 0; left_ms = end_ms - now_ms()) {
         struct pollfd ready = {.fd = ale_wire_descriptor(wire), .events = POLLIN};
         if (poll(&ready, 1, (int)left_ms) > 0 && take_what_waits(wire, SELF_TEST_DATAGRAMS) < 0) {

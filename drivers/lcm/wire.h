@@ -32,14 +32,19 @@ ale_wire_t *ale_wire_open_early(const char *url, char error[ALE_LCM_URL_ERROR]);
  * Looks once a second at most; ale_wire_receive does so by itself. Whether there is a route. */
 bool ale_wire_tend(ale_wire_t *wire);
 
+/* What the names of all channels begin with on the bus, and nowhere else: in place of what the URL says of
+ * it. Before the first subscription. 0, or -1: no prefix (ale_lcm_is_prefix). */
+int ale_wire_set_prefix(ale_wire_t *wire, const char *prefix);
+
 /* NULL: nothing. */
 void ale_wire_close(ale_wire_t *wire);
 
 /* Never waits for a reader. 0, or -1: too long (64 KiB), no name for a channel, or the system refuses. */
 int ale_wire_send(ale_wire_t *wire, const char *channel, const uint8_t *bytes, size_t count);
 
-/* `take` is called for what comes on this channel (1 to 63 characters, taken literally); at most 64
- * subscriptions. 0, or -1: too many, no such name, or the bus cannot be listened to (errno). */
+/* `take` is called for what comes on this channel (1 to 63 characters, the prefix among them, taken
+ * literally); at most 64 subscriptions. 0, or -1: too many, no such name, or the bus cannot be listened to
+ * (errno). */
 int ale_wire_subscribe(ale_wire_t *wire, const char *channel, ale_lcm_take_t take, void *user);
 
 /* For poll: readable while messages wait. -1 before the first subscription. */

@@ -56,7 +56,7 @@ typedef struct {
     char port[128];
     int32_t baud;     /* bit/s */
     int32_t protocol; /* version of the protocol spoken; 0: unknown */
-    char status[128]; /* what the sensor says of itself, or the last fault, in plain words */
+    char status[168]; /* what the sensor says of itself, or the last fault, in plain words */
     uint64_t scans;
     uint64_t scans_lost; /* seen on the line and unusable, or missing by their stamps */
     uint64_t bad_checksum;

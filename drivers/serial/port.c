@@ -1,6 +1,7 @@
 #include "serial/port.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <limits.h>
 #include <poll.h>
 #include <stdio.h>
@@ -12,6 +13,8 @@
 #include <unistd.h>
 
 #include "serial/port_backend.h"
+
+enum { NAME_BYTES = 32 };
 
 /* libserialport serves what the kernel lists as a terminal; it refuses pseudo terminals. */
 static bool listed_by_kernel(const char *name)
@@ -47,17 +50,39 @@ static int open_offered(ale_port_t *port, const char *name, int32_t baud)
     return port->backend->open(port, name, baud);
 }
 
+static struct flock whole_of_it(void)
+{
+    return (struct flock){.l_type = F_WRLCK, .l_whence = SEEK_SET};
+}
+
+/* Held before anything else is done to the port: what a second program sets and flushes the first would lose.
+ * The record lock beside it keeps nobody out; the kernel tells by it whose process holds the port. */
+static int lock(ale_port_t *port, const char *real_path)
+{
+    struct flock name_tag = whole_of_it();
+    port->lock = open(real_path, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    if (port->lock < 0) {
+        return ale_port_status_of_errno(errno);
+    }
+    if (flock(port->lock, LOCK_EX | LOCK_NB) < 0) {
+        close(port->lock);
+        return ALE_PORT_BUSY;
+    }
+    (void)fcntl(port->lock, F_SETLK, &name_tag);
+    return ALE_PORT_OK;
+}
+
 static int open_locked(ale_port_t *port, const char *real_path, int32_t baud)
 {
-    const int status = port->backend->open(port, real_path, baud);
+    int status = lock(port, real_path);
     if (status < 0) {
         return status;
     }
-    if (flock(port->fd, LOCK_EX | LOCK_NB) < 0) {
-        port->backend->close(port);
-        return ALE_PORT_DENIED;
+    status = port->backend->open(port, real_path, baud);
+    if (status < 0) {
+        close(port->lock);
     }
-    return ALE_PORT_OK;
+    return status;
 }
 
 /* What else the path may be than a terminal. */
@@ -101,6 +126,7 @@ int ale_port_open(ale_port_t **out, const char *path, int32_t baud)
         return ALE_PORT_GONE;
     }
     port->fd = -1;
+    port->lock = -1;
     const size_t prefix = offered.prefix ? strlen(offered.prefix) : 0;
     const int status = prefix > 0 && strncmp(path, offered.prefix, prefix) == 0
                            ? open_offered(port, path + prefix, baud)
@@ -213,6 +239,48 @@ void ale_port_close(ale_port_t *port)
 {
     if (port != NULL) {
         port->backend->close(port);
+        if (port->lock >= 0) {
+            close(port->lock);
+        }
         free(port);
     }
+}
+
+/* The name of a process, or nothing where that is not to be seen. */
+static void name_of(pid_t process, char name[NAME_BYTES])
+{
+    char path[NAME_BYTES * 2];
+    snprintf(path, sizeof path, "/proc/%ld/comm", (long)process);
+    FILE *file = fopen(path, "re");
+    name[0] = '\0';
+    if (file) {
+        if (fgets(name, NAME_BYTES, file)) {
+            name[strcspn(name, "\n")] = '\0';
+        }
+        fclose(file);
+    }
+}
+
+static pid_t holder_of(const char *path)
+{
+    struct flock held = whole_of_it();
+    const int there = open(path, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    const bool known = there >= 0 && fcntl(there, F_GETLK, &held) == 0 && held.l_type != F_UNLCK;
+    if (there >= 0) {
+        close(there);
+    }
+    return known && held.l_pid > 0 ? held.l_pid : 0;
+}
+
+void ale_port_explain(int status, const char *path, char words[ALE_PORT_WORDS])
+{
+    const pid_t process = status == ALE_PORT_BUSY ? holder_of(path) : 0;
+    char name[NAME_BYTES] = "";
+    if (process == 0) {
+        snprintf(words, ALE_PORT_WORDS, "%s", ale_port_strerror(status));
+        return;
+    }
+    name_of(process, name);
+    snprintf(words, ALE_PORT_WORDS, "in use by another program: process %ld%s%s%s", (long)process,
+             name[0] ? " (" : "", name, name[0] ? ")" : "");
 }

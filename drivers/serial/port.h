@@ -16,8 +16,9 @@ typedef struct ale_port ale_port_t;
 struct ale_port_backend; /* serial/port_backend.h */
 
 /* Opens path (links are resolved) exclusively, raw, 8N1, no flow control, DTR untouched. ALE_PORT_OK and
- * *out, the caller's to close; else *out is NULL and the status ALE_PORT_ABSENT, DENIED, FILE, FOLDER, OTHER,
- * BAUD (baud is not possible there), or GONE (any other error, and no memory). */
+ * *out, the caller's to close; else *out is NULL and the status ALE_PORT_ABSENT, DENIED, BUSY (and nothing
+ * was done to the port), FILE, FOLDER, OTHER, BAUD (baud is not possible there), or GONE (any other error,
+ * and no memory). */
 int ale_port_open(ale_port_t **out, const char *path, int32_t baud);
 
 /* Changes the rate, bit/s. ALE_PORT_OK, or ALE_PORT_BAUD: the rate is as it was. */
@@ -40,6 +41,11 @@ bool ale_port_has_baud(const ale_port_t *port);
 
 /* NULL: nothing. */
 void ale_port_close(ale_port_t *port);
+
+enum { ALE_PORT_WORDS = 100 };
+
+/* Why a path could not be opened, in words of one line; where another program holds it, which one. */
+void ale_port_explain(int status, const char *path, char words[ALE_PORT_WORDS]);
 
 /* A back end from above drivers/ that serves the paths which begin with prefix ("name:"); it is given what
  * follows. Once, before the first port is opened; both must stay. */

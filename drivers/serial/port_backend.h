@@ -27,6 +27,7 @@ typedef struct ale_port_backend {
 struct ale_port {
     const ale_port_backend_t *backend;
     int fd;
+    int lock;     /* holds the port for this process; -1: the back end does */
     void *handle; /* of the back end */
     bool has_baud;
 };

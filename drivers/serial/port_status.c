@@ -7,9 +7,10 @@ ale_port_status_t ale_port_status_of_errno(int error)
     switch (error) {
     case EACCES:
     case EPERM:
+        return ALE_PORT_DENIED;
     case EBUSY:
     case EWOULDBLOCK:
-        return ALE_PORT_DENIED;
+        return ALE_PORT_BUSY;
     case ENOENT:
     case ENODEV:
     case ENXIO:
@@ -32,7 +33,9 @@ const char *ale_port_strerror(int status)
     case ALE_PORT_GONE:
         return "the port is gone (unplugged or hung up)";
     case ALE_PORT_DENIED:
-        return "no access: permission is missing (group dialout), or another program holds the port";
+        return "no access: permission is missing (group dialout)";
+    case ALE_PORT_BUSY:
+        return "in use by another program";
     case ALE_PORT_ABSENT:
         return "no such serial device";
     case ALE_PORT_FILE:

@@ -15,6 +15,7 @@
 #include <stdio.h>
 
 #include "command/command.h"
+#include "lcm/url.h"
 #include "plan/explorer.h"
 #include "plan/robot_shape.h"
 #include "track/pipeline.h"
@@ -33,7 +34,8 @@ typedef struct {
     bool reversed;
     uint16_t first_step; /* 0, 0: what the sensor says */
     uint16_t last_step;
-    char lcm_url[ALE_CONFIG_PATH]; /* empty: LCM's own default */
+    char lcm_url[ALE_CONFIG_PATH];       /* empty: LCM's own default */
+    char lcm_prefix[ALE_LCM_PREFIX + 1]; /* of all channels; empty: none, or what the URL says */
     bool publish_scan;
     bool publish_bot_core;
     int32_t priority; /* 1..97, 0: not real time */

@@ -4,8 +4,11 @@
 
 #define FIELD(member) offsetof(ale_config_t, member), sizeof(((ale_config_t *)0)->member)
 #define TEXT(member) ALE_KEY_TEXT, 0, FIELD(member), 0, 0
+#define URL(member) ALE_KEY_URL, 0, FIELD(member), 0, 0
+#define PREFIX(member) ALE_KEY_PREFIX, 0, FIELD(member), 0, 0
 #define BOOL(member) ALE_KEY_BOOL, 0, FIELD(member), 0, 0
 #define NUMBER(member, digits, min, max) ALE_KEY_NUMBER, digits, FIELD(member), min, max
+#define RATE(member, min, max) ALE_KEY_RATE, 0, FIELD(member), min, max
 #define ODD(member, min, max) ALE_KEY_ODD, 0, FIELD(member), min, max
 #define ANGLE(member) ALE_KEY_ANGLE, 9, FIELD(member), -3141592653, 3141592653
 #define SECTORS ALE_KEY_SECTORS, 0, FIELD(pipeline.blind), 0, 0
@@ -16,7 +19,7 @@ const ale_config_key_t ale_config_keys[] = {
      "Empty: every serial port is asked for the scanner with the serial number below.\n"
      "rtai:0, rtai:1: a 16550 port by RTAI's serial driver (builds for RTAI)."},
     {"sensor", "serial", TEXT(serial), "Serial number that the scanner must have. Empty: any."},
-    {"sensor", "baud", NUMBER(baud, 0, 0, 1000000), "Rate of an RS-232 port in bit/s. 0: found by trying."},
+    {"sensor", "baud", RATE(baud, 0, 1000000), "Rate of an RS-232 port in bit/s. 0: found by trying."},
     {"sensor", "x", NUMBER(pipeline.sensor.x_um, 6, -10000000, 10000000),
      "Mounting: where the scanner sits in the robot's frame, metres forward ..."},
     {"sensor", "y", NUMBER(pipeline.sensor.y_um, 6, -10000000, 10000000), "... metres to the left ..."},
@@ -88,10 +91,13 @@ const ale_config_key_t ale_config_keys[] = {
     {"explore", "clearance", NUMBER(explore_clearance_um, 6, 0, 500000),
      "and room that its ways keep beyond the robot's width and margin, metres."},
 
-    {"lcm", "url", TEXT(lcm_url),
+    {"lcm", "url", URL(lcm_url),
      "Where messages go. Empty: the environment's LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0,\n"
      "which stays on this computer. A laptop hears it by:  ale-bridge --connect ROBOT:7700 --keys KEY\n"
      "(with ale-bridge --listen 7700 here). ttl=1 lets everybody on the local network hear and be heard."},
+    {"lcm", "prefix", PREFIX(lcm_prefix),
+     "What the names of all channels begin with, where several robots share a network: rover1. makes\n"
+     "rover1.ALE_POSE. Programs that watch it say so, too: --lcm-url 'udpm://?ttl=1&prefix=rover1.'"},
     {"lcm", "publish_scan", BOOL(publish_scan), "Send every scan's ranges as ALE_SCAN."},
     {"lcm", "publish_bot_core", BOOL(publish_bot_core),
      "Send scan and pose also as bot_core messages (LASER, POSE) for viewers that know those."},

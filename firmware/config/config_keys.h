@@ -12,7 +12,10 @@ typedef enum {
     ALE_KEY_NUMBER,  /* unsigned or int32 of `size` bytes: the decimal times 10^digits */
     ALE_KEY_ANGLE,   /* uint32 BAM, written in radians; digits 9 */
     ALE_KEY_SECTORS, /* pipeline.blind: from:to in degrees, separated by commas */
-    ALE_KEY_ODD      /* a NUMBER that must be odd */
+    ALE_KEY_ODD,     /* a NUMBER that must be odd */
+    ALE_KEY_RATE,    /* a NUMBER that a scanner has as its rate, or 0 */
+    ALE_KEY_URL,     /* a TEXT that LCM is joined by, or empty */
+    ALE_KEY_PREFIX   /* a TEXT that names of channels may begin with, or empty */
 } ale_key_kind_t;
 
 typedef struct {

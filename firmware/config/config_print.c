@@ -63,6 +63,8 @@ static void print_value(const ale_config_t *config, const ale_config_key_t *key,
     char text[ALE_DECIMAL_TEXT];
     switch (key->kind) {
     case ALE_KEY_TEXT:
+    case ALE_KEY_URL:
+    case ALE_KEY_PREFIX:
         fputs(field, out);
         break;
     case ALE_KEY_BOOL:
@@ -77,6 +79,7 @@ static void print_value(const ale_config_t *config, const ale_config_key_t *key,
         break;
     case ALE_KEY_NUMBER:
     case ALE_KEY_ODD:
+    case ALE_KEY_RATE:
         ale_decimal_print(load_number(field, key->size), key->digits, text);
         fputs(text, out);
         break;

@@ -9,6 +9,7 @@
 #include "config/config_keys.h"
 #include "config/decimal.h"
 #include "config/degrees.h"
+#include "scanner/urg/baud.h"
 
 /* One reading: inih calls the handler without the line's number, so the reader counts lines itself. */
 typedef struct {
@@ -94,6 +95,36 @@ static int read_text(reading_t *reading, const ale_config_key_t *key, char *fiel
     return 0;
 }
 
+static int read_rate(reading_t *reading, const ale_config_key_t *key, int32_t *field, const char *text)
+{
+    if (read_number(reading, key, field, text) < 0) {
+        return -1;
+    }
+    return *field == 0 || ale_baud_is_known(*field)
+               ? 0
+               : FAIL(
+                     reading,
+                     "%s.%s: %.40s is no rate that a scanner has: 9600, 19200, 38400, 57600, 115200, 250000, "
+                     "500000 or 750000; 0: found by trying",
+                     key->section, key->key, text);
+}
+
+static int read_url(reading_t *reading, const ale_config_key_t *key, char *field, const char *text)
+{
+    char error[ALE_LCM_URL_ERROR];
+    if (text[0] != '\0' && !ale_lcm_url(text, error)) {
+        return FAIL(reading, "%s.%s: %.150s", key->section, key->key, error);
+    }
+    return read_text(reading, key, field, text);
+}
+
+static int read_prefix(reading_t *reading, const ale_config_key_t *key, char *field, const char *text)
+{
+    return ale_lcm_is_prefix(text) ? read_text(reading, key, field, text)
+                                   : FAIL(reading, "%s.%s: at most %d letters, digits and . _ - /",
+                                          key->section, key->key, ALE_LCM_PREFIX);
+}
+
 static int parse_sector(char *text, ale_sector_t *sector)
 {
     char *rest = NULL;
@@ -136,6 +167,12 @@ static int read_value(reading_t *reading, const ale_config_key_t *key, const cha
         return read_bool(reading, key, (bool *)field, text);
     case ALE_KEY_SECTORS:
         return read_sectors(reading, key, text);
+    case ALE_KEY_RATE:
+        return read_rate(reading, key, (int32_t *)(void *)field, text);
+    case ALE_KEY_URL:
+        return read_url(reading, key, field, text);
+    case ALE_KEY_PREFIX:
+        return read_prefix(reading, key, field, text);
     case ALE_KEY_NUMBER:
     case ALE_KEY_ODD:
     case ALE_KEY_ANGLE:
@@ -169,25 +206,43 @@ static int take_entry(void *user, const char *section, const char *name, const c
     return read_value(reading, &ale_config_keys[k], value) == 0;
 }
 
+/* A character of text, or of the space within it. */
+static bool is_of_text(int c)
+{
+    return c != '\0' && (!iscntrl(c) || isspace(c));
+}
+
+/* A line with its end, as fgets does, but a NUL is no end. False at the end of the file, and where there is
+ * what is no text: a file that was being written when power went may hold nothing but NULs. */
+static bool read_line(reading_t *reading, char *buffer, size_t size)
+{
+    size_t count = 0;
+    int c = '\0';
+    while (count + 1 < size && c != '\n' && (c = fgetc(reading->file)) != EOF) {
+        if (!is_of_text(c)) {
+            reading->line++;
+            FAIL(reading, "holds control characters: this is no text");
+            return false;
+        }
+        buffer[count++] = (char)c;
+    }
+    buffer[count] = '\0';
+    reading->line += count > 0;
+    return count > 0;
+}
+
 /* inih's line source. A line that does not fit its buffer would be read as two: refused. An indented line
  * would be taken for more of the value above it: the indent goes. */
 static char *next_line(char *buffer, int size, void *stream)
 {
     reading_t *reading = stream;
-    if (!fgets(buffer, size, reading->file)) {
+    if (!read_line(reading, buffer, (size_t)size)) {
         return NULL;
     }
-    reading->line++;
     if (strlen(buffer) + 1 == (size_t)size && buffer[size - 2] != '\n') {
         FAIL(reading, "longer than %d characters", size - 2);
         for (int c = fgetc(reading->file); c != EOF && c != '\n';) {
             c = fgetc(reading->file);
-        }
-    }
-    for (const char *c = buffer; *c != '\0'; c++) {
-        if (iscntrl((unsigned char)*c) && !isspace((unsigned char)*c)) {
-            FAIL(reading, "holds control characters: this is no text");
-            return NULL;
         }
     }
     const size_t indent = strspn(buffer, " \t");

@@ -27,7 +27,7 @@ int ale_motor_link_open(ale_motor_link_t *link, const ale_config_t *config, cons
 {
     char error[ALE_BUS_ERROR];
     *link = (ale_motor_link_t){.key = key, .path = config->drive_port, .baud = config->drive_baud};
-    link->bus = ale_bus_open_early(config->lcm_url, error);
+    link->bus = ale_bus_open_early(config->lcm_url, config->lcm_prefix, error);
     if (!link->bus) {
         return -1;
     }

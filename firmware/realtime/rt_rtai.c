@@ -135,7 +135,7 @@ static int serial_set_up(unsigned tty, int32_t baud)
     case 0:
         return ALE_PORT_OK;
     case -EADDRINUSE:
-        return ALE_PORT_DENIED;
+        return ALE_PORT_BUSY;
     case -EINVAL:
         return ALE_PORT_BAUD;
     default:

@@ -31,7 +31,11 @@ void ale_status_publisher_send(ale_status_publisher_t *publisher)
         (ale_counter_t){.name = "datagrams_refused", .value = dropped.malformed};
     report->counter[report->counters++] =
         (ale_counter_t){.name = "datagrams_unheard", .value = dropped.unheard};
+    report->counter[report->counters++] = (ale_counter_t){
+        .name = "other_speakers", .value = ale_other_speakers_count(publisher->others, ale_rt_now_ns())};
     ale_bus_send_status(publisher->bus, report);
+    publisher->others->self.now_us = report->now_us;
+    ale_bus_send_speaker(publisher->bus, &publisher->others->self);
     publisher->last_ns = ale_rt_now_ns();
     publisher->news = false;
     publisher->refusals = false;

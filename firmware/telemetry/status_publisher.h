@@ -1,7 +1,7 @@
-/* Sends ALE_STATUS: once a second, and soon after something has happened that operators should hear of. For
+/* Sends ALE_STATUS, and who says so (ALE_SPEAKER): once a second, and soon after something has happened that operators should hear of. For
  * the telemetry thread.
  *
- * What a status says comes from those who know it: statistics, odometry intake, supervisor, commands, logger.
+ * What a status says comes from those who know it: statistics, odometry intake, other speakers, supervisor, commands, logger.
  */
 #ifndef ALE_FIRMWARE_TELEMETRY_STATUS_PUBLISHER_H
 #define ALE_FIRMWARE_TELEMETRY_STATUS_PUBLISHER_H
@@ -15,6 +15,7 @@
 #include "scanner/scanner.h"
 #include "system/async_logger.h"
 #include "telemetry/odometry_intake.h"
+#include "telemetry/other_speakers.h"
 #include "telemetry/statistics.h"
 
 /* The sources must outlive the publisher. */
@@ -25,6 +26,7 @@ typedef struct {
     const ale_logger_t *logger;
     const ale_statistics_t *statistics;
     const ale_odometry_intake_t *odometry;
+    ale_other_speakers_t *others;
     const ale_scanner_health_t *health; /* the scanner's newest */
     ale_rt_report_t realtime;
     int64_t boot; /* the nonce of this start */

@@ -17,6 +17,7 @@
 #include "system/service.h"
 #include "telemetry/map_publisher.h"
 #include "telemetry/odometry_intake.h"
+#include "telemetry/other_speakers.h"
 #include "telemetry/result_publisher.h"
 #include "telemetry/status_publisher.h"
 #include "telemetry/supervisor.h"
@@ -36,6 +37,7 @@ struct ale_telemetry {
     ale_supervisor_t supervisor;
     ale_result_publisher_t results;
     ale_odometry_intake_t odometry;
+    ale_other_speakers_t others;
     ale_status_publisher_t status;
     ale_map_publisher_t map;
     int64_t next_keep_ns;
@@ -70,6 +72,19 @@ static void watch_wheels(ale_telemetry_t *telemetry)
     char line[ALE_SUPERVISOR_LINE];
     const ale_statistics_t *statistics = &telemetry->results.statistics;
     if (ale_supervisor_watch_wheels(&telemetry->supervisor, statistics->wheel_fault, line)) {
+        ale_logger_log(telemetry->logger, line);
+    }
+}
+
+static void take_speaker(void *user, const ale_speaker_t *speaker)
+{
+    ale_other_speakers_take(&((ale_telemetry_t *)user)->others, speaker, ale_rt_now_ns());
+}
+
+static void watch_others(ale_telemetry_t *telemetry)
+{
+    char line[ALE_SPEAKERS_LINE];
+    if (ale_other_speakers_word(&telemetry->others, ale_rt_now_ns(), line)) {
         ale_logger_log(telemetry->logger, line);
     }
 }
@@ -141,6 +156,7 @@ static void work(ale_telemetry_t *telemetry)
     watch_scanner(telemetry);
     watch_wheels(telemetry);
     watch_odometry(telemetry);
+    watch_others(telemetry);
     watch_network(telemetry);
     const int64_t now_ns = ale_rt_now_ns();
     ale_map_publisher_work(&telemetry->map, telemetry->results.epoch, now_ns);
@@ -162,6 +178,7 @@ static void listen_to_lcm(ale_telemetry_t *telemetry)
     if (ale_bus_on_command(telemetry->bus, take_command, telemetry) < 0) {
         ale_logger_log(telemetry->logger, "LCM refuses the subscription of commands: none will be taken");
     }
+    (void)ale_bus_on_speaker(telemetry->bus, take_speaker, telemetry); /* goes without */
     watch_network(telemetry);
     if (ale_bus_tend(telemetry->bus)) {
         test_bus(telemetry, SELF_TEST_MS);
@@ -209,6 +226,7 @@ static void init_publishers(ale_telemetry_t *telemetry, const ale_rt_report_t *r
 {
     telemetry->results = (ale_result_publisher_t){
         .config = telemetry->config, .exchange = telemetry->exchange, .bus = telemetry->bus};
+    ale_other_speakers_init(&telemetry->others, boot, telemetry->config->name);
     ale_odometry_intake_init(&telemetry->odometry, telemetry->exchange);
     ale_map_publisher_init(&telemetry->map, telemetry->exchange, telemetry->bus);
     telemetry->status = (ale_status_publisher_t){
@@ -218,6 +236,7 @@ static void init_publishers(ale_telemetry_t *telemetry, const ale_rt_report_t *r
         .logger = telemetry->logger,
         .statistics = &telemetry->results.statistics,
         .odometry = &telemetry->odometry,
+        .others = &telemetry->others,
         .realtime = *realtime,
         .boot = boot,
         .next_ns = ale_rt_now_ns() + NS_PER_S,

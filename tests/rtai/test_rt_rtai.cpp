@@ -220,7 +220,7 @@ TEST_F(RtRtai, ItsSerialDriverIsAPortLikeAnyOther)
     EXPECT_EQ(ale_port_open(&port, "rtai:1", 750000), ALE_PORT_BAUD);
     ASSERT_EQ(ale_port_open(&port, "rtai:1", 115200), ALE_PORT_OK);
     ale_port_t *second = nullptr;
-    EXPECT_EQ(ale_port_open(&second, "rtai:1", 115200), ALE_PORT_DENIED);
+    EXPECT_EQ(ale_port_open(&second, "rtai:1", 115200), ALE_PORT_BUSY);
     EXPECT_TRUE(ale_port_has_baud(port));
     EXPECT_EQ(ale_port_wait(port, 5), 0) << "nothing there";
     const std::array<uint8_t, 3> sent = {'V', 'V', '\n'};

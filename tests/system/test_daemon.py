@@ -83,6 +83,13 @@ def test_a_hub_of_hostile_messages_does_not_disturb_it(chain):
     ("[sensor]\n\nthetta = 1\n", 3, "sensor.thetta"),
     ("[extract]\nsmooth_span = 10\n", 2, "extract.smooth_span"),
     ("[robot]\nmax_speed\n", 2, ""),
+    ("[sensor]\nbaud = 12345\n", 2, "sensor.baud: 12345 is no rate that a scanner has"),
+    ("[lcm]\nurl = foo://\n", 2, "lcm.url: LCM: foo:// is no URL"),
+    ("[lcm]\nurl = udpm://1.2.3.4\n", 2, "lcm.url: LCM: 1.2.3.4 is not a multicast address"),
+    ("[lcm]\n\nprefix = two words\n", 3, "lcm.prefix: at most 16 letters"),
+    ("\0" * 4096, 1, "holds control characters"),
+    ("[sensor]\nx = 1\n" + "\0" * 500, 3, "holds control characters"),
+    ("[sensor]\nx = 1\0\ny = 2\n", 2, "holds control characters"),
 ])
 def test_a_bad_configuration_is_one_line_that_names_file_line_and_key(tmp_path, text, line, key):
     path = tmp_path / "robot.ini"

@@ -15,7 +15,7 @@ import urllib.request
 import ale
 import pytest
 
-from robot_double import WALLS
+from robot_double import WALLS, RobotDouble
 from at_hand import BINARIES
 from waiting import Pulse, wait_until
 from watching import Console, alice, commands, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
@@ -308,6 +308,61 @@ def test_a_restarted_robot_is_shown_from_anew(console, robot):
     watching.wait_for("hello")
     trail = watching.wait_for("trail", lambda trail: trail["anew"])
     assert len(trail["points"]) <= 4
+
+
+def announce(robot, name, process):
+    """As its firmware does."""
+    message = ale.speaker_t()
+    message.boot, message.process = robot.boot, process
+    message.host, message.robot = b"lab\x1b".ljust(64, b"\0"), name.encode().ljust(32, b"\0")
+    robot.bus.publish("ALE_SPEAKER", message.encode())
+
+
+def until(watching, condition, what):
+    """All that arrives until the condition holds for one of the messages."""
+    taken = []
+
+    def comes():
+        taken.append(watching.next())
+        watching.got()
+        return condition(taken[-1])
+
+    wait_until(comes, 60, what)
+    return taken
+
+
+def test_two_robots_on_the_same_channels_are_told_apart(console, robot, lcm_url):
+    """The first one is shown for as long as it speaks, and of the other it is told who that is."""
+    other = RobotDouble(lcm_url, boot=77)
+    other.maps = 3
+    watching = WebSocket(console.url)
+    robot.drive(12)
+    for _ in range(25):
+        other.step()
+        robot.step()
+        announce(other, "second", 4711)
+        announce(robot, "double", 42)
+        time.sleep(0.02)
+    taken = until(watching, lambda message: message["type"] == "status" and message["warnings"], "a warning")
+    taken += until(watching, lambda message: message["type"] == "link" and message["poses"] >= 37, "the robot's poses")
+    assert taken[-1]["poses"] == 37 and taken[-1]["lost_poses"] == 0
+    warnings = [words for message in taken if message["type"] == "status" for words in message["warnings"]]
+    assert any("second on lab?, process 4711" in words for words in warnings)
+    assert not any("process 42" in words for words in warnings)
+    assert {message["maps"] for message in taken if message["type"] == "tracking"} == {1}
+    assert [message["type"] for message in taken].count("hello") == 1, "nothing was forgotten"
+
+
+def test_when_the_robot_that_is_shown_has_gone_the_other_one_is(console, robot, lcm_url):
+    other = RobotDouble(lcm_url, boot=77)
+    watching = WebSocket(console.url)
+    robot.drive(12)
+    watching.wait_for("pose", lambda pose: pose["scan"] == 11)
+    pulse = Pulse(0.02, other.step)
+    try:
+        watching.wait_for("status", lambda status: status["boot"] == "77", 60)
+    finally:
+        pulse.stop()
 
 
 def test_an_overtaken_pose_does_not_turn_back_time(console, robot):

@@ -1,13 +1,22 @@
 #include "scanner/urg/baud.h"
 
-#include <stdbool.h>
-
 enum { BITS_PER_BYTE = 10, MOST_SKIP = 9, MARGIN_PERCENT = 95 };
+
+static const int32_t rates[ALE_BAUD_RATES] = {ALE_BAUD_USUAL, ALE_BAUD_FACTORY, 57600, 500000,
+                                              250000,         750000,           38400, 9600};
+
+bool ale_baud_is_known(int32_t baud)
+{
+    for (uint32_t k = 0; k < ALE_BAUD_RATES; k++) {
+        if (rates[k] == baud) {
+            return true;
+        }
+    }
+    return false;
+}
 
 int32_t ale_baud_candidate(int32_t preferred, uint32_t attempt)
 {
-    static const int32_t rates[ALE_BAUD_RATES] = {ALE_BAUD_USUAL, ALE_BAUD_FACTORY, 57600, 500000,
-                                                  250000,         750000,           38400, 9600};
     const int32_t first = preferred > 0 ? preferred : ALE_BAUD_USUAL;
     if (attempt == 0) {
         return first;

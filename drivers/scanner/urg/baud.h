@@ -2,6 +2,7 @@
 #ifndef ALE_SCANNER_URG_BAUD_H
 #define ALE_SCANNER_URG_BAUD_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "scanner/urg/scip_request.h"
@@ -10,6 +11,9 @@ enum { ALE_BAUD_RATES = 8, ALE_BAUD_FACTORY = 19200, ALE_BAUD_USUAL = 115200 };
 
 /* The attempt-th rate to try, 0 .. ALE_BAUD_RATES-1, beginning with `preferred` (0: the usual one). */
 int32_t ale_baud_candidate(int32_t preferred, uint32_t attempt);
+
+/* Whether a scanner may have this rate. */
+bool ale_baud_is_known(int32_t baud);
 
 /* Time that `bytes` take on the line (8N1: ten bits each). */
 int64_t ale_baud_time_us(int32_t baud, uint32_t bytes);

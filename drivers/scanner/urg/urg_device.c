@@ -228,8 +228,10 @@ static void open_port(ale_urg_t *urg)
     const int32_t baud = ale_urg_dialogue_first_baud(&urg->dialogue);
     const int status = ale_port_open(&urg->port, path, baud);
     if (status < 0) {
+        char words[ALE_PORT_WORDS];
         char text[sizeof urg->health.status];
-        snprintf(text, sizeof text, "%.60s: %s", path, ale_port_strerror(status));
+        ale_port_explain(status, path, words);
+        snprintf(text, sizeof text, "%.60s: %s", path, words);
         say(urg, text);
         schedule_open(urg);
         return;

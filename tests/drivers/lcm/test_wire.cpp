@@ -181,15 +181,49 @@ TEST_F(OnAPort, SubscriptionsAreBounded)
     EXPECT_EQ(ale_wire_subscribe(wire, "CHANNEL2", take, this), -1);
 }
 
+/* Two robots on one port: each with those who watch it. */
+TEST_F(OnAPort, APrefixIsOnTheBusOnly)
+{
+    char error[ALE_LCM_URL_ERROR] = "";
+    ale_wire_t *first = ale_wire_open((url + "&prefix=rover1.").c_str(), error);
+    ASSERT_NE(first, nullptr) << error;
+    ale_wire_t *second = ale_wire_open(url.c_str(), error);
+    ASSERT_NE(second, nullptr) << error;
+    EXPECT_EQ(ale_wire_set_prefix(second, "two words"), -1);
+    ASSERT_EQ(ale_wire_set_prefix(second, "rover2."), 0);
+    std::vector<std::string> of_first;
+    const auto hear = [](void *user, const char *channel, const uint8_t *bytes, size_t count) {
+        static_cast<std::vector<std::string> *>(user)->push_back(
+            std::string(channel) + " " + std::string(reinterpret_cast<const char *>(bytes), count));
+    };
+    ASSERT_EQ(ale_wire_subscribe(first, "CHANNEL", hear, &of_first), 0);
+    std::vector<std::string> raw;
+    ASSERT_EQ(ale_wire_subscribe(wire, "rover1.CHANNEL", hear, &raw), 0);
+    const uint8_t words[] = "words";
+    for (ale_wire_t *sender : {first, second, wire}) {
+        ASSERT_EQ(ale_wire_send(sender, "CHANNEL", words, 5), 0);
+    }
+    EXPECT_TRUE(ale_wire_hears_itself(first, kLong)) << "by LCM's own channel";
+    EXPECT_EQ(of_first, std::vector<std::string>{"CHANNEL words"});
+    receive_to_the_end();
+    EXPECT_EQ(raw, std::vector<std::string>{"rover1.CHANNEL words"});
+    EXPECT_EQ(heard, std::vector<std::string>{"words"}) << "the one without a prefix";
+    EXPECT_EQ(ale_wire_send(first, std::string(57, 'A').c_str(), words, 5), -1);
+    EXPECT_EQ(ale_wire_send(first, "", words, 5), -1);
+    ale_wire_close(first);
+    ale_wire_close(second);
+}
+
 TEST(WireOpening, TheOptionsOfAUrlAreChecked)
 {
     char error[ALE_LCM_URL_ERROR] = "";
-    for (const char *option :
-         {"ttl=256", "ttl=-1", "ttl=", "ttl", "tl=0", "recv_buf_size=0", "recv_buf_size=1x"}) {
+    for (const char *option : {"ttl=256", "ttl=-1", "ttl=", "ttl", "tl=0", "recv_buf_size=0",
+                               "recv_buf_size=1x", "prefix=a b", "prefix=12345678901234567"}) {
         EXPECT_EQ(ale_wire_open((std::string("udpm://239.255.76.67:7667?") + option).c_str(), error),
                   nullptr);
-        EXPECT_EQ(std::string(error),
-                  std::string("LCM: \"") + option + "\": udpm takes ttl=0 to 255 and recv_buf_size=BYTES");
+        EXPECT_EQ(std::string(error), std::string("LCM: \"") + option +
+                                          "\": udpm takes ttl=0 to 255, recv_buf_size=BYTES and prefix=TEXT "
+                                          "(16 letters, digits and . _ - / at most)");
     }
     EXPECT_EQ(ale_wire_open("mpudpm://", error), nullptr);
     EXPECT_EQ(ale_wire_open_early("mpudpm://", error), nullptr) << "is no matter of a route";

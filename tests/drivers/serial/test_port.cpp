@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <csignal>
 #include <fcntl.h>
@@ -130,11 +131,31 @@ TEST_F(Port, port_has_one_owner)
 {
     open();
     ale_port_t *second = nullptr;
-    EXPECT_EQ(ale_port_open(&second, name.c_str(), 115200), ALE_PORT_DENIED);
+    EXPECT_EQ(ale_port_open(&second, name.c_str(), 115200), ALE_PORT_BUSY);
     EXPECT_EQ(second, nullptr);
     ale_port_close(port);
     port = nullptr;
     EXPECT_EQ(ale_port_open(&port, name.c_str(), 115200), ALE_PORT_OK) << "free again";
+}
+
+TEST_F(Port, second_owner_disturbs_nothing_and_is_told_of_the_first)
+{
+    open();
+    send("hello");
+    EXPECT_EQ(ale_port_wait(port, 60000), 1);
+    const pid_t other = fork();
+    if (other == 0) {
+        ale_port_t *second = nullptr;
+        char words[ALE_PORT_WORDS] = "";
+        const int status = ale_port_open(&second, name.c_str(), 19200);
+        ale_port_explain(status, name.c_str(), words);
+        const std::string expected = "in use by another program: process " + std::to_string(getppid());
+        _exit(status == ALE_PORT_BUSY && std::string(words).rfind(expected, 0) == 0 ? 0 : 1);
+    }
+    int ended = -1;
+    ASSERT_EQ(waitpid(other, &ended, 0), other);
+    EXPECT_EQ(ended, 0);
+    EXPECT_EQ(receive(5), "hello") << "what was waiting is still there";
 }
 
 TEST_F(Port, unplugged_port_is_gone_and_stays_gone)
@@ -184,7 +205,7 @@ TEST(PortOpen, what_is_no_serial_device_is_named)
     std::ofstream(folder.path() / "drive.scip") << "bytes";
     EXPECT_EQ(ale_port_open(&port, (folder.path() / "drive.scip").c_str(), 115200), ALE_PORT_FILE);
     EXPECT_EQ(ale_port_open(&port, "/dev/null", 115200), ALE_PORT_OTHER);
-    for (int status = ALE_PORT_OTHER; status <= ALE_PORT_OK; status++) {
+    for (int status = ALE_PORT_BUSY; status <= ALE_PORT_OK; status++) {
         EXPECT_STRNE(ale_port_strerror(status), ale_port_strerror(1));
     }
 }

@@ -47,6 +47,12 @@ class OperatorsEnd
         return end_.key.name;
     }
 
+    /* Whether it is the robot that was asked for by name. */
+    bool wants(const std::string &robot) const
+    {
+        return end_.wanted[0] != '\0' && robot == end_.wanted;
+    }
+
     /* Whether only what robots vouch for is believed, and which they are. */
     bool believes() const
     {

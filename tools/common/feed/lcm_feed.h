@@ -84,6 +84,12 @@ class LcmFeed
         receive(0, most_kept);
     }
 
+    /* Who sent the message that is just being handled (ale_wire_sender). */
+    uint64_t sender() const
+    {
+        return ale_wire_sender(wire_.get());
+    }
+
     /* Messages that could not be decoded or made no sense. */
     uint64_t malformed() const
     {

@@ -33,15 +33,16 @@ constexpr char usage[] =
     "  --accept CHANNEL      is taken from the link; instead of what is accepted by default\n"
     "  --lcm-url URL         LCM at this end (default: LCM_DEFAULT_URL, else LCM's own default)\n"
     "  --help, --version\n"
-    "By default the robot's end sends ALE_POSE ALE_TRACKING ALE_STATUS ALE_VOUCHED ALE_MAP ALE_MAP_PIECES "
+    "By default the robot's end sends ALE_POSE ALE_TRACKING ALE_STATUS ALE_SPEAKER ALE_VOUCHED ALE_MAP "
+    "ALE_MAP_PIECES "
     "ALE_FEATURES:5\n"
     "ALE_DRIVE:5 ALE_SCAN:2 POSE LASER:2\n"
     "and accepts ALE_COMMAND alone; the operator's end the other way round.\n"
     "Ends with Ctrl-C or SIGTERM and says what it has carried. Exit status: 0 fine, 1 failed, 2 wrong use.\n";
 
-const std::vector<std::string> of_robot = {"ALE_POSE",   "ALE_TRACKING",   "ALE_STATUS",     "ALE_VOUCHED",
-                                           "ALE_MAP",    "ALE_MAP_PIECES", "ALE_FEATURES:5", "ALE_DRIVE:5",
-                                           "ALE_SCAN:2", "POSE",           "LASER:2"};
+const std::vector<std::string> of_robot = {"ALE_POSE",    "ALE_TRACKING", "ALE_STATUS",     "ALE_SPEAKER",
+                                           "ALE_VOUCHED", "ALE_MAP",      "ALE_MAP_PIECES", "ALE_FEATURES:5",
+                                           "ALE_DRIVE:5", "ALE_SCAN:2",   "POSE",           "LASER:2"};
 const std::vector<std::string> of_operator = {"ALE_COMMAND"};
 
 struct Options {

@@ -57,6 +57,12 @@ class Commander
         return end_.believes();
     }
 
+    /* Whether it is the one that was asked for by name. */
+    bool wants(const std::string &robot) const
+    {
+        return end_.wants(robot);
+    }
+
     /* Whether it is to be shown as the robot's: of this robot, and nobody has vouched for another one. */
     bool saw(const ale::status_t &status);
 

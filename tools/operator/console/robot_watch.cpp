@@ -29,17 +29,48 @@ constexpr int32_t largest_gap = 100000;
 
 } // namespace
 
+/* Of the robot that is shown; where a robot vouches for what it says, others are told by that. */
+bool RobotWatch::hears()
+{
+    return commander_.believes() || speakers_.shows(sender(), SpeakerChoice::Clock::now());
+}
+
+uint64_t RobotWatch::sender() const
+{
+    return feed_ ? feed_->sender() : 0;
+}
+
+template <class Message>
+void RobotWatch::follow(feed::LcmFeed &feed, const char *channel, void (RobotWatch::*take)(const Message &))
+{
+    feed.on<Message>(channel, [this, take](const Message &message) {
+        if (hears()) {
+            (this->*take)(message);
+        }
+    });
+}
+
 void RobotWatch::subscribe(feed::LcmFeed &feed)
 {
-    feed.on_bytes("ALE_POSE", [this](const uint8_t *bytes, size_t count) { pose_bytes(bytes, count); });
+    feed_ = &feed;
+    feed.on_bytes("ALE_POSE", [this](const uint8_t *bytes, size_t count) {
+        if (hears()) {
+            pose_bytes(bytes, count);
+        }
+    });
     feed.on_bytes("ALE_VOUCHED", [this](const uint8_t *bytes, size_t count) { vouched_bytes(bytes, count); });
-    feed.on<ale::tracking_t>("ALE_TRACKING", [this](const ale::tracking_t &message) { tracking(message); });
-    feed.on<ale::features_t>("ALE_FEATURES", [this](const ale::features_t &message) { features(message); });
-    feed.on<ale::scan_t>("ALE_SCAN", [this](const ale::scan_t &message) { scan(message); });
-    feed.on<ale::map_t>("ALE_MAP", [this](const ale::map_t &message) { map(message); });
-    feed.on<ale::map_pieces_t>("ALE_MAP_PIECES",
-                               [this](const ale::map_pieces_t &message) { map_pieces(message); });
+    follow(feed, "ALE_TRACKING", &RobotWatch::tracking);
+    follow(feed, "ALE_FEATURES", &RobotWatch::features);
+    follow(feed, "ALE_SCAN", &RobotWatch::scan);
+    follow(feed, "ALE_MAP", &RobotWatch::map);
+    follow(feed, "ALE_MAP_PIECES", &RobotWatch::map_pieces);
     feed.on<ale::status_t>("ALE_STATUS", [this](const ale::status_t &message) { status(message); });
+    feed.on<ale::speaker_t>("ALE_SPEAKER", [this](const ale::speaker_t &message) { speaker(message); });
+}
+
+void RobotWatch::speaker(const ale::speaker_t &speaker)
+{
+    speakers_.heard(speaker, SpeakerChoice::Clock::now());
 }
 
 void RobotWatch::restarted()
@@ -132,7 +163,14 @@ void RobotWatch::map_pieces(const ale::map_pieces_t &part)
 
 void RobotWatch::status(const ale::status_t &status)
 {
-    if (commander_.saw(status)) {
+    const bool taken = commander_.saw(status);
+    if (taken && commander_.wants(status.robot) && sender() != 0 &&
+        speakers_.choose(sender(), SpeakerChoice::Clock::now())) {
+        restarted();
+    }
+    /* While two of one name speak, which one commands are for is open; which one is shown is not. */
+    const bool goes_on = sender() != 0 && !commander_.believes() && status.robot == robot_;
+    if ((taken || goes_on) && hears()) {
         show(status, false);
     }
 }
@@ -159,8 +197,12 @@ void RobotWatch::show(const ale::status_t &status, bool vouched)
         restarted();
     }
     boot_ = status.boot;
+    robot_ = status.robot;
     restart_known_ = false;
     std::vector<std::string> warnings = commander_.warnings();
+    if (const auto other = speakers_.warning(boot_, SpeakerChoice::Clock::now())) {
+        warnings.push_back(*other);
+    }
     if (witness_.is_alarmed(PoseWitness::Clock::now())) {
         warnings.push_back("Do not believe the position: " + std::to_string(witness_.forged()) +
                            " poses on the bus are not the robot's own.");

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "ale/features_t.hpp"
 #include "ale/map_t.hpp"
@@ -17,6 +18,7 @@
 #include "operator/console/board.h"
 #include "operator/console/commander.h"
 #include "operator/console/pose_witness.h"
+#include "operator/console/speaker_choice.h"
 #include "operator/console/window_watch.h"
 
 namespace console
@@ -29,6 +31,8 @@ class RobotWatch
     {
     }
 
+    /* From then on what comes from a robot that is not the one shown is left out. The feed must outlive the
+     * watch's last message. */
     void subscribe(feed::LcmFeed &feed);
 
     /* Each throws std::runtime_error for a message that makes no sense; it is counted as malformed. */
@@ -39,12 +43,17 @@ class RobotWatch
     void map(const ale::map_t &part);
     void map_pieces(const ale::map_pieces_t &part);
     void status(const ale::status_t &status);
+    void speaker(const ale::speaker_t &speaker);
 
     /* The bytes of an ALE_POSE and an ALE_VOUCHED, as they came. */
     void pose_bytes(const uint8_t *bytes, size_t count);
     void vouched_bytes(const uint8_t *bytes, size_t count);
 
   private:
+    template <class Message>
+    void follow(feed::LcmFeed &feed, const char *channel, void (RobotWatch::*take)(const Message &));
+    uint64_t sender() const;
+    bool hears();
     void show(const ale::status_t &status, bool vouched);
     void restarted();
     void extend_trail(const ale::pose_t &pose);
@@ -55,9 +64,12 @@ class RobotWatch
     feed::MapPieces map_pieces_;
     WindowWatch window_;
     PoseWitness witness_;
+    SpeakerChoice speakers_;
+    const feed::LcmFeed *feed_ = nullptr;
     std::optional<ale::pose_t> last_pose_;
-    std::optional<int64_t> boot_;
-    bool restart_known_ = false; /* the scan numbers told before the next status does */
+    std::optional<int64_t> boot_; /* of the start that is shown, */
+    std::string robot_;           /* and its robot */
+    bool restart_known_ = false;  /* the scan numbers told before the next status does */
 };
 
 } // namespace console

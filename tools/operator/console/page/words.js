@@ -46,7 +46,7 @@ const COUNTERS = {
   identity_warnings: "odd identity lines", odometry: "odometry received", odometry_ring_full: "odometry, no room",
   odometry_refused: "odometry refused", odometry_malformed: "odometry, malformed", odometry_unstamped: "odometry without a time",
   odometry_misdated: "odometry whose time agrees with no clock", odometry_clock_steps: "odometry's clock was set",
-  odometry_senders: "senders of odometry", messages_unsent: "messages not sent",
+  odometry_senders: "senders of odometry", other_speakers: "other robots on the same channels", messages_unsent: "messages not sent",
   datagrams_refused: "datagrams that are no messages", datagrams_unheard: "datagrams kept off, or too many",
   command_malformed: "commands, malformed", command_unsigned: "commands, unsigned",
   command_stranger: "commands, of a stranger", command_forged: "commands, forged",
@@ -69,6 +69,7 @@ const ADVICE = [
   [/Trouble/, "The scanner says that it is broken. Switch it off and on; if it comes back, it needs service."],
   [/checks itself/, "The scanner checks itself; this takes some seconds."],
   [/^silent/, "The scanner has fallen silent. Look at its cable and its power."],
+  [/in use by another program:? ?(.*)/, "Another program holds the scanner's port $1. End one of the two."],
   [/^no scanner: (.*)/, "No scanner ($1). Look at its cable and its power; it is tried again until it is there."],
 ];
 
