@@ -45,7 +45,7 @@ install-documents: manuals
 
 install-service:
 	install -d $(DESTDIR)$(PREFIX)/lib/systemd/system
-	for unit in ale-slamd ale-console ale-bridge; do sed 's,@PREFIX@,$(PREFIX),; s,@SYSCONFDIR@,$(SYSCONFDIR),' $(DEPLOY)/$$unit.service.in \
+	for unit in ale-slamd ale-console ale-bridge ale-odometry; do sed 's,@PREFIX@,$(PREFIX),; s,@SYSCONFDIR@,$(SYSCONFDIR),' $(DEPLOY)/$$unit.service.in \
 	    > $(DESTDIR)$(PREFIX)/lib/systemd/system/$$unit.service || exit 1; done
 	install -D -m 644 $(DEPLOY)/60-ale-slam.rules $(DESTDIR)$(PREFIX)/lib/udev/rules.d/60-ale-slam.rules
 	install -D -m 644 $(DEPLOY)/60-ale-slam.conf $(DESTDIR)$(PREFIX)/lib/sysctl.d/60-ale-slam.conf

@@ -85,7 +85,7 @@ def install(layer):
 
 
 def services(layer):
-    names = ("ale-slamd", "ale-console", "ale-bridge")
+    names = ("ale-slamd", "ale-console", "ale-bridge", "ale-odometry")
     complaints = layer.run("systemd-analyze", "verify", *(f"{UNITS}/{name}.service" for name in names))
     assert not any(name in complaints for name in names), complaints
     wanted = "/etc/systemd/system/multi-user.target.wants"
