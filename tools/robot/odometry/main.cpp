@@ -86,7 +86,7 @@ class Sender
     explicit Sender(const Options &options) : options_(options), path_(options.wheels)
     {
         char error[ALE_BUS_ERROR];
-        bus_.reset(ale_bus_open(options.lcm_url.c_str(), error));
+        bus_.reset(ale_bus_open_early(options.lcm_url.c_str(), "", error));
         if (!bus_) {
             throw std::runtime_error(error);
         }
@@ -99,6 +99,7 @@ class Sender
                 read();
             }
             tell_silence();
+            ale_bus_tend(bus_.get());
         }
     }
 
