@@ -258,7 +258,7 @@ int ale_robots_save(const char *path, const ale_keys_t *robots, char error[ALE_K
     return save_list(&ROBOTS, path, robots, error);
 }
 
-/* A new file with one secret line, for its owner alone. */
+/* A new file with one secret line, for its owner alone: there whole, or not at all. */
 static int save_secret(const form_t *form, const char *path, const char *name, const uint8_t seed[SEED_BYTES],
                        char error[ALE_KEYS_ERROR])
 {
@@ -266,14 +266,14 @@ static int save_secret(const form_t *form, const char *path, const char *name, c
     char text[LINE_BYTES];
     sodium_bin2hex(hex, sizeof hex, seed, SEED_BYTES);
     const int length = snprintf(text, sizeof text, "%s\n%s %s\n", form->head, name, hex);
-    const int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
-    int status = file < 0 ? fail(error, path, strerror(errno)) : 0;
-    if (file >= 0) {
-        if (write(file, text, (size_t)length) != length || fsync(file) < 0) {
-            status = fail(error, path, strerror(errno));
-        }
-        close(file);
+    ale_whole_file_t file;
+    int status = ale_whole_file_begin(&file, path, S_IRUSR | S_IWUSR);
+    if (status == 0) {
+        setvbuf(file.out, NULL, _IONBF, 0); /* no copy stays in a buffer */
+        fwrite(text, 1, (size_t)length, file.out);
+        status = ale_whole_file_commit_new(&file);
     }
+    status = status < 0 ? fail(error, path, ale_whole_file_words(errno)) : 0;
     sodium_memzero(hex, sizeof hex);
     sodium_memzero(text, sizeof text);
     return status;

@@ -111,10 +111,11 @@ static void write_out(ale_whole_file_t *file)
     }
 }
 
-int ale_whole_file_commit(ale_whole_file_t *file)
+/* Gives the file its name; flags: of renameat2. */
+static int commit(ale_whole_file_t *file, unsigned flags)
 {
     write_out(file);
-    if (file->reason == 0 && rename(file->beside, file->path) < 0) {
+    if (file->reason == 0 && renameat2(AT_FDCWD, file->beside, AT_FDCWD, file->path, flags) < 0) {
         file->reason = errno;
     }
     if (file->reason == 0) {
@@ -124,4 +125,14 @@ int ale_whole_file_commit(ale_whole_file_t *file)
     unlink(file->beside);
     errno = file->reason;
     return -1;
+}
+
+int ale_whole_file_commit(ale_whole_file_t *file)
+{
+    return commit(file, 0);
+}
+
+int ale_whole_file_commit_new(ale_whole_file_t *file)
+{
+    return commit(file, RENAME_NOREPLACE);
 }

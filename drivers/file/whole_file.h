@@ -32,7 +32,10 @@ int ale_whole_file_begin(ale_whole_file_t *file, const char *path, unsigned righ
  * close and rename: the path is as it was. */
 int ale_whole_file_commit(ale_whole_file_t *file);
 
-/* What an errno of these two means, in words. */
+/* The same for a file that must not be there yet: EEXIST when it is, and then it stays as it is. */
+int ale_whole_file_commit_new(ale_whole_file_t *file);
+
+/* What an errno of these means, in words. */
 const char *ale_whole_file_words(int error);
 
 #endif

@@ -18,8 +18,10 @@ typedef struct ale_scanner ale_scanner_t;
  * must outlive the scanner. NULL: out of memory, or no family of that name. */
 ale_scanner_t *ale_scanner_open(const ale_scanner_config_t *config);
 
-/* Goes on by one event; *scan is filled at SCAN and SCAN_LOST. Blocks for at most step_ms, allocates nothing.
- * Cannot fail: what goes wrong stands in the health, and is tried again. */
+/* Goes on by one event; *scan is filled at SCAN and SCAN_LOST. Waits for at most step_ms; a step that has
+ * something to say to the sensor, as at its start and after a fault, for 200 ms more where the line takes no
+ * bytes. A step that opens the port (none is open then) takes and allocates what the system does for that;
+ * the others allocate nothing. Cannot fail: what goes wrong stands in the health, and is tried again. */
 ale_scanner_event_t ale_scanner_step(ale_scanner_t *scanner, ale_scan_t *scan);
 
 /* State, identity and counters as of the last step. Valid until close. */

@@ -36,7 +36,9 @@ struct ale_estimator {
     uint32_t answered;
     uint32_t next_scan; /* by the pipeline's count, which corrections go by */
     uint32_t odometry_taken;
-    bool corrected; /* since the last answer, by: */
+    uint32_t map_moves; /* so often the map was moved under the robot, or another one began */
+    uint32_t epoch;     /* of the last answer */
+    bool corrected;     /* since the last answer, by: */
     ale_pose_t correction;
     ale_offered_t offered;
     bool map_waits;     /* changed since it was last handed over */
@@ -142,6 +144,8 @@ static void take_corrections(ale_estimator_t *estimator)
         estimator->corrections_late += correction->due < estimator->next_scan;
         estimator->correction = correction->shift[correction->count - 1].shift;
         estimator->corrected = true;
+        estimator->map_moves++;
+        estimator->map_waits = true;
         ale_ring_release(corrections);
     }
 }
@@ -210,6 +214,12 @@ static void answer(ale_estimator_t *estimator, const ale_scan_record_t *record, 
     result->overloaded = estimator->overloaded;
     result->late = estimator->late;
     result->corrections_late = estimator->corrections_late;
+    if (result->estimate.epoch != estimator->epoch) {
+        estimator->epoch = result->estimate.epoch;
+        estimator->map_moves++;
+        estimator->map_waits = true;
+    }
+    result->map_moves = estimator->map_moves;
     result->odometry_taken = estimator->odometry_taken;
     result->answered = estimator->answered++;
     estimator->next_scan = result->estimate.scan + 1;
@@ -243,7 +253,9 @@ static void show_map(ale_estimator_t *estimator)
     if (!estimator->map_waits || now_ns < estimator->map_ns + ALE_MAP_PERIOD_NS) {
         return;
     }
-    ale_pipeline_copy_map(estimator->pipeline, ale_snapshot_back(estimator->exchange->map));
+    ale_tracked_map_t *tracked = ale_snapshot_back(estimator->exchange->map);
+    ale_pipeline_copy_map(estimator->pipeline, &tracked->map);
+    tracked->moves = estimator->map_moves;
     ale_snapshot_publish(estimator->exchange->map);
     estimator->map_waits = false;
     estimator->map_ns = now_ns;
@@ -273,6 +285,7 @@ static void fulfil(ale_estimator_t *estimator, const ale_request_t *request)
         load_map(estimator, request);
         break;
     }
+    estimator->map_moves++;
     estimator->map_waits = true;
 }
 

@@ -39,7 +39,7 @@ static const channel_t rings[] = {
 
 static const channel_t snapshots[] = {
     SNAPSHOT(health, ale_scanner_health_t),
-    SNAPSHOT(map, ale_map_t),
+    SNAPSHOT(map, ale_tracked_map_t),
     SNAPSHOT(keyframe_poses, ale_mapper_poses_t),
     SNAPSHOT(drawn_map, ale_drawn_map_t),
     SNAPSHOT(loaded_map, ale_loaded_map_t),

@@ -51,7 +51,7 @@ typedef struct {
     ale_ring_t *odometry;       /* ale_odometry_t: telemetry to estimate */
     ale_ring_t *requests;       /* ale_request_t: telemetry to estimate */
     ale_ring_t *results;        /* ale_result_t: estimate to telemetry */
-    ale_snapshot_t *map;        /* ale_map_t, the tracker's: estimate to telemetry */
+    ale_snapshot_t *map;        /* ale_tracked_map_t: estimate to telemetry */
     ale_snapshot_t *health;     /* ale_scanner_health_t: acquire to telemetry */
     ale_rt_release_t *arrived;  /* releases the estimate task */
     ale_heartbeat_t *heartbeat; /* of the estimate task: ten beats a second or more */

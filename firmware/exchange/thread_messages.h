@@ -31,13 +31,20 @@ typedef struct {
     uint32_t corrections_late; /* of the map, since the start */
     uint32_t late;             /* scans answered after their deadline, since the start */
     uint32_t answered;         /* scans answered before this one, since the start: its number in `scans` */
-    uint32_t odometry_taken;   /* samples of `odometry` known to this answer, since the start */
-    bool corrected;            /* the map was corrected before this answer: */
-    ale_pose_t correction;     /* how the robot moved with it */
-    bool has_scan;             /* a scan stands behind it: features and scan are set */
+    uint32_t map_moves;      /* so often the map was moved under the robot, or taken away, before this pose */
+    uint32_t odometry_taken; /* samples of `odometry` known to this answer, since the start */
+    bool corrected;          /* the map was corrected before this answer: */
+    ale_pose_t correction;   /* how the robot moved with it */
+    bool has_scan;           /* a scan stands behind it: features and scan are set */
     ale_features_t features;
     ale_scan_t scan; /* only when scans are published */
 } ale_result_t;
+
+/* From estimate to telemetry: the tracker's map. A pose belongs to it whose result tells the same moves. */
+typedef struct {
+    ale_map_t map;
+    uint32_t moves;
+} ale_tracked_map_t;
 
 /* A map that was read from a file. Each has a number of its own: who is told of a map, and later of what was
  * seen in it, knows whether both are the same. */

@@ -9,6 +9,7 @@
 #include "file/little_endian.h"
 #include "recorder/flight_file.h"
 #include "recorder/flight_order.h"
+#include "recorder/flight_pause.h"
 #include "recorder/flight_ring.h"
 #include "recorder/flight_words.h"
 #include "system/background.h"
@@ -16,7 +17,6 @@
 #define NS_PER_MS 1000000LL
 #define LOOK_NS 50000000
 #define AFTERMATH_NS (3000 * NS_PER_MS) /* recorded on after a fault */
-#define QUIET_NS (60000 * NS_PER_MS)    /* between recordings that nobody asked for */
 
 enum { MEGABYTE = 1 << 20 };
 
@@ -31,8 +31,8 @@ struct ale_recorder {
     ale_background_t thread;
     atomic_uint wanted; /* a bit a reason */
     atomic_uint written;
-    int64_t write_ns; /* when the recording that is due is to be written; 0: none is */
-    int64_t quiet_until_ns;
+    int64_t write_ns;           /* when the recording that is due is to be written; 0: none is */
+    ale_flight_pause_t pause;   /* of recordings that nobody asks for */
     ale_record_reason_t reason; /* of the one that is due */
     bool asked;                 /* the one that is due, or another that goes with it, is to be answered */
     atomic_int turn;
@@ -166,10 +166,10 @@ static void plan(ale_recorder_t *recorder, int64_t now_ns)
 {
     const unsigned wanted = atomic_exchange(&recorder->wanted, 0);
     const unsigned by_itself = wanted & ~(1U << ALE_RECORD_COMMAND);
-    if (recorder->write_ns == 0 && by_itself != 0 && now_ns >= recorder->quiet_until_ns) {
+    if (recorder->write_ns == 0 && by_itself != 0 && ale_flight_pause_is_over(&recorder->pause, now_ns)) {
         recorder->reason = by_itself & (1U << ALE_RECORD_FAULT) ? ALE_RECORD_FAULT : ALE_RECORD_DEADLINE;
         recorder->write_ns = now_ns + AFTERMATH_NS;
-        recorder->quiet_until_ns = now_ns + QUIET_NS;
+        ale_flight_pause_begin(&recorder->pause, now_ns);
     }
     if (wanted & (1U << ALE_RECORD_COMMAND)) {
         recorder->reason = recorder->write_ns == 0 ? ALE_RECORD_COMMAND : recorder->reason;

@@ -38,7 +38,7 @@ void ale_recorder_stop(ale_recorder_t *recorder);
 
 /* Any thread, never blocks: a recording is wanted. A command is answered at once; for the others the
  * recording goes on a few seconds, so that it shows what came of it, and then none is written of itself for a
- * minute. */
+ * minute and more (flight_pause.h). */
 void ale_recorder_trigger(ale_recorder_t *recorder, ale_record_reason_t reason);
 
 /* Telemetry thread: as a command triggers, and what came of it is wanted. The descriptor `wake` is posted

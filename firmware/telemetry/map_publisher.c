@@ -35,10 +35,10 @@ const ale_map_t *ale_map_publisher_map(const ale_map_publisher_t *publisher)
     return publisher->begun ? &publisher->shown : NULL;
 }
 
-const ale_map_t *ale_map_publisher_tracked(ale_map_publisher_t *publisher)
+const ale_tracked_map_t *ale_map_publisher_tracked(ale_map_publisher_t *publisher)
 {
     bool fresh = false;
-    const ale_map_t *tracked = ale_snapshot_newest(publisher->exchange->map, &fresh);
+    const ale_tracked_map_t *tracked = ale_snapshot_newest(publisher->exchange->map, &fresh);
     publisher->tracked_is_new = publisher->tracked_is_new || fresh;
     return tracked;
 }
@@ -48,7 +48,7 @@ static const ale_map_t *another_map(ale_map_publisher_t *publisher, uint32_t epo
 {
     bool fresh_drawing = false;
     const ale_drawn_map_t *drawing = ale_snapshot_newest(publisher->exchange->drawn_map, &fresh_drawing);
-    const ale_map_t *tracked = ale_map_publisher_tracked(publisher);
+    const ale_map_t *tracked = &ale_map_publisher_tracked(publisher)->map;
     const bool drawn = drawing->epoch != 0 && drawing->epoch == epoch;
     const bool other = drawn != publisher->drawn || (drawn ? fresh_drawing : publisher->tracked_is_new);
     publisher->drawn = drawn;
@@ -79,7 +79,7 @@ static void show(ale_map_publisher_t *publisher, const ale_map_t *map)
     publisher->shown.version = version;
     publisher->sent = publisher->shown;
     if (publisher->drawn) {
-        add_other_maps(&publisher->sent, ale_map_publisher_tracked(publisher));
+        add_other_maps(&publisher->sent, &ale_map_publisher_tracked(publisher)->map);
     }
     publisher->pieces_parts = ale_map_pieces_parts(&publisher->sent);
     publisher->begun = true;

@@ -45,6 +45,6 @@ const ale_map_t *ale_map_publisher_map(const ale_map_publisher_t *publisher);
 /* The tracker's newest map, a second old at most: what the newest pose was found in. Empty before the first.
  * Valid until the next call of this or of work.
  */
-const ale_map_t *ale_map_publisher_tracked(ale_map_publisher_t *publisher);
+const ale_tracked_map_t *ale_map_publisher_tracked(ale_map_publisher_t *publisher);
 
 #endif

@@ -53,6 +53,7 @@ static void send_pose(ale_result_publisher_t *publisher, const ale_result_t *res
     }
     publisher->pose = result->estimate.map;
     publisher->epoch = result->estimate.epoch;
+    publisher->moves = result->map_moves;
 }
 
 /* For those who look where the robot goes: without what the scanner sees of the robot itself. */

@@ -17,7 +17,8 @@ typedef struct {
     ale_exchange_t *exchange;
     ale_bus_t *bus;
     ale_pose_t pose; /* in the map, newest */
-    uint32_t epoch;  /* of that map */
+    uint32_t epoch;  /* of that map, */
+    uint32_t moves;  /* and how often it was moved */
     ale_statistics_t statistics;
 } ale_result_publisher_t;
 

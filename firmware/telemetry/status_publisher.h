@@ -1,7 +1,8 @@
-/* Sends ALE_STATUS, and who says so (ALE_SPEAKER): once a second, and soon after something has happened that operators should hear of. For
- * the telemetry thread.
+/* Sends ALE_STATUS, and who says so (ALE_SPEAKER): once a second, and soon after something has happened that
+ * operators should hear of. For the telemetry thread.
  *
- * What a status says comes from those who know it: statistics, odometry intake, other speakers, supervisor, commands, logger.
+ * What a status says comes from those who know it: statistics, odometry intake, other speakers, supervisor,
+ * commands, logger.
  */
 #ifndef ALE_FIRMWARE_TELEMETRY_STATUS_PUBLISHER_H
 #define ALE_FIRMWARE_TELEMETRY_STATUS_PUBLISHER_H

@@ -127,14 +127,20 @@ static void take_command(void *user, const uint8_t *bytes, size_t count)
 }
 
 /* The newest pose with the map that it was found in, which is the tracker's; while lost, what was kept before
- * stays. */
-static void keep_map(ale_telemetry_t *telemetry)
+ * stays. False: the map was moved since it was handed over, or the pose is still of before; both agree within
+ * a second. */
+static bool keep_map(ale_telemetry_t *telemetry)
 {
     ale_persistence_t *persistence = telemetry->exchange->persistence;
-    if (persistence && telemetry->results.statistics.state != ALE_STATE_LOST) {
-        ale_persistence_offer(persistence, ale_map_publisher_tracked(&telemetry->map),
-                              &telemetry->results.pose);
+    if (!persistence || telemetry->results.statistics.state == ALE_STATE_LOST) {
+        return true;
     }
+    const ale_tracked_map_t *tracked = ale_map_publisher_tracked(&telemetry->map);
+    if (tracked->moves != telemetry->results.moves) {
+        return false;
+    }
+    ale_persistence_offer(persistence, &tracked->map, &telemetry->results.pose);
+    return true;
 }
 
 static void wait_for_work(ale_telemetry_t *telemetry)
@@ -162,8 +168,7 @@ static void work(ale_telemetry_t *telemetry)
     ale_map_publisher_work(&telemetry->map, telemetry->results.epoch, now_ns);
     ale_commands_work(telemetry->commands);
     ale_status_publisher_work(&telemetry->status, now_ns);
-    if (now_ns >= telemetry->next_keep_ns) {
-        keep_map(telemetry);
+    if (now_ns >= telemetry->next_keep_ns && keep_map(telemetry)) {
         telemetry->next_keep_ns = now_ns + (int64_t)telemetry->config->keep_seconds * NS_PER_S;
     }
     ale_service_feed(&telemetry->service, ale_heartbeat_beats(telemetry->exchange->heartbeat), now_ns);
@@ -197,7 +202,7 @@ static void run(ale_rt_task_t *self, void *user)
     }
     work(telemetry);
     ale_map_publisher_finish(&telemetry->map, telemetry->results.epoch);
-    keep_map(telemetry);
+    (void)keep_map(telemetry); /* or what was kept before stays */
     ale_status_publisher_send(&telemetry->status);
 }
 

@@ -1,7 +1,10 @@
 """Limits are limits: with a key, too, nobody drives faster than the configuration says, and no recording of a fault is lost to
 those that are asked for. What is not done is refused."""
+import subprocess
+
 import pytest
 
+from at_hand import BINARIES
 from commanded import Commanded, may_mount
 from waiting import Ear, wait_until
 import ale
@@ -55,8 +58,24 @@ def test_a_full_disk_is_a_refusal_and_called_that(chain):
     folder.mkdir()
     full = ["unshare", "--mount", "sh", "-c",
             f'mount -t tmpfs -o size=64k tmpfs {folder} && head -c 60000 /dev/zero > {folder}/other && exec "$@"', "sh"]
-    robot = Commanded(chain, f"[recorder]\nfolder = {folder}\nmegabytes = 1\n[map]\nfolder = {folder}\n", prefix=full)
+    robot = Commanded(chain, f"[recorder]\nfolder = {folder}\nmegabytes = 1\n[map]\nfolder = {folder}\n"
+                      f"keep = {folder}/kept.map\nkeep_seconds = 1\n", prefix=full)
     wait_until(lambda: len(chain.listener.poses) > 20, 180, "something to record")
     assert robot.send("record") == (False, "rover: not recorded: No space left on device")
+    wait_until(lambda: "map and pose are not kept" in robot.firmware.err(), 180, "a word about the map that is not kept")
+    assert f"not kept: {folder}/kept.map: No space left on device" in robot.firmware.err()
+    assert "Input/output error" not in robot.firmware.err()
     wait_until(lambda: chain.listener.map_parts, 180, "a map")
     assert robot.firmware.running()
+
+
+@pytest.mark.skipif(not may_mount(), reason="a disk that is full is made in a namespace of mounts: only root can")
+@pytest.mark.parametrize("words", [["alice", "--secret", "{0}/alice.key", "--robot", "{0}/robot.keys"], ["--drive", "{0}/drive.key"],
+                                   ["--own", "rover", "--robot", "{0}/robot.keys"]])
+def test_a_key_that_no_disk_holds_leaves_no_file(tmp_path, words):
+    """Not even an empty one, which would be in the way of the next try."""
+    full = f'mount -t tmpfs -o size=64k tmpfs {tmp_path} && head -c 70000 /dev/zero > {tmp_path}/other 2> /dev/null; "$@"; echo $?; ls {tmp_path}'
+    done = subprocess.run(["unshare", "--mount", "sh", "-c", full, "sh", BINARIES / "ale-keys", *(word.format(tmp_path) for word in words)],
+                          capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["1", "other"]
+    assert "No space left on device" in done.stderr

@@ -125,6 +125,7 @@ TEST_F(Estimate, ACorrectionTakesEffectAtTheScanItIsDueAtAndIsToldWithIt)
     correction->count = 1;
     correction->shift[0] = {0, {300000, 0, 0}};
     ale_ring_commit(exchange.corrections);
+    const uint32_t moves = result->map_moves;
     for (int k = 1; k < 9; k++) {
         push(kPeriod * (k + 1));
         ale_estimator_step(estimator);
@@ -132,6 +133,8 @@ TEST_F(Estimate, ACorrectionTakesEffectAtTheScanItIsDueAtAndIsToldWithIt)
         EXPECT_NEAR(result->estimate.map.x_um, k < 6 ? 0 : 300000, 5000) << k;
         EXPECT_NEAR(result->estimate.smooth.x_um, 0, 5000) << k;
         EXPECT_EQ(result->corrected, k == 6);
+        EXPECT_EQ(result->map_moves, moves + (k < 6 ? 0 : 1))
+            << "a map handed over before is not this pose's";
         EXPECT_EQ(ale_ring_ready(exchange.corrections), k < 5 ? 1U : 0U);
     }
     EXPECT_EQ(result->correction.x_um, 300000);

@@ -91,7 +91,7 @@ TEST_F(MapPublisher, TheTrackersMapIsShownUntilThereIsADrawing)
     track(6);
     later();
     EXPECT_EQ(lines(), 3) << "whatever the tracker's does meanwhile";
-    EXPECT_EQ(ale_map_publisher_tracked(publisher.get())->line_count, 6)
+    EXPECT_EQ(ale_map_publisher_tracked(publisher.get())->map.line_count, 6)
         << "which is there, too, for those who go on from it";
     draw(2);
     later();
@@ -103,7 +103,7 @@ TEST_F(MapPublisher, TheTrackersNewestMapIsThereBeforeItIsItsTurnToBeShown)
     track(4);
     work();
     track(5);
-    EXPECT_EQ(ale_map_publisher_tracked(publisher.get())->line_count, 5);
+    EXPECT_EQ(ale_map_publisher_tracked(publisher.get())->map.line_count, 5);
     EXPECT_EQ(lines(), 4);
     later();
     EXPECT_EQ(lines(), 5) << "although somebody had asked for it before";

@@ -28,6 +28,7 @@
 #include "firmware/surroundings.hpp"
 
 extern "C" {
+#include "mapping/persistence.h"
 #include "recorder/recorder.h"
 #include "scanner/scanner.h"
 #include "telemetry/telemetry.h"
@@ -145,6 +146,7 @@ class Telemetry : public surroundings::WithExchange
         result->scan.beams = 10;
         result->scan.range_max_um = 5600000;
         result->total_ns = 1000 * static_cast<int32_t>(number + 1);
+        result->map_moves = map_moves;
         result->estimate.map_id = map_id;
         result->estimate.maps = static_cast<uint8_t>(map_id + 1);
         result->estimate.wheel_fault = wheel_fault;
@@ -154,6 +156,7 @@ class Telemetry : public surroundings::WithExchange
     }
 
     uint32_t map_id = 0; /* of the results that are pushed */
+    uint32_t map_moves = 0;
     uint8_t wheel_fault = ALE_WHEELS_FINE;
     ale_config_t config{};
     ale_bus_t *bus = nullptr;
@@ -339,6 +342,32 @@ TEST_F(Telemetry, AMapGoesOutWholeInPartsOfOneVersion)
         }
         EXPECT_EQ(apart.size(), 200U) << "and has come before the map was whole";
     }
+}
+
+TEST_F(Telemetry, APoseIsKeptWithTheMapThatItWasFoundIn)
+{
+    const files::TemporaryFolder folder;
+    const std::string path = (folder.path() / "kept.map").string();
+    exchange.persistence = ale_persistence_start(path.c_str());
+    config.keep_seconds = 1;
+    auto *tracked = static_cast<ale_tracked_map_t *>(ale_snapshot_back(exchange.map));
+    std::memset(tracked, 0, sizeof *tracked);
+    tracked->map.line_count = 1;
+    tracked->map.line[0].start = {0, 0};
+    tracked->map.line[0].end = {3000000, 0};
+    tracked->map.line[0].seen = 20;
+    tracked->moves = 1;
+    ale_snapshot_publish(exchange.map);
+    start();
+    push_result(1, true);
+    receive_until([&] { return states.messages.size() >= 3; });
+    EXPECT_FALSE(std::filesystem::exists(path)) << "the pose is of before the map was moved";
+    map_moves = 1;
+    push_result(2, true);
+    receive_until([&] { return std::filesystem::exists(path); });
+    stop();
+    ale_persistence_stop(exchange.persistence);
+    exchange.persistence = nullptr;
 }
 
 TEST_F(Telemetry, OdometryReachesTheRingInTheRobotsTime)

@@ -141,8 +141,7 @@ struct WebCallbacks {
             lws_callback_on_writable(connection);
             return 0;
         case LWS_CALLBACK_SERVER_WRITEABLE:
-            server->send_next(connection);
-            return 0;
+            return server->send_next(connection);
         case LWS_CALLBACK_RECEIVE:
             return received(*server, connection, text);
         case LWS_CALLBACK_CLOSED:
@@ -336,20 +335,23 @@ void WebServer::end_overdue()
     }
 }
 
-void WebServer::send_next(lws *connection)
+int WebServer::send_next(lws *connection)
 {
     const auto found = connections_.find(connection);
     if (found == connections_.end()) {
-        return;
+        return 0;
     }
     const auto message = found->second.client.next(Board::Clock::now());
     if (!message) {
-        return;
+        return 0;
     }
     std::vector<unsigned char> buffer(LWS_PRE + message->size());
     std::memcpy(buffer.data() + LWS_PRE, message->data(), message->size());
-    lws_write(connection, buffer.data() + LWS_PRE, message->size(), LWS_WRITE_TEXT);
+    if (lws_write(connection, buffer.data() + LWS_PRE, message->size(), LWS_WRITE_TEXT) < 0) {
+        return -1;
+    }
     lws_callback_on_writable(connection);
+    return 0;
 }
 
 void WebServer::offer_all()

@@ -77,7 +77,8 @@ class WebServer
     void came(lws *connection);
     void end_overdue();
     Client new_client();
-    void send_next(lws *connection);
+    /* 0, or -1: the connection takes no more, and is to be closed. */
+    int send_next(lws *connection);
     void offer_all();
     void links_due();
 
