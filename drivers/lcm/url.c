@@ -57,7 +57,7 @@ bool ale_lcm_is_prefix(const char *text)
 {
     static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-/";
     const size_t length = strspn(text, letters);
-    return text[length] == '\0' && length <= ALE_LCM_PREFIX;
+    return length <= ALE_LCM_PREFIX && text[length] == '\0';
 }
 
 static int take_prefix(const char *text, ale_lcm_group_t *group)

@@ -404,4 +404,9 @@ const char *ale_port_strerror(int status)
 {
     return status == ALE_PORT_ABSENT ? "absent" : "gone";
 }
+
+void ale_port_explain(int status, const char *, char words[ALE_PORT_WORDS])
+{
+    std::snprintf(words, ALE_PORT_WORDS, "%s", ale_port_strerror(status));
+}
 }
