@@ -41,11 +41,12 @@ bench-faults: ## drives on which something goes wrong, as tables: long (FAULTS_S
 
 LOG ?=
 RELATIONS ?=
+JITTER ?=
 .PHONY: bench-published
-bench-published: ## the published benchmark, all relations, beside others (ONLY=aces; LOG=path RELATIONS=path: your own recording)
+bench-published: ## the published benchmark, all relations, beside others (ONLY=aces; LOG=path RELATIONS=path: your own recording; JITTER=1,2: also with noise of these seeds)
 	@tools/make/deps.sh tools/make/packages-build.txt tools/make/packages-test.txt
 	@$(MAKE) --no-print-directory -s $(BUILD)/bin/ale-replay $(BUILD)/bin/ale-sim
-	@$(PYTHON) tools/lab/bench/published_table.py --build $(BUILD) $(addprefix --only ,$(ONLY)) $(addprefix --log ,$(LOG)) $(addprefix --relations ,$(RELATIONS))
+	@$(PYTHON) tools/lab/bench/published_table.py --build $(BUILD) $(addprefix --only ,$(ONLY)) $(addprefix --log ,$(LOG)) $(addprefix --relations ,$(RELATIONS)) $(addprefix --jitter ,$(JITTER))
 
 POSES ?= 100
 .PHONY: relocalise

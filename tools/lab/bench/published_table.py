@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
 """The published benchmark (Kümmerle et al. 2009) as Markdown tables on stdout: error over all relations, beside what others reached.
 
-    published_table.py --build build [--shared FOLDER] [--only aces] [--log LOG --relations FILE]
+    published_table.py --build build [--shared FOLDER] [--only aces] [--log LOG --relations FILE] [--jitter 1,2,3]
 
 The logs of ACES and Intel as everybody downloads them and the Killian Court lie in the project's shared data (ALE_SHARED). Any other
 log with its relations is measured by --log and --relations: `.relations` lines are `t1 t2 x y z roll pitch yaw`, `.relidx` lines
 `i j x y yaw`, where i and j count laser lines from 0.
+
+With --jitter each recording is replayed once more with each of these seeds of noise on its ranges (faults/spoil.py): what of a result
+is luck.
 
 The error of a relation is true relation^-1 * estimated one; m (degrees for turns). Every relation counts, also where scans were lost.
 """
@@ -14,6 +17,7 @@ import json
 import math
 import os
 import pathlib
+import subprocess
 import sys
 import tempfile
 
@@ -64,12 +68,25 @@ def relation_errors(trajectory, ends, relations):
     return np.abs(seen - true[:, 0] - 1j * true[:, 1]), np.abs(wrapped(other - heading - true[:, 2]))
 
 
-def measured(bench, log, relations):
-    """The cells of a recording."""
-    if pathlib.Path(log).name.endswith(".g2o.gz"):
-        carmen = bench.folder / "made.clf"
-        with_made_odometry(log, carmen)
-        log = carmen
+def as_carmen(bench, log):
+    if not pathlib.Path(log).name.endswith(".g2o.gz"):
+        return log
+    carmen = bench.folder / "made.clf"
+    with_made_odometry(log, carmen)
+    return carmen
+
+
+def with_jitter(bench, log, seed):
+    noisy = bench.folder / "jitter.clf"
+    subprocess.run([sys.executable, pathlib.Path(__file__).with_name("faults") / "spoil.py", log, "jitter", str(seed), noisy], check=True)
+    return noisy
+
+
+def measured(bench, log, relations, seed=None):
+    """The cells of a recording, as it is or with noise of this seed."""
+    log = as_carmen(bench, log)
+    if seed is not None:
+        log = with_jitter(bench, log, seed)
     _, final, time_ms = bench.replay(log, "--frame", "laser")
     ends, true = read_relations(relations)
     metres, turns = relation_errors(read_tum(final), ends, true)
@@ -95,6 +112,7 @@ def parsed():
     parser.add_argument("--only", default="", metavar="NAME", help="aces, intel or killian alone")
     parser.add_argument("--log", help="another recording, in any format that ale-replay reads ..")
     parser.add_argument("--relations", help=".. and its relations")
+    parser.add_argument("--jitter", default="", metavar="SEEDS", help="also with noise of these seeds on the ranges")
     options = parser.parse_args()
     if bool(options.log) != bool(options.relations):
         parser.error("--log and --relations go together")
@@ -119,6 +137,9 @@ def main():
         for name, log, relations in recordings:
             progress(f"{name} ...")
             ours[name] = measured(bench, log, relations)
+            for seed in filter(None, options.jitter.split(",")):
+                progress(f"{name}, noise of seed {seed} ...")
+                ours[f"{name}, noise of seed {seed}"] = measured(bench, log, relations, int(seed))
     titled_table("Error over all relations, m:",
                  ["recording", "mean (deviation)", "median", "worst", "turn, degrees", "relations", "scans lost", "ms a scan: mean, longest"],
                  [[name, *cells] for name, cells in ours.items()])

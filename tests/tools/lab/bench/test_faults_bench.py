@@ -83,7 +83,7 @@ def test_the_same_seed_spoils_the_same_way_and_touches_wheels_or_scans_alone(kin
     if kind in spoil.WHEELS:
         assert log.scans == clean.scans and len(left.index) == SCANS
         assert not np.allclose(log.odometry, clean.odometry)
-    elif kind in ("blind", "half", "every-other", "near", "crop", "rough"):
+    elif kind in ("blind", "half", "every-other", "near", "crop", "rough", "jitter"):
         assert np.array_equal(log.odometry, clean.odometry)
         assert log.scans != clean.scans
 
@@ -241,16 +241,17 @@ def test_the_truth_is_told_as_the_drive(log):
 def test_fewer_and_rougher_ranges(path, clean):
     was = all_ranges(clean)
     now = {}
-    for kind in ("every-other", "near", "crop", "rough"):
+    for kind in ("every-other", "near", "crop", "rough", "jitter"):
         log = CarmenLog(path)
         spoil.spoil(log, kind, 1)
         now[kind] = all_ranges(log)
         left = ~np.isnan(now[kind])
-        assert kind == "rough" or np.array_equal(now[kind][left], was[left])
+        assert kind in ("rough", "jitter") or np.array_equal(now[kind][left], was[left])
     assert np.array_equal(np.isnan(now["every-other"]), np.broadcast_to(np.arange(BEAMS) % 2 == 1, was.shape))
     assert np.array_equal(np.isnan(now["near"]), was > 8)
     assert np.array_equal(np.isnan(now["crop"]), np.broadcast_to(np.abs(clean.bearings()) > math.radians(60), was.shape))
     assert np.std((now["rough"] - was) / (0.01 + 0.01 * was)) == pytest.approx(1, rel=0.05)
+    assert np.std(now["jitter"] - was) == pytest.approx(0.004, rel=0.05)
 
 
 def test_faults_are_those_of_the_script_beside_the_project(tmp_path):

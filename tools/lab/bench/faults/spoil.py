@@ -28,6 +28,7 @@ outages    gap-S        S = 4, 6, 8, 10, 12 s without scans, wheels go on
 robot      carried      10 to 40 s are cut out, wheels know nothing of it
 told       mirror       left and right exchanged         backward   from its end
 otherwise  every-other  every other beam without an echo  near      no echo beyond 8 m
+           jitter       4 mm of noise more on every range: as if driven on another day
            crop         120 degrees ahead                rough      10 mm and 1 % of noise on every range
            sparse       every third scan                 tail       begins after a third of the drive
 """
@@ -44,7 +45,7 @@ PASSING = ("stall", "swallow", "jump", "reset", "sign", "slip", "late", "track",
 LYING = ("frozen", "mirrored", "degrees", "millimetres", "stale")
 SCANS = ("blind", "gap", "dark", "half")
 OUTAGES = tuple(f"{kind}-{seconds}" for kind in ("gap", "dark") for seconds in (4, 6, 8, 10, 12))
-TOLD_OTHERWISE = ("mirror", "backward", "every-other", "near", "crop", "rough", "sparse", "tail")
+TOLD_OTHERWISE = ("mirror", "backward", "every-other", "near", "crop", "rough", "jitter", "sparse", "tail")
 WHEELS = PASSING + LYING
 KINDS = PASSING + SCANS + ("carried",) + LYING + OUTAGES + TOLD_OTHERWISE
 
@@ -57,7 +58,7 @@ STALE_NEEDS_S = 120  # a shorter drive is as if frozen
 HANGS_M, HANGS_SIGMA_M = 0.3, 0.004
 NEAR_M = 8
 CROP_RAD = math.radians(60)
-ROUGH_M, ROUGH_SHARE = 0.01, 0.01
+NOISE = {"rough": (0.01, 0.01), "jitter": (0.004, 0)}  # m, and share of the range
 
 
 @dataclasses.dataclass
@@ -175,7 +176,8 @@ def tell_ranges(log, kind, chance):
         elif kind == "crop":
             ranges[np.abs(bearings) > CROP_RAD] = np.nan
         else:
-            ranges = np.abs(ranges + chance.normal(size=log.beams) * (ROUGH_M + ROUGH_SHARE * ranges))
+            at_zero_m, share = NOISE[kind]
+            ranges = np.abs(ranges + chance.normal(size=log.beams) * (at_zero_m + share * ranges))
         log.set_ranges(k, ranges)
 
 
