@@ -23,6 +23,7 @@ void ale_wheels_init(ale_wheels_t *wheels, int32_t max_speed_mm_s, int32_t max_t
     wheels->first = 0;
     wheels->count = 0;
     wheels->jumps = 0;
+    wheels->moved = false;
     wheels->max_speed_mm_s = max_speed_mm_s;
     wheels->max_turn_mrad_s = max_turn_mrad_s;
 }
@@ -108,6 +109,11 @@ static bool is_on_known_way(const ale_wheels_t *w, const ale_odometry_t *sample)
            ale_abs64((int32_t)off.theta_bam) < (int64_t)KNOWN_MRAD * ALE_BAM_PER_MRAD;
 }
 
+static bool is_same_pose(ale_pose_t a, ale_pose_t b)
+{
+    return a.x_um == b.x_um && a.y_um == b.y_um && a.theta_bam == b.theta_bam;
+}
+
 static void append(ale_wheels_t *wheels, const ale_odometry_t *sample)
 {
     if (wheels->count == ALE_WHEELS_SAMPLES) {
@@ -126,6 +132,7 @@ void ale_wheels_add(ale_wheels_t *wheels, const ale_odometry_t *sample)
     }
     const ale_odometry_t *newest = sample_at(wheels, wheels->count - 1);
     const int64_t dt_us = sample->stamp_us - newest->stamp_us;
+    wheels->moved = wheels->moved || !is_same_pose(newest->pose, sample->pose);
     const bool late = dt_us <= 0 && dt_us > -CLOCK_SET_BACK_US;
     const bool jump = dt_us > ALE_WHEELS_GAP_US || is_jump(wheels, newest, sample);
     if (late) {

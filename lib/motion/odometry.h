@@ -24,6 +24,7 @@ typedef struct {
     uint32_t first;
     uint32_t count;
     uint32_t jumps; /* epochs begun by a reset or a jump */
+    bool moved;     /* ever: what has always told one pose may be left unconnected */
     int32_t max_speed_mm_s;
     int32_t max_turn_mrad_s;
 } ale_wheels_t;

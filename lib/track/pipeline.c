@@ -92,15 +92,16 @@ void ale_pipeline_reset(ale_pipeline_t *p)
     ale_filter_clear(p);
     ale_relocation_clear(&p->relocation);
     p->claims = 0;
+    p->unlooked_um = 0;
     p->claim = ALE_CLAIM_NONE;
     p->next_claim = ALE_CLAIM_NEAR;
     p->joined = false;
-    p->waits = false;
+    p->waits = 0;
     p->begun = 0;
     p->moved_map = (ale_moved_map_t){0, 0, {0, 0, 0}};
     p->scans = 0;
     p->determined = true;
-    p->advantage_um = 0;
+    p->proposal.advantage_um = 0;
     p->started = false;
     p->looked = false;
     p->observed.count = 0;
@@ -152,11 +153,15 @@ static void conclude(ale_pipeline_t *p, const ale_tracked_t *tracked)
     p->fit = tracked->fit;
     p->matched_corners = tracked->matched_corners;
     p->determined = tracked->determined;
-    p->advantage_um = tracked->undecided ? p->advantage_um : 0;
     p->speed_known = tracked->speed_known;
     p->slips = tracked->slips;
     p->kept = tracked->kept;
     p->watched_us = tracked->kept ? tracked->fit.motion.stamp_us : p->watched_us;
+}
+
+static void follow_proposal(ale_pipeline_t *p, ale_pose_t before, ale_pose_t now)
+{
+    p->proposal.pose = ale_pose_compose(p->proposal.pose, ale_pose_between(before, now));
 }
 
 static void observe(ale_pipeline_t *p, const ale_scan_t *scan, const int32_t velocity[ALE_AXES])
@@ -165,7 +170,9 @@ static void observe(ale_pipeline_t *p, const ale_scan_t *scan, const int32_t vel
     ale_filter_begin(p);
     p->voted = false;
     p->waited = p->waits;
-    p->waits = false;
+    p->waits = 0;
+    p->proposed = p->proposal;
+    p->proposal.advantage_um = 0;
     p->looked = true;
 }
 
@@ -201,6 +208,7 @@ static void track(ale_pipeline_t *p, const ale_prediction_t *prediction)
 static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
 {
     const ale_prediction_t prediction = ale_step_predict(p, scan->stamp_us);
+    follow_proposal(p, prediction.before.pose, prediction.ways.believed.pose);
     observe(p, scan, prediction.ways.believed.velocity);
     track(p, &prediction);
     if (!ale_maps_is_home(p)) {
@@ -267,6 +275,7 @@ void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estima
     if (pipeline->started) {
         const ale_pose_t before = pipeline->motion.pose;
         const bool counted = ale_pipeline_predict_by_wheels(pipeline, &pipeline->motion, stamp_us, &wheels);
+        follow_proposal(pipeline, before, pipeline->motion.pose);
         if (counted) {
             ale_scale_error_predict(&pipeline->scale_error, before, pipeline->motion.pose,
                                     ale_wheel_scale_error_ppm(&pipeline->scale));

@@ -70,6 +70,13 @@ typedef enum {
     ALE_CLAIM_SAID  /* there, as somebody says: one scan that fits is enough */
 } ale_claim_t;
 
+/* Another pose of a scan, that explains it better than the one that is followed: believed when the next scan
+ * confirms it. */
+typedef struct {
+    ale_pose_t pose;
+    int64_t advantage_um; /* of surface that it explains more, in scans that confirm each other; 0: none */
+} ale_proposal_t;
+
 struct ale_pipeline {
     ale_pipeline_config_t config;
     ale_stage_hook_t hook;
@@ -90,14 +97,15 @@ struct ale_pipeline {
     ale_scan_match_t scan_match;
     ale_fit_t other; /* of the same scan, from another pose */
     ale_pose_vote_t vote;
-    bool voted;           /* on the scan at hand: one vote a scan */
-    ale_fit_t best;       /* of the places of the vote */
-    int64_t advantage_um; /* of other poses over the one that was followed, in undecided scans in a row */
+    bool voted;     /* on the scan at hand: one vote a scan */
+    ale_fit_t best; /* of the places of the vote */
+    ale_proposal_t proposal;
+    ale_proposal_t proposed; /* by the scan before, where the prediction has led it */
 
     /* monitor */
     ale_tracking_monitor_t monitor;
-    bool waits;  /* for the next scan to tell where this one was taken */
-    bool waited; /* the scan before did */
+    uint8_t waits; /* scans in a row, to this one, that wait for the next one to tell where they were taken */
+    uint8_t waited; /* to the one before */
 
     /* filter: what moves, and what is kept to tell */
     ale_static_scene_t still;
@@ -110,7 +118,8 @@ struct ale_pipeline {
     ale_relocation_t relocation;
     ale_claim_t next_claim; /* what the next map begins with */
     ale_claim_t claim;      /* what the robot's map has begun with, */
-    uint16_t claims;        /* and so many scans may still show it */
+    uint16_t claims;        /* and so many scans show it first of all */
+    int64_t unlooked_um;    /* gone and turned since the robot last looked around */
 
     /* update */
     ale_local_map_t map;

@@ -2,7 +2,13 @@
 
 #include <stddef.h>
 
-enum { SCAN_SET_BACK_US = 1000000 /* a stamp older than the last by less is a wrong stamp */ };
+#include "base/fixed.h"
+#include "base/trig.h"
+
+enum {
+    SCAN_SET_BACK_US = 1000000, /* a stamp older than the last by less is a wrong stamp */
+    STANDS_UM = 3000            /* way and turn, as which scans see a robot that stands */
+};
 
 void ale_pipeline_predict_motion(const ale_pipeline_t *p, ale_motion_t *motion, int64_t stamp_us,
                                  const ale_wheel_motion_t *wheels)
@@ -15,12 +21,31 @@ void ale_pipeline_predict_motion(const ale_pipeline_t *p, ale_motion_t *motion, 
     }
 }
 
+/* Wheels that have told of no motion, although scans have moved the robot from where it began, say nothing.
+ */
+static bool are_believed(const ale_pipeline_t *p)
+{
+    const ale_pose_t pose = p->motion.pose;
+    return p->wheels.moved || ale_abs64(pose.x_um) + ale_abs64(pose.y_um) +
+                                      ale_abs64(ale_bam_to_nrad((int32_t)pose.theta_bam)) / 1000 <
+                                  STANDS_UM;
+}
+
+/* By wheels that are believed, else by its velocity alone. `known`: they tell of that time. */
+static bool predict(const ale_pipeline_t *p, ale_motion_t *motion, int64_t stamp_us,
+                    ale_wheel_motion_t *wheels, bool *known)
+{
+    *known = ale_wheel_motion(&p->wheels, &p->lag, &p->scale, motion->stamp_us, stamp_us, wheels);
+    const bool believed = *known && are_believed(p);
+    ale_pipeline_predict_motion(p, motion, stamp_us, believed ? wheels : NULL);
+    return believed;
+}
+
 bool ale_pipeline_predict_by_wheels(const ale_pipeline_t *p, ale_motion_t *motion, int64_t stamp_us,
                                     ale_wheel_motion_t *wheels)
 {
-    const bool known = ale_wheel_motion(&p->wheels, &p->lag, &p->scale, motion->stamp_us, stamp_us, wheels);
-    ale_pipeline_predict_motion(p, motion, stamp_us, known ? wheels : NULL);
-    return known;
+    bool known;
+    return predict(p, motion, stamp_us, wheels, &known);
 }
 
 /* When a scan was taken: scans come in their order, whatever their stamps say of it. A clock that was set
@@ -46,10 +71,9 @@ ale_prediction_t ale_step_predict(ale_pipeline_t *p, int64_t stamp_us)
     const int64_t instant_us = instant_of(p, stamp_us);
     const int64_t dt_us = instant_us - p->motion.stamp_us;
     ale_motion_t predicted = p->motion;
-    const bool counted = ale_pipeline_predict_by_wheels(p, &predicted, instant_us, &prediction.wheels);
-    prediction.counted = counted;
+    const bool believed = predict(p, &predicted, instant_us, &prediction.wheels, &prediction.counted);
     prediction.ways =
-        counted ? hypotheses(p, &predicted) : (ale_ways_t){.believed = predicted, .rival = predicted};
+        believed ? hypotheses(p, &predicted) : (ale_ways_t){.believed = predicted, .rival = predicted};
     prediction.dt_us =
         ale_timestamp_filter_accepts(&p->timestamp_filter, dt_us) ? dt_us : p->timestamp_filter.usual_us;
     return prediction;

@@ -15,6 +15,7 @@ enum {
     START_SIGMA_UM = 150000,
     START_SIGMA_URAD = 60000,
     MARGIN_UM = 1500000, /* surface by which a pose must explain more than another one */
+    CONFIRM_UM = 500000, /* the next scan finds it there, with what the robot has gone otherwise than told */
     SAME_UM = 300000,    /* poses nearer than this are one: least squares joins them */
     SAME_BAM = 200 * ALE_BAM_PER_MRAD,
     ANY_HEADING_URAD = 3141592,
@@ -175,6 +176,33 @@ static int64_t gain_um(const ale_motion_t *predicted, const candidate_t *best, c
            against_um(predicted, given->fit->motion.pose);
 }
 
+/* What the scan before has found for a pose, where it has proposed it; else 0. */
+static int64_t proposed_um(const ale_pipeline_t *p, ale_pose_t pose)
+{
+    return ale_are_near(p->proposed.pose, pose, CONFIRM_UM, SAME_BAM) ? p->proposed.advantage_um : 0;
+}
+
+/* A pose that explains clearly more than any other is taken where it is beside the given one, or was proposed
+ * by the scan before; else it is proposed to the next. */
+static ale_recovery_t take_or_propose(ale_pipeline_t *p, const candidate_t *given, const candidate_t *best,
+                                      ale_ways_t *ways)
+{
+    const ale_pose_t pose = best->fit->motion.pose;
+    const bool near = is_same(best->fit, given->fit);
+    const int64_t before_um = proposed_um(p, pose);
+    const int64_t more_um = best->evidence_um - given->evidence_um;
+    const bool enough = before_um + gain_um(&ways->believed, best, given) > MARGIN_UM;
+    if (enough && (near || before_um > 0)) {
+        take(p, best, ways, given->fit);
+        return near ? ALE_RECOVER_NEAR : ALE_RECOVER_MOVED;
+    }
+    if (enough || more_um > MARGIN_UM) {
+        p->proposal = (ale_proposal_t){pose, before_um + ale_max64(more_um, 1)};
+        return ALE_RECOVER_UNDECIDED;
+    }
+    return ALE_RECOVER_STAYS;
+}
+
 ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_ways_t *ways,
                                 ale_fit_t *fit)
 {
@@ -184,22 +212,13 @@ ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *predi
     p->best = *fit;
     p->voted = true;
     const int64_t rival_um = compare_region(p, &ways->believed, &region, &best);
-    const bool more = best.evidence_um > given.evidence_um + MARGIN_UM;
-    const bool clear = best.evidence_um > rival_um + MARGIN_UM;
-    if (clear && best.evidence_um == given.evidence_um) {
+    if (best.evidence_um <= rival_um + MARGIN_UM) {
+        const bool more = best.evidence_um > given.evidence_um + MARGIN_UM;
+        const bool open = (more || !ways->counted) && ale_tracking_accepts(best.fit);
+        return open ? ALE_RECOVER_OPEN : ALE_RECOVER_STAYS;
+    }
+    if (best.evidence_um == given.evidence_um) {
         return ALE_RECOVER_CONFIRMED;
     }
-    if (!ale_tracking_accepts(best.fit)) {
-        return ALE_RECOVER_STAYS;
-    }
-    if (!clear) {
-        return more || !ways->counted ? ALE_RECOVER_OPEN : ALE_RECOVER_STAYS;
-    }
-    if (p->advantage_um + gain_um(&ways->believed, &best, &given) <= MARGIN_UM) {
-        p->advantage_um += more ? best.evidence_um - given.evidence_um : 0;
-        return more ? ALE_RECOVER_UNDECIDED : ALE_RECOVER_STAYS;
-    }
-    const bool near = is_same(best.fit, fit);
-    take(p, &best, ways, fit);
-    return near ? ALE_RECOVER_NEAR : ALE_RECOVER_MOVED;
+    return ale_tracking_explains(best.fit) ? take_or_propose(p, &given, &best, ways) : ALE_RECOVER_STAYS;
 }

@@ -22,16 +22,16 @@ bool ale_recover_in_region(ale_pipeline_t *p, ale_pose_t centre);
 typedef enum {
     ALE_RECOVER_CONFIRMED, /* none explains as much as *fit does */
     ALE_RECOVER_STAYS,     /* none explains clearly more */
-    ALE_RECOVER_UNDECIDED, /* one does, but not by as much as the prediction weighs against it */
+    ALE_RECOVER_UNDECIDED, /* one does, but the next scan must confirm it */
     ALE_RECOVER_NEAR,      /* one does, beside *fit, which is that one now, solved */
     ALE_RECOVER_MOVED,     /* one does, elsewhere: *fit is that one, solved */
     ALE_RECOVER_OPEN       /* several do */
 } ale_recovery_t;
 
 /* Compares all poses that the robot can have reached by what they explain of the scan, less what the
- * prediction weighs against them; scans that leave it undecided add up. fit: what the prediction has led to,
- * solved. ways: the pose selected, where that is another. Writes p->advantage_um. Bounded by the vote and
- * four fits. */
+ * prediction weighs against them. Another pose is proposed, and taken with the next scan that finds it again;
+ * what scans in a row say for it adds up. fit: what the prediction has led to, solved. ways: the pose
+ * selected, where that is another. Writes p->proposal. Bounded by the vote and four fits. */
 ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_ways_t *ways,
                                 ale_fit_t *fit);
 

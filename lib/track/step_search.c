@@ -13,6 +13,7 @@ enum {
     WHOLE_MAP_UM = 2000000000, /* a reach beyond any map */
     SAID_SIGMA_UM = 100000,
     SAID_SIGMA_URAD = 50000,
+    LOOK_UM = 1000000,    /* a robot that has gone on, or turned, by so much sees something else */
     EXPECTED_UM = 500000, /* of where the prediction has put the robot: there less will do */
     EXPECTED_BAM = 350 * ALE_BAM_PER_MRAD,
     EXPECTED_LEAST_UM = 2000000,
@@ -27,13 +28,17 @@ static const ale_gate_t laid_gate = {100000, 100000, 1000, 0};
 typedef enum { ANYWHERE, NEAR, WHERE_SAID } search_t;
 
 /* What is claimed is tried with every other scan, for a while; what somebody has said in turns with what is
- * around it. */
-static search_t next_search(ale_pipeline_t *p)
+ * around it. Later a look around is worth it where the robot has gone on: its own map leads it. */
+static search_t next_search(ale_pipeline_t *p, ale_pose_t displacement)
 {
     p->claims = (uint16_t)(p->claims > 0 ? p->claims - 1 : 0);
-    if (p->claims % 2 == 0) {
+    p->unlooked_um += ale_abs64(displacement.x_um) + ale_abs64(displacement.y_um) +
+                      ale_abs64(ale_bam_to_nrad((int32_t)displacement.theta_bam)) / 1000;
+    const bool due = p->claims > 0 ? p->claims % 2 != 0 : p->unlooked_um > LOOK_UM;
+    if (p->claim == ALE_CLAIM_NONE || !due) {
         return ANYWHERE;
     }
+    p->unlooked_um = 0;
     return p->claim == ALE_CLAIM_SAID && p->claims % 4 == 3 ? WHERE_SAID : NEAR;
 }
 
@@ -107,7 +112,7 @@ static bool is_found(ale_pipeline_t *p, search_t search, ale_fit_t *fit)
     ale_pose_t at;
     if (ale_relocation_recognised(&p->relocation, &at)) {
         fit_at(p, at, fit);
-        return ale_tracking_accepts(fit);
+        return ale_tracking_explains(fit);
     }
     if (search == WHERE_SAID) {
         fit_at(p, p->motion.pose, fit);
@@ -121,10 +126,10 @@ static bool is_found(ale_pipeline_t *p, search_t search, ale_fit_t *fit)
 
 void ale_step_search(ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
+    const ale_pose_t displacement = ale_pose_between(prediction->before.pose, p->motion.pose);
     const bool followed = p->monitor.state != ALE_STATE_LOST && !p->monitor.contradicted;
-    ale_relocation_follow(&p->relocation, ale_pose_between(prediction->before.pose, p->motion.pose),
-                          followed || prediction->ways.counted);
-    const search_t search = next_search(p);
+    ale_relocation_follow(&p->relocation, displacement, followed || prediction->ways.counted);
+    const search_t search = next_search(p, displacement);
     if (p->voted) {
         return; /* on the robot's own map: that is enough for a scan */
     }

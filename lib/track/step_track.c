@@ -8,7 +8,10 @@
 #include "track/step_recover.h"
 #include "track/step_update.h"
 
-enum { EVEN_US = 250000 /* a scan that comes later says nothing of a speed */ };
+enum {
+    WAITS_MOST = 3,  /* scans in a row that wait for the next one */
+    EVEN_US = 250000 /* a scan that comes later says nothing of a speed */
+};
 
 /* A scan that contradicts the last one leaves the prediction as it is; else what goes along with the robot is
  * left out, and the scan is the one that the next is compared with. True: it is. */
@@ -49,12 +52,12 @@ static bool explains(ale_recovery_t recovery, const ale_fit_t *fit)
            (recovery == ALE_RECOVER_CONFIRMED && !ale_tracking_doubts(fit));
 }
 
-/* Whether the next scan is waited for: wheels may be told of late after a gap. Not where other poses explain
- * the scan. */
+/* Whether the next scan is waited for: wheels may be told of late after a gap, and a pose that is proposed
+ * needs to be confirmed. Not where several poses explain the scan. */
 static bool may_wait(const ale_pipeline_t *p, ale_recovery_t recovery, const ale_ways_t *ways)
 {
-    return p->monitor.contradicted && p->monitor.misfits == 0 && ways->counted &&
-           recovery != ALE_RECOVER_OPEN;
+    return p->waited < WAITS_MOST &&
+           (recovery == ALE_RECOVER_UNDECIDED || (ways->counted && recovery != ALE_RECOVER_OPEN));
 }
 
 /* What a scan that the prediction does not explain, or that nobody watched, comes to. */
@@ -71,9 +74,9 @@ static ale_scene_verdict_t recover(ale_pipeline_t *p, const ale_prediction_t *pr
     }
     const bool unsure = verdict == ALE_SCENE_STRANGE && !ways->counted;
     const bool refuted = verdict == ALE_SCENE_CHANGED || recovery == ALE_RECOVER_OPEN || unsure;
-    if (refuted && ale_recover_is_unwatched(p, prediction)) {
-        p->waits = may_wait(p, recovery, ways);
-        return p->waits ? ALE_SCENE_CHANGED : lose(p, ALE_CLAIM_NEAR);
+    if (refuted && recovery != ALE_RECOVER_CONFIRMED && ale_recover_is_unwatched(p, prediction)) {
+        p->waits = (uint8_t)(may_wait(p, recovery, ways) ? p->waited + 1 : 0);
+        return p->waits > 0 ? ALE_SCENE_CHANGED : lose(p, ALE_CLAIM_NEAR);
     }
     const bool undecided = recovery == ALE_RECOVER_UNDECIDED && verdict != ALE_SCENE_CHANGED;
     return undecided ? ALE_SCENE_UNDECIDED : verdict;

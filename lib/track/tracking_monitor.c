@@ -151,10 +151,14 @@ ale_state_t ale_tracking_judge(ale_tracking_monitor_t *monitor, const ale_fit_t 
     return monitor->state;
 }
 
+bool ale_tracking_explains(const ale_fit_t *fit)
+{
+    return fit->shown_um >= BELIEVE_SHOWN_UM && fit->matched_um * 100 >= fit->shown_um * BELIEVE_PERCENT;
+}
+
 bool ale_tracking_accepts(const ale_fit_t *fit)
 {
-    return fit->matched >= BELIEVE_WALLS && fit->shown_um >= BELIEVE_SHOWN_UM &&
-           fit->matched_um * 100 >= fit->shown_um * BELIEVE_PERCENT;
+    return fit->matched >= BELIEVE_WALLS && ale_tracking_explains(fit);
 }
 
 bool ale_tracking_confirms(const ale_fit_t *fit)

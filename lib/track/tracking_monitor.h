@@ -44,7 +44,10 @@ void ale_tracking_notice(ale_tracking_monitor_t *monitor, const ale_testimony_t 
 ale_state_t ale_tracking_judge(ale_tracking_monitor_t *monitor, const ale_fit_t *fit,
                                const ale_visibility_counts_t *visibility);
 
-/* Whether a fit found while lost is accepted: most of what is shown lies on walls, and enough is shown. */
+/* Whether the map explains a scan at a fit: most of what is shown lies on walls, and enough is shown. */
+bool ale_tracking_explains(const ale_fit_t *fit);
+
+/* Whether a fit found while lost is accepted: it explains the scan by several walls. */
 bool ale_tracking_accepts(const ale_fit_t *fit);
 
 /* Whether a fit confirms that the robot is where it is said to be: nearly all that is shown lies on walls,

@@ -150,3 +150,14 @@ TEST_F(Wheels, MotionIsSeenFromTheEarlierPose)
     EXPECT_NEAR(d.x_um, 100000, 2);
     EXPECT_NEAR(d.y_um, 0, 2);
 }
+
+TEST_F(Wheels, HaveMovedOnceTheyHaveToldTwoPoses)
+{
+    add(0, 1, 2, 0.5);
+    add(100, 1, 2, 0.5);
+    EXPECT_FALSE(wheels.moved);
+    add(200, 1, 2, 0.501);
+    EXPECT_TRUE(wheels.moved);
+    add(300, 1, 2, 0.501);
+    EXPECT_TRUE(wheels.moved);
+}

@@ -28,6 +28,7 @@ struct Drive {
     int scans = 250;
     room::Sensor sensor;
     bool mirrored = false;
+    bool frozen = false; /* wheels tell one pose for ever */
 };
 
 Result run(const Drive &d)
@@ -57,7 +58,7 @@ Result run(const Drive &d)
         reference::Pose step = room::since_start(path(t + d.lag_s - 0.1), path(t + d.lag_s));
         step.head<2>() *= d.scale;
         step[2] += 0.004 * normal(rng);
-        wheels = reference::compose(wheels, step);
+        wheels = d.frozen ? wheels : reference::compose(wheels, step);
         const ale_odometry_t sample = {std::llround(t * 1e6), convert::pose(wheels)};
         ale_pipeline_odometry(p.get(), &sample);
         const ale_scan_t scan = room::scan_at(walls, sensor, path, t, rng);
@@ -98,6 +99,18 @@ TEST(Pipeline, FollowsTheRobotWithinACentimetreWithAndWithoutOdometry)
         EXPECT_EQ(r.last.state, ALE_STATE_GOOD);
         EXPECT_LT(r.longest_step_m, 0.08);
     }
+}
+
+/* As an encoder that is not connected. Nothing holds the robot back once scans have shown that it goes, and
+ * it is said. */
+TEST(Pipeline, WheelsThatNeverMoveSayNothing)
+{
+    Drive d;
+    d.frozen = true;
+    const Result r = run(d);
+    EXPECT_LT(r.worst_m, 0.05);
+    EXPECT_EQ(r.last.state, ALE_STATE_GOOD);
+    EXPECT_EQ(r.last.wheel_fault, ALE_WHEELS_STALLED);
 }
 
 TEST(Pipeline, FindsTheLagAndTheScaleOfTheWheels)
