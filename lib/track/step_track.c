@@ -60,6 +60,18 @@ static bool may_wait(const ale_pipeline_t *p, ale_recovery_t recovery, const ale
            (recovery == ALE_RECOVER_UNDECIDED || (ways->counted && recovery != ALE_RECOVER_OPEN));
 }
 
+/* Whether this scan speaks against the pose after a time that nobody watched: the map has changed, several
+ * poses explain the scan, or it is strange and no wheels say where it was taken. */
+static bool is_refuted(const ale_pipeline_t *p, const ale_prediction_t *prediction,
+                       ale_scene_verdict_t verdict, ale_recovery_t recovery, const ale_ways_t *ways)
+{
+    if (recovery == ALE_RECOVER_CONFIRMED || !ale_recover_is_unwatched(p, prediction)) {
+        return false;
+    }
+    const bool unsure = verdict == ALE_SCENE_STRANGE && !ways->counted;
+    return verdict == ALE_SCENE_CHANGED || recovery == ALE_RECOVER_OPEN || unsure;
+}
+
 /* What a scan that the prediction does not explain, or that nobody watched, comes to. */
 static ale_scene_verdict_t recover(ale_pipeline_t *p, const ale_prediction_t *prediction,
                                    ale_scene_verdict_t verdict, ale_ways_t *ways, ale_fit_t *fit)
@@ -72,9 +84,7 @@ static ale_scene_verdict_t recover(ale_pipeline_t *p, const ale_prediction_t *pr
         p->monitor.contradicted = false;
         return ALE_SCENE_KNOWN;
     }
-    const bool unsure = verdict == ALE_SCENE_STRANGE && !ways->counted;
-    const bool refuted = verdict == ALE_SCENE_CHANGED || recovery == ALE_RECOVER_OPEN || unsure;
-    if (refuted && recovery != ALE_RECOVER_CONFIRMED && ale_recover_is_unwatched(p, prediction)) {
+    if (is_refuted(p, prediction, verdict, recovery, ways)) {
         p->waits = (uint8_t)(may_wait(p, recovery, ways) ? p->waited + 1 : 0);
         return p->waits > 0 ? ALE_SCENE_CHANGED : lose(p, ALE_CLAIM_NEAR);
     }
