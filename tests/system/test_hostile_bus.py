@@ -13,7 +13,7 @@ import pytest
 import waiting
 
 from at_hand import BINARIES
-from chain import Chain, Truth, trajectory_error
+from chain import Chain, Truth, tally, trajectory_error
 from hostile_datagrams import CHANNELS, announcing, hostile, whole, wrapping
 from hosts import two_hosts
 from lcm_url import free_lcm_url
@@ -23,6 +23,7 @@ from waiting import wait_until
 
 LISTENERS = (("ale-watch", ()), ("ale-latency", ()), ("ale-console", ("--http", "127.0.0.1:0")))
 DATAGRAMS = 10000
+SPEEDS = (4, 2, 1)  # slower where the machine is too busy for every scan to be sent
 STOP_S = 0.3
 GROWTH_KIB = 8192
 LCM_URL = "udpm://239.255.76.67:7667?ttl={}"
@@ -112,16 +113,25 @@ def test_every_program_survives_and_stop_is_obeyed(tmp_path, multicast):
         wait_until(lambda: rover.counters()["datagrams_refused"] > DATAGRAMS // 3, 180, "a status that counts them")
 
 
-def drive_under_attack(tmp_path, robot, url, attack):
-    """A drive on the robot to its end; firmware, what the simulator counted, and what a listener of the robot heard."""
+def drive_under_attack(tmp_path, robot, url, attacking):
+    """A drive on the robot to its end: what a listener of the robot heard, and datagrams sent by the attack that `attacking`
+    makes. Again where the scanner could not send all."""
+    for speed in SPEEDS:
+        drive = one_drive(tmp_path, robot, url, attacking(), speed)
+        if drive.swallowed == 0:
+            break
+    return drive
+
+
+def one_drive(tmp_path, robot, url, attack, speed):
     chain = Chain(tmp_path, free_lcm_url(), channels=())
     chain.url = url
     ear = Ears(url, robot)
     try:
-        simulator = chain.start("ale-sim", "--pty", chain.port, "--speed", 4, "--lcm-url", url, "--world",
+        simulator = chain.start("ale-sim", "--pty", chain.port, "--speed", speed, "--lcm-url", url, "--world",
                                 "tools/lab/worlds/home.world", "--truth", chain.truth_path, "--once", prefix=robot.prefix)
         simulator.wait_until(chain.port.exists, "the simulated scanner")
-        firmware = chain.firmware("[lcm]\npublish_scan = yes\n", speed=4, prefix=robot.prefix)
+        firmware = chain.firmware("[lcm]\npublish_scan = yes\n", speed=speed, prefix=robot.prefix)
         watch = chain.start("ale-watch", "--lcm-url", url, prefix=robot.prefix)
         firmware.wait_until(lambda: len(ear.poses) > 5, "poses")
         with attack:
@@ -132,7 +142,8 @@ def drive_under_attack(tmp_path, robot, url, attack):
         wait_until(lambda: len(ear.statuses) > heard + 1, 180, "a status of the end")
         counters = dict(zip(ear.statuses[-1].counter_name, ear.statuses[-1].counter_value))
         assert firmware.end() == 0
-        return types.SimpleNamespace(poses=ear.poses, counters=counters, truth=Truth(chain.truth_path))
+        return types.SimpleNamespace(poses=ear.poses, counters=counters, truth=Truth(chain.truth_path), attack=attack.sent,
+                                     swallowed=tally(simulator)["swallowed"])
     finally:
         chain.stop()
         ear.stop()
@@ -177,12 +188,11 @@ def test_with_ttl_0_nothing_of_another_host_arrives(tmp_path, a_second):
     with two_hosts() as (robot, other):
         url = LCM_URL.format(0)
         sender = PlainLcm(LCM_URL.format(1), on=other.socket)
-        attack = Attack(sender.send, lambda: everything(rng), a_second)
-        drive = drive_under_attack(tmp_path, robot, url, attack)
-    assert attack.sent > 1000
+        drive = drive_under_attack(tmp_path, robot, url, lambda: Attack(sender.send, lambda: everything(rng), a_second))
+    assert drive.attack > 1000
     assert drive.counters["datagrams_refused"] == 0
     assert drive.counters["odometry_refused"] == 0
-    assert drive.counters["datagrams_unheard"] > attack.sent // 2
+    assert drive.counters["datagrams_unheard"] > drive.attack // 2
     on_the_route(drive)
 
 
@@ -191,10 +201,9 @@ def test_on_a_shared_bus_nobody_ends_it_or_takes_its_memory(tmp_path):
     with two_hosts() as (robot, other):
         url = LCM_URL.format(1)
         sender = PlainLcm(url, on=other.socket)
-        attack = Attack(sender.send, lambda: hostile(rng), 500)
-        drive = drive_under_attack(tmp_path, robot, url, attack)
-        assert attack.sent > 1000
-        assert drive.counters["datagrams_refused"] > attack.sent // 4
+        drive = drive_under_attack(tmp_path, robot, url, lambda: Attack(sender.send, lambda: hostile(rng), 500))
+        assert drive.attack > 1000
+        assert drive.counters["datagrams_refused"] > drive.attack // 4
         on_the_route(drive)
 
 
