@@ -10,7 +10,9 @@ enum {
     JUMP_FLOOR_MM = 50,
     JUMP_FLOOR_MRAD = 100,
     KNOWN_UM = 20000,
-    KNOWN_MRAD = 20
+    KNOWN_MRAD = 20,
+    EARLY = ALE_WHEELS_BEFORE + 16, /* samples that tell where the kept way begins, and how it is left ... */
+    RECENT = 48                     /* ... and those that tell where the robot is now */
 };
 
 static const ale_odometry_t *sample_at(const ale_wheels_t *w, uint32_t index)
@@ -23,15 +25,22 @@ void ale_wheels_init(ale_wheels_t *wheels, int32_t max_speed_mm_s, int32_t max_t
     wheels->first = 0;
     wheels->count = 0;
     wheels->jumps = 0;
+    wheels->kept_us = INT64_MAX;
     wheels->moved = false;
     wheels->max_speed_mm_s = max_speed_mm_s;
     wheels->max_turn_mrad_s = max_turn_mrad_s;
 }
 
+void ale_wheels_keep(ale_wheels_t *wheels, int64_t from_us)
+{
+    wheels->kept_us = from_us;
+}
+
 static int64_t usual_gap_us(const ale_wheels_t *w)
 {
-    const int64_t whole_us = sample_at(w, w->count - 1)->stamp_us - sample_at(w, 0)->stamp_us;
-    return w->count > 1 ? whole_us / (w->count - 1) : 0;
+    const uint32_t from = w->count > RECENT ? w->count - RECENT : 0;
+    const int64_t whole_us = sample_at(w, w->count - 1)->stamp_us - sample_at(w, from)->stamp_us;
+    return w->count > 1 ? whole_us / (w->count - 1 - from) : 0;
 }
 
 /* Twice what the robot can do in the time between, or in what is usual when stamps crowd, and a little. */
@@ -114,11 +123,33 @@ static bool is_same_pose(ale_pose_t a, ale_pose_t b)
     return a.x_um == b.x_um && a.y_um == b.y_um && a.theta_bam == b.theta_bam;
 }
 
+/* Every other sample of the middle goes: between its ends a way is told by them alone. */
+static void thin(ale_wheels_t *wheels)
+{
+    uint32_t kept = EARLY;
+    for (uint32_t k = EARLY; k < wheels->count; k++) {
+        if (k >= wheels->count - RECENT || (k - EARLY) % 2 == 0) {
+            wheels->sample[(wheels->first + kept) % ALE_WHEELS_SAMPLES] = *sample_at(wheels, k);
+            kept++;
+        }
+    }
+    wheels->count = kept;
+}
+
+static void make_room(ale_wheels_t *wheels)
+{
+    if (sample_at(wheels, ALE_WHEELS_BEFORE)->stamp_us < wheels->kept_us) {
+        wheels->first = (wheels->first + 1) % ALE_WHEELS_SAMPLES;
+        wheels->count--;
+    } else {
+        thin(wheels);
+    }
+}
+
 static void append(ale_wheels_t *wheels, const ale_odometry_t *sample)
 {
     if (wheels->count == ALE_WHEELS_SAMPLES) {
-        wheels->first = (wheels->first + 1) % ALE_WHEELS_SAMPLES;
-        wheels->count--;
+        make_room(wheels);
     }
     wheels->sample[(wheels->first + wheels->count) % ALE_WHEELS_SAMPLES] = *sample;
     wheels->count++;
@@ -159,6 +190,21 @@ bool ale_wheels_motion(const ale_wheels_t *wheels, int64_t from_us, int64_t to_u
     }
     *out = ale_pose_between(a, b);
     return true;
+}
+
+int64_t ale_wheels_way_um(const ale_wheels_t *wheels, int64_t from_us, int64_t to_us, int64_t *turned_urad)
+{
+    int64_t way_um = 0;
+    *turned_urad = 0;
+    for (uint32_t k = wheels->count; k > 1 && sample_at(wheels, k - 2)->stamp_us >= from_us; k--) {
+        if (sample_at(wheels, k - 1)->stamp_us <= to_us) {
+            const ale_pose_t d =
+                ale_pose_between(sample_at(wheels, k - 2)->pose, sample_at(wheels, k - 1)->pose);
+            way_um += ale_isqrt((uint64_t)((int64_t)d.x_um * d.x_um) + (uint64_t)((int64_t)d.y_um * d.y_um));
+            *turned_urad += ale_abs64(ale_bam_to_nrad((int32_t)d.theta_bam)) / 1000;
+        }
+    }
+    return way_um;
 }
 
 const ale_odometry_t *ale_wheels_sample_from(const ale_wheels_t *wheels, int64_t t_us)

@@ -13,6 +13,7 @@ enum {
     FLOOR_UM = 400,             /* errors that are there however short the way */
     FLOOR_URAD = 700,
     SIDEWAYS_PPM = 10000,
+    LONG_UM = 3000000, /* way that no robot goes between two scans */
     TURN_ACCELERATION_URAD_S2 = 4000000,
     ACCELERATION_UM_S2 = 1000000
 };
@@ -88,6 +89,25 @@ static void way_variance(const ale_wheel_scale_t *scale, ale_pose_t d, int64_t v
         square(part(way_um, SIDEWAYS_PPM)) + square(part(d.x_um, ale_abs64(turn) / 4)) + square(FLOOR_UM);
     var[2] = ale_mul_div(square(scale->noise.turn_urad_m), way_um, 1000000) +
              square(part(turn, scale->noise.turn_ppm)) + square(FLOOR_URAD);
+}
+
+/* What a long way adds, as after a while without scans: ways and turns that cancel in the displacement, and
+ * the heading, which drifts on it. */
+static void add_detour_variance(const ale_wheels_t *wheels, const ale_wheel_scale_t *scale, int64_t from_us,
+                                int64_t to_us, ale_pose_t d, int64_t var[ALE_AXES])
+{
+    int64_t turned_urad;
+    const int64_t way_um = ale_wheels_way_um(wheels, from_us, to_us, &turned_urad);
+    if (way_um < LONG_UM) {
+        return;
+    }
+    const int64_t detour_um = ale_max64(way_um - ale_abs64(d.x_um) - ale_abs64(d.y_um), 0);
+    const int64_t detour_urad = ale_max64(turned_urad - ale_abs64(turn_urad(d)), 0);
+    var[2] += ale_mul_div(square(scale->noise.turn_urad_m), detour_um, 1000000) +
+              square(part(detour_urad, scale->noise.turn_ppm));
+    const int64_t drift_um2 = square(part(way_um, (int64_t)ale_isqrt((uint64_t)var[2]))) / 3;
+    var[0] += square(part(detour_um, sigma_ppm(scale))) + drift_um2;
+    var[1] += square(part(detour_um, SIDEWAYS_PPM)) + drift_um2;
 }
 
 /* What an error of the lag makes of a motion: the largest change when it is read one sigma away. Ahead of
@@ -167,6 +187,7 @@ bool ale_wheel_motion(const ale_wheels_t *wheels, const ale_lag_t *lag, const al
     }
     out->displacement = (ale_pose_t){rescaled(scale, d.x_um), rescaled(scale, d.y_um), d.theta_bam};
     way_variance(scale, d, out->displacement_var);
+    add_detour_variance(wheels, scale, from, to, d, out->displacement_var);
     add_extrapolation_variance(beyond_us, out->displacement_var);
     lag_variance(wheels, lag->sigma_us, from, to, d, lag_var);
     for (int i = 0; i < ALE_AXES; i++) {

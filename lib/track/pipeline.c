@@ -114,6 +114,9 @@ void ale_pipeline_odometry(ale_pipeline_t *pipeline, const ale_odometry_t *sampl
     if (pipeline->config.use_odometry) {
         const ale_odometry_t corrected = {sample->stamp_us,
                                           ale_wheel_factors_correct(&pipeline->factors, sample->pose)};
+        if (pipeline->started) { /* the next prediction begins where the pose is, however long it takes */
+            ale_wheels_keep(&pipeline->wheels, pipeline->motion.stamp_us - pipeline->lag.lag_us);
+        }
         ale_wheels_add(&pipeline->wheels, &corrected);
     }
 }

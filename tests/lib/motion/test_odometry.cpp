@@ -161,3 +161,52 @@ TEST_F(Wheels, HaveMovedOnceTheyHaveToldTwoPoses)
     add(300, 1, 2, 0.501);
     EXPECT_TRUE(wheels.moved);
 }
+
+TEST_F(Wheels, TellTheWholeWayFromTheInstantThatIsKeptHoweverMuchComes)
+{
+    const auto on_the_way = [](int64_t t_ms) {
+        const double t = 1e-3 * static_cast<double>(t_ms);
+        return reference::Pose(2 * std::sin(0.3 * t), 0.4 * t, 0.5 * std::sin(0.2 * t));
+    };
+    const auto told_at = [&](int64_t t_ms) {
+        const reference::Pose pose = on_the_way(t_ms);
+        add(t_ms, pose.x(), pose.y(), pose.z());
+    };
+    for (const int64_t every_ms : {10, 50, 100}) {
+        ale_wheels_init(&wheels, 2000, 4000);
+        int64_t now_ms = 0;
+        for (; now_ms <= 5000; now_ms += every_ms) {
+            told_at(now_ms);
+        }
+        const int64_t kept_ms = 5000 - 30;
+        ale_wheels_keep(&wheels, kept_ms * 1000);
+        for (; now_ms <= 180000; now_ms += every_ms) {
+            told_at(now_ms);
+            ale_pose_t from;
+            ale_pose_t to;
+            ASSERT_TRUE(at(kept_ms, &from)) << now_ms;
+            ASSERT_TRUE(at(now_ms - every_ms, &to)) << now_ms;
+            EXPECT_NEAR(from.x_um, 1e6 * on_the_way(kept_ms).x(), 300) << now_ms;
+            EXPECT_NEAR(to.x_um, 1e6 * on_the_way(now_ms - every_ms).x(), 1) << now_ms;
+            EXPECT_NEAR(to.y_um, 1e6 * on_the_way(now_ms - every_ms).y(), 1) << now_ms;
+        }
+        ale_wheels_keep(&wheels, now_ms * 1000);
+        for (const int64_t end_ms = now_ms + 30000; now_ms <= end_ms; now_ms += every_ms) {
+            told_at(now_ms);
+        }
+        ale_pose_t p;
+        EXPECT_FALSE(at(kept_ms, &p)) << "what is no longer kept makes room";
+    }
+}
+
+TEST_F(Wheels, CountWaysAndTurnsThatCancel)
+{
+    for (int k = 0; k <= 100; k++) {
+        add(100 * k, 0.02 * (k <= 50 ? k : 100 - k), 0, 0.01 * (k % 2));
+    }
+    int64_t turned_urad = 0;
+    EXPECT_NEAR(static_cast<double>(ale_wheels_way_um(&wheels, 0, 10000000, &turned_urad)), 2000000, 200);
+    EXPECT_NEAR(static_cast<double>(turned_urad), 1000000, 200);
+    EXPECT_NEAR(static_cast<double>(ale_wheels_way_um(&wheels, 1000000, 2000000, &turned_urad)), 200000, 100);
+    EXPECT_EQ(ale_wheels_way_um(&wheels, 1010000, 1090000, &turned_urad), 0);
+}
