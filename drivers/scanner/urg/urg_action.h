@@ -24,7 +24,7 @@ enum {
     ALE_URG_STREAM_BEGIN = 8 /* with the dialogue's request */
 };
 
-enum { ALE_URG_LINE = 28, ALE_URG_REASON = 64 };
+enum { ALE_URG_LINE = 28, ALE_URG_REASON = 160 };
 
 /* Zeroed: nothing at all. Done from top to bottom. */
 typedef struct {

@@ -272,6 +272,7 @@ static void receive(ale_urg_t *urg)
     urg->read_us = now_us(urg);
     urg->byte_count = (uint32_t)status;
     urg->bytes_used = 0;
+    ale_urg_dialogue_overhear(&urg->dialogue, urg->bytes, urg->byte_count);
 }
 
 /* The bytes of one step of the parser: what is tapped ends where a scan does, though it was read in one go.

@@ -116,6 +116,7 @@ ale_urg_action_t ale_urg_dialogue_open(ale_urg_dialogue_t *d, int32_t baud, bool
     d->has_baud = has_baud;
     d->baud_attempt = 0;
     d->port_proved = false;
+    d->stranger = (ale_stranger_t){0};
     d->due |= DUE_PARAMETERS;
     if (!d->identified) {
         /* RS would set the rate of a real line back to what nobody knows: there it is for emergencies. */
@@ -400,16 +401,33 @@ ale_urg_action_t ale_urg_dialogue_hear(ale_urg_dialogue_t *d, const ale_scip_eve
     return (ale_urg_action_t){0};
 }
 
+void ale_urg_dialogue_overhear(ale_urg_dialogue_t *d, const uint8_t *bytes, uint32_t count)
+{
+    if (d->phase == ALE_PHASE_PROBE) {
+        ale_stranger_hear(&d->stranger, bytes, count);
+    }
+}
+
+/* The port is given up, and why. */
+static ale_urg_action_t nobody(ale_urg_dialogue_t *d, const char *at)
+{
+    char words[ALE_STRANGER_WORDS];
+    ale_stranger_words(&d->stranger, words);
+    snprintf(d->reason, sizeof d->reason, "no answer from the sensor%s: %s", at, words);
+    return act(ALE_URG_REOPEN, d->reason);
+}
+
 /* No answer to QT: other rates, then the port from the beginning. */
 static ale_urg_action_t on_silent_probe(ale_urg_dialogue_t *d)
 {
+    ale_stranger_judge(&d->stranger);
     if (!d->has_baud) {
-        return act(ALE_URG_REOPEN, "no answer from the sensor");
+        return nobody(d, "");
     }
     const int32_t preferred = preferred_baud(d);
     if (++d->baud_attempt >= ALE_BAUD_RATES) {
         d->good_baud = 0;
-        return act(ALE_URG_REOPEN, "no answer from the sensor at any baud rate");
+        return nobody(d, " at any baud rate");
     }
     return (ale_urg_action_t){.deed = ALE_URG_SET_BAUD,
                               .baud = ale_baud_candidate(preferred, d->baud_attempt)};

@@ -18,6 +18,7 @@
 #include "scanner/urg/identity.h"
 #include "scanner/urg/scip_parse.h"
 #include "scanner/urg/scip_request.h"
+#include "scanner/urg/stranger.h"
 #include "scanner/urg/urg_action.h"
 
 enum {
@@ -59,6 +60,7 @@ typedef struct {
     bool port_proved;        /* a scan came since the port was opened */
     bool identified;         /* VV was answered once */
     uint32_t baud_attempt;   /* rates tried on this port */
+    ale_stranger_t stranger; /* what was heard there, while no answer came */
     int32_t good_baud;       /* the last rate that worked */
     uint32_t speed_attempts; /* SS sent since the last series of good scans */
 
@@ -82,6 +84,9 @@ ale_urg_action_t ale_urg_dialogue_open(ale_urg_dialogue_t *dialogue, int32_t bau
 
 /* The port was closed. */
 void ale_urg_dialogue_close(ale_urg_dialogue_t *dialogue);
+
+/* Bytes came, of which any that are an answer are handed to ale_urg_dialogue_hear. O(count). */
+void ale_urg_dialogue_overhear(ale_urg_dialogue_t *dialogue, const uint8_t *bytes, uint32_t count);
 
 /* A LINE_READ or REPLY of the parser. */
 ale_urg_action_t ale_urg_dialogue_hear(ale_urg_dialogue_t *dialogue, const ale_scip_event_t *event);
