@@ -1,6 +1,7 @@
 #include "system/async_logger.h"
 
 #include <stdlib.h>
+#include <time.h>
 
 #include "exchange/ring.h"
 #include "system/background.h"
@@ -10,19 +11,26 @@
 enum { LINES = 16 };
 
 typedef struct {
+    time_t logged_s;
     char words[ALE_LOGGER_LINE];
 } line_t;
 
 struct ale_logger {
     FILE *out;
+    bool with_time;
     ale_ring_t *lines; /* line_t */
     uint32_t told;     /* of those left out */
     ale_background_t thread;
 };
 
-static void write_line(ale_logger_t *logger, const char *words)
+static void write_line(ale_logger_t *logger, const line_t *line)
 {
-    fprintf(logger->out, "ale-slamd: %s\n", words);
+    char moment[32] = "";
+    struct tm local;
+    if (logger->with_time && localtime_r(&line->logged_s, &local)) {
+        strftime(moment, sizeof moment, "%Y-%m-%d %H:%M:%S ", &local);
+    }
+    fprintf(logger->out, "ale-slamd: %s%s\n", moment, line->words);
     fflush(logger->out);
 }
 
@@ -31,10 +39,10 @@ static void tell_dropped(ale_logger_t *logger)
 {
     const uint32_t fresh = ale_logger_dropped(logger) - logger->told;
     if (fresh > 0) {
-        char words[ALE_LOGGER_LINE];
-        snprintf(words, sizeof words, "%u line%s left out here: nobody took them in time", fresh,
+        line_t line = {.logged_s = time(NULL)};
+        snprintf(line.words, sizeof line.words, "%u line%s left out here: nobody took them in time", fresh,
                  fresh == 1 ? "" : "s");
-        write_line(logger, words);
+        write_line(logger, &line);
         logger->told += fresh;
     }
 }
@@ -42,7 +50,7 @@ static void tell_dropped(ale_logger_t *logger)
 static void write_out(ale_logger_t *logger)
 {
     while (ale_ring_ready(logger->lines) > 0) {
-        write_line(logger, ((const line_t *)ale_ring_at(logger->lines, 0))->words);
+        write_line(logger, ale_ring_at(logger->lines, 0));
         ale_ring_release(logger->lines);
     }
     tell_dropped(logger);
@@ -58,13 +66,14 @@ static void run(ale_rt_task_t *self, void *user)
     write_out(logger);
 }
 
-ale_logger_t *ale_logger_start(FILE *out)
+ale_logger_t *ale_logger_start(FILE *out, bool with_time)
 {
     ale_logger_t *logger = calloc(1, sizeof *logger);
     if (!logger) {
         return NULL;
     }
     logger->out = out;
+    logger->with_time = with_time;
     logger->lines = ale_ring_create(sizeof(line_t), LINES);
     if (!logger->lines || ale_background_start(&logger->thread, "ale-logger", run, logger, 0) < 0) {
         ale_logger_stop(logger);
@@ -86,6 +95,7 @@ void ale_logger_log(ale_logger_t *logger, const char *words)
 {
     line_t *line = ale_ring_reserve(logger->lines);
     if (line) {
+        line->logged_s = time(NULL);
         snprintf(line->words, sizeof line->words, "%s", words);
         ale_ring_commit(logger->lines);
         ale_background_wake(&logger->thread);

@@ -5,6 +5,7 @@
 #ifndef ALE_FIRMWARE_SYSTEM_ASYNC_LOGGER_H
 #define ALE_FIRMWARE_SYSTEM_ASYNC_LOGGER_H
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 
@@ -12,8 +13,9 @@ typedef struct ale_logger ale_logger_t;
 
 enum { ALE_LOGGER_LINE = 320 };
 
-/* out must outlive it. NULL: out of memory, descriptors or threads. */
-ale_logger_t *ale_logger_start(FILE *out);
+/* out must outlive it; with_time: every line tells when it was logged, by the wall clock ("2026-11-24
+ * 03:02:11"), for what keeps no time itself. NULL: out of memory, descriptors or threads. */
+ale_logger_t *ale_logger_start(FILE *out, bool with_time);
 
 /* Waits until all is written. NULL: nothing. */
 void ale_logger_stop(ale_logger_t *logger);

@@ -56,6 +56,15 @@ static void send_pose(ale_result_publisher_t *publisher, const ale_result_t *res
     publisher->moves = result->map_moves;
 }
 
+static void tell_tracking(ale_result_publisher_t *publisher, const ale_result_t *result)
+{
+    char line[ALE_TRACKING_LINE];
+    const uint32_t lines = result->has_scan ? result->features.line_count : 0;
+    if (ale_tracking_watch_take(&publisher->tracking, &result->estimate, lines, line)) {
+        ale_logger_log(publisher->logger, line);
+    }
+}
+
 /* For those who look where the robot goes: without what the scanner sees of the robot itself. */
 static void show_scan(const ale_result_publisher_t *publisher, const ale_result_t *result)
 {
@@ -95,6 +104,7 @@ void ale_result_publisher_work(ale_result_publisher_t *publisher, bool with_scan
         const ale_result_t *result = ale_ring_at(results, 0);
         record_result(publisher, result);
         send_pose(publisher, result);
+        tell_tracking(publisher, result);
         if (result->has_scan) {
             send_scan(publisher, result, with_scans);
         }

@@ -33,7 +33,7 @@ typedef struct {
     int64_t boot; /* the nonce of this start */
     int64_t next_ns;
     int64_t last_ns;
-    bool news;     /* of commands, not yet in a status */
+    bool news;     /* of commands or the scanner, not yet in a status */
     bool refusals; /* not yet in a status: shown soon, but many of them do not make many statuses */
     ale_status_report_t report;
 } ale_status_publisher_t;

@@ -35,6 +35,7 @@ struct ale_telemetry {
     ale_map_storage_t *storage;
     ale_commands_t *commands;
     ale_supervisor_t supervisor;
+    ale_scanner_state_t told; /* of the scanner, by the last status that was due to a change */
     ale_result_publisher_t results;
     ale_odometry_intake_t odometry;
     ale_other_speakers_t others;
@@ -65,6 +66,9 @@ static void watch_scanner(ale_telemetry_t *telemetry)
             ale_recorder_trigger(telemetry->exchange->recorder, ALE_RECORD_FAULT);
         }
     }
+    const ale_scanner_state_t state = telemetry->status.health->state;
+    telemetry->status.news = telemetry->status.news || state != telemetry->told;
+    telemetry->told = state;
 }
 
 static void watch_wheels(ale_telemetry_t *telemetry)
@@ -218,7 +222,7 @@ static int64_t boot_nonce(void)
 /* What the thread works with: where words for people go, and what commands do. */
 static bool start_parts(ale_telemetry_t *telemetry, const ale_keys_t *keys, int64_t boot)
 {
-    telemetry->logger = ale_logger_start(stderr);
+    telemetry->logger = ale_logger_start(stderr, getenv("JOURNAL_STREAM") == NULL);
     telemetry->storage = ale_map_storage_start(telemetry->config, telemetry->exchange);
     if (telemetry->logger && telemetry->storage) {
         telemetry->commands =
@@ -229,8 +233,10 @@ static bool start_parts(ale_telemetry_t *telemetry, const ale_keys_t *keys, int6
 
 static void init_publishers(ale_telemetry_t *telemetry, const ale_rt_report_t *realtime, int64_t boot)
 {
-    telemetry->results = (ale_result_publisher_t){
-        .config = telemetry->config, .exchange = telemetry->exchange, .bus = telemetry->bus};
+    telemetry->results = (ale_result_publisher_t){.config = telemetry->config,
+                                                  .exchange = telemetry->exchange,
+                                                  .bus = telemetry->bus,
+                                                  .logger = telemetry->logger};
     ale_other_speakers_init(&telemetry->others, boot, telemetry->config->name);
     ale_odometry_intake_init(&telemetry->odometry, telemetry->exchange);
     ale_map_publisher_init(&telemetry->map, telemetry->exchange, telemetry->bus);

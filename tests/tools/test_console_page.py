@@ -177,6 +177,26 @@ def test_a_lost_link_shows_within_a_second(page, robot):
     assert "ago" in page.text("alarm-text")
 
 
+def test_a_robot_without_scans_says_why_in_the_place_of_its_state(page, robot):
+    pulse = Pulse(0.1, robot.step)
+    try:
+        page.wait_for(f"{LINK} === 'up'")
+    finally:
+        pulse.stop()
+    robot.driver = "no scanner: the port is gone (unplugged or hung up)"
+    pulse = Pulse(0.5, robot.publish_status)
+    try:
+        page.wait_for(f"{LINK} === 'blind'")
+        assert page.run(f"return {ALARM}") == "no scans"
+        assert page.text("alarm-text").startswith(f"{robot.driver}; last pose ")
+        assert page.text("state-word") == "no scans"
+        robot.driver = "asking who is there: no answer from the sensor: what speaks there is NMEA, as of a GPS receiver: $GPGGA,1"
+        page.wait_for("document.getElementById('advice').textContent.includes('on its port: NMEA, as of a GPS receiver: $GPGGA,1. Choose')")
+    finally:
+        pulse.stop()
+    page.wait_for(f"{LINK} === 'lost'")
+
+
 def test_a_console_that_ends_shows_within_a_second_and_one_that_returns_is_found(chromium, lcm_url, robot, pulse, tmp_path):
     with_token = ("--token-file", tmp_path / "token")
     running = Console(lcm_url, "127.0.0.1:0", *with_token)

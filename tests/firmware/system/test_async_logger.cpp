@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <ctime>
 #include <string>
 
 #include "firmware/surroundings.hpp"
@@ -25,7 +26,7 @@ class AsyncLogger : public surroundings::WithPort
         reading = ends[0];
         out = fdopen(ends[1], "w");
         ASSERT_NE(out, nullptr);
-        logger = ale_logger_start(out);
+        logger = ale_logger_start(out, false);
         ASSERT_NE(logger, nullptr);
     }
     void TearDown() override
@@ -60,6 +61,26 @@ class AsyncLogger : public surroundings::WithPort
     FILE *out = nullptr;
     ale_logger_t *logger = nullptr;
 };
+
+TEST_F(AsyncLogger, WhatKeepsNoTimeIsToldWhenALineWasLogged)
+{
+    ale_logger_stop(logger);
+    logger = ale_logger_start(out, true);
+    ASSERT_NE(logger, nullptr);
+    const time_t before = time(nullptr);
+    ale_logger_log(logger, "one");
+    const std::string line = read_line();
+    struct tm moment = {};
+    const char *end = strptime(line.c_str(), "ale-slamd: %Y-%m-%d %H:%M:%S ", &moment);
+    ASSERT_NE(end, nullptr) << line;
+    EXPECT_STREQ(end, "one");
+    moment.tm_isdst = -1;
+    const time_t logged = mktime(&moment);
+    EXPECT_GE(logged, before);
+    EXPECT_LE(logged, time(nullptr));
+    ale_logger_stop(logger);
+    fclose(out);
+}
 
 TEST_F(AsyncLogger, MessagesComeOutLineByLineAfterTheProgramsName)
 {

@@ -46,7 +46,8 @@ export class Health {
   showLink(link, scene) {
     const state = link.state;
     document.body.dataset.link = state;
-    document.body.dataset.state = state === "up" || state === "lost" ? (scene.pose?.state ?? "none") : "none";
+    const heard = ["up", "blind", "lost"].includes(state);
+    document.body.dataset.state = heard ? (scene.pose?.state ?? "none") : "none";
     const age = link.poseAgeMs;
     show("age", Number.isFinite(age) ? ageInWords(age) : "–", state === "up" ? "fine" : "bad");
     const [word, text] = stateInWords(state, scene, age);
@@ -54,7 +55,7 @@ export class Health {
     show("state-text", text);
     showAlarm(state, scene, word, text);
     const advice = [...(scene.status?.warnings ?? []), adviceOnScanner(scene.status?.driver, scene.scan?.stain), ...adviceOnTracking(scene.tracking)];
-    showAdvice(state === "up" || state === "lost" ? advice.filter(Boolean) : state === "waiting" ? [ADVICE_ON_HEARING] : []);
+    showAdvice(heard ? advice.filter(Boolean) : state === "waiting" ? [ADVICE_ON_HEARING] : []);
   }
 
   frame() {
@@ -150,6 +151,7 @@ function stateInWords(link, scene, age) {
     case "connecting": return ["…", "connecting to the console"];
     case "gone": return ["no console", "ale-console does not answer"];
     case "waiting": return ["waiting", "no robot heard yet"];
+    case "blind": return ["no scans", `${scene.status.driver}; last pose ${duration(age * 1000)} ago`];
     case "lost": return ["link lost", `last pose ${duration(age * 1000)} ago`];
     default: return withMaps(STATES[scene.pose?.state] ?? ["waiting", ""], scene.tracking);
   }
@@ -158,7 +160,7 @@ function stateInWords(link, scene, age) {
 const withMaps = ([word, text], tracking) => [word, [text, mapsInWords(tracking)[0]].filter(Boolean).join(", ")];
 
 function showAlarm(link, scene, word, text) {
-  const trouble = link === "gone" || link === "lost" || (link === "up" && scene.pose && scene.pose.state !== "good");
+  const trouble = ["gone", "lost", "blind"].includes(link) || (link === "up" && scene.pose && scene.pose.state !== "good");
   document.getElementById("alarm").hidden = !trouble;
   if (trouble) {
     show("alarm-word", word);

@@ -4,6 +4,7 @@
 const PROTOCOL = 2;
 const SILENCE_MS = 800; // the console speaks four times a second
 const POSE_SILENCE_MS = 700; // a pose comes with every scan, ten a second from a URG
+const STATUS_SILENCE_MS = 1600; // a status comes every second
 const RETRY_MS = 400;
 
 export class Link {
@@ -13,6 +14,8 @@ export class Link {
     this.told = 0;
     this.heardAt = -Infinity; // anything from the console
     this.poseAt = -Infinity; // a pose, by this page's clock
+    this.statusAt = -Infinity;
+    this.scansCome = true; // as the status says
     this.opened = false;
     // A page that comes to the front again asks at once for what it missed.
     document.addEventListener("visibilitychange", () => this.drawn());
@@ -44,7 +47,7 @@ export class Link {
   }
 
   // "connecting" before the first word, "gone" without the console, "waiting" for a robot's first pose,
-  // "lost" when poses stopped, else "up".
+  // "blind" when poses stopped and the robot says that no scan comes, "lost" when they just stopped, else "up".
   get state() {
     const now = performance.now();
     if (now - this.heardAt > SILENCE_MS) {
@@ -53,7 +56,10 @@ export class Link {
     if (this.poseAt === -Infinity) {
       return "waiting";
     }
-    return now - this.poseAt > POSE_SILENCE_MS ? "lost" : "up";
+    if (now - this.poseAt <= POSE_SILENCE_MS) {
+      return "up";
+    }
+    return !this.scansCome && now - this.statusAt <= STATUS_SILENCE_MS ? "blind" : "lost";
   }
 
   get poseAgeMs() {
@@ -74,6 +80,9 @@ export class Link {
       this.poseAt = now; // the first may be an old one, kept for newcomers: the link report tells its age
     } else if (message.type === "link" && message.pose_age_ms !== null) {
       this.poseAt = now - message.pose_age_ms;
+    } else if (message.type === "status") {
+      this.statusAt = now;
+      this.scansCome = /^(streaming|asking scan by scan)/.test(message.driver);
     }
     this.onMessage(message);
   }

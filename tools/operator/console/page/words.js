@@ -67,16 +67,18 @@ export const countDrops = (counters) =>
 const ADVICE = [
   [/hardware fault of the sensor: status (\w+)/, "The scanner reports a fault of its hardware (status $1). Switch it off and on; if it comes back, it needs service."],
   [/Trouble/, "The scanner says that it is broken. Switch it off and on; if it comes back, it needs service."],
+  [/what speaks there is (.*)/, "Something else than the scanner is on its port: $1. Choose the scanner's port in the configuration."],
+  [/not a byte comes from it/, "The device on the scanner's port says nothing. Look at its power and its cable; or it is another device."],
   [/checks itself/, "The scanner checks itself; this takes some seconds."],
   [/^silent/, "The scanner has fallen silent. Look at its cable and its power."],
   [/in use by another program:? ?(.*)/, "Another program holds the scanner's port $1. End one of the two."],
-  [/^no scanner: (.*)/, "No scanner ($1). Look at its cable and its power; it is tried again until it is there."],
+  [/^(?:no scanner|asking who is there|starting): (.+)/, "No scanner ($1). Look at its cable and its power; it is tried again until it is there."],
 ];
 
 export function adviceOnScanner(driver, stain) {
   for (const [words, advice] of ADVICE) {
     const said = driver?.match(words);
-    if (said) return advice.replace("$1", said[1]);
+    if (said) return advice.replace("$1", () => said[1] ?? "");
   }
   return stain ? adviceOnWindow(...stain) : null;
 }
