@@ -18,11 +18,13 @@
 #include "telemetry/map_publisher.h"
 #include "telemetry/odometry_intake.h"
 #include "telemetry/other_speakers.h"
+#include "telemetry/realtime_watch.h"
 #include "telemetry/result_publisher.h"
 #include "telemetry/status_publisher.h"
 #include "telemetry/supervisor.h"
 
 #define NS_PER_S 1000000000
+#define REALTIME_NS 2000000000
 #define SELF_TEST_MS 1000
 #define SELF_TEST_AGAIN_MS 50 /* while scans come */
 
@@ -40,6 +42,7 @@ struct ale_telemetry {
     ale_odometry_intake_t odometry;
     ale_other_speakers_t others;
     ale_status_publisher_t status;
+    ale_realtime_watch_t realtime;
     ale_map_publisher_t map;
     int64_t next_keep_ns;
     ale_service_t service;
@@ -111,6 +114,18 @@ static void test_bus(ale_telemetry_t *telemetry, int timeout_ms)
     }
 }
 
+static void watch_realtime(ale_telemetry_t *telemetry)
+{
+    ale_rt_report_t *report = &telemetry->status.realtime;
+    if (ale_realtime_watch_changed(&telemetry->realtime, report)) {
+        char line[ALE_LOGGER_LINE];
+        snprintf(line, sizeof line, "%s: %.280s", report->realtime ? "real time" : "real time degraded",
+                 report->text);
+        ale_logger_log(telemetry->logger, line);
+        telemetry->status.news = true;
+    }
+}
+
 static void watch_network(ale_telemetry_t *telemetry)
 {
     char line[ALE_SUPERVISOR_LINE];
@@ -168,6 +183,7 @@ static void work(ale_telemetry_t *telemetry)
     watch_odometry(telemetry);
     watch_others(telemetry);
     watch_network(telemetry);
+    watch_realtime(telemetry);
     const int64_t now_ns = ale_rt_now_ns();
     ale_map_publisher_work(&telemetry->map, telemetry->results.epoch, now_ns);
     ale_commands_work(telemetry->commands);
@@ -270,6 +286,7 @@ ale_telemetry_t *ale_telemetry_start(const ale_config_t *config, const ale_keys_
     const int64_t boot = boot_nonce();
     if (start_parts(telemetry, keys, boot)) {
         init_publishers(telemetry, realtime, boot);
+        (void)ale_realtime_watch_start(&telemetry->realtime, ale_rt_report, REALTIME_NS); /* goes without */
         telemetry->task = ale_rt_task_start(&(ale_rt_task_config_t){
             .name = "ale-telemetry", .kind = ALE_RT_ORDINARY, .body = run, .user = telemetry});
     }
@@ -292,6 +309,7 @@ void ale_telemetry_stop(ale_telemetry_t *telemetry)
         ale_wake_post(telemetry->exchange->under_way);
         ale_rt_task_join(telemetry->task);
     }
+    ale_realtime_watch_stop(&telemetry->realtime);
     ale_map_storage_stop(telemetry->storage);
     ale_commands_destroy(telemetry->commands);
     ale_service_close(&telemetry->service);
