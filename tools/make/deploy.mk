@@ -41,7 +41,7 @@ install-documents: manuals
 	for page in README.md $$(git ls-files '*.md' | grep -E '^(lib|drivers|firmware|tools)/'); do \
 	    install -D -m 644 $$page $(SHARE)/doc/ale-slam/$$page || exit 1; done
 	install -m 644 $(wildcard tools/library/examples/*.c tools/library/examples/*.txt tools/library/python/*lines.py) $(SHARE)/doc/libale-dev/examples
-	install -m 644 $(filter-out %.md,$(wildcard tools/library/odometry/*)) $(SHARE)/doc/ale-slam-tools/examples
+	install -m 644 $(filter-out %.md,$(wildcard tools/library/odometry/* tools/library/motors/*)) $(SHARE)/doc/ale-slam-tools/examples
 
 install-service:
 	install -d $(DESTDIR)$(PREFIX)/lib/systemd/system
