@@ -202,7 +202,7 @@ TEST_F(Wheels, TellTheWholeWayFromTheInstantThatIsKeptHoweverMuchComes)
 TEST_F(Wheels, CountWaysAndTurnsThatCancel)
 {
     for (int k = 0; k <= 100; k++) {
-        add(100 * k, 0.02 * (k <= 50 ? k : 100 - k), 0, 0.01 * (k % 2));
+        add(int64_t{100} * k, 0.02 * (k <= 50 ? k : 100 - k), 0, 0.01 * (k % 2));
     }
     int64_t turned_urad = 0;
     EXPECT_NEAR(static_cast<double>(ale_wheels_way_um(&wheels, 0, 10000000, &turned_urad)), 2000000, 200);

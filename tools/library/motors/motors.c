@@ -1,5 +1,5 @@
-/* Listens to ALE_DRIVE for a motor board: prints what both wheels are to do, metres a second, a line whenever that
- * changes. When nothing has come for 300 ms they stand: whoever has sent set points may have died.
+/* Listens to ALE_DRIVE for a motor board: prints what both wheels are to do, metres a second, a line whenever
+ * that changes. When nothing has come for 300 ms they stand: whoever has sent set points may have died.
  *
  *   cc motors.c ale_drive_t.c -llcm -o motors && ./motors TRACK_METRES | your-motors */
 #include <lcm/lcm.h>
