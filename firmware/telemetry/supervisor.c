@@ -7,6 +7,7 @@
 #include "lcm/wheel_words.h"
 
 #define SILENT_US 1000000
+#define OTHER_CAUSE_US 30000000
 
 static const char *words_for(ale_scanner_state_t state)
 {
@@ -38,19 +39,30 @@ static const char *or_unknown(const char *text)
     return text[0] ? text : "?";
 }
 
-bool ale_supervisor_watch(ale_supervisor_t *supervisor, const ale_scanner_health_t *health,
+/* Somebody who looks for what keeps the scanner away finds one cause, and then the next. */
+static bool is_other_cause(const ale_supervisor_t *supervisor, const ale_scanner_health_t *health,
+                           int64_t now_us)
+{
+    return health->state == ALE_SCANNER_CLOSED && strcmp(supervisor->cause, health->status) != 0 &&
+           now_us - supervisor->said_us >= OTHER_CAUSE_US;
+}
+
+bool ale_supervisor_watch(ale_supervisor_t *supervisor, const ale_scanner_health_t *health, int64_t now_us,
                           char line[ALE_SUPERVISOR_LINE])
 {
     const ale_link_t before = supervisor->link;
-    supervisor->link = link_of(health, before);
-    if (supervisor->link == before) {
+    const ale_link_t now = link_of(health, before);
+    if (now == before && (now != ALE_LINK_ABSENT || !is_other_cause(supervisor, health, now_us))) {
         return false;
     }
-    if (supervisor->link == ALE_LINK_STREAMING) {
+    supervisor->link = now;
+    if (now == ALE_LINK_STREAMING) {
         snprintf(line, ALE_SUPERVISOR_LINE, "scanner %s, serial number %s, at %s: streaming",
                  or_unknown(health->identity.model), or_unknown(health->identity.serial),
                  or_unknown(health->port));
     } else {
+        snprintf(supervisor->cause, sizeof supervisor->cause, "%s", health->status);
+        supervisor->said_us = now_us;
         snprintf(line, ALE_SUPERVISOR_LINE, "%s: %s; trying again until it is there",
                  before == ALE_LINK_STREAMING ? "scanner lost" : "no scanner", health->status);
     }

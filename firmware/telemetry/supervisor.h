@@ -17,14 +17,17 @@ typedef enum {
 
 typedef struct {
     ale_link_t link;
+    char cause[sizeof((ale_scanner_health_t *)0)->status]; /* why there is no scanner, as it was last said */
+    int64_t said_us;
     uint8_t wheel_fault; /* ale_wheel_fault_t */
     bool without_network;
 } ale_supervisor_t; /* all zero: just started */
 
 enum { ALE_SUPERVISOR_LINE = 320 };
 
-/* True when there is something to say: `line` then is one line for people. Said once per change. */
-bool ale_supervisor_watch(ale_supervisor_t *supervisor, const ale_scanner_health_t *health,
+/* True when there is something to say: `line` then is one line for people. Said once per change; while there
+ * is no scanner another cause is a change, too, at most every half minute. now_us: any clock. */
+bool ale_supervisor_watch(ale_supervisor_t *supervisor, const ale_scanner_health_t *health, int64_t now_us,
                           char line[ALE_SUPERVISOR_LINE]);
 
 /* The same for the wheels: ale_wheel_fault_t of the newest pose. */

@@ -8,9 +8,9 @@ import subprocess
 
 import pytest
 
-from at_hand import WORLDS
 from chain import Chain
 from lcm_url import free_lcm_url
+from long_drive import resident_bytes, rounds
 from standstill import Standstill
 from waiting import wait_until
 
@@ -31,20 +31,6 @@ def status_chain(tmp_path, multicast):
     running.stop()
 
 
-def rounds(folder, world, count):
-    """The bundled world with its way driven several times over."""
-    lines = (WORLDS / f"{world}.world").read_text(encoding="utf-8").splitlines()
-    ways = [line for line in lines if line.startswith("# via")]
-    path = folder / "rounds.world"
-    path.write_text("\n".join(lines + ways * (count - 1)) + "\n", encoding="utf-8")
-    return path
-
-
-def resident_bytes(program):
-    with open(f"/proc/{program.process.pid}/status", encoding="ascii") as status:
-        return next(int(line.split()[1]) * 1024 for line in status if line.startswith("VmRSS:"))
-
-
 def await_scans(chain, firmware, count, seconds):
     """The first status after so many scans."""
     statuses = chain.listener.statuses
@@ -57,7 +43,7 @@ def await_scans(chain, firmware, count, seconds):
 def standstill():
     watch = Standstill()
     yield
-    print(f"the machine itself stood still for up to {watch.stop():.1f} ms")
+    print(f"the machine itself stood still for up to {1000 * max(watch.stop(), default=0):.1f} ms")
 
 
 @pytest.fixture

@@ -6,7 +6,6 @@ an emulated machine is slow: by a clock that runs at half the speed, and once mo
 """
 import contextlib
 import math
-import shutil
 import statistics
 
 import pytest
@@ -14,7 +13,8 @@ import pytest
 from at_hand import WORLDS
 from chain import Chain, Truth, distance_to_wall, walls_of, wrap
 from lcm_url import free_lcm_url
-from virtual_robot import Lan, Line, Machine, NoMachine, fetch_kernel, pause, set_clock
+from virtual_machine import need_machine, pause, set_clock
+from virtual_robot import Lan, Line, bare_robot
 from waiting import wait_until
 
 SPEEDS = (0.5, 0.25)
@@ -50,22 +50,17 @@ class TooSlow(Exception):
 @pytest.fixture(scope="module")
 def drive(tmp_path_factory, multicast):
     """The whole drive. What happened is told by its marks: how many poses there were when."""
-    if not shutil.which("qemu-system-x86_64"):
-        pytest.skip("no qemu-system-x86_64 here")
-    try:
-        system = fetch_kernel()
-    except NoMachine as error:
-        pytest.skip(str(error))
+    kernel = need_machine()
     reasons = []
     for speed in SPEEDS:
         try:
-            return drive_at(speed, tmp_path_factory.mktemp("robot"), system)
+            return drive_at(speed, tmp_path_factory.mktemp("robot"), kernel)
         except TooSlow as error:
             reasons.append(f"at {speed} times the speed: {error}")
     raise TooSlow("; ".join(reasons))
 
 
-def drive_at(speed, folder, system):
+def drive_at(speed, folder, kernel):
     """One drive with all that belongs to it, which is gone when it has ended."""
     with contextlib.ExitStack() as running:
         chain = Chain(folder, free_lcm_url())
@@ -73,13 +68,12 @@ def drive_at(speed, folder, system):
         lan = Lan(chain.url)
         running.callback(lan.stop)
         sim = chain.simulator("--world", WORLDS / "home.world", "--truth", chain.truth_path, speed=speed)
-        machine = Machine(folder, *system, lan)
+        machine = bare_robot(folder, kernel, lan)
         running.callback(machine.stop)
-        line = Line(chain.port, machine.uart)
+        line = Line(chain.port, folder / "uart")
         running.callback(line.stop)
-        wait_until(lambda: "ready" in machine.said() or not machine.running(), BOOT_S, "the end of the machine's start")
-        assert machine.running(), machine.said()
-        set_clock(machine)
+        machine.wait_for("ready", BOOT_S)
+        set_clock(machine, "clock ")
         machine.order("start", speed)
         drive_through_faults(lan, line, machine, speed)
         assert sim.end() == 0, sim.err()

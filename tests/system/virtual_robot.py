@@ -1,39 +1,30 @@
-"""A virtual robot PC: Debian's PREEMPT_RT kernel in qemu, an initramfs with ale-slamd as deployed, and what hangs on it.
+"""A virtual robot PC: ale-slamd as deployed on a virtual machine, and what hangs on it.
 
     ale-sim ── pty ── Line ── UART of the machine (ttyS1) ── ale-slamd ── LCM ── network card ── Lan
        │               └ can be pulled                                          └ frames, read and written here
        └───── odometry (LCM) ───────────────────────────────────────────────────► Lan
-
-The kernel is taken out of its Debian package, which is not installed. The machine is emulated in software, with one processor:
-half of its time goes into the UART's interrupts, and the other processor of a small computer is left to who emulates the UART.
 """
-import gzip
 import os
 import pathlib
 import select
-import signal
 import socket
-import stat
 import struct
 import subprocess
 import threading
-import time
 
 import lcm
 
-from at_hand import BINARIES, BUILD, ROOT, free_udp_port
+from at_hand import BINARIES, ROOT, free_udp_port
 from chain import TYPES
-from priority import as_own_processor, threads_as_hardware
-from waiting import wait_until
+from priority import threads_as_hardware
+from virtual_machine import Machine, initramfs, libraries
 
-CACHE = BUILD / "hil-vm"
 DEPLOYED = ROOT / "firmware" / "deploy" / "ale-slamd.ini"
 WIRE_BYTES = 256
 LCM_GROUP = "239.255.76.67"
 LCM_PORT = 7667
 # To the group's own address of Ethernet, from an address of the kind that anyone may give.
 ROUTER = bytes.fromhex("01005e7f4c43" "020000000001" "0800")
-NETWORK_CARD = "kernel/drivers/net/ethernet/intel/e1000/e1000.ko"
 
 # The first console is the machine's, with one word a line from outside; the second UART is the scanner's.
 INIT = f"""#!/bin/busybox sh
@@ -67,64 +58,27 @@ done
 """
 
 
-class NoMachine(Exception):
-    """What this computer lacks for it."""
-
-
-def fetch_kernel():
-    """Kernel and network card's module of Debian's PREEMPT_RT kernel: two paths, kept in the build folder."""
-    kernel, module = CACHE / "vmlinuz", CACHE / "e1000.ko"
-    if kernel.exists() and module.exists():
-        return kernel, module
-    CACHE.mkdir(parents=True, exist_ok=True)
-    depends = subprocess.run(["apt-cache", "depends", "linux-image-rt-amd64"], capture_output=True, text=True, check=False)
-    package = next((line.split()[-1] for line in depends.stdout.splitlines() if "Depends: linux-image" in line), None)
-    if not package or subprocess.run(["apt-get", "download", "-q", package], cwd=CACHE, capture_output=True,
-                                     check=False).returncode != 0:
-        raise NoMachine("Debian's package linux-image-rt-amd64 cannot be downloaded")
-    archive = next(CACHE.glob(f"{package}_*.deb"))
-    with subprocess.Popen(["dpkg-deb", "--fsys-tarfile", archive], stdout=subprocess.PIPE) as files:
-        subprocess.run(["tar", "-x", "--wildcards", "./boot/vmlinuz-*", f"./lib/modules/*/{NETWORK_CARD}"],
-                       stdin=files.stdout, cwd=CACHE, check=True)
-    next(CACHE.glob("boot/vmlinuz-*")).rename(kernel)
-    next(CACHE.glob(f"lib/modules/*/{NETWORK_CARD}")).rename(module)
-    archive.unlink()
-    return kernel, module
-
-
-def libraries(program):
-    """Shared libraries of a program, the loader among them."""
-    told = subprocess.run(["ldd", program], capture_output=True, text=True, check=True).stdout
-    return [word for line in told.splitlines() for word in line.split() if word.startswith("/")]
-
-
-def initramfs(path, module):
-    """A compressed archive (cpio, newc) that the kernel unpacks as its root."""
+def bare_robot(folder, kernel, lan):
+    """A machine that runs from its memory, with nothing on it but ale-slamd as deployed. Its scanner's UART is folder/uart."""
     firmware = BINARIES / "ale-slamd"
-    files = {"init": (INIT.encode(), 0o755), "e1000.ko": (module.read_bytes(), 0o644),
-             "etc/ale-slamd.ini": (DEPLOYED.read_bytes(), 0o644),
-             "bin/ale-slamd": (firmware.read_bytes(), 0o755),
-             "bin/busybox": (pathlib.Path("/bin/busybox").read_bytes(), 0o755)}
+    files = {"e1000.ko": (kernel.module("e1000").read_bytes(), 0o644), "etc/ale-slamd.ini": (DEPLOYED.read_bytes(), 0o644),
+             "bin/ale-slamd": (firmware.read_bytes(), 0o755)}
     for library in libraries(firmware):
         files[library.lstrip("/")] = (pathlib.Path(library).read_bytes(), 0o755)
-    folders = sorted({str(parent) for name in files for parent in pathlib.PurePath(name).parents} - {"."})
-    with gzip.open(path, "wb", compresslevel=1) as archive:
-        for name in folders:
-            write_entry(archive, name, b"", stat.S_IFDIR | 0o755)
-        # A console is there before anything is mounted.
-        write_entry(archive, "dev", b"", stat.S_IFDIR | 0o755)
-        write_entry(archive, "dev/console", b"", stat.S_IFCHR | 0o600, device=(5, 1))
-        for name, (content, mode) in files.items():
-            write_entry(archive, name, content, stat.S_IFREG | mode)
-        write_entry(archive, "TRAILER!!!", b"", 0)
+    initramfs(folder / "initramfs.gz", INIT, files)
+    return Machine(folder, kernel, folder / "initramfs.gz", *scanner_socket(folder), "-serial", "chardev:scanner",
+                   *network_card(lan))
 
 
-def write_entry(archive, name, content, mode, device=(0, 0)):
-    encoded = name.encode() + b"\0"
-    fields = (0, mode, 0, 0, 1, 0, len(content), 0, 0, *device, len(encoded), 0)
-    header = b"070701" + b"".join(b"%08x" % field for field in fields)
-    archive.write(header + encoded + b"\0" * (-(len(header) + len(encoded)) % 4))
-    archive.write(content + b"\0" * (-len(content) % 4))
+def scanner_socket(folder):
+    """Where Line is connected."""
+    return "-chardev", f"socket,id=scanner,path={folder / 'uart'},server=on,wait=off"
+
+
+def network_card(lan):
+    return ("-netdev", f"dgram,id=wire,local.type=inet,local.host=127.0.0.1,local.port={lan.machine[1]},"
+                       f"remote.type=inet,remote.host=127.0.0.1,remote.port={lan.port}",
+            "-device", "e1000,netdev=wire,id=lan")
 
 
 class Line:
@@ -257,59 +211,3 @@ def joined(parts):
         part, more = parts[len(body)]
         body += part
     return body
-
-
-class Machine:
-    """The virtual robot PC, running from its creation to stop()."""
-
-    def __init__(self, folder, kernel, module, lan):
-        self.log = folder / "console.log"
-        self.uart = folder / "uart"
-        console = folder / "console"
-        initramfs(folder / "initramfs.gz", module)
-        self.process = subprocess.Popen([
-            "qemu-system-x86_64", "-accel", "tcg", "-smp", "1", "-m", "512", "-nodefaults", "-no-reboot", "-display", "none",
-            "-kernel", kernel, "-initrd", folder / "initramfs.gz", "-append", "console=ttyS0 quiet panic=-1",
-            "-chardev", f"socket,id=console,path={console},server=on,wait=off,logfile={self.log}", "-serial", "chardev:console",
-            "-chardev", f"socket,id=scanner,path={self.uart},server=on,wait=off", "-serial", "chardev:scanner",
-            "-netdev", f"dgram,id=lan,local.type=inet,local.host=127.0.0.1,local.port={lan.machine[1]},"
-                       f"remote.type=inet,remote.host=127.0.0.1,remote.port={lan.port}",
-            "-device", "e1000,netdev=lan"], stdin=subprocess.DEVNULL, preexec_fn=as_own_processor)
-        wait_until(lambda: console.exists() and self.uart.exists() or not self.running(), 180, "the virtual machine")
-        self.console = socket.socket(socket.AF_UNIX)
-        self.console.connect(str(console))
-        self.reader = threading.Thread(target=self._drain)
-        self.reader.start()
-
-    def _drain(self):
-        """A console that nobody reads stops the machine when it is full; what it says is in the log."""
-        while self.console.recv(4096):
-            pass
-
-    def running(self):
-        return self.process.poll() is None
-
-    def said(self):
-        return self.log.read_text(encoding="utf-8", errors="replace") if self.log.exists() else ""
-
-    def order(self, *words):
-        self.console.sendall(" ".join(map(str, words)).encode() + b"\n")
-
-    def stop(self):
-        if self.running():
-            self.process.send_signal(signal.SIGTERM)
-        self.process.wait(timeout=180)
-        self.reader.join()
-        self.console.close()
-
-
-def set_clock(machine):
-    """Gives the machine the time of day, in the place of NTP: at the turn of a second, to some hundredths."""
-    second = int(time.time()) + 2
-    time.sleep(max(0, second - time.time()))
-    machine.order("clock", second)
-
-
-def pause(seconds):
-    """Lets a fault last."""
-    time.sleep(seconds)

@@ -29,6 +29,10 @@ for (let k = 0; k < pixels.length; k += 4) {
 return {count, x: x / count / canvas.width, y: y / count / canvas.height};
 """
 STATE = "document.body.dataset.state"
+BESIDE_THE_NUMBERS = """
+const box = (selector) => document.querySelector(selector).getBoundingClientRect();
+return box("#state-text").right <= box(".vitals").left && box("#state").height < 50;
+"""
 LINK = "document.body.dataset.link"
 ALARM = "!document.getElementById('alarm').hidden && document.getElementById('alarm-word').textContent"
 
@@ -192,6 +196,7 @@ def test_a_robot_without_scans_says_why_in_the_place_of_its_state(page, robot):
         assert page.text("state-word") == "no scans"
         robot.driver = "asking who is there: no answer from the sensor: what speaks there is NMEA, as of a GPS receiver: $GPGGA,1"
         page.wait_for("document.getElementById('advice').textContent.includes('on its port: NMEA, as of a GPS receiver: $GPGGA,1. Choose')")
+        assert page.run(BESIDE_THE_NUMBERS), "a long cause runs into the numbers"
     finally:
         pulse.stop()
     page.wait_for(f"{LINK} === 'lost'")

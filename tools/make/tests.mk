@@ -103,13 +103,18 @@ system-rtai: programs lcm-types venv $(BUILD)/rtai/ale-slamd ## the system tests
 	@ALE_SLAMD=$(BUILD)/rtai/ale-slamd $(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(or $(T),tests/system)
 
 .PHONY: hil-vm
-hil-vm: programs lcm-types venv ## the firmware on a virtual robot PC: PREEMPT_RT kernel in qemu, UART to ale-sim, LCM read outside
+hil-vm: programs lcm-types venv deb ## virtual robot PCs in qemu: a drive under PREEMPT_RT, days from boot to power cut, cuts while files are written (BOOTS=10 CUTS=50)
 	@tools/make/deps.sh tools/make/packages-vm.txt
-	@$(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python --reruns 0 -rP tests/system/hil_vm.py
+	@for machine in hil boots power; do \
+	    $(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python --reruns 0 -rP tests/system/$${machine}_vm.py || failed=1; done; [ -z "$$failed" ]
 
 .PHONY: endurance
 endurance: programs lcm-types venv ## 20,000 scans at ten times the speed, and latency under load: minutes, on an idle machine
 	@PYTHONPATH=$(BUILD)/python PYTHONDONTWRITEBYTECODE=1 $(VENV)/bin/python -m pytest -q -rP -p no:cacheprovider tests/system/endurance.py
+
+.PHONY: soak
+soak: programs lcm-types venv ## a day at ten times the speed: nothing grows, no deadline is missed (SOAK_HOURS=1: an hour), on an idle machine
+	@PYTHONPATH=$(BUILD)/python PYTHONDONTWRITEBYTECODE=1 $(VENV)/bin/python -m pytest -q -rP -p no:cacheprovider tests/system/soak.py
 
 .PHONY: proofs
 proofs: programs ## bounded by construction: symbols, call graph, soft-float build, system call filter (part of make test)

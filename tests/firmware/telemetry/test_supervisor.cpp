@@ -24,10 +24,10 @@ ale_scanner_health_t health_in(ale_scanner_state_t state, const char *status = "
 }
 
 /* What is said when the scanner's health is this; empty: nothing. */
-std::string said(ale_supervisor_t &supervisor, const ale_scanner_health_t &health)
+std::string said(ale_supervisor_t &supervisor, const ale_scanner_health_t &health, int64_t now_us = 0)
 {
     char line[ALE_SUPERVISOR_LINE] = "";
-    return ale_supervisor_watch(&supervisor, &health, line) ? line : "";
+    return ale_supervisor_watch(&supervisor, &health, now_us, line) ? line : "";
 }
 
 TEST(Supervisor, AMissingScannerIsSaidOnceInPlainWords)
@@ -39,6 +39,19 @@ TEST(Supervisor, AMissingScannerIsSaidOnceInPlainWords)
     EXPECT_EQ(said(supervisor, absent), "");
     EXPECT_EQ(said(supervisor, health_in(ALE_SCANNER_DETECTING)), "");
     EXPECT_EQ(said(supervisor, absent), "");
+}
+
+TEST(Supervisor, AnotherCauseIsSaidAndNotEveryOneOfMany)
+{
+    ale_supervisor_t supervisor{};
+    const ale_scanner_health_t absent = health_in(ALE_SCANNER_CLOSED, "no such device");
+    const ale_scanner_health_t denied = health_in(ALE_SCANNER_CLOSED, "permission is missing");
+    EXPECT_NE(said(supervisor, absent, 1000000), "");
+    EXPECT_EQ(said(supervisor, denied, 2000000), "") << "a cause that comes and goes fills no log";
+    EXPECT_EQ(said(supervisor, denied, 31000000),
+              "no scanner: permission is missing; trying again until it is there");
+    EXPECT_EQ(said(supervisor, denied, 90000000), "");
+    EXPECT_EQ(said(supervisor, health_in(ALE_SCANNER_DETECTING, "asking"), 91000000), "");
 }
 
 TEST(Supervisor, ComingAndGoingAreSaid)
