@@ -60,7 +60,8 @@ static void watch_scanner(ale_telemetry_t *telemetry)
     telemetry->status.health = ale_snapshot_newest(telemetry->exchange->health, &fresh);
     char line[ALE_SUPERVISOR_LINE];
     const ale_link_t before = telemetry->supervisor.link;
-    if (ale_supervisor_watch(&telemetry->supervisor, telemetry->status.health, ale_rt_now_ns() / 1000, line)) {
+    if (ale_supervisor_watch(&telemetry->supervisor, telemetry->status.health, ale_rt_now_ns() / 1000,
+                             line)) {
         char words[sizeof line + 8];
         ale_logger_log(telemetry->logger, line);
         snprintf(words, sizeof words, "STATUS=%s", line);
