@@ -74,7 +74,8 @@ TEST_F(AsyncLogger, WhatKeepsNoTimeIsToldWhenALineWasLogged)
     const char *end = strptime(line.c_str(), "ale-slamd: %Y-%m-%d %H:%M:%S ", &moment);
     ASSERT_NE(end, nullptr) << line;
     EXPECT_STREQ(end, "one");
-    // The time zone is libc's, behind a lock that the thread sanitizer does not see: the logger's thread has ended first.
+    // The time zone is libc's, behind a lock that the thread sanitizer does not see: the logger's thread has
+    // ended first.
     ale_logger_stop(logger);
     moment.tm_isdst = -1;
     const time_t logged = mktime(&moment);
