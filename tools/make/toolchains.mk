@@ -1,5 +1,5 @@
 # Everything by every gcc and clang of the machine, each into build/toolchains/NAME; what they make of the recording at hand
-# is compared. make distribution does it on another Debian.
+# is compared.
 #
 #   make toolchains [TOOLCHAINS="gcc-13 clang-19"]
 
