@@ -14,6 +14,7 @@
 #include "operator/explore_thread.h"
 #include "realtime/rt.h"
 #include "recorder/recorder.h"
+#include "system/log_line.h"
 #include "system/service.h"
 #include "telemetry/telemetry.h"
 
@@ -113,7 +114,7 @@ static ale_rt_report_t tell_realtime(ale_daemon_t *daemon)
     ale_rt_report_t report;
     ale_rt_report(&report);
     daemon->realtime = report.realtime;
-    fprintf(stderr, "ale-slamd: %s: %s\n", report.realtime ? "real time" : "real time degraded", report.text);
+    ale_log_line("%s: %s", report.realtime ? "real time" : "real time degraded", report.text);
     return report;
 }
 
@@ -121,8 +122,8 @@ static ale_rt_report_t tell_realtime(ale_daemon_t *daemon)
 static void tell_unvouched(const ale_daemon_t *daemon)
 {
     if (takes_commands(daemon) && !daemon->options->vouches) {
-        fprintf(stderr, "ale-slamd: no key of its own: operators cannot know whether its status is its own "
-                        "(ale-keys --own)\n");
+        ale_log_line(
+            "no key of its own: operators cannot know whether its status is its own (ale-keys --own)");
     }
 }
 
@@ -190,7 +191,7 @@ static void tell_lost_realtime(const ale_daemon_t *daemon)
     ale_rt_report_t report;
     ale_rt_report(&report);
     if (daemon->realtime && !report.realtime) {
-        fprintf(stderr, "ale-slamd: real time was not kept: %s\n", report.text);
+        ale_log_line("real time was not kept: %s", report.text);
     }
 }
 
@@ -199,10 +200,10 @@ static void tell_shortfall(const ale_daemon_t *daemon)
 {
     const ale_shortfall_t s = ale_estimator_shortfall(daemon->estimator);
     if (s.overloaded > 0 || s.corrections_late > 0) {
-        fprintf(stderr,
-                "ale-slamd: this computer did not keep up: %u of %u scans set aside for newer ones, %u "
-                "corrections of the map late\n",
-                s.overloaded, s.scans, s.corrections_late);
+        ale_log_line(
+            "this computer did not keep up: %u of %u scans set aside for newer ones, %u corrections of the "
+            "map late",
+            s.overloaded, s.scans, s.corrections_late);
     }
 }
 

@@ -1,10 +1,10 @@
 #include "mapping/mapper_thread.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "graph/mapper.h"
 #include "system/background.h"
+#include "system/log_line.h"
 
 #define LOOK_US 20000 /* of the robot's clock: a correction is due a few scans after its keyframe */
 
@@ -20,8 +20,8 @@ static void tell(ale_mapper_thread_t *thread, int64_t spent_ns)
 {
     const ale_mapper_statistics_t statistics = ale_mapper_statistics(thread->mapper);
     if (statistics.loops != thread->loops) {
-        fprintf(stderr, "ale-slamd: loop closed: %u so far, %u keyframes, %lld ms\n", statistics.loops,
-                statistics.keyframes, (long long)(spent_ns / 1000000));
+        ale_log_line("loop closed: %u so far, %u keyframes, %lld ms", statistics.loops, statistics.keyframes,
+                     (long long)(spent_ns / 1000000));
         thread->loops = statistics.loops;
     }
 }

@@ -1,12 +1,12 @@
 #include "mapping/persistence.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "exchange/snapshot.h"
 #include "store/map_file.h"
 #include "system/background.h"
+#include "system/log_line.h"
 
 enum { LOOK_NS = 500000000 };
 
@@ -32,7 +32,9 @@ static void save_newest(ale_persistence_t *persistence)
     char error[ALE_MAP_FILE_ERROR];
     const bool failed = ale_map_file_save_with_pose(persistence->path, &kept->map, &kept->pose, error) < 0;
     if (failed && !persistence->failed) {
-        fprintf(stderr, "ale-slamd: map and pose are not kept: %s\n", error);
+        ale_log_line("map and pose are not kept: %s; it is tried again", error);
+    } else if (persistence->failed && !failed) {
+        ale_log_line("map and pose are kept again");
     }
     persistence->failed = failed;
 }

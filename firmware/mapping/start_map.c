@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "store/map_file.h"
+#include "system/log_line.h"
 
 /* True when map and pose of the last run are taken up. */
 static bool load_kept(const char *path, ale_map_t *map, ale_estimator_t *estimator)
@@ -15,12 +16,12 @@ static bool load_kept(const char *path, ale_map_t *map, ale_estimator_t *estimat
         return false;
     }
     if (ale_map_file_load_with_pose(path, map, &pose, &known, error) < 0) {
-        fprintf(stderr, "ale-slamd: starting without what was kept: %s\n", error);
+        ale_log_line("starting without what was kept: %s", error);
         return false;
     }
     ale_estimator_load_map(estimator, map, known ? &pose : NULL);
-    fprintf(stderr, "ale-slamd: going on from %s: %u walls, %u corners%s\n", path, map->line_count,
-            map->corner_count, known ? " and the last pose" : "");
+    ale_log_line("going on from %s: %u walls, %u corners%s", path, map->line_count, map->corner_count,
+                 known ? " and the last pose" : "");
     return true;
 }
 

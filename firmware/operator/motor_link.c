@@ -1,10 +1,10 @@
 #include "operator/motor_link.h"
 
-#include <stdio.h>
 #include <sys/random.h>
 
 #include "motor/set_point.h"
 #include "realtime/rt.h"
+#include "system/log_line.h"
 
 #define TRY_PERIOD_NS 1000000000
 
@@ -38,8 +38,7 @@ int ale_motor_link_open(ale_motor_link_t *link, const ale_config_t *config, cons
     }
     const int status = link->path[0] != '\0' ? open_line(link) : ALE_PORT_OK;
     if (status != ALE_PORT_OK) {
-        fprintf(stderr, "ale-slamd: motor controller: %s: %s; it is tried again\n", link->path,
-                ale_port_strerror(status));
+        ale_log_line("motor controller: %s: %s; it is tried again", link->path, ale_port_strerror(status));
     }
     return 0;
 }

@@ -13,6 +13,7 @@
 #include "recorder/flight_ring.h"
 #include "recorder/flight_words.h"
 #include "system/background.h"
+#include "system/log_line.h"
 
 #define NS_PER_MS 1000000LL
 #define LOOK_NS 50000000
@@ -208,7 +209,7 @@ static void write_if_due(ale_recorder_t *recorder, int64_t now_ns)
     if (error == 0) {
         atomic_fetch_add(&recorder->written, 1);
     }
-    fprintf(stderr, "ale-slamd: %s\n", message);
+    ale_log_line("%s", message);
     tell_who_asked(recorder, error);
 }
 

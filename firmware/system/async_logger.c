@@ -5,6 +5,7 @@
 
 #include "exchange/ring.h"
 #include "system/background.h"
+#include "system/log_line.h"
 
 #define LOOK_NS 1000000000
 
@@ -25,13 +26,7 @@ struct ale_logger {
 
 static void write_line(ale_logger_t *logger, const line_t *line)
 {
-    char moment[32] = "";
-    struct tm local;
-    if (logger->with_time && localtime_r(&line->logged_s, &local)) {
-        strftime(moment, sizeof moment, "%Y-%m-%d %H:%M:%S ", &local);
-    }
-    fprintf(logger->out, "ale-slamd: %s%s\n", moment, line->words);
-    fflush(logger->out);
+    ale_log_write(logger->out, logger->with_time, line->logged_s, line->words);
 }
 
 /* There is room again. */

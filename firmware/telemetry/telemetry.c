@@ -14,6 +14,7 @@
 #include "operator/commands.h"
 #include "recorder/recorder.h"
 #include "system/async_logger.h"
+#include "system/log_line.h"
 #include "system/service.h"
 #include "telemetry/map_publisher.h"
 #include "telemetry/odometry_intake.h"
@@ -239,7 +240,7 @@ static int64_t boot_nonce(void)
 /* What the thread works with: where words for people go, and what commands do. */
 static bool start_parts(ale_telemetry_t *telemetry, const ale_keys_t *keys, int64_t boot)
 {
-    telemetry->logger = ale_logger_start(stderr, getenv("JOURNAL_STREAM") == NULL);
+    telemetry->logger = ale_logger_start(stderr, ale_log_wants_time());
     telemetry->storage = ale_map_storage_start(telemetry->config, telemetry->exchange);
     if (telemetry->logger && telemetry->storage) {
         telemetry->commands =
