@@ -48,6 +48,7 @@ static const channel_t snapshots[] = {
     SNAPSHOT(drive_orders, ale_drive_orders_t),
     SNAPSHOT(drive_scan, ale_scan_t),
     SNAPSHOT(exploration, ale_velocity_request_t),
+    SNAPSHOT(motor_line, int),
 };
 
 enum { RINGS = sizeof rings / sizeof rings[0], SNAPSHOTS = sizeof snapshots / sizeof snapshots[0] };

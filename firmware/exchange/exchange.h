@@ -7,7 +7,7 @@
  *      └──────────── health of the scanner (newest) ─────────────────┘
  *
  *              requests                  orders, scan (newest)
- *   estimate ◄──────────── telemetry ──────────────────► drive ◄── velocity request (newest) ── exploration
+ *   estimate ◄──────────── telemetry ◄─ motor line ────► drive ◄── velocity request (newest) ── exploration
  *      ▲                      ▲ jobs  └──── scans with poses, on or off ───────────────────────────►┘
  *      └── loaded map ── map storage ── the same map ──► mapper, drawer
  *   estimate ── keyframes ──► mapper ── corrections ──► estimate, exploration
@@ -72,6 +72,7 @@ typedef struct {
     ale_snapshot_t *drive_orders; /* ale_drive_orders_t: telemetry to drive */
     ale_snapshot_t *drive_scan;   /* ale_scan_t: telemetry to drive */
     ale_snapshot_t *exploration;  /* ale_velocity_request_t: exploration to drive */
+    ale_snapshot_t *motor_line;   /* int, ale_port_strerror knows it: drive to telemetry */
     int drive_again;              /* wakes the drive thread: something has changed */
 
     /* Who is spoken to by call, when he is wanted; NULL: not. */

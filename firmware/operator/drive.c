@@ -11,6 +11,7 @@ struct ale_drive {
     const ale_config_t *config;
     ale_exchange_t *exchange;
     ale_motor_link_t motors;
+    int told; /* of the line to the motors, to telemetry */
     ale_rt_task_t *task;
 };
 
@@ -57,6 +58,11 @@ static void publish(ale_drive_t *drive, int64_t now_us, ale_set_point_t set_poin
 {
     ale_motor_link_send(&drive->motors, ale_clock_to_utime(&drive->exchange->clock, now_us), set_point.v_um_s,
                         set_point.w_urad_s);
+    if (drive->motors.status != drive->told) {
+        drive->told = drive->motors.status;
+        *(int *)ale_snapshot_back(drive->exchange->motor_line) = drive->told;
+        ale_snapshot_publish(drive->exchange->motor_line);
+    }
 }
 
 static void run(ale_rt_task_t *self, void *user)

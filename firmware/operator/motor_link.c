@@ -4,11 +4,10 @@
 
 #include "motor/set_point.h"
 #include "realtime/rt.h"
-#include "system/log_line.h"
 
 #define TRY_PERIOD_NS 1000000000
 
-enum { LINE_TIMEOUT_MS = 5 };
+enum { LINE_TIMEOUT_MS = 5, STEADY_LINES = 25 };
 
 static void take_ready(void *user, const uint8_t *bytes, size_t count)
 {
@@ -20,6 +19,8 @@ static int open_line(ale_motor_link_t *link)
 {
     const int status = ale_port_open(&link->port, link->path, link->baud);
     link->next_try_ns = ale_rt_now_ns() + TRY_PERIOD_NS;
+    link->taken = 0;
+    link->status = status != ALE_PORT_OK ? status : link->status;
     return status;
 }
 
@@ -36,9 +37,8 @@ int ale_motor_link_open(ale_motor_link_t *link, const ale_config_t *config, cons
         ale_motor_link_close(link);
         return -1;
     }
-    const int status = link->path[0] != '\0' ? open_line(link) : ALE_PORT_OK;
-    if (status != ALE_PORT_OK) {
-        ale_log_line("motor controller: %s: %s; it is tried again", link->path, ale_port_strerror(status));
+    if (link->path[0] != '\0') {
+        (void)open_line(link); /* tried again */
     }
     return 0;
 }
@@ -63,9 +63,13 @@ static void send_line(ale_motor_link_t *link, int32_t v_um_s, int32_t w_urad_s)
     }
     char line[ALE_SET_POINT_LINE];
     const size_t length = ale_set_point_line(++link->lines, v_um_s, w_urad_s, line);
-    if (ale_port_write(link->port, (const uint8_t *)line, length, LINE_TIMEOUT_MS) != ALE_PORT_OK) {
+    const int status = ale_port_write(link->port, (const uint8_t *)line, length, LINE_TIMEOUT_MS);
+    if (status != ALE_PORT_OK) {
         ale_port_close(link->port);
         link->port = NULL;
+        link->status = status;
+    } else if (++link->taken >= STEADY_LINES) {
+        link->status = ALE_PORT_OK;
     }
 }
 

@@ -22,13 +22,17 @@ typedef struct {
     int32_t baud;
     ale_port_t *port;
     int64_t next_try_ns;
+    uint32_t taken; /* lines in a row that the port took */
+    int status; /* of the line, as ale_port_strerror knows it; ALE_PORT_OK: it takes lines, or there is none
+                 */
 } ale_motor_link_t;
 
-/* Joins the bus and opens the line. A line that cannot be opened is said on stderr and tried again every
- * second. key NULL: none; key and config must outlive the link. 0, or -1: no bus. */
+/* Joins the bus and opens the line. A line that cannot be opened is tried again every second. key NULL: none;
+ * key and config must outlive the link. 0, or -1: no bus. */
 int ale_motor_link_open(ale_motor_link_t *link, const ale_config_t *config, const ale_drive_key_t *key);
 
-/* A set point, by all ways. A line that takes no bytes for 5 ms is closed. */
+/* A set point, by all ways. A line that takes no bytes for 5 ms is closed; its status is fine again when it
+ * has taken a second's lines. */
 void ale_motor_link_send(ale_motor_link_t *link, int64_t utime, int32_t v_um_s, int32_t w_urad_s);
 
 /* After ale_motor_link_open only. */

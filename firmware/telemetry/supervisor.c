@@ -5,6 +5,7 @@
 
 #include "base/fixed.h"
 #include "lcm/wheel_words.h"
+#include "serial/port_status.h"
 
 #define SILENT_US 1000000
 #define OTHER_CAUSE_US 30000000
@@ -94,6 +95,24 @@ bool ale_supervisor_watch_network(ale_supervisor_t *supervisor, bool has_route,
             : "LCM: no route for multicast: going on without, nobody hears the poses; joining when there "
               "is a network (without one, as root: ip link set lo multicast on && ip route add "
               "224.0.0.0/4 dev lo)");
+    return true;
+}
+
+bool ale_supervisor_watch_motors(ale_supervisor_t *supervisor, const char *path, int status,
+                                 char line[ALE_SUPERVISOR_LINE])
+{
+    const bool without = status != ALE_PORT_OK;
+    if (supervisor->without_motors == without) {
+        return false;
+    }
+    supervisor->without_motors = without;
+    if (without) {
+        snprintf(line, ALE_SUPERVISOR_LINE,
+                 "motor controller: %.200s: %s: nothing drives by this line; trying again", path,
+                 ale_port_strerror(status));
+    } else {
+        snprintf(line, ALE_SUPERVISOR_LINE, "motor controller: %.200s: there again", path);
+    }
     return true;
 }
 

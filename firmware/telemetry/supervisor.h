@@ -1,5 +1,6 @@
-/* Watches the scanner's health, what scans say of the wheels, and the network, and puts it into words: for
- * ALE_STATUS always, for people only when it changes. Pure: health and time come in, texts go out. */
+/* Watches the scanner's health, what scans say of the wheels, the network and the line to the motors, and
+ * puts it into words: for ALE_STATUS always, for people only when it changes. Pure: health and time come in,
+ * texts go out. */
 #ifndef ALE_FIRMWARE_TELEMETRY_SUPERVISOR_H
 #define ALE_FIRMWARE_TELEMETRY_SUPERVISOR_H
 
@@ -21,6 +22,7 @@ typedef struct {
     int64_t said_us;
     uint8_t wheel_fault; /* ale_wheel_fault_t */
     bool without_network;
+    bool without_motors;
 } ale_supervisor_t; /* all zero: just started */
 
 enum { ALE_SUPERVISOR_LINE = 320 };
@@ -37,6 +39,10 @@ bool ale_supervisor_watch_wheels(ale_supervisor_t *supervisor, uint8_t wheel_fau
 /* The same for the network: has_route, whether there is a route for LCM's messages. */
 bool ale_supervisor_watch_network(ale_supervisor_t *supervisor, bool has_route,
                                   char line[ALE_SUPERVISOR_LINE]);
+
+/* The same for the line to the motor controller: its path, and how it is, as ale_port_strerror knows it. */
+bool ale_supervisor_watch_motors(ale_supervisor_t *supervisor, const char *path, int status,
+                                 char line[ALE_SUPERVISOR_LINE]);
 
 /* Fills driver_state, device, scans and scan_period_us of the report. now_us: clock of the health. While
  * scans come, driver_state says what they say of the wheels, too: "streaming; wheels: stalled". */

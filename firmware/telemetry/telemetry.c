@@ -140,6 +140,16 @@ static void watch_network(ale_telemetry_t *telemetry)
     }
 }
 
+static void watch_motors(ale_telemetry_t *telemetry)
+{
+    bool fresh = false;
+    char line[ALE_SUPERVISOR_LINE];
+    const int *status = ale_snapshot_newest(telemetry->exchange->motor_line, &fresh);
+    if (ale_supervisor_watch_motors(&telemetry->supervisor, telemetry->config->drive_port, *status, line)) {
+        ale_logger_log(telemetry->logger, line);
+    }
+}
+
 static void take_command(void *user, const uint8_t *bytes, size_t count)
 {
     ale_telemetry_t *telemetry = user;
@@ -185,6 +195,7 @@ static void work(ale_telemetry_t *telemetry)
     watch_odometry(telemetry);
     watch_others(telemetry);
     watch_network(telemetry);
+    watch_motors(telemetry);
     watch_realtime(telemetry);
     const int64_t now_ns = ale_rt_now_ns();
     ale_map_publisher_work(&telemetry->map, telemetry->results.epoch, now_ns);

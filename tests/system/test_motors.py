@@ -199,11 +199,15 @@ def test_set_points_go_over_a_serial_line_that_no_bus_reaches(chain, heard, puls
 def test_a_line_that_is_not_there_is_said_and_tried_again(chain):
     link = chain.folder / "motors"
     robot = Commanded(chain, f"[drive]\nport = {link}\n", simulator=False)
-    wait_until(lambda: f"motor controller: {link}: " in robot.firmware.err(), 180, "the words")
+    words = f"motor controller: {link}: "
+    wait_until(lambda: f"{words}no such serial device" in robot.firmware.err(), 180, "the words")
     controller = Controller()
     try:
         link.symlink_to(controller.path)
         wait_until(lambda: len(controller.lines) > 10, 180, "lines")
+        wait_until(lambda: f"{words}there again" in robot.firmware.err(), 180, "a word that it is there")
     finally:
         controller.stop()
+    wait_until(lambda: robot.firmware.err().count(words) == 3, 180, "a word that it is gone")
     assert robot.send("stop")[0], "a line that is gone holds nothing up"
+    assert robot.firmware.err().count(words) == 3, "and is not said again and again"

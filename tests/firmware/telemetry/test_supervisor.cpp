@@ -5,6 +5,7 @@
 #include <string>
 
 extern "C" {
+#include "serial/port_status.h"
 #include "telemetry/supervisor.h"
 }
 
@@ -95,6 +96,22 @@ TEST(Supervisor, TheStatusSaysWhatTheDriverDoes)
     const ale_scanner_health_t absent = health_in(ALE_SCANNER_CLOSED, "/dev/ttyACM0: permission denied");
     ale_supervisor_report(&absent, 0, ALE_WHEELS_FINE, report.get());
     EXPECT_STREQ(report->driver_state, "no scanner: /dev/ttyACM0: permission denied");
+}
+
+TEST(Supervisor, AMotorLineThatGoesAndComesIsSaidOnceEach)
+{
+    ale_supervisor_t supervisor{};
+    const auto said_of = [&](int status) -> std::string {
+        char line[ALE_SUPERVISOR_LINE] = "";
+        return ale_supervisor_watch_motors(&supervisor, "/dev/motors", status, line) ? line : "";
+    };
+    EXPECT_EQ(said_of(ALE_PORT_OK), "");
+    EXPECT_EQ(
+        said_of(ALE_PORT_ABSENT),
+        "motor controller: /dev/motors: no such serial device: nothing drives by this line; trying again");
+    EXPECT_EQ(said_of(ALE_PORT_GONE), "") << "another cause of the same";
+    EXPECT_EQ(said_of(ALE_PORT_OK), "motor controller: /dev/motors: there again");
+    EXPECT_EQ(said_of(ALE_PORT_OK), "");
 }
 
 TEST(Supervisor, ANetworkThatIsMissingIsSaidOnceAndItsComingToo)
