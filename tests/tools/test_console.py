@@ -365,6 +365,20 @@ def test_when_the_robot_that_is_shown_has_gone_the_other_one_is(console, robot, 
         pulse.stop()
 
 
+def test_the_prefix_in_its_url_chooses_the_robot(lcm_url, robot):
+    mine = Console(f"{lcm_url}&prefix=rover1.")
+    try:
+        watching = WebSocket(mine.url)
+        watching.wait_for("hello")
+        for scan, prefix in ((5, ""), (6, "rover2."), (7, "rover1.")):
+            pose = robot.pose()
+            pose.scan = scan
+            robot.bus.publish(f"{prefix}ALE_POSE", pose.encode())
+        assert watching.wait_for("pose")["scan"] == 7
+    finally:
+        assert mine.end() == 0
+
+
 def test_an_overtaken_pose_does_not_turn_back_time(console, robot):
     watching = WebSocket(console.url)
     for scan in (5, 7, 6, 8):
