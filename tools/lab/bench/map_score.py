@@ -16,23 +16,29 @@ import numpy as np
 
 TWICE_M, TWICE_ALONG_M, TWICE_COS = 0.35, 0.30, math.cos(math.radians(15))
 RIGHT_M, RIGHT_COS, FOUND_M = 0.03, math.cos(math.radians(8)), 0.06
+APART_COLOUR = "6"  # tools/common/export/map_dxf.cpp
 STEP_M, SIGHT_M, BEAMS_LEAST, POSE_EVERY = 0.05, 4.0, 5, 5
 
 
-def read_walls(path):
-    """Lines of the layer WALLS, one a row: x1 y1 x2 y2."""
+def read_pieces(path):
+    """Lines of the layer WALLS, one a row: x1 y1 x2 y2; and which of them are in maps that are not joined with the first."""
     with open(path, encoding="ascii", errors="replace") as file:
         words = [word.strip() for word in file]
-    walls, entity = [], {}
+    walls, apart, entity = [], [], {}
     for code, value in zip(words[::2], words[1::2]):
         if code == "0":
             if entity.get("0") == "LINE" and entity["8"] == "WALLS":
                 walls.append([float(entity[key]) for key in ("10", "20", "11", "21")])
+                apart.append(entity.get("62") == APART_COLOUR)
             entity = {}
         entity[code] = value
     if not walls:
         raise ValueError(f"{path}: no walls in it: is it a map of ale-replay --map F.dxf?")
-    return np.array(walls).reshape(-1, 4)
+    return np.array(walls).reshape(-1, 4), np.array(apart)
+
+
+def read_walls(path):
+    return read_pieces(path)[0]
 
 
 def read_numbers(path, columns):

@@ -49,21 +49,29 @@ WITHIN_RECORDED_M, WITHIN_TOLD_OTHERWISE_M = 0.15, 0.30
 JOINED_S = 5
 
 
+def told_with(build, drive, kind, seed, odometry, folder, *words):
+    """What ale-replay says of a drive with a fault, and the first scan after that; nothing where the kind does not fit."""
+    spoilt = drive.spoilt(build, kind, seed, folder)
+    if not spoilt:
+        return None
+    log, after, places, headings = spoilt
+    path = pathlib.Path(folder) / "spoilt.log"
+    log.write(path)
+    return replayed(build, path, places, headings, odometry, *words), after
+
+
 def run(task):
     """One fault in one drive: its figures."""
     build, drive, kind, seed, odometry = task
     row = {"group": drive.group, "drive": drive.name, "kind": kind, "seed": seed}
     with tempfile.TemporaryDirectory() as folder:
-        spoilt = drive.spoilt(build, kind, seed, folder)
-        if not spoilt:
-            return {}
-        log, after, places, headings = spoilt
-        path = pathlib.Path(folder) / "spoilt.log"
-        log.write(path)
         try:
-            row.update(judged(replayed(build, path, places, headings, odometry), after))
+            done = told_with(build, drive, kind, seed, odometry, folder)
         except (subprocess.CalledProcessError, ValueError) as error:
             return {**row, "failed": str(getattr(error, "stdout", "") or error).splitlines()[-1]}
+    if not done:
+        return {}
+    row.update(judged(*done))
     row["within"] = row["ate"] <= limit_m(drive, kind)
     return row
 

@@ -42,8 +42,9 @@ class Told:
         self.good = (self.state == GOOD) & ~np.array([row["predicted"] for row in self.rows])
         self.map_id = np.array([row.get("map_id", 0) for row in self.rows])
 
-    def ate_m(self):
-        return float(np.sqrt(np.mean(np.square(aligned_errors(self.final, self.true_places)))))
+    def ate_m(self, live=False):
+        """Of the final trajectory, or of the live one."""
+        return float(np.sqrt(np.mean(np.square(aligned_errors(self.live if live else self.final, self.true_places)))))
 
     def denied(self):
         """Whether the covariance told denies the error."""
@@ -76,11 +77,11 @@ def judged(told, after):
             "other_map": int((told.map_id != told.map_id[0]).sum()), "ends_in_other": bool(told.map_id[-1] != told.map_id[0])}
 
 
-def replayed(build, log, places, headings, odometry):
-    """A log beside its truth, one pose a scan."""
+def replayed(build, log, places, headings, odometry, *words):
+    """A log beside its truth, one pose a scan; words: what else ale-replay is told."""
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(build, folder)
-        live, final, _ = bench.replay(log, "--odometry", odometry)
+        live, final, _ = bench.replay(log, "--odometry", odometry, *words)
         times, live_places, live_headings = read_tum(live)
         rows = [json.loads(row) for row in bench.poses.read_text(encoding="utf-8").splitlines()]
         if len(rows) != len(places):
