@@ -25,3 +25,12 @@ MAPS ?= $(BUILD)/maps
 .PHONY: maps
 maps: programs ## a page of maps of all recordings at hand (build/maps; MAP_LOGS=paths, MAPS=folder)
 	@$(PYTHON) tools/lab/figures/maps.py --replay $(BUILD)/bin/ale-replay --out $(MAPS) $(MAP_LOGS)
+
+# A drive with each fault of tools/lab/bench/faults: its page is renewed by make fault-maps FAULT_MAPS=tools/lab/bench/faults/maps.
+FAULT_MAPS ?= $(BUILD)/fault-maps
+WORLD ?=
+.PHONY: fault-maps
+fault-maps: ## maps of a drive with each kind of fault (build/fault-maps; WORLD=apartment, KINDS=gap,dark-8, FAULT_MAPS=folder)
+	@tools/make/deps.sh tools/make/packages-build.txt tools/make/packages-test.txt tools/make/packages-figures.txt
+	@$(MAKE) --no-print-directory -s $(BUILD)/bin/ale-replay $(BUILD)/bin/ale-sim
+	@$(PYTHON) tools/lab/figures/fault_maps.py --build $(BUILD) --out $(FAULT_MAPS) $(addprefix --world ,$(WORLD)) $(addprefix --kinds ,$(KINDS))
