@@ -4,7 +4,8 @@
     fault_maps.py --build build --out build/fault-maps [--world home] [--longer office] [--kinds KIND,..]
 
 Writes a picture a family of kinds and README.md. Each picture begins with the drive as recorded; grey are the true walls, black those of
-the map, violet those of maps that were begun anew and not joined with it; blue is the final way. A kind that wants a longer drive gets it through the world --longer. Figures are those of faults_table.py.
+the map, violet those of maps that were begun anew and not joined with it; blue is the final way. A kind that wants a longer drive gets it
+through the world --longer. Figures are those of faults_table.py.
 
 Stands twice: how many metres of wall run beside themselves (map_score.py). Astray: metres of the map's lines that are more than 0.15 m
 from every true wall, seen from the first scan. A map is in pieces where another was not joined with it. The map itself is called single when
