@@ -18,6 +18,8 @@ namespace
 /* Farther away nothing is meant: a slip of the pen, or millimetres. */
 constexpr double largest_coordinate = 10000;
 constexpr double shortest_wall = 1e-6;
+/* Bytes of a file: a hundred thousand walls. */
+constexpr size_t most_bytes = 16 << 20;
 
 [[noreturn]] void fail(const std::string &name, size_t line, const std::string &what)
 {
@@ -142,7 +144,14 @@ World load_world(const std::string &path)
     if (S_ISDIR(status.st_mode)) {
         throw std::runtime_error(path + ": is a directory");
     }
-    return parse_world(in, path);
+    std::string text(most_bytes + 1, '\0');
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<size_t>(in.gcount()));
+    if (text.size() > most_bytes) {
+        throw std::runtime_error(path + ": too large");
+    }
+    std::istringstream whole(text);
+    return parse_world(whole, path);
 }
 
 } // namespace sim

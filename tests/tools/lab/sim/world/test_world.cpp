@@ -88,4 +88,14 @@ TEST(World, a_file_that_cannot_be_read_is_named)
     }
 }
 
+TEST(World, a_file_without_end_is_refused_before_it_takes_the_memory)
+{
+    try {
+        sim::load_world("/dev/zero");
+        FAIL();
+    } catch (const std::runtime_error &error) {
+        EXPECT_STREQ(error.what(), "/dev/zero: too large");
+    }
+}
+
 } // namespace
