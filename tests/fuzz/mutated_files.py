@@ -25,6 +25,8 @@ import zlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LIMIT_S = 60
+MOMENT_S = "0.4"
+NOBODY = "127.0.0.1:9"
 SCANS = 24
 NUMBERS = ["0", "-1", "1", "-0.0", "1e-9", "3.4e38", "1e308", "-1e308", "nan", "inf", "-inf", "9" * 40, "2147483647", "-2147483648",
            "2147483648", "4294967295", "4294967296", "9223372036854775807", "-9223372036854775808", "9223372036854", "-9223372036854",
@@ -290,6 +292,32 @@ class Trial:
     def check(self, option, path):
         return [[self.programs / "ale-slamd", option, path, "--check-config"]]
 
+    def setting(self, section, name, path):
+        """A file that the configuration names."""
+        config = self.folder / "naming.ini"
+        config.write_text(f"[commands]\nkeys = {self.seeds / 'keys'}\n[{section}]\n{name} = {path}\n")
+        return self.check("--config", config)
+
+    def believed(self, path):
+        """The robots that an operator believes are in a file beside his key, with an ending."""
+        beside = self.folder / "alice.key.robots"
+        shutil.copy(path, beside)
+        scout = (self.seeds / "scout").read_text(encoding="ascii").strip()
+        return [[self.programs / "ale-keys", "--know", scout, "--secret", beside.with_suffix("")]]
+
+    def moment(self, name, *words):
+        """Of a program that goes on until it is ended."""
+        return [["timeout", "--preserve-status", MOMENT_S, self.programs / name, *words, "--lcm-url", "memq://"]]
+
+    def operator(self, path):
+        beside = self.folder / "alice.key"
+        shutil.copy(path, beside)
+        shutil.copy(self.seeds / "robots", f"{beside}.robots")
+        return self.moment("ale-bridge", "--connect", NOBODY, "--keys", beside)
+
+    def played(self, path):
+        return self.moment("ale-sim", "--world", path, "--pty", self.folder / "urg", "--truth", self.folder / "out.tum", "--speed", "100")
+
 
 FORMATS = {  # name: what is damaged, how, who reads it
     "carmen": (carmen, damaged_text, Trial.replay),
@@ -305,6 +333,11 @@ FORMATS = {  # name: what is damaged, how, who reads it
     "map": (None, damaged_map, Trial.map_of_start),
     "config": (None, damaged_text, lambda trial, path: trial.check("--config", path)),
     "keys": (None, damaged_text, lambda trial, path: trial.check("--keys", path)),
+    "own_key": (None, damaged_text, lambda trial, path: trial.setting("commands", "own_key", path)),
+    "drive_key": (None, damaged_text, lambda trial, path: trial.setting("drive", "key", path)),
+    "robots": (None, damaged_text, Trial.believed),
+    "secret": (None, damaged_text, Trial.operator),
+    "world": (None, damaged_text, Trial.played),
 }
 
 
@@ -315,13 +348,19 @@ def write_seeds(programs, folder):
             (folder / name).write_bytes(make())
     (folder / "config").write_bytes(subprocess.run([programs / "ale-slamd", "--print-config"], check=True,
                                                    stdout=subprocess.PIPE).stdout)
-    subprocess.run([programs / "ale-keys", "alice", "--secret", folder / "secret", "--robot", folder / "keys"], check=True,
-                   stdout=subprocess.DEVNULL)
+    keys = programs / "ale-keys"
+    subprocess.run([keys, "alice", "--secret", folder / "secret", "--robot", folder / "keys"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([keys, "--drive", folder / "drive_key"], check=True, stdout=subprocess.DEVNULL)
+    (folder / "scout").write_bytes(subprocess.run([keys, "--own", "scout", "--robot", folder / "scouts"], check=True,
+                                                  stdout=subprocess.PIPE).stdout)
+    shutil.copy(folder / "keys.secret", folder / "own_key")
+    shutil.copy(folder / "secret.robots", folder / "robots")
+    shutil.copy(ROOT / "tools/lab/worlds/home.world", folder / "world")
     subprocess.run([programs / "ale-replay", folder / "carmen", "--save-map", folder / "map"], check=True, stdout=subprocess.DEVNULL,
                    stderr=subprocess.DEVNULL)
 
 
-def trouble(command):
+def trouble(command, fine=(0, 1, 2)):
     """What is wrong with how a program ends; empty: nothing."""
     surroundings = {**os.environ, "ASAN_OPTIONS": "hard_rss_limit_mb=2000:allocator_may_return_null=1:detect_leaks=0",
                     "UBSAN_OPTIONS": "halt_on_error=1:print_stacktrace=1"}
@@ -334,7 +373,7 @@ def trouble(command):
     bad = re.search(r".*(runtime error|Sanitizer|rss limit).*", words)
     if bad:
         return words[bad.start():][:2000]
-    return "" if done.returncode in (0, 1, 2) else f"ended with {done.returncode}: {words[-400:]}"
+    return "" if done.returncode in fine else f"ended with {done.returncode}: {words[-400:]}"
 
 
 def try_one(programs, seeds, name, number, keep):
@@ -357,10 +396,10 @@ def try_one(programs, seeds, name, number, keep):
 def try_all(args, seeds):
     failed = 0
     with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-        for name in [args.only] if args.only else FORMATS:
+        for name in [args.only] if args.only else [one for one in FORMATS if one not in args.without]:
             with tempfile.TemporaryDirectory() as folder:
                 intact = [wrong for command in FORMATS[name][2](Trial(args.programs, seeds, pathlib.Path(folder), 0), seeds / name)
-                          if (wrong := trouble(command))]
+                          if (wrong := trouble(command, fine=(0,)))]
             numbers = range(args.seed, args.seed + args.inputs)
             wrong = intact + [text for text in pool.map(
                 lambda number, name=name: try_one(args.programs, seeds, name, number, args.keep), numbers) if text]
@@ -377,6 +416,7 @@ def main():
     parser.add_argument("--inputs", type=int, default=2000, help="of each format")
     parser.add_argument("--seed", type=int, default=0, help="number of the first input")
     parser.add_argument("--only", choices=FORMATS)
+    parser.add_argument("--without", nargs="*", choices=FORMATS, default=[], help="formats to leave out")
     parser.add_argument("--keep", type=pathlib.Path, default=pathlib.Path("build/mutated"), help="where what failed is kept")
     args = parser.parse_args()
     if args.formats:
