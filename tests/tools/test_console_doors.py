@@ -1,7 +1,9 @@
 """Who is let in by ale-console, and who holds up nobody: the token and where it can be seen, TLS, a proxy, half-open requests."""
 import contextlib
+import json
 import os
 import pathlib
+import random
 import shutil
 import socket
 import ssl
@@ -12,13 +14,18 @@ import time
 import urllib.error
 import urllib.request
 
+import ale
 import pytest
 
 import browser
 from at_hand import BINARIES
-from waiting import wait_until
+from waiting import Ear, Pulse, wait_until
 from watching import Console, alice, console, lcm_url, robot  # noqa: F401 (fixtures)
 from web_socket import Refused, WebSocket
+
+REQUESTS = 10000 if os.environ.get("ALE_LONG_TESTS") else 1000
+REQUESTS_A_STOP = 50
+STOP_S = 0.3
 
 
 def status_of(url):
@@ -103,6 +110,84 @@ def test_half_open_requests_hold_up_nobody(alice, text):
         held += half_open(alice, 50, text)
     for one in held:
         one.close()
+
+
+class Rude:
+    """Requests and frames as nobody's browser makes them, also of somebody who has the token; none of them is a command."""
+
+    def __init__(self, console):
+        self.console = console
+        self.random = random.Random(17)
+        place = console.address.split("/")[2]
+        self.place = (place.split(":")[0], int(place.split(":")[1]))
+        self.upgrade = (f"GET /?token=%s HTTP/1.1\r\nHost: {place}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+                        "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Version: 13\r\n\r\n")
+        self.kinds = (self.noise, self.cut, self.changed, self.swollen, self.stranger, self.frames, self.frames)
+
+    def noise(self):
+        return self.random.randbytes(self.random.randrange(600))
+
+    def asked(self):
+        return (self.upgrade % self.console.token).encode()
+
+    def cut(self):
+        return self.asked()[:self.random.randrange(300)]
+
+    def changed(self):
+        data = bytearray(self.asked())
+        for _ in range(self.random.choice((1, 3, 20))):
+            data[self.random.randrange(len(data))] = self.random.randrange(256)
+        return bytes(data)
+
+    def swollen(self):
+        name = self.random.choice((b"Cookie", b"X" * 3000, b"Content-Length", b"Host", b"\0"))
+        return self.asked()[:-2] + (name + b": " + b"9" * self.random.choice((0, 20, 9000)) + b"\r\n") * self.random.choice((1, 50)) + b"\r\n"
+
+    def stranger(self):
+        return (self.upgrade % self.random.choice(("", "x" * 5000, "%00", self.console.token[:-1]))).encode() + self.frame()
+
+    def frame(self):
+        length = self.random.choice((0, 1, 125, 126, 127))
+        more = self.random.randbytes({126: 2, 127: 8}.get(length, 0))
+        first = self.random.choice((0x81, 0x01, 0x00, 0x80, 0x82, 0x88, 0x89, 0x8A, 0x8F, 0xF1))
+        return bytes((first, length | self.random.choice((0, 0x80)))) + more + self.random.randbytes(self.random.randrange(200))
+
+    def frames(self):
+        return self.asked() + b"".join(self.frame() for _ in range(self.random.randrange(1, 5)))
+
+    def call(self):
+        with contextlib.suppress(OSError), socket.create_connection(self.place, timeout=180) as one:
+            one.sendall(self.random.choice(self.kinds)())
+            if self.random.randrange(8) == 0:
+                one.settimeout(0.05)
+                one.recv(1000)
+
+
+def test_ten_thousand_hostile_requests_hold_up_no_stop(alice, robot, lcm_url):
+    """A thousand of them where there is little time. In between the operator stops his robot, again and again."""
+    heard = []
+    ear = Ear(lcm_url, ["ALE_COMMAND"], lambda _, data: heard.append(ale.command_t.decode(data).verb))
+    status = Pulse(0.5, robot.publish_status)
+    rude, crossed = Rude(alice), []
+    try:
+        page = WebSocket(alice.url)
+        wait_until(lambda: page.wait_for("status")["vouched"], 180, "the robot's word")
+        for _ in range(REQUESTS // REQUESTS_A_STOP):
+            for _ in range(REQUESTS_A_STOP):
+                rude.call()
+            before, asked = len(heard), time.monotonic()
+            page.send(json.dumps({"type": "command", "words": ["stop"]}))
+            wait_until(lambda so_far=before: len(heard) > so_far, 180, "the stop")
+            crossed.append(time.monotonic() - asked)
+            assert page.wait_for("sent")["refusal"] is None
+    finally:
+        status.stop()
+        ear.stop()
+    crossed.sort()
+    print(f"{REQUESTS} hostile requests; a stop leaves in {crossed[len(crossed) // 2] * 1000:.0f} ms, at most {crossed[-1] * 1000:.0f} ms")
+    assert crossed[int(0.9 * len(crossed))] < STOP_S, "a busy machine may hold up some"
+    assert set(heard) == {"stop"}
+    WebSocket(alice.url).wait_for("hello")
 
 
 def is_closed(connection):

@@ -148,7 +148,7 @@ MUTATED = $(PYTHON) tests/fuzz/mutated_files.py --programs $(BUILD)/asan/bin --k
 export ALE_TYPES = $(ALE_BUILD)/python
 .PHONY: mutated
 mutated: programs lcm-types ## damaged files of every format, 2,000 of each (MUTATED_INPUTS=100; MUTATED_FORMATS="map scip")
-	@$(CHECKED) -j2 $(MUTATED_PROGRAMS)
+	@$(CHECKED) -j2 $(MUTATED_PROGRAMS) $(addprefix $(BUILD)/asan/bin/ale-,$(MUTATED_LONG_PROGRAMS))
 	@for format in $(MUTATED_FORMATS); do \
 	    $(PYTHON) tools/make/run_tests.py command "mutated $$format" $(MUTATED) --inputs $(MUTATED_INPUTS) --only $$format || failed=1; done; \
 	    test -z "$$failed"
@@ -190,8 +190,12 @@ SUB = $(MAKE) --no-print-directory -s DEBUG=-g1
 CHECKED = $(SUB) CC=$(CCACHE)clang CXX=$(CCACHE)clang++ BUILD=$(BUILD)/asan TEST_BUILD=$(BUILD) SANITIZE=address,undefined OPT=-O1 \
     SANITIZER_SCOPE=-fsanitize-ignorelist=tests/sanitizer_scope.txt
 MUTATED_PROGRAMS = $(addprefix $(BUILD)/asan/bin/,ale-replay ale-slamd ale-keys)
-# What tests/system/test_hostile*.py start.
-HOSTILE_PROGRAMS = $(addprefix $(BUILD)/asan/bin/ale-,slamd keys send sim console watch latency record)
+# Who reads what a share of the damaged files leaves out.
+MUTATED_LONG_PROGRAMS = bridge sim
+MUTATED_LONG_FORMATS = secret world
+# Tests of hostile input on every socket, and what they start.
+HOSTILE_TESTS = test_hostile or ten_thousand_hostile
+HOSTILE_PROGRAMS = $(addprefix $(BUILD)/asan/bin/ale-,slamd keys send sim console watch latency record bridge)
 ROBOT_TESTS = tests/lib tests/drivers tests/firmware
 THREADED = $(SUB) BUILD=$(BUILD)/tsan TEST_BUILD=$(BUILD) SANITIZE=thread OPT=-O1 T=tests/firmware
 RTAI_SYSTEM_TESTS = tests/system/test_daemon.py tests/system/test_latency.py
@@ -234,7 +238,7 @@ test-computing:
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes" $(SUB) same-bytes SAME_BYTES_HOW=--quick SAME_BYTES_BUILDS=$(BUILD)/asan/bin/ale-replay
 	@$(PHASE) "damaged files, a share of them"
 	@$(CHECKED) -j2 $(MUTATED_PROGRAMS)
-	-@$(PYTHON) tools/make/run_tests.py command "mutated files" $(MUTATED) --inputs 25
+	-@$(PYTHON) tools/make/run_tests.py command "mutated files" $(MUTATED) --inputs 25 --without $(MUTATED_LONG_FORMATS)
 
 # A build with RTAI begins with the objects of the ordinary one: only the port is another, and what is linked with it.
 #
@@ -258,9 +262,9 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	@rm -rf $(BUILD)/rtai-build && mkdir -p $(BUILD)/rtai-build && cp -a $(BUILD)/obj $(BUILD)/lcmtypes $(BUILD)/rtai-build
 	-@$(PYTHON) tools/make/run_tests.py command "make RT=rtai" $(SUB) $(RTAI_BUILD) -j2 programs
 	-@$(SUB) system-rtai
-	@$(PHASE) "hostile datagrams and messages on every LCM socket, with sanitizers"
+	@$(PHASE) "hostile datagrams, messages and requests on every socket, with sanitizers"
 	@$(CHECKED) -j2 $(HOSTILE_PROGRAMS) lcm-types
-	-@ALE_LONG_TESTS=1 $(CHECKED) VENV=$(abspath $(VENV)) SYSTEM_PROGRAMS= T=test_hostile system
+	-@ALE_LONG_TESTS=1 $(CHECKED) VENV=$(abspath $(VENV)) SYSTEM_PROGRAMS= T="$(HOSTILE_TESTS)" system
 	@$(PHASE) "the robot explores at a click in the browser"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=console_explores
 	@$(PHASE) "hostile messages, ten thousand of every kind"
