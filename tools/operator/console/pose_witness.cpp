@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace console
 {
@@ -29,6 +30,7 @@ constexpr double ppm = 1e6;
 void PoseWitness::heard(int32_t scan, int64_t digest, Clock::time_point now)
 {
     if (heard_.size() == most_heard) {
+        crowded_out_ += now - heard_.front().when < vouched_within;
         heard_.pop_front();
     }
     heard_.push_back({scan, digest, now});
@@ -77,6 +79,7 @@ bool PoseWitness::is_beyond(int32_t scan, Clock::time_point now) const
 uint64_t PoseWitness::compare(const ale::vouched_t &vouched, Clock::time_point now)
 {
     const uint64_t before = forged_;
+    forged_ += std::exchange(crowded_out_, 0);
     note_reached(vouched, now);
     std::deque<Heard> open;
     for (const Heard &pose : heard_) {

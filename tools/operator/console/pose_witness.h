@@ -20,7 +20,8 @@ class PoseWitness
     /* An ALE_POSE came in: its scan, and the digest of its bytes as vouched_t has it. */
     void heard(int32_t scan, int64_t digest, Clock::time_point now);
 
-    /* The robot vouches for its newest poses. How many of those that were heard since are not its own. */
+    /* The robot vouches for its newest poses. How many of those that were heard since are not its own;
+     * of a flood that would hide them, those that there was no room for. */
     uint64_t compare(const ale::vouched_t &vouched, Clock::time_point now);
 
     /* Some were found within the last ten seconds. */
@@ -48,6 +49,8 @@ class PoseWitness
 
     std::deque<Heard> heard_; /* not yet judged */
     uint64_t forged_ = 0;
+    uint64_t crowded_out_ =
+        0; /* unjudged, by more poses than a robot sends: a forged one may be among them */
     Clock::time_point alarm_{};
     double reached_ = 0; /* the robot's newest scan, by words that were held up least */
     double rate_hz_ = 0; /* 0: not known yet */

@@ -79,6 +79,27 @@ TEST_F(Witness, OnesThatTheRobotNeverReachesAreForged)
     EXPECT_EQ(witness.forged(), 2U);
 }
 
+TEST_F(Witness, AFloodDoesNotHideAForgedOne)
+{
+    hear(0, 20);
+    EXPECT_EQ(witness.compare(vouched(0, 20), now), 0U);
+    witness.heard(25, 7, now);
+    for (int k = 0; k < 600; k++) {
+        witness.heard(3, own(3), now); /* its own, played again */
+    }
+    hear(21, 30);
+    EXPECT_GT(witness.compare(vouched(10, 30), now + seconds(1)), 0U);
+    EXPECT_TRUE(witness.is_alarmed(now + seconds(1)));
+}
+
+TEST_F(Witness, AsManyInALongerTimeAreNoFlood)
+{
+    for (int k = 0; k < 600; k++) {
+        witness.heard(3, own(3), now + milliseconds(10) * k);
+    }
+    EXPECT_EQ(witness.compare(vouched(0, 20), now + seconds(6)), 0U);
+}
+
 TEST_F(Witness, WhileAlarmedNumbersThatTheRobotCannotHaveReachedAreBeyond)
 {
     auto word = vouched(0, 20);
