@@ -13,6 +13,7 @@ import urllib.error
 import urllib.request
 
 import ale
+import lcm
 import pytest
 
 from robot_double import WALLS, RobotDouble
@@ -124,6 +125,31 @@ def test_poses_that_are_not_the_robots_own_are_told_as_such_and_take_the_place_o
         time.sleep(0.1)
     assert forged <= 3, "some that were on their way when it was found out"
     assert robot.scan - first <= 45, "its own are shown, nearly every one"
+
+
+def test_poses_of_another_program_take_the_place_of_none_whatever_their_number(alice, robot, lcm_url):
+    """Each with the number that the robot's next one will have. They are told, and then the robot alone is shown."""
+    bus, page = lcm.LCM(lcm_url), WebSocket(alice.url)
+
+    def beat():
+        if robot.scan % 10 == 0:
+            robot.publish_status()
+        robot.publish_pose()
+        other = robot.pose()
+        other.scan, other.map_x = robot.scan + 1, 90.0
+        bus.publish("ALE_POSE", other.encode())
+        robot.scan += 1
+
+    both = Pulse(0.1, beat)
+    try:
+        until(page, lambda message: message["type"] == "status" and any("not the robot's own" in line for line in message["warnings"]), "a warning")
+        first = robot.scan + 2
+        taken = until(page, lambda message: message["type"] == "pose" and message["scan"] >= first + 40, "poses")
+    finally:
+        both.stop()
+    shown = [message for message in taken if message["type"] == "pose" and message["scan"] >= first]
+    assert not [pose["scan"] for pose in shown if pose["map"][0] > 80]
+    assert len(shown) > 30, "nearly every one"
 
 
 def test_one_page_drives_at_a_time(alice, robot, commands):

@@ -29,10 +29,14 @@ constexpr int32_t largest_gap = 100000;
 
 } // namespace
 
-/* Of the robot that is shown; where a robot vouches for what it says, others are told by that. */
+/* Of the robot that is shown. Where a robot vouches for what it says, others are told by that; while some are
+ * found to speak in its name, only the socket is heard that its word came from. */
 bool RobotWatch::hears()
 {
-    return commander_.believes() || speakers_.shows(sender(), SpeakerChoice::Clock::now());
+    if (!commander_.believes()) {
+        return speakers_.shows(sender(), SpeakerChoice::Clock::now());
+    }
+    return sender() == vouching_sender_ || !witness_.is_alarmed(PoseWitness::Clock::now());
 }
 
 uint64_t RobotWatch::sender() const
@@ -54,7 +58,7 @@ void RobotWatch::subscribe(feed::LcmFeed &feed)
 {
     feed_ = &feed;
     feed.on_bytes("ALE_POSE", [this](const uint8_t *bytes, size_t count) {
-        if (hears()) {
+        if (commander_.believes() || hears()) {
             pose_bytes(bytes, count);
         }
     });
@@ -92,7 +96,7 @@ void RobotWatch::pose_bytes(const uint8_t *bytes, size_t count)
         feed::check(message);
         witness_.heard(message.scan, ale_digest(bytes, count), now);
     }
-    if (!witness_.is_beyond(message.scan, now)) {
+    if (!witness_.is_beyond(message.scan, now) && hears()) {
         pose(message);
     }
 }
@@ -182,6 +186,7 @@ void RobotWatch::vouched_bytes(const uint8_t *bytes, size_t count)
     if (!message) {
         return;
     }
+    vouching_sender_ = sender();
     if (boot_ && *boot_ != message->boot) {
         witness_ = PoseWitness();
     }

@@ -66,6 +66,7 @@ class RobotWatch
     PoseWitness witness_;
     SpeakerChoice speakers_;
     const feed::LcmFeed *feed_ = nullptr;
+    uint64_t vouching_sender_ = 0; /* of the newest word of the robot that is believed */
     std::optional<ale::pose_t> last_pose_;
     std::optional<int64_t> boot_; /* of the start that is shown, */
     std::string robot_;           /* and its robot */
