@@ -23,8 +23,7 @@ typedef struct {
     ale_port_t *port;
     int64_t next_try_ns;
     uint32_t taken; /* lines in a row that the port took */
-    int status; /* of the line, as ale_port_strerror knows it; ALE_PORT_OK: it takes lines, or there is none
-                 */
+    int status;     /* of the line, as ale_port_strerror knows it; ALE_PORT_OK also where there is none */
 } ale_motor_link_t;
 
 /* Joins the bus and opens the line. A line that cannot be opened is tried again every second. key NULL: none;

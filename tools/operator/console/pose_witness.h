@@ -49,8 +49,7 @@ class PoseWitness
 
     std::deque<Heard> heard_; /* not yet judged */
     uint64_t forged_ = 0;
-    uint64_t crowded_out_ =
-        0; /* unjudged, by more poses than a robot sends: a forged one may be among them */
+    uint64_t crowded_out_ = 0; /* unjudged, by more poses than a robot sends: any may have been forged */
     Clock::time_point alarm_{};
     double reached_ = 0; /* the robot's newest scan, by words that were held up least */
     double rate_hz_ = 0; /* 0: not known yet */

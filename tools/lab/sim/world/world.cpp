@@ -1,13 +1,12 @@
 #include "lab/sim/world/world.h"
 
-#include <cerrno>
 #include <charconv>
-#include <cstring>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
-#include <sys/stat.h>
+extern "C" {
+#include "file/bytes.h"
+}
 
 namespace sim
 {
@@ -136,22 +135,15 @@ World parse_world(std::istream &in, const std::string &name)
 
 World load_world(const std::string &path)
 {
+    const ale_bytes_rule_t rule = {most_bytes, true};
     struct stat status = {};
-    std::ifstream in(path);
-    if (!in || stat(path.c_str(), &status) != 0) {
-        throw std::runtime_error(path + ": " + std::strerror(errno));
+    ale_bytes_t bytes = {};
+    if (const char *wrong = ale_bytes_read_regular(&bytes, path.c_str(), &rule, &status)) {
+        throw std::runtime_error(path + ": " + wrong);
     }
-    if (S_ISDIR(status.st_mode)) {
-        throw std::runtime_error(path + ": is a directory");
-    }
-    std::string text(most_bytes + 1, '\0');
-    in.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<size_t>(in.gcount()));
-    if (text.size() > most_bytes) {
-        throw std::runtime_error(path + ": too large");
-    }
-    std::istringstream whole(text);
-    return parse_world(whole, path);
+    std::istringstream in(std::string(bytes.at, bytes.at + bytes.count));
+    ale_bytes_free(&bytes);
+    return parse_world(in, path);
 }
 
 } // namespace sim
