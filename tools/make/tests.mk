@@ -139,7 +139,7 @@ $(FUZZ_BUILD)/bin/%: tests/fuzz/%.cpp $(FUZZ_BUILD)/libale.a
 	@mkdir -p $(@D)
 	$(Q)clang++ -std=c++17 $(FUZZ_FLAGS) -fsanitize=fuzzer $(DRIVER_INCLUDES) -Itests $^ $(filter-out -lwebsockets -lpng,$(LIBRARIES)) -o $@
 
-# Files of every format, damaged, read by the real programs of the sanitized build: all of them in `make mutated`, half an hour;
+# Files of every format, damaged, read by the real programs of the sanitized build: all of them in `make mutated`, some 25 minutes;
 # a share in `make test-all`.
 MUTATED_INPUTS ?= 2000
 MUTATED_SHARE = 300
