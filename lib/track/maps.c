@@ -45,6 +45,7 @@ void ale_maps_begin(ale_pipeline_t *p)
     p->speed_known = false;
     p->watched_us = p->motion.stamp_us;
     p->begun = p->scans;
+    p->led_by_wheels = 0;
     p->broken = true;
 }
 

@@ -30,7 +30,8 @@ static bool has_gone_on(const ale_pipeline_t *p)
 
 bool ale_pipeline_keyframe(ale_pipeline_t *p, ale_keyframe_t *out)
 {
-    if (!p->started || !p->looked || p->monitor.state == ALE_STATE_LOST) {
+    const bool waits = p->waits > 0; /* for the next scan to tell where this one was taken */
+    if (!p->started || !p->looked || waits || p->monitor.state == ALE_STATE_LOST) {
         return false;
     }
     if (p->keyframes > 0 && !p->broken && !p->joined && !has_gone_on(p)) {

@@ -65,9 +65,10 @@ typedef struct {
 
 /* What is claimed of where a robot is that begins a new map. */
 typedef enum {
-    ALE_CLAIM_NONE, /* it may be anywhere */
-    ALE_CLAIM_NEAR, /* around where its pose says */
-    ALE_CLAIM_SAID  /* there, as somebody says: one scan that fits is enough */
+    ALE_CLAIM_NONE,   /* it may be anywhere */
+    ALE_CLAIM_NEAR,   /* around where its pose says */
+    ALE_CLAIM_DRIVEN, /* where its wheels have led it, and nowhere else */
+    ALE_CLAIM_SAID    /* there, as somebody says: one scan that fits is enough */
 } ale_claim_t;
 
 /* Another pose of a scan, that explains it better than the one that is followed: believed when the next scan
@@ -106,6 +107,8 @@ struct ale_pipeline {
     ale_tracking_monitor_t monitor;
     uint8_t waits; /* scans in a row, to this one, that wait for the next one to tell where they were taken */
     uint8_t waited; /* to the one before */
+    uint32_t
+        led_by_wheels; /* the scan to which they alone have led, unseen; 0 where a map has confirmed it */
 
     /* filter: what moves, and what is kept to tell */
     ale_static_scene_t still;

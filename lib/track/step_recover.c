@@ -4,6 +4,7 @@
 #include "base/trig.h"
 #include "match/pose_evidence.h"
 #include "track/step_associate.h"
+#include "track/step_filter.h"
 #include "track/step_observe.h"
 
 enum {
@@ -35,6 +36,14 @@ bool ale_recover_may_be_anywhere(const ale_pipeline_t *p, const ale_prediction_t
     const int64_t t_us = since_watched_us(p, prediction);
     const int64_t usual_us = p->timestamp_filter.usual_before_us;
     return t_us > ANYWHERE_US && usual_us > 0 && t_us > ANYWHERE_PERIODS * usual_us;
+}
+
+bool ale_recover_has_driven(const ale_pipeline_t *p, const ale_prediction_t *prediction)
+{
+    const ale_pose_t before = ale_witness_seen(&p->witness).robot;
+    const ale_pose_t now =
+        ale_pipeline_smooth_pose(p, prediction->before.pose, prediction->ways.believed.pose);
+    return prediction->ways.counted && !ale_are_near(before, now, SAME_UM, SAME_BAM);
 }
 
 bool ale_recover_is_unwatched(const ale_pipeline_t *p, const ale_prediction_t *prediction)

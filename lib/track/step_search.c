@@ -67,6 +67,9 @@ static bool is_laid_on(const ale_pipeline_t *p, ale_pose_t there, uint32_t withi
         }
     }
     const bool expected = ale_are_near(p->motion.pose, there, EXPECTED_UM, EXPECTED_BAM);
+    if (p->claim == ALE_CLAIM_DRIVEN && !expected) {
+        return false;
+    }
     return explained_um > (expected ? EXPECTED_LEAST_UM : LAID_LEAST_UM) &&
            explained_um * 100 > shown_um * LAID_PERCENT;
 }

@@ -38,11 +38,26 @@ static bool is_speed_known(const ale_pipeline_t *p, const ale_prediction_t *pred
     return observability->determined || (p->speed_known && even);
 }
 
-static ale_scene_verdict_t lose(ale_pipeline_t *p, ale_claim_t claim)
+static ale_scene_verdict_t lose(ale_pipeline_t *p)
 {
     ale_tracking_lose(&p->monitor);
-    p->next_claim = claim;
     return ALE_SCENE_CHANGED;
+}
+
+/* What could be said of where the robot is, if this scan were to lose it. Scans that are waited for belong to
+ * the same time unwatched; scans that were denied have watched something else than a drive. */
+static ale_claim_t claim_of(const ale_pipeline_t *p, const ale_prediction_t *prediction)
+{
+    if (p->waited > 0) {
+        return p->next_claim;
+    }
+    if (!ale_recover_is_unwatched(p, prediction)) {
+        return ALE_CLAIM_NEAR;
+    }
+    if (p->monitor.misfits == 0 && ale_recover_has_driven(p, prediction)) {
+        return ALE_CLAIM_DRIVEN;
+    }
+    return ale_recover_may_be_anywhere(p, prediction) ? ALE_CLAIM_NONE : ALE_CLAIM_NEAR;
 }
 
 /* Whether *fit explains the scan, and no other pose does as well. */
@@ -86,7 +101,7 @@ static ale_scene_verdict_t recover(ale_pipeline_t *p, const ale_prediction_t *pr
     }
     if (is_refuted(p, prediction, verdict, recovery, ways)) {
         p->waits = (uint8_t)(may_wait(p, recovery, ways) ? p->waited + 1 : 0);
-        return p->waits > 0 ? ALE_SCENE_CHANGED : lose(p, ALE_CLAIM_NEAR);
+        return p->waits > 0 ? ALE_SCENE_CHANGED : lose(p);
     }
     const bool undecided = recovery == ALE_RECOVER_UNDECIDED && verdict != ALE_SCENE_CHANGED;
     return undecided ? ALE_SCENE_UNDECIDED : verdict;
@@ -98,15 +113,42 @@ static ale_scene_verdict_t judge(ale_pipeline_t *p, const ale_prediction_t *pred
                                  ale_fit_t *fit)
 {
     const ale_scene_verdict_t verdict = ale_step_monitor(p, prediction, ways->counted, fit);
+    p->next_claim = claim_of(p, prediction);
     const bool doubtful =
         ale_recover_is_unwatched(p, prediction) || ale_tracking_doubts(fit) || verdict == ALE_SCENE_CHANGED;
     if (p->observed.count == 0 || !doubtful) {
         return verdict;
     }
+    if (p->next_claim == ALE_CLAIM_NONE) {
+        return lose(p);
+    }
     if (ale_recover_may_be_anywhere(p, prediction)) {
-        return lose(p, ALE_CLAIM_NONE);
+        p->led_by_wheels = p->scans;
     }
     return recover(p, prediction, verdict, ways, fit);
+}
+
+/* What the walls of before a drive that nobody saw tell of this scan: where they determine every direction,
+ * they confirm what wheels alone have said. p->other: the fit by them alone. */
+static void confirm_drive(ale_pipeline_t *p, const ale_fit_t *fit)
+{
+    p->other = *fit;
+    int64_t matched_um = 0;
+    for (uint32_t i = 0; i < p->observed.count; i++) {
+        ale_association_t *a = &p->other.association[i];
+        a->landmark = ALE_NO_LANDMARK;
+        if (a->wall != ALE_NO_WALL && p->map.wall[a->wall].born >= p->led_by_wheels &&
+            p->map.wall[a->wall].born != ALE_BORN_BEFORE) {
+            a->wall = ALE_NO_WALL;
+        }
+        matched_um += a->wall == ALE_NO_WALL ? 0 : ale_observation_length_um(&p->observed.observation[i]);
+    }
+    const ale_observability_t told =
+        ale_observability_of(&p->map, p->observed.observation, p->observed.count, &p->other);
+    p->other.matched_um = matched_um;
+    if (told.determined && ale_tracking_explains(&p->other)) {
+        p->led_by_wheels = 0;
+    }
 }
 
 ale_tracked_t ale_step_track(ale_pipeline_t *p, const ale_prediction_t *prediction)
@@ -123,7 +165,10 @@ ale_tracked_t ale_step_track(ale_pipeline_t *p, const ale_prediction_t *predicti
         ale_observability_of(&p->map, p->still.observation, p->still.count, fit);
     ale_update_uncertainty(p, prediction, &ways, &observability, fit);
     tracked.undecided = verdict == ALE_SCENE_UNDECIDED;
-    tracked.determined = observability.determined && !tracked.undecided;
+    if (p->led_by_wheels != 0 && verdict == ALE_SCENE_KNOWN) {
+        confirm_drive(p, fit);
+    }
+    tracked.determined = observability.determined && !tracked.undecided && p->led_by_wheels == 0;
     tracked.speed_known = is_speed_known(p, prediction, &observability);
     if (observability.degenerate && tracked.speed_known && !ways.counted) {
         /* chance matches go along with the robot and would stop it; wheels outvote them */

@@ -57,10 +57,21 @@ struct Robot {
     {
         return room::since_start(truth(), convert::pose(last.map)).head<2>().norm();
     }
-    void scan(const Walls &walls)
+    void count_wheels()
     {
         const ale_odometry_t wheels = {std::llround(t * 1e6), convert::pose(room::path(t))};
         ale_pipeline_odometry(p.get(), &wheels);
+    }
+    /* Its scanner is away, its wheels are not. */
+    void drive_unseen(double seconds)
+    {
+        for (const double until = t + seconds; t < until; t += 0.1) {
+            count_wheels();
+        }
+    }
+    void scan(const Walls &walls)
+    {
+        count_wheels();
         const ale_scan_t scan = room::scan_at(
             walls, sensor, [&](double time) { return at(time); }, t, rng);
         ale_pipeline_scan(p.get(), &scan, &last);
@@ -198,6 +209,50 @@ TEST(Maps, OneJoinsTheFirstWhereThePlaceIsRecognised)
     EXPECT_LE(robot.walls_of(0), static_cast<int>(before.size()) + 12) << "no wall stands twice";
 }
 
+/* However long the scanner was away: wheels that told of a way were on the floor, and where the map explains
+ * the scan there the robot goes on in it. */
+TEST(Maps, AfterADriveThatNobodySawTheRobotIsWhereItsWheelsAndTheMapSay)
+{
+    for (const double seconds : {6.0, 8.0, 12.0}) {
+        Robot robot;
+        robot.drive(room::l_shape(), 180);
+        ASSERT_EQ(robot.last.state, ALE_STATE_GOOD);
+        robot.drive_unseen(seconds);
+        for (int k = 0; k < 20; k++) {
+            robot.scan(room::l_shape());
+            EXPECT_EQ(robot.last.map_id, 0U) << seconds << " s, scan " << k;
+            EXPECT_TRUE(robot.last.state != ALE_STATE_GOOD || robot.off_m() < 0.05) << seconds << " s, " << k;
+        }
+        EXPECT_EQ(robot.last.state, ALE_STATE_GOOD) << seconds;
+    }
+}
+
+/* Where the map does not hold what is seen after such a drive, only the wheels say where the robot is. */
+TEST(Maps, AfterADriveThatNobodySawItIsNotGoodBeforeTheMapConfirmsIt)
+{
+    Robot robot;
+    robot.drive(room::l_shape(), 180);
+    robot.drive_unseen(8);
+    for (int k = 0; k < 60; k++) {
+        robot.scan(hall());
+        ASSERT_NE(robot.last.state, ALE_STATE_GOOD) << k;
+    }
+}
+
+/* A place that looks like one of the first map, but is not where the wheels have led, is none of it. */
+TEST(Maps, OneThatWheelsHaveLedToJoinsNowhereElse)
+{
+    Robot robot;
+    robot.drive(room::l_shape(), 180);
+    ale_maps_lose(robot.p.get(), ALE_CLAIM_DRIVEN);
+    robot.carried = other_side;
+    for (int k = 0; k < 300; k++) {
+        robot.scan(room::l_shape());
+        ASSERT_EQ(robot.last.state, ALE_STATE_LOST) << k;
+    }
+    EXPECT_EQ(robot.last.map_id, 1U);
+}
+
 /* Twenty losses: no more maps than there is room for, each with a number that was never used, no wall, corner
  * or landmark of one that was given up, and the first map is found again. */
 TEST(Maps, AreBoundedHoweverOftenTheRobotIsLost)
@@ -304,9 +359,7 @@ TEST(Maps, ALostRobotThatIsToldOfDroppedScansFindsItselfAsSoon)
                     EXPECT_TRUE(found[told] < 0 || robot.off_m() < 0.05) << start << " " << told;
                     continue;
                 }
-                const ale_odometry_t wheels = {std::llround(robot.t * 1e6),
-                                               convert::pose(room::path(robot.t))};
-                ale_pipeline_odometry(robot.p.get(), &wheels);
+                robot.count_wheels();
                 if (told) {
                     ale_pipeline_dropped(robot.p.get(), std::llround(robot.t * 1e6), &robot.last);
                 }
