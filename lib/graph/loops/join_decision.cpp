@@ -27,6 +27,10 @@ constexpr Support as_predicted{3, 1.0};
 constexpr Support elsewhere{12, 8.0};
 constexpr double predicted_m = 3.0;
 constexpr double predicted_rad = 0.8;
+// Of a drive that is smaller than that: the part of its extent, and of what can be compared.
+constexpr double least_extent = 0.6;
+constexpr double least_of_drive = 0.75;
+constexpr double least_drive_m = 2.0;  // across; what saw less may be anywhere
 constexpr size_t most_compared = 12;   // hypotheses
 constexpr double least_strength = 0.4; // of a rival, as part of that of the hypothesis
 constexpr double least_in_view = 1.0 / 3;
@@ -67,8 +71,8 @@ Loop reversed(const Loop &loop)
 } // namespace
 
 JoinDecision::JoinDecision(const std::vector<Node> &nodes, const std::vector<Pose> &poses,
-                           std::vector<Loop> matches, std::vector<int> queries)
-    : nodes_(nodes), poses_(poses), matches_(std::move(matches)), queries_(std::move(queries))
+                           std::vector<Loop> matches, std::vector<int> queries, MapKind kind)
+    : nodes_(nodes), poses_(poses), matches_(std::move(matches)), queries_(std::move(queries)), kind_(kind)
 {
     const auto within_a_map = [this](const Loop &loop) { return map_of(loop.from) == map_of(loop.to); };
     matches_.erase(std::remove_if(matches_.begin(), matches_.end(), within_a_map), matches_.end());
@@ -187,25 +191,49 @@ JoinDecision::Account JoinDecision::compared(const Hypothesis &hypothesis, int n
     return {true, fits ? seen.agreed : 0};
 }
 
+bool JoinDecision::is_far_enough(const Hypothesis &hypothesis, double least_m) const
+{
+    const Pose &first = at(poses_, hypothesis.loops.front().to);
+    return std::any_of(hypothesis.loops.begin(), hypothesis.loops.end(),
+                       [&](const Loop &loop) { return distance(at(poses_, loop.to), first) > least_m; });
+}
+
 // Nodes enough, apart, and held in every direction.
 bool JoinDecision::is_held(const Hypothesis &hypothesis) const
 {
     const Pose &first = at(poses_, hypothesis.loops.front().to);
     const bool predicted = is_near(compose(hypothesis.shift, first), first, predicted_m, predicted_rad);
     const Support &least = predicted ? as_predicted : elsewhere;
-    const auto is_apart = [&](const Loop &loop) {
-        return distance(at(poses_, loop.to), first) > least.apart_m;
-    };
     const auto holds = [](const Loop &loop) { return largest_deviation_m(loop.information) < held_m; };
     return hypothesis.loops.size() >= least.nodes &&
-           std::any_of(hypothesis.loops.begin(), hypothesis.loops.end(), is_apart) &&
+           (kind_ == MapKind::drives || is_far_enough(hypothesis, least.apart_m)) &&
            std::any_of(hypothesis.loops.begin(), hypothesis.loops.end(), holds);
+}
+
+// Of a drive that is too small for nodes so far apart: nearly all of it lies there, and most of its extent.
+bool JoinDecision::holds_all_of_it(Hypothesis &hypothesis)
+{
+    const Pose &first = at(poses_, hypothesis.loops.front().to);
+    double extent_m = least_drive_m;
+    size_t known = 0;
+    size_t agreed = 0;
+    for (const int query : queries_) {
+        if (map_of(query) == hypothesis.map_id) {
+            const Account made = account(hypothesis, query);
+            extent_m = std::max(extent_m, distance(at(poses_, query), first));
+            known += made.known;
+            agreed += made.known && made.agreed >= agrees_at_least;
+        }
+    }
+    return is_far_enough(hypothesis, least_extent * extent_m) &&
+           static_cast<double>(agreed) >= least_of_drive * static_cast<double>(known);
 }
 
 // Whether the two maps agree wherever they overlap near these nodes.
 bool JoinDecision::is_sound(Hypothesis &hypothesis)
 {
-    if (!is_held(hypothesis)) {
+    if (!is_held(hypothesis) || (kind_ == MapKind::drives && !is_far_enough(hypothesis, elsewhere.apart_m) &&
+                                 !holds_all_of_it(hypothesis))) {
         return false;
     }
     const auto is_near_it = [&](int query) {

@@ -2,7 +2,8 @@
 //
 // Matches that put a map to the same place of another are a hypothesis. One is accepted if
 // - at least three nodes, a metre apart, lie on what the other map saw, held in every direction; twelve, over
-//   eight metres, if that is not where the wheels have put them;
+//   eight metres, if that is not where the wheels have put them. Of a map that is a drive of its own, and
+//   smaller, twelve over most of it, if nearly all of it lies there;
 // - wherever the two overlap they agree: neither looks through what the other saw;
 // - every rival is refuted: another place of any map that explains the same nodes must fail at three of them
 //   where this one does not. A place that cannot be compared is not refuted. Not a rival is what fits
@@ -21,6 +22,9 @@
 namespace ale
 {
 
+// What the maps are: pieces of one way, or drives, of which each is known as a whole.
+enum class MapKind { pieces, drives };
+
 struct FoundJoin {
     MapJoin join;
     std::vector<Loop> loops; // that hold it; from the earlier to the later node
@@ -32,7 +36,7 @@ class JoinDecision
     // Nodes and poses stay the caller's and must outlive this. matches: from a place of one map to a node of
     // another, each with its overlap; queries: all nodes that were searched for.
     JoinDecision(const std::vector<Node> &nodes, const std::vector<Pose> &poses, std::vector<Loop> matches,
-                 std::vector<int> queries);
+                 std::vector<int> queries, MapKind kind);
 
     // The strongest join that may be accepted. The first map (map/atlas.h) does not move. O(matches^2), and
     // at most most_compared hypotheses compared at every query; may throw std::bad_alloc.
@@ -56,7 +60,9 @@ class JoinDecision
     Hypothesis hypothesis_of(const Loop &seed, std::vector<Loop> *left) const;
     std::vector<Hypothesis> hypotheses() const;
     bool puts_alike(const Hypothesis &hypothesis, const Pose &shift, int node) const;
+    bool is_far_enough(const Hypothesis &hypothesis, double least_m) const;
     bool is_held(const Hypothesis &hypothesis) const;
+    bool holds_all_of_it(Hypothesis &hypothesis);
     bool is_sound(Hypothesis &hypothesis);
     bool is_rival(const Hypothesis &hypothesis, const Hypothesis &other) const;
     bool is_refuted(Hypothesis &rival, Hypothesis &hypothesis);
@@ -76,6 +82,7 @@ class JoinDecision
     const std::vector<Pose> &poses_;
     std::vector<Loop> matches_;
     std::vector<int> queries_;
+    MapKind kind_;
     std::optional<Place> place_; // the last that was compared with
 };
 

@@ -171,10 +171,10 @@ void JoinSearch::keep(const std::vector<Node> &nodes, const std::vector<Pose> &p
     }
 }
 
-std::optional<FoundJoin> JoinSearch::decide(const std::vector<Node> &nodes,
-                                            const std::vector<Pose> &poses) const
+std::optional<FoundJoin> JoinSearch::decide(const std::vector<Node> &nodes, const std::vector<Pose> &poses,
+                                            MapKind kind) const
 {
-    return JoinDecision(nodes, poses, matches_, queries_).find();
+    return JoinDecision(nodes, poses, matches_, queries_, kind).find();
 }
 
 void JoinSearch::remove_node(int k)

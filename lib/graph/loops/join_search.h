@@ -46,7 +46,8 @@ class JoinSearch
     bool step(const std::vector<Node> &nodes, const std::vector<Pose> &poses);
 
     // See JoinDecision::find.
-    std::optional<FoundJoin> decide(const std::vector<Node> &nodes, const std::vector<Pose> &poses) const;
+    std::optional<FoundJoin> decide(const std::vector<Node> &nodes, const std::vector<Pose> &poses,
+                                    MapKind kind = MapKind::pieces) const;
 
     // Node k is no more: what refers to it goes, later nodes move down by one. O(tasks + matches).
     void remove_node(int k);

@@ -7,6 +7,7 @@
 
 #include "graph/loops/odometry.h"
 #include "graph/loops/submap.h"
+#include "graph/optimise/scan_node.h"
 #include "graph/optimise/thinning.h"
 #include "graph/walls/building_direction.h"
 
@@ -70,17 +71,29 @@ bool LoopCloser::add(Node node, const Pose &motion)
     return moved;
 }
 
+void LoopCloser::append(Node node, const Pose &motion)
+{
+    refined_ = false;
+    kind_ = MapKind::drives;
+    nodes_.push_back(std::move(node));
+    link_to_previous(motion);
+    joiner_.restart();
+}
+
 void LoopCloser::add_walls(const Pose &smooth, const std::vector<WallDirection> &walls)
 {
-    if (nodes_.empty() || nodes_.back().later_scans == most_later_scans) {
-        return;
+    if (!nodes_.empty()) {
+        add_later_walls(smooth, walls, &nodes_.back());
     }
-    Node &node = nodes_.back();
-    const double turned = smooth.theta - node.smooth.theta;
-    for (const WallDirection &wall : walls) {
-        node.later_walls.push_back({wrapped(wall.direction_rad + turned), wall.length_m});
+}
+
+bool LoopCloser::join_maps()
+{
+    const bool goes_on = joiner_.refine(nodes_, graph_.poses(), kind_);
+    if (goes_on && joiner_.found()) {
+        make_found_join();
     }
-    node.later_scans++;
+    return goes_on;
 }
 
 bool LoopCloser::refine()
@@ -88,10 +101,7 @@ bool LoopCloser::refine()
     if (refined_ || nodes_.size() < 2) {
         return false;
     }
-    if (!search_ && joiner_.refine(nodes_, graph_.poses())) {
-        if (joiner_.found()) {
-            make_found_join();
-        }
+    if (!search_ && join_maps()) {
         return true;
     }
     if (!search_) {
@@ -237,6 +247,7 @@ void LoopCloser::reset()
     search_.reset();
     refinement_.reset();
     refined_ = false;
+    kind_ = MapKind::pieces;
     added_ = straightened_at_ = 0;
     statistics_ = {};
 }

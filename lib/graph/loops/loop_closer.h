@@ -50,7 +50,6 @@ class LoopCloser
 {
   public:
     static constexpr size_t least_capacity = 64; // so that the present visit is whole
-    static constexpr int most_later_scans = 16;
 
     // Holds at most `capacity` nodes, least_capacity at least; allocates the graph for them.
     explicit LoopCloser(size_t capacity);
@@ -67,6 +66,13 @@ class LoopCloser
     // two pairwise matches, one match with the prior map, 30 iterations of the graph; with several maps one
     // place of others besides (MapJoiner).
     bool add(Node node, const Pose &motion);
+
+    // Adds a node of a drive that is over, one of several perhaps: loops are looked for by refine(). All
+    // nodes come this way or by add(), and as many as there are: none is removed. O(1).
+    void append(Node node, const Pose &motion);
+    // That of refine() which joins maps, alone. Called after each of many drives, it spares the search of all
+    // in all.
+    bool join_maps();
 
     // A map has become part of another: its nodes move with it, here and as tracked. Before the node at
     // `here` is added, in which the tracker has recognised a place of the other map: it ties them. Maps that
@@ -164,6 +170,7 @@ class LoopCloser
     std::optional<LoopSearch> search_;
     std::optional<PairwiseRefinement> refinement_;
     bool refined_ = false; // nothing was added since
+    MapKind kind_ = MapKind::pieces;
     LoopStatistics statistics_{};
 };
 

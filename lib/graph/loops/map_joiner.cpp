@@ -36,7 +36,7 @@ void MapJoiner::drive(const std::vector<Node> &nodes, const std::vector<Pose> &p
     }
 }
 
-bool MapJoiner::refine(const std::vector<Node> &nodes, const std::vector<Pose> &poses)
+bool MapJoiner::refine(const std::vector<Node> &nodes, const std::vector<Pose> &poses, MapKind kind)
 {
     if (driving_) {
         restart();
@@ -53,7 +53,7 @@ bool MapJoiner::refine(const std::vector<Node> &nodes, const std::vector<Pose> &
     if (search_->step(nodes, poses)) {
         return true;
     }
-    found_ = search_->decide(nodes, poses);
+    found_ = search_->decide(nodes, poses, kind);
     joined_ = joined_ || found_;
     if (!found_) {
         search_.reset();

@@ -29,7 +29,7 @@ class MapJoiner
     void drive(const std::vector<Node> &nodes, const std::vector<Pose> &poses);
 
     // One step of the search after the drive, see JoinSearch. False: nothing is left to join.
-    bool refine(const std::vector<Node> &nodes, const std::vector<Pose> &poses);
+    bool refine(const std::vector<Node> &nodes, const std::vector<Pose> &poses, MapKind kind);
 
     // A join that may be made.
     const std::optional<FoundJoin> &found() const

@@ -167,6 +167,18 @@ std::vector<WallDirection> walls_of(const ale_features_t &features, const Pose &
     return walls;
 }
 
+void add_later_walls(const Pose &smooth, const std::vector<WallDirection> &walls, Node *node)
+{
+    if (node->later_scans == most_later_scans) {
+        return;
+    }
+    const double turned = smooth.theta - node->smooth.theta;
+    for (const WallDirection &wall : walls) {
+        node->later_walls.push_back({wrapped(wall.direction_rad + turned), wall.length_m});
+    }
+    node->later_scans++;
+}
+
 std::vector<SurfacePoint> surface_of(const ale_seen_t &seen, const ale_features_t &features)
 {
     std::vector<SurfacePoint> points;

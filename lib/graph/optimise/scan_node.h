@@ -24,6 +24,12 @@ Node node_of(const ale_keyframe_t &keyframe);
 // Directions of the extracted lines, robot's frame; `sensor` is the sensor's pose on the robot.
 std::vector<WallDirection> walls_of(const ale_features_t &features, const Pose &sensor);
 
+constexpr int most_later_scans = 16; // of a node, whose walls it keeps
+
+// Adds the walls of a scan after the node, robot's frame; `smooth` as the node's own. Scans beyond
+// most_later_scans are ignored. O(walls).
+void add_later_walls(const Pose &smooth, const std::vector<WallDirection> &walls, Node *node);
+
 // The points of any scan that have a normal, robot's frame.
 std::vector<SurfacePoint> surface_of(const ale_seen_t &seen, const ale_features_t &features);
 

@@ -27,12 +27,16 @@ constexpr int64_t pose_urad = 6000;
 constexpr int64_t million = 1000000;
 constexpr uint32_t prior_scan = UINT32_MAX; // of a prior map: after any scan, so that lines stay sorted
 
-PlacedLine placed(uint32_t scan, const ale_observation_t &line, const ale_viewpoint_t &robot)
+PlacedLine placed(const RecordedScan &scan, const ale_observation_t &line, const ale_viewpoint_t &robot)
 {
     const int64_t aside_um = ale_along(line.centre, ale_tangent_bam(line.normal_bam));
     const int64_t rotated_um = ale_mul_div(aside_um, pose_urad, million);
-    return {scan, ale_observation_from(&line, &robot), pose_um * pose_um + rotated_um * rotated_um,
-            pose_urad * pose_urad};
+    return {scan.scan,
+            ale_observation_from(&line, &robot),
+            pose_um * pose_um + rotated_um * rotated_um,
+            pose_urad * pose_urad,
+            1,
+            scan.drive};
 }
 
 // A wall of the prior map, as one line with the weight of all scans behind it. It adds no pose error: the
@@ -83,10 +87,11 @@ void rebuild_map(const ObservationRecord &record, const PoseOfScan &pose_of, ale
         }
         const ale_viewpoint_t robot = ale_viewpoint(*pose);
         for (const ale_observation_t &line : scan.lines) {
-            lines.push_back(placed(scan.scan, line, robot));
+            lines.push_back(placed(scan, line, robot));
         }
         if (scan.beams) {
-            scans.push_back({scan.beams.get(), ale_pose_compose(robot.pose, record.sensor())});
+            scans.push_back(
+                {scan.beams.get(), ale_pose_compose(robot.pose, record.sensor(scan)), scan.drive});
         }
     }
     for (const ale_map_line_t &wall : prior_of(record, prior)) {

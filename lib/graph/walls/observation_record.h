@@ -29,6 +29,7 @@ struct RecordedScan {
     std::vector<ale_observation_t> lines;   // robot's frame
     std::vector<ale_corner_t> corners;      // sensor's frame
     std::unique_ptr<ale_seen_copy_t> beams; // of some scans
+    uint32_t drive = 0;                     // that it is of; larger is later
 };
 
 // The corrected pose of the robot at a scan, map frame; none: the scan is of another map.
@@ -44,6 +45,10 @@ class ObservationRecord
     // Adds a scan later than the last one. One of another epoch clears the record first. O(lines of the
     // scan); may throw std::bad_alloc.
     void add(const ale_scan_observation_t &observation);
+
+    // Adds the scans of later drives, perhaps of other robots; the first of them becomes number `first_scan`,
+    // which is beyond all scans so far. Prior maps stay this record's. O(scans); may throw std::bad_alloc.
+    void append(ObservationRecord &&later, uint32_t first_scan);
 
     // Removes the scans for which `is_removed` holds. O(scans).
     void remove(const std::function<bool(const RecordedScan &)> &is_removed);
@@ -62,10 +67,10 @@ class ObservationRecord
     {
         return prior_corners_;
     }
-    // Pose of the sensor on the robot.
-    const ale_pose_t &sensor() const
+    // Pose of the sensor on the robot that took it.
+    const ale_pose_t &sensor(const RecordedScan &scan) const
     {
-        return sensor_;
+        return sensors_[scan.drive];
     }
     // Of the map; 0: nothing was added.
     uint32_t epoch() const
@@ -77,7 +82,7 @@ class ObservationRecord
     bool needs_beams(const ale_scan_observation_t &observation) const;
 
     uint32_t epoch_ = 0;
-    ale_pose_t sensor_{};
+    std::vector<ale_pose_t> sensors_ = {ale_pose_t{}}; // by drive
     std::vector<ale_map_line_t> prior_lines_;
     std::vector<ale_map_corner_t> prior_corners_;
     std::vector<RecordedScan> scans_;

@@ -131,7 +131,7 @@ std::unique_ptr<ale_map_corners_t> averaged(const ObservationRecord &record, con
         }
         std::copy(scan.corners.begin(), scan.corners.end(), features->corner);
         features->corner_count = static_cast<uint16_t>(scan.corners.size());
-        ale_map_corners_update(corners.get(), features.get(), ale_pose_compose(*pose, record.sensor()),
+        ale_map_corners_update(corners.get(), features.get(), ale_pose_compose(*pose, record.sensor(scan)),
                                scan.scan, true);
     }
     return corners;

@@ -150,10 +150,22 @@ bool is_prior(const std::vector<PlacedLine> &lines, const WallGroup &group)
                        [&](uint32_t k) { return lines[k].scans > 1; });
 }
 
-// Poses are already matched to the walls of a prior map: what lies beside one is another surface.
+bool share_a_drive(const std::vector<PlacedLine> &lines, const WallGroup &a, const WallGroup &b)
+{
+    auto k = a.lines.begin();
+    auto m = b.lines.begin();
+    while (k != a.lines.end() && m != b.lines.end() && lines[*k].drive != lines[*m].drive) {
+        (lines[*k].drive < lines[*m].drive ? k : m)++;
+    }
+    return k != a.lines.end() && m != b.lines.end();
+}
+
+// Poses are already matched to the walls of a prior map: what lies beside one is another surface. So is what
+// two drives have seen each for itself: it was moved.
 int64_t farthest_um(const std::vector<PlacedLine> &lines, const WallGroup &a, const WallGroup &b)
 {
-    return is_prior(lines, a) != is_prior(lines, b) ? line_offset_um : beside_offset_um;
+    const bool are_alike = is_prior(lines, a) == is_prior(lines, b) && share_a_drive(lines, a, b);
+    return are_alike ? beside_offset_um : line_offset_um;
 }
 
 bool are_one(const std::vector<PlacedLine> &lines, const WallGroup &a, const WallGroup &b)
@@ -167,7 +179,8 @@ bool are_one(const std::vector<PlacedLine> &lines, const WallGroup &a, const Wal
                                ale_max64(a.wall.start_um, e.t_um + b.wall.start_um)) /
                               2;
     const int64_t offset_um = offset_at(e, middle_um);
-    return ale_abs64(offset_um) < farthest_um(lines, a, b) && !are_seen_apart(lines, a, b);
+    return ale_abs64(offset_um) < beside_offset_um && ale_abs64(offset_um) < farthest_um(lines, a, b) &&
+           !are_seen_apart(lines, a, b);
 }
 
 void merge(const std::vector<PlacedLine> &lines, WallGroup *into, const WallGroup &other)

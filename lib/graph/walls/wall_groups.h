@@ -4,7 +4,8 @@
 // merged: those that agree within their errors, and those side by side, farther apart than poses err, unless
 // some scans have seen both at once as two surfaces. Of two surfaces that face the same way the nearer hides
 // the other, so a wall that is double in the map, but single in every scan, is one wall. Next to a wall of a
-// prior map only the first rule holds.
+// prior map, and between walls that no drive has both seen, only the first rule holds: what stands elsewhere
+// since is another wall.
 #ifndef ALE_GRAPH_WALLS_WALL_GROUPS_H
 #define ALE_GRAPH_WALLS_WALL_GROUPS_H
 
@@ -27,6 +28,7 @@ struct PlacedLine {
     int64_t pose_var_um2;
     int64_t pose_var_urad2;
     uint32_t scans = 1; // that support it; more than one: a wall of the prior map
+    uint32_t drive = 0; // that saw it; larger is later
 };
 
 struct WallGroup {
@@ -37,8 +39,8 @@ struct WallGroup {
 // Wall as a line of an observation: offset and variances at its anchor.
 ale_observation_t as_observation(const ale_wall_t &wall);
 
-// Lines by ascending scan; groups by descending length of their first line. O(lines * groups + groups^3);
-// may throw std::bad_alloc.
+// Lines by ascending scan and drive; groups by descending length of their first line. O(lines * groups +
+// groups^3); may throw std::bad_alloc.
 std::vector<WallGroup> group_lines(const std::vector<PlacedLine> &lines);
 
 } // namespace ale

@@ -25,13 +25,30 @@ constexpr int64_t beside_bam = int64_t{45} * ALE_BAM_PER_DEGREE;
 constexpr int64_t parallel_um = 300000;
 constexpr int64_t parallel_bam = int64_t{9} * ALE_BAM_PER_DEGREE;
 
+// What scans have shown of a cell.
+struct Shown {
+    uint32_t scans = 0;  // whose lines cover it
+    uint32_t hits = 0;   // whose beams end there
+    uint32_t passes = 0; // whose beams go through
+};
+
 struct Cell {
-    uint32_t scans = 0;        // of the drive, whose lines cover it
-    uint32_t prior_scans = 0;  // the same of the prior map
-    uint32_t hits = 0;         // scans whose beams end there
-    uint32_t passes = 0;       // scans whose beams go through
+    Shown shown;               // since the drive that found it changed
+    Shown now;                 // by the drive that is being counted
+    uint32_t prior_scans = 0;  // of the prior map, whose lines cover it
+    uint32_t drive = 0;        // the latest whose lines cover it
     bool is_displaced = false; // by a wall beside it
 };
+
+bool is_wall(const Shown &shown)
+{
+    return shown.scans > 0 && shown.scans + shown.hits >= ALE_MAP_CONFIRMED && shown.passes <= shown.hits;
+}
+
+bool is_free(const Shown &shown)
+{
+    return shown.passes >= ALE_MAP_CONFIRMED && shown.passes > shown.hits;
+}
 
 struct Range {
     int64_t from_um;
@@ -58,7 +75,7 @@ class Cells
         const Range r = along(wall_, line.line);
         for (size_t k = 0; k < cells_.size(); k++) {
             if (middle_um(k) >= r.from_um && middle_um(k) <= r.to_um) {
-                (line.scans > 1 ? cells_[k].prior_scans : cells_[k].scans) += line.scans;
+                (line.scans > 1 ? cells_[k].prior_scans : cells_[k].now.scans) += line.scans;
             }
         }
     }
@@ -70,23 +87,39 @@ class Cells
         posed.sensor = scan.sensor;
         for (size_t k = 0; k < cells_.size(); k++) {
             const ale_visibility_t visibility = ale_wall_point_visibility(&wall_, middle_um(k), &posed);
-            cells_[k].hits += visibility == ALE_VISIBILITY_SUPPORTED;
-            cells_[k].passes += visibility == ALE_VISIBILITY_VIOLATED;
+            cells_[k].now.hits += visibility == ALE_VISIBILITY_SUPPORTED;
+            cells_[k].now.passes += visibility == ALE_VISIBILITY_VIOLATED;
+        }
+    }
+
+    // All of this drive is counted: it adds to what earlier ones have shown, or, where it shows the contrary,
+    // takes its place.
+    void end_drive(uint32_t drive)
+    {
+        for (Cell &cell : cells_) {
+            const Shown &now = cell.now;
+            const bool has_changed =
+                (is_free(now) && is_wall(cell.shown)) || (is_wall(now) && is_free(cell.shown));
+            const Shown before = has_changed ? Shown{} : cell.shown;
+            cell.shown = {before.scans + now.scans, before.hits + now.hits, before.passes + now.passes};
+            cell.drive = now.scans >= ALE_MAP_CONFIRMED ? drive : cell.drive;
+            cell.now = {};
         }
     }
 
     bool is_shown(size_t k) const
     {
-        const Cell &cell = cells_[k];
-        const uint32_t scans = cell.scans + cell.prior_scans;
-        return scans > 0 && scans + cell.hits >= ALE_MAP_CONFIRMED && cell.passes <= cell.hits;
+        Shown shown = cells_[k].shown;
+        shown.scans += cells_[k].prior_scans;
+        return is_wall(shown);
     }
     bool stands(size_t k) const
     {
         return is_shown(k) && !cells_[k].is_displaced;
     }
 
-    // Marks the cells that a wall beside them displaces: more scans show that one; `first` of equals stays.
+    // Marks the cells that a wall beside them displaces: a later drive shows that one, or more scans of as
+    // late a drive; `first` of equals stays.
     // Scans of the drive decide before those of a prior map: what they show may hide it.
     void displace_by(const Cells &other, bool first)
     {
@@ -105,17 +138,18 @@ class Cells
             const Cell nothing;
             const Cell &own = cells_[k];
             const Cell &its = other.is_shown(other_k) ? other.cells_[other_k] : nothing;
-            const bool is_driven = std::max(own.scans, its.scans) >= ALE_MAP_CONFIRMED;
-            const uint32_t own_scans = own.scans + (is_driven ? 0 : own.prior_scans);
-            const uint32_t its_scans = its.scans + (is_driven ? 0 : its.prior_scans);
-            cells_[k].is_displaced |= its_scans > own_scans || (its_scans == own_scans && !first);
+            const bool is_driven = std::max(own.shown.scans, its.shown.scans) >= ALE_MAP_CONFIRMED;
+            const uint32_t own_scans = own.shown.scans + (is_driven ? 0 : own.prior_scans);
+            const uint32_t its_scans = its.shown.scans + (is_driven ? 0 : its.prior_scans);
+            const bool has_more = its_scans > own_scans || (its_scans == own_scans && !first);
+            cells_[k].is_displaced |= its.drive == own.drive ? has_more : its.drive > own.drive;
         }
     }
 
     // Whether beams go through, so that a gap is not closed.
     bool is_open(size_t k) const
     {
-        return cells_[k].passes > cells_[k].hits;
+        return cells_[k].shown.passes > cells_[k].shown.hits;
     }
 
     size_t size() const
@@ -186,13 +220,20 @@ Cells cells_of(const WallGroup &group, const std::vector<PlacedLine> &lines,
                const std::vector<PlacedScan> &scans)
 {
     Cells cells(group.wall);
-    for (const uint32_t k : group.lines) {
-        cells.count_line(lines[k]);
-    }
-    for (const PlacedScan &scan : scans) {
-        if (may_see(scan, group.wall)) {
-            cells.count_beams(scan);
+    auto line = group.lines.begin();
+    auto scan = scans.begin();
+    while (line != group.lines.end() || scan != scans.end()) {
+        const uint32_t drive = std::min(line != group.lines.end() ? lines[*line].drive : UINT32_MAX,
+                                        scan != scans.end() ? scan->drive : UINT32_MAX);
+        for (; line != group.lines.end() && lines[*line].drive == drive; ++line) {
+            cells.count_line(lines[*line]);
         }
+        for (; scan != scans.end() && scan->drive == drive; ++scan) {
+            if (may_see(*scan, group.wall)) {
+                cells.count_beams(*scan);
+            }
+        }
+        cells.end_drive(drive);
     }
     return cells;
 }

@@ -4,6 +4,9 @@
 // pass through. A cell that hardly any scan shows, or that more scans pass than hit, is free. Of two walls
 // that face the same way side by side only one can have been seen: the one that more scans show. Scans of
 // this drive decide before those of a prior map: what now stands before a known wall hides it.
+//
+// Of several drives the later decides: a cell that it shows free, or a wall, is that from then on, and of two
+// walls side by side the one stands that was seen last.
 #ifndef ALE_GRAPH_WALLS_WALL_SPANS_H
 #define ALE_GRAPH_WALLS_WALL_SPANS_H
 
@@ -19,6 +22,7 @@ namespace ale
 struct PlacedScan {
     const ale_seen_copy_t *beams;
     ale_pose_t sensor;
+    uint32_t drive = 0; // larger is later
 };
 
 struct WallSpan {
@@ -26,8 +30,9 @@ struct WallSpan {
     uint32_t scans;  // that show part of it
 };
 
-// Spans in the order of the groups, at least ALE_WALL_LENGTH_UM long and shown by ALE_MAP_CONFIRMED scans.
-// O(cells of all walls * scans in reach + groups * cells); may throw std::bad_alloc.
+// Lines and scans by ascending drive. Spans in the order of the groups, at least ALE_WALL_LENGTH_UM long and
+// shown by ALE_MAP_CONFIRMED scans. O(cells of all walls * scans in reach + groups * cells); may throw
+// std::bad_alloc.
 std::vector<WallSpan> spans_of(const std::vector<WallGroup> &groups, const std::vector<PlacedLine> &lines,
                                const std::vector<PlacedScan> &scans);
 

@@ -140,12 +140,12 @@ TEST(LoopCloser, WallsOfLaterScansAreKeptInTheFrameOfTheNode)
     ale::Node node{};
     node.smooth = {1, 2, 0.4};
     add(&closer, node);
-    for (int scan = 0; scan < ale::LoopCloser::most_later_scans + 3; scan++) {
+    for (int scan = 0; scan < ale::most_later_scans + 3; scan++) {
         closer.add_walls({1, 2, 0.7}, {{1.0, 2.5}});
     }
     const ale::Node &kept = closer.nodes().back();
-    EXPECT_EQ(kept.later_scans, ale::LoopCloser::most_later_scans);
-    ASSERT_EQ(kept.later_walls.size(), static_cast<size_t>(ale::LoopCloser::most_later_scans));
+    EXPECT_EQ(kept.later_scans, ale::most_later_scans);
+    ASSERT_EQ(kept.later_walls.size(), static_cast<size_t>(ale::most_later_scans));
     EXPECT_NEAR(kept.later_walls[0].direction_rad, 1.3, 1e-12);
     EXPECT_EQ(kept.later_walls[0].length_m, 2.5);
     node.broken = true;

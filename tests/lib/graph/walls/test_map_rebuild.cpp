@@ -125,6 +125,43 @@ TEST(MapRebuild, AWallThatBeamsPassThroughLaterIsRemoved)
     }
 }
 
+const room::Wall screen = {0.2, 0.9, 0.2, 1.7};
+
+Drive drive_with_screen(int scans, bool stands)
+{
+    return Drive(scans, [stands](int) {
+        std::vector<room::Wall> walls = room::l_shape();
+        if (stands) {
+            walls.push_back(screen);
+        }
+        return walls;
+    });
+}
+
+// Of two drives in their order, the second by another robot whose numbers begin anew.
+double screen_m(Drive first, Drive second)
+{
+    const auto scans = static_cast<uint32_t>(first.truth.size());
+    std::vector<ale_pose_t> truth = first.truth;
+    truth.insert(truth.end(), second.truth.begin(), second.truth.end());
+    first.record.append(std::move(second.record), scans);
+    const auto map = first.rebuilt([&](const ale::RecordedScan &scan) { return truth[scan.scan]; });
+    double sum_m = 0;
+    for (int k = 0; k < map->line_count; k++) {
+        const ale_map_line_t &line = map->line[k];
+        const bool is_it = distance_m(screen, line.start) < 0.05 && distance_m(screen, line.end) < 0.05;
+        sum_m += is_it ? length_m(line) : 0;
+    }
+    return sum_m;
+}
+
+// However many scans of the one before have shown the contrary.
+TEST(MapRebuild, OfTwoDrivesTheLaterSaysWhatStands)
+{
+    EXPECT_LT(screen_m(drive_with_screen(90, true), drive_with_screen(40, false)), 0.01);
+    EXPECT_GT(screen_m(drive_with_screen(90, false), drive_with_screen(40, true)), 0.5);
+}
+
 // The same drive again with its own map as prior map, its poses displaced by the error of a map.
 class DriveWithPriorMap : public testing::Test
 {

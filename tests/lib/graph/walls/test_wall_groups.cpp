@@ -59,6 +59,20 @@ TEST(WallGroups, AWallThatIsSingleInEveryScanIsOneGroup)
     EXPECT_NEAR(offset_mm(groups[0].wall, 20), 100, 10);
 }
 
+// What one drive has seen here and another there was moved between them; a drive that has seen both ties
+// them.
+TEST(WallGroups, AWallThatTwoDrivesSeeApartIsTwo)
+{
+    std::vector<ale::PlacedLine> lines;
+    for (uint32_t k = 0; k < 40; k++) {
+        lines.push_back(line(k, 20, 0, 2, k < 20 ? 0 : 200));
+        lines.back().drive = k < 20 ? 0 : 1;
+    }
+    EXPECT_EQ(ale::group_lines(lines).size(), 2U);
+    std::swap(lines[19].line, lines[20].line);
+    EXPECT_EQ(ale::group_lines(lines).size(), 1U);
+}
+
 TEST(WallGroups, AStepSeenByScansStaysAStep)
 {
     std::vector<ale::PlacedLine> lines;

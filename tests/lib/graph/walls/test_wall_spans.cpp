@@ -39,6 +39,22 @@ TEST(WallSpans, FewerThanThreeScansShowNoWall)
     EXPECT_NEAR(length_m(whole[0]), 2, 0.06);
 }
 
+// Less than a doorway behind where it stood: both cannot be there.
+TEST(WallSpans, OfAWallThatWasMovedTheLaterPlaceStays)
+{
+    for (const double moved_mm : {-200.0, 200.0}) {
+        std::vector<ale::PlacedLine> lines;
+        add_scans(&lines, 20, 0, 2);
+        for (uint32_t k = 0; k < 5; k++) {
+            lines.push_back(line(20 + k, 70, 0, 2, moved_mm));
+            lines.back().drive = 1;
+        }
+        const std::vector<ale::WallSpan> left = spans(lines);
+        ASSERT_EQ(left.size(), 1U) << moved_mm;
+        EXPECT_EQ(left[0].scans, 5U) << moved_mm;
+    }
+}
+
 TEST(WallSpans, AnEndSeenByOneScanIsCut)
 {
     std::vector<ale::PlacedLine> lines;
