@@ -17,6 +17,7 @@ MISSING_FILE = {
     "ale-inspect": (f"{ABSENT} 0", 1),
     "ale-keys": (f"--list {ABSENT}", 1),
     "ale-latency": (ABSENT, 1),
+    "ale-merge": (ABSENT, 1),
     "ale-mounting": (ABSENT, 1),
     "ale-odometry": ("", 0),
     "ale-record": (f"--port /dev/null --no-lcm --out {ABSENT}", 1),
@@ -97,7 +98,7 @@ def test_a_file_that_is_not_there_is_named_in_one_line(name, tmp_path):
 
 @pytest.mark.parametrize("words", ["ale-replay LOG --map FILE.svg", "ale-replay LOG --save-map FILE", "ale-replay LOG --features FILE",
                                    "ale-replay LOG --timing FILE", "ale-calibrate LOG --plot FILE", "ale-calibrate LOG --out FILE",
-                                   "ale-mounting LOG --out FILE", "ale-inspect LOG 0 --out FILE", "ale-watch --csv FILE",
+                                   "ale-mounting LOG --out FILE", "ale-inspect LOG 0 --out FILE", "ale-merge LOG --out FILE", "ale-watch --csv FILE",
                                    "ale-watch --trajectory FILE", "ale-explore --world WORLD --map FILE.svg",
                                    "ale-sim --world WORLD --write-log FILE", "ale-sim --world WORLD --pty urg --truth FILE"])
 def test_a_result_that_cannot_be_written_is_told_before_the_work(words, tmp_path):
@@ -117,7 +118,7 @@ def test_a_result_that_cannot_be_written_is_told_before_the_work(words, tmp_path
 
 @pytest.mark.parametrize("words", ["ale-replay LOG --trajectory LOG", "ale-replay LOG --features ./LOG", "ale-replay LOG --save-map LOG",
                                    "ale-replay LOG --poses one --trajectory one", "ale-replay a.log --load-map LOG --features LOG", "ale-calibrate LOG --out LOG",
-                                   "ale-mounting LOG --out LOG", "ale-inspect LOG 0 --out LOG", "ale-watch --csv one --trajectory ./one",
+                                   "ale-mounting LOG --out LOG", "ale-inspect LOG 0 --out LOG", "ale-merge LOG --out LOG", "ale-watch --csv one --trajectory ./one",
                                    "ale-sim --world LOG --write-log LOG", "ale-sim --log LOG --pty urg --truth LOG",
                                    "ale-sim --world LOG --write-log one --truth one"])
 def test_no_result_takes_the_place_of_what_it_is_made_from_or_of_another(words, tmp_path):

@@ -80,6 +80,12 @@ void CommandLine::possible_argument(const std::string &title, std::string &value
     arguments_.push_back({title, [&value](const std::string &word) { value = word; }, false});
 }
 
+void CommandLine::arguments(const std::string &title, std::vector<std::string> &values)
+{
+    words_title_ = title;
+    words_ = &values;
+}
+
 void CommandLine::rest(std::vector<std::string> &words)
 {
     rest_ = &words;
@@ -132,6 +138,13 @@ void CommandLine::read_arguments(int argc, char **argv)
         } else if (argument.wanted) {
             throw WrongUse(argument.title + " is missing");
         }
+    }
+    if (words_ && optind == argc) {
+        throw WrongUse(words_title_ + " is missing");
+    }
+    if (words_) {
+        words_->assign(argv + optind, argv + argc);
+        return;
     }
     if (optind < argc) {
         throw WrongUse(std::string("what is \"") + argv[optind] + "\"?");

@@ -59,6 +59,8 @@ class CommandLine
     void argument(const std::string &title, Take take);
     void argument(const std::string &title, std::string &value);
     void possible_argument(const std::string &title, std::string &value);
+    /* All words that are no options, behind the ones above; there must be one. */
+    void arguments(const std::string &title, std::vector<std::string> &values);
     /* All from the first word on that is no option, options too: "-0.3" behind a verb is a speed. */
     void rest(std::vector<std::string> &words);
 
@@ -99,6 +101,8 @@ class CommandLine
     std::string usage_;
     std::vector<Option> options_;
     std::vector<Argument> arguments_;
+    std::string words_title_;
+    std::vector<std::string> *words_ = nullptr;
     std::vector<std::string> *rest_ = nullptr;
 };
 

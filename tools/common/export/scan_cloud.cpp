@@ -41,12 +41,6 @@ ale_pose_t moved(const ScanPose &pose, int32_t offset_us)
     return ale_pose_compose(pose.robot, step);
 }
 
-ale_point_t beam_end(const ale_scan_t &scan, int32_t beam)
-{
-    const ale_point_t ahead = {scan.range_um[beam], 0};
-    return ale_rotate(ahead, ale_scan_bearing(&scan, beam));
-}
-
 } // namespace
 
 void ScanCloud::add(const ale_scan_t &scan, const ScanPose &pose, const ale_pose_t &sensor)
@@ -57,13 +51,28 @@ void ScanCloud::add(const ale_scan_t &scan, const ScanPose &pose, const ale_pose
     for (int32_t k = 0; k < scan.beams; k++) {
         if (scan.flag[k] == ALE_BEAM_VALID) {
             const ale_pose_t robot = moved(pose, ale_scan_beam_offset_us(&scan, k));
-            const ale_pose_t laser = ale_pose_compose(robot, sensor);
-            const ale_point_t end = ale_pose_apply(laser, beam_end(scan, k));
-            add_point(end);
-            if (scan.range_um[k] <= longest_ray_um) {
-                add_ray({laser.x_um, laser.y_um}, end);
-            }
+            add_beam(ale_pose_compose(robot, sensor), scan.range_um[k], ale_scan_bearing(&scan, k));
         }
+    }
+}
+
+void ScanCloud::add(const ale_seen_copy_t &seen, const ale_pose_t &sensor)
+{
+    for (int32_t k = 0; k < seen.scan.beams; k++) {
+        if (seen.scan.flag[k] == ALE_BEAM_VALID) {
+            const uint32_t bearing_bam =
+                seen.straightened ? seen.bearing_bam[k] : ale_scan_bearing(&seen.scan, k);
+            add_beam(sensor, seen.scan.range_um[k], bearing_bam);
+        }
+    }
+}
+
+void ScanCloud::add_beam(const ale_pose_t &laser, int32_t range_um, uint32_t bearing_bam)
+{
+    const ale_point_t end = ale_pose_apply(laser, ale_rotate({range_um, 0}, bearing_bam));
+    add_point(end);
+    if (range_um <= longest_ray_um) {
+        add_ray({laser.x_um, laser.y_um}, end);
     }
 }
 

@@ -18,6 +18,7 @@
 extern "C" {
 #include "base/pose.h"
 #include "base/scan.h"
+#include "observe/seen.h"
 }
 
 namespace ale
@@ -41,6 +42,8 @@ class ScanCloud
     enum class Cell { unknown, free, occupied };
 
     void add(const ale_scan_t &scan, const ScanPose &pose, const ale_pose_t &sensor);
+    /* A scan that was straightened, with the pose of its sensor. */
+    void add(const ale_seen_copy_t &seen, const ale_pose_t &sensor);
     const std::vector<ale_point_t> &points() const
     {
         return points_;
@@ -56,6 +59,7 @@ class ScanCloud
     };
     using Tile = std::array<Count, static_cast<size_t>(tile_side) * tile_side>;
 
+    void add_beam(const ale_pose_t &laser, int32_t range_um, uint32_t bearing_bam);
     void add_point(const ale_point_t &p);
     void add_ray(const ale_point_t &from, const ale_point_t &to);
     Count &count(int32_t column, int32_t row);

@@ -72,7 +72,8 @@ void Loops::after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate)
     const bool sees = ale_pipeline_seen(pipeline, &seen);
     const ale_features_t *features = ale_pipeline_features(pipeline);
     seen_.push_back(sees ? surface_of(seen, *features) : std::vector<SurfacePoint>());
-    if (!ale_pipeline_keyframe(pipeline, keyframe_.get())) {
+    is_keyframe_ = ale_pipeline_keyframe(pipeline, keyframe_.get());
+    if (!is_keyframe_) {
         if (sees) {
             const ale_pose_t sensor = ale_pose_between(seen.robot, seen.posed.sensor);
             ale_mapper_add_walls(mapper_.get(), &estimate.smooth, &sensor, features);

@@ -39,6 +39,12 @@ class Loops
     /* After the pipeline has answered it. */
     void after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate);
 
+    /* The last scan, if the pipeline has taken it for a keyframe, else nullptr; until the next scan. */
+    const ale_keyframe_t *keyframe() const
+    {
+        return is_keyframe_ ? keyframe_.get() : nullptr;
+    }
+
     /* After the last scan: the graph is drawn tight, what is still under way takes effect, every scan is laid
      * on what all have seen, and its pose is known. */
     void finish(ale_pipeline_t *pipeline);
@@ -83,6 +89,7 @@ class Loops
 
     std::unique_ptr<ale_mapper_t, Destroy> mapper_;
     std::unique_ptr<ale_keyframe_t> keyframe_;
+    bool is_keyframe_ = false;
     std::unique_ptr<ale_map_t> known_; /* until the mapper knows it */
     std::deque<std::unique_ptr<ale_correction_t>> due_;
     std::vector<Tracked> tracked_;             /* by scan */

@@ -1,0 +1,41 @@
+/* What drives show together: the walls of one frame, each once, and as the latest drive has found them. */
+#ifndef ALE_LAB_MERGE_BUILDING_H
+#define ALE_LAB_MERGE_BUILDING_H
+
+#include <vector>
+
+#include "common/export/scan_cloud.h"
+#include "lab/merge/drive.h"
+
+extern "C" {
+#include "map/line_map.h"
+}
+
+namespace merge
+{
+
+/* The frame that most scans are in; of equals that of the earliest drive. */
+uint32_t largest_frame(const std::vector<Drive> &drives);
+
+class Building
+{
+  public:
+    /* Of what is in this frame; takes the observations out of the drives, which are by date. */
+    Building(std::vector<Drive> *drives, uint32_t frame);
+
+    /* Fills *out with ids from 0. See rebuild_map. */
+    void draw(ale_map_t *out) const;
+
+    /* What the scans saw that are kept with all their beams. */
+    ale::ScanCloud cloud() const;
+
+  private:
+    std::optional<ale_pose_t> pose_of(const ale::RecordedScan &scan) const;
+
+    ale::ObservationRecord record_;
+    std::vector<std::optional<ale_pose_t>> poses_; /* by scan of the record; none: in another frame */
+};
+
+} // namespace merge
+
+#endif

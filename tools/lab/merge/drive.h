@@ -1,0 +1,42 @@
+/* A drive as merging needs it: every scan with its pose, the keyframes, and what was observed. */
+#ifndef ALE_LAB_MERGE_DRIVE_H
+#define ALE_LAB_MERGE_DRIVE_H
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "graph/optimise/node.h"
+#include "graph/walls/observation_record.h"
+
+namespace merge
+{
+
+struct DriveScan {
+    int64_t stamp_us; /* of the log */
+    ale::Pose pose;   /* of the robot, in its frame */
+    uint32_t frame;   /* poses of two frames have nothing to do with each other */
+    bool follows;     /* tracked from the scan before without a break */
+    std::vector<ale::SurfacePoint>
+        points; /* robot's frame; none: nothing was seen, or from nobody knows where */
+};
+
+struct Drive {
+    std::string name;  /* of the log, without its folder */
+    int64_t date_s;    /* when it began, seconds since 1970 */
+    uint32_t checksum; /* of the log, CRC-32: a drive is known by it */
+    ale_pose_t sensor; /* on the robot */
+    std::vector<DriveScan> scans;
+    std::vector<ale::Node> nodes;  /* `scan` is an index of scans, map_id its frame */
+    ale::ObservationRecord record; /* `scan` likewise */
+};
+
+/* Ids of frames are below this. */
+uint32_t frames_of(const std::vector<Drive> &drives);
+
+/* Where each drive has numbered its frames from 0: makes the ids unique, those of earlier drives first. */
+void number_frames(std::vector<Drive> *drives);
+
+} // namespace merge
+
+#endif

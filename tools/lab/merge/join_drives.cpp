@@ -1,0 +1,158 @@
+#include "lab/merge/join_drives.h"
+
+#include "graph/loops/loop_closer.h"
+#include "graph/optimise/scan_alignment.h"
+
+namespace merge
+{
+
+namespace
+{
+
+using ale::Pose;
+
+/* Where drives began relative to each other nobody knows: frames lie so far apart that no wheels can have
+ * led from one to the other. */
+constexpr double apart_m = 10000;
+/* Between two drives: enough for a loop between the end of the one and the beginning of the next. */
+constexpr double path_between_m = 1000;
+
+Pose set_apart(const Pose &pose, uint32_t frame)
+{
+    return {pose.x + apart_m * frame, pose.y, pose.theta};
+}
+
+Pose set_back(const Pose &pose, uint32_t frame)
+{
+    return {pose.x - apart_m * frame, pose.y, pose.theta};
+}
+
+/* The nodes of all drives as one way; each drive looks for its place among those before it. */
+ale::LoopCloser closer_of(const std::vector<Drive> &drives)
+{
+    size_t count = 0;
+    for (const Drive &drive : drives) {
+        count += drive.nodes.size();
+    }
+    ale::LoopCloser closer(count);
+    uint32_t scans = 0;
+    for (const Drive &drive : drives) {
+        for (size_t k = 0; k < drive.nodes.size(); k++) {
+            ale::Node node = drive.nodes[k];
+            node.scan += scans;
+            node.tracked = set_apart(node.tracked, node.map_id);
+            Pose motion = node.tracked;
+            if (!closer.nodes().empty()) {
+                const ale::Node &before = closer.nodes().back();
+                motion = ale::between(before.tracked, node.tracked);
+                const bool follows = k > 0 && before.map_id == node.map_id;
+                node.path_m = before.path_m + (follows ? ale::length(motion.x, motion.y) : path_between_m);
+                node.broken = node.broken || k == 0;
+            }
+            closer.append(std::move(node), motion);
+        }
+        scans += static_cast<uint32_t>(drive.scans.size());
+        while (closer.join_maps()) {
+        }
+    }
+    return closer;
+}
+
+/* From a, `part` of the way to b. */
+Pose blend(const Pose &a, const Pose &b, double part)
+{
+    return {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y),
+            a.theta + part * ale::wrapped(b.theta - a.theta)};
+}
+
+/* What has become of a node. */
+struct Moved {
+    Pose shift; /* of what it saw, from its frame as it was */
+    uint32_t frame;
+};
+
+/* The scans of a drive follow the nodes before and after them, as far as the way leads there. */
+void bend(Drive *drive, const std::vector<Moved> &moved)
+{
+    std::vector<size_t> stretch; /* by scan; one for all between two breaks */
+    for (const DriveScan &scan : drive->scans) {
+        stretch.push_back(stretch.empty() ? 0 : stretch.back() + (scan.follows ? 0 : 1));
+    }
+    size_t next = 0; /* node at or after the scan */
+    for (size_t k = 0; k < drive->scans.size(); k++) {
+        next += next < drive->nodes.size() && drive->nodes[next].scan < k;
+        const auto is_tied = [&](size_t node) { return stretch[drive->nodes[node].scan] == stretch[k]; };
+        const bool by_later = next < drive->nodes.size() && (next == 0 || is_tied(next));
+        const bool by_earlier = next > 0 && (!by_later || is_tied(next - 1));
+        const size_t first = by_earlier ? next - 1 : next;
+        const size_t last = by_later ? next : next - 1;
+        DriveScan &scan = drive->scans[k];
+        const uint32_t from = drive->nodes[first].scan;
+        const double part =
+            first == last ? 0 : (static_cast<double>(k) - from) / (drive->nodes[last].scan - from);
+        scan.pose =
+            blend(compose(moved[first].shift, scan.pose), compose(moved[last].shift, scan.pose), part);
+        scan.frame = moved[first].frame;
+    }
+}
+
+void take_over(const ale::LoopCloser &closer, std::vector<Drive> *drives)
+{
+    size_t k = 0; /* of the closer's nodes */
+    for (Drive &drive : *drives) {
+        std::vector<Moved> moved;
+        for (ale::Node &node : drive.nodes) {
+            const uint32_t frame = closer.nodes()[k].map_id;
+            const Pose pose = set_back(closer.poses()[k], frame);
+            moved.push_back({compose(pose, ale::inverse(node.tracked)), frame});
+            node.tracked = pose;
+            node.map_id = frame;
+            k++;
+        }
+        bend(&drive, moved);
+    }
+}
+
+/* Every scan of a frame, and not the keyframes alone, laid on what all have seen. */
+void align(uint32_t frame, std::vector<Drive> *drives)
+{
+    std::vector<ale::AlignedScan> scans;
+    std::vector<DriveScan *> aligned;
+    for (Drive &drive : *drives) {
+        const DriveScan *before = nullptr;
+        for (DriveScan &scan : drive.scans) {
+            if (scan.frame == frame) {
+                const bool is_tied = scan.follows && before && before + 1 == &scan;
+                scans.push_back({scan.pose, is_tied, scan.points});
+                aligned.push_back(&scan);
+                before = &scan;
+            }
+        }
+    }
+    ale::ScanAlignment alignment(std::move(scans));
+    while (alignment.step()) {
+    }
+    for (size_t k = 0; k < aligned.size(); k++) {
+        aligned[k]->pose = alignment.poses()[k];
+    }
+}
+
+} // namespace
+
+void join_drives(std::vector<Drive> *drives)
+{
+    ale::LoopCloser closer = closer_of(*drives);
+    while (closer.refine()) {
+    }
+    take_over(closer, drives);
+    for (uint32_t frame = 0; frame < frames_of(*drives); frame++) {
+        align(frame, drives);
+    }
+    for (Drive &drive : *drives) {
+        for (ale::Node &node : drive.nodes) {
+            node.tracked = drive.scans[node.scan].pose;
+        }
+    }
+}
+
+} // namespace merge

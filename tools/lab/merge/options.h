@@ -1,0 +1,28 @@
+/* Command line of ale-merge. */
+#ifndef ALE_LAB_MERGE_OPTIONS_H
+#define ALE_LAB_MERGE_OPTIONS_H
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/log/robot_config.h"
+
+namespace merge
+{
+
+struct Options : ale::RobotOptions {
+    std::vector<std::string> drives;
+    std::string out;
+    std::vector<std::string> maps;
+    std::string trajectories;
+    bool laser_frame = false;
+    bool points = false;
+};
+
+/* Lets the program do its work with what the command line says; the exit code. */
+int with_options(int argc, char **argv, const std::function<int(const Options &)> &work);
+
+} // namespace merge
+
+#endif
