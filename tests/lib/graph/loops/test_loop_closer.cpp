@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "graph/loops/loop_closer.h"
+#include "graph/optimise/scan_node.h"
 #include "lib/graph/bent_corridor.hpp"
 #include "lib/graph/ring_corridor.hpp"
 

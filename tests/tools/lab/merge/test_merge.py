@@ -3,13 +3,11 @@ import math
 import os
 import pathlib
 import subprocess
-import sys
 
 import pytest
 
-from at_hand import BINARIES, ROOT, WORLDS
+from at_hand import BINARIES, WORLDS
 
-sys.path.insert(0, str(ROOT / "tools/lab/bench"))
 np = pytest.importorskip("numpy")
 import map_score  # noqa: E402
 from slam_table import aligned_errors, at_times, read_tum  # noqa: E402
