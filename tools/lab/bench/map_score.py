@@ -128,15 +128,20 @@ def in_plan(walls, start):
     return np.concatenate([walls[:, :2] @ turn + [x, y], walls[:, 2:] @ turn + [x, y]], 1)
 
 
+def against_plan(walls, plan_path, truth_path):
+    """Which part of what is drawn is right, and which of what could be seen is found."""
+    plan, truth = read_numbers(plan_path, 4), read_numbers(truth_path, 8)
+    poses = np.stack([truth[:, 1], truth[:, 2], 2 * np.arctan2(truth[:, 6], truth[:, 7])], 1)
+    drawn = in_plan(walls, poses[0])
+    return are_right(drawn, plan).mean(), are_found(seen_points(plan, poses), drawn).mean()
+
+
 def told(options):
     walls = read_walls(options.map)
     pairs, along = standing_twice(walls)
     words = f"{len(walls)} walls, {directions(walls)[1].sum():.1f} m; standing twice: {pairs} pairs, {along:.1f} m"
     if options.plan:
-        plan, truth = read_numbers(options.plan, 4), read_numbers(options.truth, 8)
-        poses = np.stack([truth[:, 1], truth[:, 2], 2 * np.arctan2(truth[:, 6], truth[:, 7])], 1)
-        drawn = in_plan(walls, poses[0])
-        right, found = are_right(drawn, plan).mean(), are_found(seen_points(plan, poses), drawn).mean()
+        right, found = against_plan(walls, options.plan, options.truth)
         words += f"; right {100 * right:.1f} %, found {100 * found:.1f} %"
     return words
 
