@@ -207,6 +207,18 @@ def test_maps_of_every_kind_are_written_and_well_formed(room_log, tmp_path):
     assert "resolution: 0.05" in (tmp_path / "map.yaml").read_text()
 
 
+def test_an_occupancy_grid_has_the_resolution_that_was_asked_for(room_log, tmp_path):
+    sides = []
+    for metres in ("0.1", "0.025"):
+        replay(room_log, "--map", tmp_path / "map.pgm", "--map-resolution", metres)
+        assert f"resolution: {metres}\n" in (tmp_path / "map.yaml").read_text()
+        sides.append([int(word) - 20 for word in (tmp_path / "map.pgm").read_bytes().split(b"\n")[1].split()])
+    assert [fine / coarse for fine, coarse in zip(*sides[::-1])] == [pytest.approx(4, rel=0.1)] * 2
+    for words in (("--map-resolution", "0.1"), ("--map", tmp_path / "map.pgm", "--map-resolution", "0")):
+        refused = replay(room_log, *words, code=2)
+        assert "--map-resolution" in refused.stderr and refused.stderr.count("\n") == 1
+
+
 def test_a_saved_map_can_be_started_from(room_log, tmp_path):
     replay(room_log, "--save-map", tmp_path / "a.map")
     text = (tmp_path / "a.map").read_text()

@@ -3,7 +3,8 @@
  *   .png   picture: walls, trajectory with start and end, metre grid, scale bar
  *   .svg   the same as vectors, in metres
  *   .dxf   drawing for CAD: R12, metres, layers WALLS, CORNERS, TRAJECTORY
- *   .pgm   occupancy grid of 5 cm, with a .yaml beside it: what ROS's map_server reads
+ *   .pgm   occupancy grid of the cloud's cells (5 cm without one), with a .yaml beside it: what ROS's
+ * map_server reads
  *
  *   MapScene scene;  scene.map = &map;  scene.trajectory = ...;
  *   write_map_image("map.png", scene);       throws std::runtime_error with one line for people

@@ -103,12 +103,12 @@ void ScanCloud::add_ray(const ale_point_t &from, const ale_point_t &to)
     };
     const int64_t dx = int64_t{to.x_um} - from.x_um;
     const int64_t dy = int64_t{to.y_um} - from.y_um;
-    const int64_t steps = std::max(std::abs(dx), std::abs(dy)) / cell_um;
-    const int32_t last_column = floor_div(to.x_um, cell_um);
-    const int32_t last_row = floor_div(to.y_um, cell_um);
+    const int64_t steps = std::max(std::abs(dx), std::abs(dy)) / cell_um_;
+    const int32_t last_column = floor_div(to.x_um, cell_um_);
+    const int32_t last_row = floor_div(to.y_um, cell_um_);
     for (int64_t i = 0; i < steps; i++) {
-        const int32_t column = floor_div(static_cast<int32_t>(from.x_um + dx * i / steps), cell_um);
-        const int32_t row = floor_div(static_cast<int32_t>(from.y_um + dy * i / steps), cell_um);
+        const int32_t column = floor_div(static_cast<int32_t>(from.x_um + dx * i / steps), cell_um_);
+        const int32_t row = floor_div(static_cast<int32_t>(from.y_um + dy * i / steps), cell_um_);
         if (column != last_column || row != last_row) {
             saturate(count(column, row).passed);
         }

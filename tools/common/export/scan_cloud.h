@@ -3,8 +3,9 @@
  *   ScanCloud cloud;
  *   cloud.add(scan, pose, sensor);       every scan, with its pose in the map
  *
- * Points are kept one a cell of 20 mm; free and occupied are counted in cells of 50 mm: a cell is free when
- * beams passed it, occupied when they ended in it. Memory grows with the area seen, not with the time. */
+ * Points are kept one a cell of 20 mm; free and occupied are counted in cells of 50 mm, or another side: a
+ * cell is free when beams passed it, occupied when they ended in it. Memory grows with the area seen, not
+ * with the time. */
 #ifndef ALE_COMMON_EXPORT_SCAN_CLOUD_H
 #define ALE_COMMON_EXPORT_SCAN_CLOUD_H
 
@@ -15,6 +16,8 @@
 #include <unordered_set>
 #include <vector>
 
+#include "common/offline/scan_pose.h"
+
 extern "C" {
 #include "base/pose.h"
 #include "base/scan.h"
@@ -24,22 +27,16 @@ extern "C" {
 namespace ale
 {
 
-/* Where the robot was when a scan was taken, and how it moved then (its own frame): beams are laid out at
- * the pose of their own time. */
-struct ScanPose {
-    int64_t stamp_us;
-    ale_pose_t robot;
-    int32_t velocity_x_um_s;
-    int32_t velocity_y_um_s;
-    int32_t velocity_theta_urad_s;
-    bool measured; /* false: predicted; what the scan saw is then left out */
-};
-
 class ScanCloud
 {
   public:
-    static constexpr int32_t cell_um = 50000;
+    static constexpr int32_t usual_cell_um = 50000;
     enum class Cell { unknown, free, occupied };
+
+    /* cell_um: 1000 to 1000000. */
+    explicit ScanCloud(int32_t cell_um = usual_cell_um) : cell_um_(cell_um)
+    {
+    }
 
     void add(const ale_scan_t &scan, const ScanPose &pose, const ale_pose_t &sensor);
     /* A scan that was straightened, with the pose of its sensor. */
@@ -48,7 +45,11 @@ class ScanCloud
     {
         return points_;
     }
-    /* Cell (column, row) covers x from column * cell_um on, y from row * cell_um on. */
+    int32_t cell_um() const
+    {
+        return cell_um_;
+    }
+    /* Cell (column, row) covers x from column * cell_um() on, y from row * cell_um() on. */
     Cell cell(int32_t column, int32_t row) const;
 
   private:
@@ -64,6 +65,7 @@ class ScanCloud
     void add_ray(const ale_point_t &from, const ale_point_t &to);
     Count &count(int32_t column, int32_t row);
 
+    int32_t cell_um_;
     std::vector<ale_point_t> points_;
     std::unordered_set<uint64_t> point_cells_;
     std::unordered_map<uint64_t, std::unique_ptr<Tile>> tiles_;

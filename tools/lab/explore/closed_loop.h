@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "common/export/trajectory.h"
+#include "common/offline/loops.h"
 #include "lab/explore/score.h"
-#include "lab/replay/loops.h"
 #include "lab/sim/world/world_source.h"
 
 extern "C" {

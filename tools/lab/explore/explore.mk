@@ -1,5 +1,5 @@
-# ale-explore drives the simulator's robot, and closes loops as ale-replay does: their parts are linked in.
-$(BUILD)/bin/ale-explore: $(call objects,$(filter-out %/main.cpp,$(call sources_of,tools/lab/sim)) tools/lab/replay/loops.cpp)
+# ale-explore drives the simulator's robot: its parts are linked in.
+$(BUILD)/bin/ale-explore: $(call objects,$(filter-out %/main.cpp,$(call sources_of,tools/lab/sim)))
 
 .PHONY: explorations
 explorations: programs ## ten explorations of each bundled world, in lock step

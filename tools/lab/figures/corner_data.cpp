@@ -13,9 +13,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "common/log/core_object.h"
 #include "common/log/log_reader.h"
 #include "common/log/robot_config.h"
+#include "common/offline/core_object.h"
 
 extern "C" {
 #include "map/map_exchange.h"

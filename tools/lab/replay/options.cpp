@@ -1,5 +1,6 @@
 #include "lab/replay/options.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/command_line/files.h"
@@ -26,6 +27,7 @@ constexpr char usage[] =
     "  --trajectory-live F.tum map pose at every scan, as known at that moment\n"
     "  --frame robot|laser     whose poses the trajectories hold (default robot)\n"
     "  --map F                 the map at the end: .svg, .png, .dxf, or .pgm with .yaml; may be repeated\n"
+    "  --map-resolution M      side of a cell of a .pgm, metres (default 0.05)\n"
     "  --points                draw the points of the scans faintly behind the map (.svg, .png)\n"
     "  --timing F.csv          thread CPU time of every stage of every scan\n"
     "  --odometry on|off       use the odometry of the log (default on)\n"
@@ -55,6 +57,10 @@ void bind_results(cli::CommandLine &line, ReplayOptions &o)
     line.text("trajectory-live", o.trajectory_live);
     line.choice("frame", o.laser_frame, cli::Choices<bool>{{"robot", false}, {"laser", true}});
     cli::map_images(line, o.maps);
+    line.option("map-resolution", [&o](const std::string &word) {
+        o.map_cell_um = static_cast<int32_t>(
+            std::lround(1e6 * cli::number_of<double>("--map-resolution", word, 0.001, 1)));
+    });
     line.flag("points", o.points);
     line.text("timing", o.timing);
     line.text("save-map", o.save_map);
@@ -90,16 +96,29 @@ void check_files(const ReplayOptions &options)
     }
 }
 
+bool draws_grid(const ReplayOptions &options)
+{
+    return std::any_of(options.maps.begin(), options.maps.end(), [](const std::string &path) {
+        return path.size() > 4 && path.compare(path.size() - 4, 4, ".pgm") == 0;
+    });
+}
+
+bool needs_poses(const ReplayOptions &options)
+{
+    return !options.poses.empty() || !options.trajectory.empty() || !options.trajectory_live.empty() ||
+           !options.maps.empty() || !options.load_map.empty() || !options.save_map.empty();
+}
+
 void check(const ReplayOptions &options)
 {
-    const bool needs_poses = !options.poses.empty() || !options.trajectory.empty() ||
-                             !options.trajectory_live.empty() || !options.maps.empty() ||
-                             !options.load_map.empty() || !options.save_map.empty();
-    if (options.lines_only && needs_poses) {
+    if (options.lines_only && needs_poses(options)) {
         throw cli::WrongUse("--lines-only makes neither poses nor a map");
     }
     if (options.points && options.maps.empty()) {
         throw cli::WrongUse("--points are drawn behind a --map");
+    }
+    if (options.map_cell_um != ScanCloud::usual_cell_um && !draws_grid(options)) {
+        throw cli::WrongUse("--map-resolution is of a --map F.pgm");
     }
     if (options.save_map == "-" || options.load_map == "-") {
         throw cli::WrongUse("a saved map is a file");

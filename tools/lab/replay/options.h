@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/export/scan_cloud.h"
 #include "common/log/robot_config.h"
 
 namespace ale
@@ -21,6 +22,7 @@ struct ReplayOptions : RobotOptions {
     std::string timing;
     std::string load_map;
     std::string save_map;
+    int32_t map_cell_um = ScanCloud::usual_cell_um; /* of .pgm */
     bool laser_frame = false;
     bool close_loops = true;
     bool lines_only = false;

@@ -6,14 +6,13 @@
 #include "common/command_line/wrong_use.h"
 #include "common/export/map_image.h"
 #include "common/export/scan_cloud.h"
-#include "common/log/core_object.h"
 #include "common/log/robot_config.h"
+#include "common/offline/core_object.h"
+#include "common/offline/offline_slam.h"
 #include "lab/replay/features_file.h"
-#include "lab/replay/loops.h"
-#include "lab/replay/map_pieces.h"
 #include "lab/replay/poses_file.h"
 #include "lab/replay/summary.h"
-#include "lab/replay/timing.h"
+#include "lab/replay/timing_file.h"
 
 extern "C" {
 #include "store/map_file.h"
@@ -40,26 +39,27 @@ class Replay
 
   private:
     void begin(const char *recorded_config);
+    void begin_extractor();
+    void begin_slam();
     void take(const ale_log_event_t &event);
     void take_scan(const ale_scan_t &recorded);
     void take_odometry(const ale_odometry_t &sample);
     void extract(const ale_scan_t &scan);
     void track(const ale_scan_t &scan);
     void lose(int64_t stamp_us);
-    void put_results(int64_t stamp_us, const ale_features_t *features);
+    void put_results(int64_t stamp_us, const ale_features_t *features, const StageClock &clock);
     void put_estimate(const ale_estimate_t &estimate);
     ale_pose_t framed(const ale_pose_t &robot) const;
     bool wants_map() const;
     void load_map();
-    void close_loops();
     void finish();
     void draw_maps();
 
     const ReplayOptions &options_;
     LogReader log_;
     ale_config_t config_{};
-    CoreObject<ale_pipeline_t> pipeline_;
-    CoreObject<ale_extractor_t> extractor_;
+    std::optional<OfflineSlam> slam_;       /* unless */
+    CoreObject<ale_extractor_t> extractor_; /* only lines are asked for */
     bool begun_ = false;
 
     std::optional<FeaturesFile> features_file_;
@@ -68,16 +68,10 @@ class Replay
     std::optional<TextFile> trajectory_file_;
     std::optional<TimingFile> timing_file_;
 
-    std::optional<Loops> loops_;
-    std::optional<ObservationRecord> record_; /* when a map is asked for that may be drawn anew */
-    std::unique_ptr<ale_map_t> known_;        /* loaded; until the record knows it */
-    std::unique_ptr<ale_scan_observation_t> observation_ = std::make_unique<ale_scan_observation_t>();
-    std::vector<ScanPose> track_;
-    StageClock clock_;
+    StageClock clock_; /* of the extractor */
     ReplayCounts counts_;
     ale_scan_t scan_{};
     ale_features_t features_{};
-    ale_estimate_t estimate_{};
 };
 
 Replay::Replay(const ReplayOptions &options) : options_(options), log_(options.log)
@@ -94,25 +88,31 @@ void Replay::begin(const char *recorded_config)
 {
     begun_ = true;
     config_ = robot_config(options_, log_.info(), recorded_config);
-    const ale_stage_hook_t hook = clock_.hook();
-    int status = 0;
     if (options_.lines_only) {
-        extractor_ = core_object<ale_extractor_t>(ale_extractor_size());
-        status = ale_extractor_init(extractor_.get(), &config_.pipeline.extract);
-        ale_extractor_set_hook(extractor_.get(), &hook);
+        begin_extractor();
     } else {
-        pipeline_ = core_object<ale_pipeline_t>(ale_pipeline_size());
-        status = ale_pipeline_init(pipeline_.get(), &config_.pipeline);
-        ale_pipeline_set_hook(pipeline_.get(), &hook);
-        if (options_.close_loops) {
-            loops_.emplace();
-        }
-        if (loops_ && wants_map()) {
-            record_.emplace();
-        }
+        begin_slam();
     }
-    if (status < 0) {
-        throw cli::WrongUse("the configuration has a value that the core refuses");
+}
+
+constexpr char refused_config[] = "the configuration has a value that the core refuses";
+
+void Replay::begin_extractor()
+{
+    const ale_stage_hook_t hook = clock_.hook();
+    extractor_ = core_object<ale_extractor_t>(ale_extractor_size());
+    if (ale_extractor_init(extractor_.get(), &config_.pipeline.extract) < 0) {
+        throw cli::WrongUse(refused_config);
+    }
+    ale_extractor_set_hook(extractor_.get(), &hook);
+}
+
+void Replay::begin_slam()
+{
+    try {
+        slam_.emplace(config_.pipeline, OfflineSlam::Options{options_.close_loops, wants_map()});
+    } catch (const std::invalid_argument &) {
+        throw cli::WrongUse(refused_config);
     }
     if (!options_.load_map.empty()) {
         load_map();
@@ -131,11 +131,7 @@ void Replay::load_map()
     if (ale_map_file_load(options_.load_map.c_str(), map.get(), error) < 0) {
         throw std::runtime_error(error);
     }
-    ale_pipeline_load_map(pipeline_.get(), map.get(), 1, ale_pose_t{}, false);
-    if (loops_) {
-        loops_->know(*map);
-    }
-    known_ = std::move(map);
+    slam_->load_map(*map);
 }
 
 void Replay::extract(const ale_scan_t &scan)
@@ -145,33 +141,27 @@ void Replay::extract(const ale_scan_t &scan)
     ale_scan_mask(&scan_, config_.pipeline.blind, config_.pipeline.blind_count);
     ale_extract_scan(extractor_.get(), &scan_, nullptr, &features_);
     clock_.end_scan();
-    put_results(scan.stamp_us, &features_);
+    put_results(scan.stamp_us, &features_, clock_);
 }
 
 void Replay::track(const ale_scan_t &scan)
 {
-    if (loops_) {
-        loops_->before_scan(pipeline_.get());
-    }
-    clock_.begin_scan();
-    ale_pipeline_scan(pipeline_.get(), &scan, &estimate_);
-    clock_.end_scan();
-    put_estimate(estimate_);
-    put_results(scan.stamp_us, ale_pipeline_features(pipeline_.get()));
+    put_estimate(slam_->scan(scan));
+    put_results(scan.stamp_us, &slam_->features(), slam_->clock());
 }
 
 /* A scan that the device sent and nobody could read: answered by prediction. */
 void Replay::lose(int64_t stamp_us)
 {
-    if (pipeline_) {
-        ale_pipeline_dropped(pipeline_.get(), stamp_us, &estimate_);
-        put_estimate(estimate_);
+    if (slam_) {
+        put_estimate(slam_->dropped(stamp_us));
     }
     counts_.dropped++;
-    put_results(stamp_us, nullptr);
+    put_results(stamp_us, nullptr, clock_);
 }
 
-void Replay::put_results(int64_t stamp_us, const ale_features_t *features)
+/* features == nullptr: the scan was lost on its way. */
+void Replay::put_results(int64_t stamp_us, const ale_features_t *features, const StageClock &clock)
 {
     const auto scan = static_cast<uint32_t>(counts_.scans++);
     if (features_file_) {
@@ -181,12 +171,12 @@ void Replay::put_results(int64_t stamp_us, const ale_features_t *features)
         return;
     }
     if (timing_file_) {
-        timing_file_->put(scan, clock_);
+        timing_file_->put(scan, clock);
     }
     counts_.lines += features->line_count;
     counts_.corners += features->corner_count;
-    counts_.cpu_ns += clock_.total_ns();
-    counts_.worst_ns = std::max(counts_.worst_ns, clock_.total_ns());
+    counts_.cpu_ns += clock.total_ns();
+    counts_.worst_ns = std::max(counts_.worst_ns, clock.total_ns());
 }
 
 ale_pose_t Replay::framed(const ale_pose_t &robot) const
@@ -196,22 +186,10 @@ ale_pose_t Replay::framed(const ale_pose_t &robot) const
 
 void Replay::put_estimate(const ale_estimate_t &estimate)
 {
-    if (loops_) {
-        loops_->after_scan(pipeline_.get(), estimate);
-    }
-    if (record_ && ale_pipeline_scan_observation(pipeline_.get(), observation_.get())) {
-        if (known_) {
-            record_->set_prior_map(observation_->epoch, *known_);
-            known_.reset();
-        }
-        record_->add(*observation_);
-    }
     counts_.maps = estimate.maps;
     counts_.wheel_faults = estimate.wheel_faults;
     counts_.weak += estimate.state == ALE_STATE_WEAK;
     counts_.lost += estimate.state == ALE_STATE_LOST;
-    track_.push_back({estimate.stamp_us, estimate.map, estimate.velocity_x_um_s, estimate.velocity_y_um_s,
-                      estimate.velocity_theta_urad_s, !estimate.predicted});
     if (poses_file_) {
         poses_file_->put(estimate);
     }
@@ -228,8 +206,8 @@ void Replay::take_scan(const ale_scan_t &recorded)
 
 void Replay::take_odometry(const ale_odometry_t &sample)
 {
-    if (pipeline_ && config_.pipeline.use_odometry) {
-        ale_pipeline_odometry(pipeline_.get(), &sample);
+    if (slam_) {
+        slam_->odometry(sample);
     }
 }
 
@@ -258,7 +236,7 @@ void Replay::take(const ale_log_event_t &event)
 ScanCloud gather_points(const ReplayOptions &options, const ale_config_t &config,
                         const std::vector<ScanPose> &track)
 {
-    ScanCloud cloud;
+    ScanCloud cloud(options.map_cell_um);
     LogReader log(options.log);
     auto event = std::make_unique<ale_log_event_t>();
     size_t next = 0;
@@ -276,12 +254,7 @@ ScanCloud gather_points(const ReplayOptions &options, const ale_config_t &config
 void Replay::draw_maps()
 {
     auto map = std::make_unique<ale_map_t>();
-    ale_pipeline_copy_map(pipeline_.get(), map.get());
-    if (record_ && record_->epoch() != 0) {
-        rebuild_pieces(
-            *record_, [this](const RecordedScan &scan) { return track_[scan.scan].robot; },
-            [this](uint32_t scan) { return loops_->map_of(scan); }, map.get());
-    }
+    slam_->copy_map(map.get());
     if (!options_.save_map.empty()) {
         char error[ALE_MAP_FILE_ERROR];
         if (ale_map_file_save(options_.save_map.c_str(), map.get(), error) < 0) {
@@ -291,12 +264,12 @@ void Replay::draw_maps()
     if (options_.maps.empty()) {
         return;
     }
-    const ScanCloud cloud = gather_points(options_, config_, track_);
+    const ScanCloud cloud = gather_points(options_, config_, slam_->trajectory());
     MapScene scene;
     scene.map = map.get();
     scene.cloud = &cloud;
     scene.draw_points = options_.points;
-    for (const ScanPose &pose : track_) {
+    for (const ScanPose &pose : slam_->trajectory()) {
         scene.trajectory.push_back({pose.stamp_us, pose.robot});
     }
     print_pieces(*map);
@@ -305,23 +278,16 @@ void Replay::draw_maps()
     }
 }
 
-/* From here on the track is the one that all loops have corrected. */
-void Replay::close_loops()
-{
-    loops_->finish(pipeline_.get());
-    for (size_t scan = 0; scan < track_.size(); scan++) {
-        track_[scan].robot = loops_->corrected(static_cast<uint32_t>(scan));
-    }
-    print_loops(loops_->statistics(), loops_->longest_ns());
-}
-
 void Replay::finish()
 {
-    if (loops_) {
-        close_loops();
+    if (slam_) {
+        slam_->finish();
+    }
+    if (slam_ && slam_->loops()) {
+        print_loops(slam_->loops()->statistics(), slam_->loops()->longest_ns());
     }
     if (trajectory_file_) {
-        for (const ScanPose &pose : track_) {
+        for (const ScanPose &pose : slam_->trajectory()) {
             put_tum_line(*trajectory_file_, {pose.stamp_us, framed(pose.robot)});
         }
         trajectory_file_->close();
@@ -338,7 +304,7 @@ void Replay::finish()
     if (timing_file_) {
         timing_file_->close();
     }
-    if (pipeline_) {
+    if (slam_) {
         draw_maps();
     }
 }

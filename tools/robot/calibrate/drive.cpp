@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "common/command_line/wrong_use.h"
-#include "common/log/core_object.h"
 #include "common/log/log_reader.h"
 #include "common/log/robot_config.h"
+#include "common/offline/core_object.h"
 
 extern "C" {
 #include "motion/lag.h"

@@ -291,6 +291,18 @@ TEST_F(MapImage, TheGridTellsWallsFreeAndUnknownAsMapServerReadsThem)
     EXPECT_EQ(grid.at(-1.3, 0.01), 205) << "outside";
 }
 
+TEST_F(MapImage, TheGridHasTheCellsOfTheCloud)
+{
+    ScanCloud cloud(20000);
+    cloud.add(scan_of_room(0, 0.1), {0, {0, 100000, 0}, 0, 0, 0, true}, {});
+    cloud.add(scan_of_room(0.3, 0.1), {0, {300000, 100000, 0}, 0, 0, 0, true}, {});
+    scene_.cloud = &cloud;
+    const Grid grid = read_grid(write("map.pgm"));
+    EXPECT_DOUBLE_EQ(grid.resolution, 0.02);
+    EXPECT_EQ(grid.at(3.001, 0.51), 0) << "right wall";
+    EXPECT_EQ(grid.at(1.01, 0.51), 254) << "inside";
+}
+
 TEST_F(MapImage, WithoutScansOnlyWallsAreKnown)
 {
     const Grid grid = read_grid(write("map.pgm"));

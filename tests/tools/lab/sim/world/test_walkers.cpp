@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/offline/loops.h"
 #include "lab/explore/scan_of_turn.h"
-#include "lab/replay/loops.h"
 #include "lab/sim/units.h"
 #include "lab/sim/world/world_source.h"
 

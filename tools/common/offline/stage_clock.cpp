@@ -1,4 +1,4 @@
-#include "lab/replay/timing.h"
+#include "common/offline/stage_clock.h"
 
 #include <ctime>
 
@@ -39,20 +39,6 @@ void StageClock::end_of(void *user, ale_stage_t stage)
     const int64_t now_ns = thread_cpu_ns();
     clock->stage_ns_[stage] += now_ns - clock->last_ns_;
     clock->last_ns_ = now_ns;
-}
-
-TimingFile::TimingFile(const std::string &path) : file_(path)
-{
-    file_.put("scan,deskew_ns,smooth_ns,extract_ns,match_ns,map_ns,total_ns\n");
-}
-
-void TimingFile::put(uint32_t scan, const StageClock &clock)
-{
-    file_.put_integer(scan);
-    for (int stage = 0; stage < ALE_STAGES; stage++) {
-        file_.put(",").put_integer(clock.stage_ns(static_cast<ale_stage_t>(stage)));
-    }
-    file_.put(",").put_integer(clock.total_ns()).put("\n");
 }
 
 } // namespace ale

@@ -1,4 +1,4 @@
-#include "lab/replay/loops.h"
+#include "common/offline/loops.h"
 
 #include <algorithm>
 #include <ctime>

@@ -1,7 +1,7 @@
 /* The mapper beside a replay: what the firmware's mapper thread does, at fixed scans instead of when it is
  * done. */
-#ifndef ALE_LAB_REPLAY_LOOPS_H
-#define ALE_LAB_REPLAY_LOOPS_H
+#ifndef ALE_COMMON_OFFLINE_LOOPS_H
+#define ALE_COMMON_OFFLINE_LOOPS_H
 
 #include <cstdint>
 #include <deque>

@@ -1,6 +1,6 @@
 /* An object of the core whose size only the core knows, in memory of its own. */
-#ifndef ALE_COMMON_LOG_CORE_OBJECT_H
-#define ALE_COMMON_LOG_CORE_OBJECT_H
+#ifndef ALE_COMMON_OFFLINE_CORE_OBJECT_H
+#define ALE_COMMON_OFFLINE_CORE_OBJECT_H
 
 #include <cstddef>
 #include <cstdint>

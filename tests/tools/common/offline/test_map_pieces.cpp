@@ -1,5 +1,5 @@
 // The map at the end of a replay, of a drive in two maps.
-#include "lab/replay/map_pieces.h"
+#include "common/offline/map_pieces.h"
 
 #include <memory>
 

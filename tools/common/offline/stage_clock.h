@@ -1,11 +1,9 @@
-/* --timing: thread CPU time of the stages of a scan, told by the core's stage hook. */
-#ifndef ALE_LAB_REPLAY_TIMING_H
-#define ALE_LAB_REPLAY_TIMING_H
+/* Thread CPU time of the stages of a scan, told by the core's stage hook. */
+#ifndef ALE_COMMON_OFFLINE_STAGE_CLOCK_H
+#define ALE_COMMON_OFFLINE_STAGE_CLOCK_H
 
 #include <array>
 #include <cstdint>
-
-#include "common/export/text_file.h"
 
 extern "C" {
 #include "base/stage.h"
@@ -38,20 +36,6 @@ class StageClock
     int64_t last_ns_ = 0;
     int64_t total_ns_ = 0;
     std::array<int64_t, ALE_STAGES> stage_ns_{};
-};
-
-class TimingFile
-{
-  public:
-    explicit TimingFile(const std::string &path);
-    void put(uint32_t scan, const StageClock &clock);
-    void close()
-    {
-        file_.close();
-    }
-
-  private:
-    TextFile file_;
 };
 
 } // namespace ale

@@ -1,7 +1,7 @@
 /* The map at the end, each of the maps that are not joined drawn for itself: walls of two frames are never
  * taken for one. */
-#ifndef ALE_LAB_REPLAY_MAP_PIECES_H
-#define ALE_LAB_REPLAY_MAP_PIECES_H
+#ifndef ALE_COMMON_OFFLINE_MAP_PIECES_H
+#define ALE_COMMON_OFFLINE_MAP_PIECES_H
 
 #include <cstdint>
 #include <functional>

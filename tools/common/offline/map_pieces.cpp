@@ -1,4 +1,4 @@
-#include "lab/replay/map_pieces.h"
+#include "common/offline/map_pieces.h"
 
 #include <memory>
 #include <set>
