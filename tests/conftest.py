@@ -1,4 +1,6 @@
 """What all tests share: the folders of modules that they import, and a way for multicast."""
+import importlib.util
+import os
 import pathlib
 import sys
 
@@ -6,8 +8,9 @@ import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / folder) for folder in ("tests/tools", "tests/tree", "tools/library/python", "tools/lab/bench",
-                                                   "tools/lab/bench/faults", "tools/lab/figures")]
+                                                   "tools/lab/bench/faults", "tools/lab/figures", "tools/lab/plot")]
 
+from at_hand import BUILD  # noqa: E402
 from lcm_url import NoMulticast, ensure_multicast  # noqa: E402
 
 
@@ -17,3 +20,22 @@ def multicast():
         ensure_multicast()
     except NoMulticast as error:
         pytest.skip(str(error))
+
+
+@pytest.fixture(scope="session")
+def ale_package():
+    """What a program of its own needs in its environment to import Python's package as it lies in the tree."""
+    if not (BUILD / "python-package/ale_core.so").exists():
+        pytest.skip("Python's package is not built: make python-package")
+    return {"PYTHONPATH": str(ROOT / "tools/library/python/src"), "ALE_CORE": str(BUILD / "python-package")}
+
+
+@pytest.fixture(scope="session")
+def ale(ale_package):
+    """The package itself, under a name of its own: in this process `ale` may be LCM's types."""
+    os.environ["ALE_CORE"] = ale_package["ALE_CORE"]
+    folder = ROOT / "tools/library/python/src/ale"
+    spec = importlib.util.spec_from_file_location("ale_package", folder / "__init__.py", submodule_search_locations=[str(folder)])
+    package = sys.modules["ale_package"] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(package)
+    return package

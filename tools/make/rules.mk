@@ -30,8 +30,9 @@ SYSTEM_INCLUDES = -isystem $(BUILD)/lcmtypes $(LCM_INCLUDES) $(EIGEN)
 CCACHE = $(if $(findstring ccache,$(CC)),ccache )
 # The extractor is short loops over all beams and short functions: unrolled and inlined it takes 6 % fewer instructions.
 EXTRACT_OPT = -O3 -funroll-loops
-# The same bytes on every machine: sums in the order written, no fused or vector arithmetic.
-GRAPH_FLAGS = -ffp-contract=off -fno-tree-vectorize
+# The same bytes on every machine: sums in the order written, no fused or vector arithmetic. Python's module takes these
+# objects, too (tools/library/python).
+GRAPH_FLAGS = -ffp-contract=off -fno-tree-vectorize -fPIC
 
 OBJ = $(BUILD)/obj
 objects = $(patsubst %,$(OBJ)/%.o,$(1))

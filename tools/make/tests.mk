@@ -95,7 +95,7 @@ $(VENV)/ready: tests/requirements.txt
 	@touch $@
 venv: $(VENV)/ready
 
-SYSTEM_PROGRAMS ?= programs
+SYSTEM_PROGRAMS ?= programs python-package
 system: $(SYSTEM_PROGRAMS) lcm-types venv ## tests of the real programs over pseudo terminals and LCM (T=word selects)
 	@$(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(if $(T),-rP -k "$(T)")
 
@@ -206,7 +206,7 @@ RTAI_BUILD = BUILD=$(BUILD)/rtai-build RT=rtai RTAI_CONFIG=$(RTAI_EMULATION_CONF
 test: deps-test ## all tests on this machine; the last line counts them
 	@$(PYTHON) tools/make/run_tests.py begin
 	@$(PHASE) "build"
-	@$(SUB) -j2 all library $(BUILD)/bench/lines $(BUILD)/rtai/ale-slamd venv
+	@$(SUB) -j2 all library python-package $(BUILD)/bench/lines $(BUILD)/rtai/ale-slamd venv
 	-@$(PYTHON) tools/make/run_tests.py part $(SUB) test-waiting
 	-@$(PYTHON) tools/make/run_tests.py part $(SUB) test-computing
 	@$(PHASE) "all of it"
@@ -267,6 +267,8 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	-@ALE_LONG_TESTS=1 $(CHECKED) VENV=$(abspath $(VENV)) SYSTEM_PROGRAMS= T="$(HOSTILE_TESTS)" system
 	@$(PHASE) "the robot explores at a click in the browser"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=console_explores
+	@$(PHASE) "Python's wheel in an empty virtual environment"
+	-@ALE_LONG_TESTS=1 $(SUB) system T=test_python_wheel
 	@$(PHASE) "hostile messages, ten thousand of every kind"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=whatever_is_sent
 	@$(PHASE) "explorations in a closed loop with the simulator, more of them"

@@ -1,0 +1,96 @@
+"""The wheel as a user has it: built from the sdist away from the tree, installed into an empty virtual environment; a bag becomes a
+map there by the notebook. Long: with ALE_LONG_TESTS alone, and where PyPI can be had."""
+import json
+import os
+import subprocess
+import sys
+import tarfile
+import time
+
+import pytest
+
+from at_hand import ROOT
+
+PYTHON = ROOT / "tools/library/python"
+LOG = ROOT / "tests/digest/apartment.log.gz"
+WRITER = ROOT / "tests/tools/library/python/bag_of_log.py"
+MOST_S = 60  # of CPU and waiting, once the wheel is there
+
+
+def run(*words, **options):
+    done = subprocess.run([str(word) for word in words], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False, timeout=900,
+                          **options)
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+    return done.stdout
+
+
+def environment(folder, *packages):
+    """An empty one with these of PyPI; the test is skipped where they cannot be had."""
+    run(sys.executable, "-m", "venv", folder)
+    done = subprocess.run([folder / "bin/pip", "install", "-q", "--disable-pip-version-check", *packages], capture_output=True, text=True,
+                          check=False)
+    if done.returncode:
+        pytest.skip(f"PyPI cannot be had here: {done.stderr.strip().splitlines()[-1]}")
+    return folder / "bin/python"
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory):
+    """Folder with wheel and sdist."""
+    if not os.environ.get("ALE_LONG_TESTS"):
+        pytest.skip("compiles the core: ALE_LONG_TESTS=1")
+    folder = tmp_path_factory.mktemp("built")
+    python = environment(folder / "venv", "build")
+    run(python, "-m", "build", "--outdir", folder, PYTHON)
+    return folder
+
+
+def test_the_sdist_carries_what_it_builds_from(built):
+    with tarfile.open(next(built.glob("*.tar.gz"))) as archive:
+        names = {name.partition("/")[2] for name in archive.getnames()}
+    assert {"pyproject.toml", "CMakeLists.txt", "src/ale/tracker.py", "src/ale/py.typed", "src/ale/scanners.ini", "binding/binding.cpp",
+            "sources/lib/ale.h", "sources/lib/graph/mapper.cpp", "sources/drivers/store/map_file.c", "sources/LICENSE"} <= names
+    assert not (PYTHON / "sources").exists(), "nothing is left in the tree"
+
+
+def test_the_notebook_makes_a_map_of_a_bag_in_an_empty_environment(built, tmp_path):
+    wheel = next(built.glob("*.whl"))
+    started = time.monotonic()
+    python = environment(tmp_path / "venv", f"{wheel}[bags,plot]")
+    for bag in ("drive", "drive.bag"):
+        run(python, WRITER, LOG, tmp_path / bag)
+    notebook = json.loads((PYTHON / "bag_to_map.ipynb").read_text(encoding="utf-8"))
+    code = "\n".join("".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code")
+    assert len([line for line in code.splitlines() if line.strip()]) <= 10
+    settings = {"PATH": os.environ["PATH"], "MPLBACKEND": "Agg", "HOME": str(tmp_path)}
+    maps = []
+    for bag in ("drive", "drive.bag"):
+        run(python, "-c", code.replace('"drive"', f'"{bag}"'), cwd=tmp_path, env=settings)
+        maps.append((tmp_path / "drive.map").read_bytes())
+    assert maps[0] == maps[1] and maps[0].count(b"\nwall ") > 10
+    assert (tmp_path / "map.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    assert len((tmp_path / "drive.tum").read_text().splitlines()) == 120
+    assert time.monotonic() - started < MOST_S * (1 + (os.getloadavg()[0] > (os.cpu_count() or 1)) * 9)
+
+
+def test_a_bag_that_is_none_is_refused_in_words(built, tmp_path):
+    python = environment(tmp_path / "venv", f"{next(built.glob('*.whl'))}[bags]")
+    run(python, WRITER, LOG, tmp_path / "drive")
+    code = ("import ale.bags, sys\n"
+            "for path, words in (('absent', 'absent'), ('drive', 'no topic /lidar')):\n"
+            "    try:\n        list(ale.bags.read(path, '/lidar'))\n"
+            "    except ValueError as error:\n        assert words in str(error), error\n"
+            "    else:\n        sys.exit('taken')\n")
+    run(python, "-c", code, cwd=tmp_path)
+
+
+def test_type_hints_are_whole(tmp_path):
+    if not os.environ.get("ALE_LONG_TESTS"):
+        pytest.skip("installs mypy: ALE_LONG_TESTS=1")
+    python = environment(tmp_path / "venv", "mypy", "numpy", "matplotlib", "rosbags")
+    assert "no issues" in run(python, "-m", "mypy", "--strict", "--cache-dir", tmp_path / "cache", PYTHON / "src/ale")
+    use = tmp_path / "use.py"
+    use.write_text("import ale\nfeatures = ale.Extractor(ale.scanner('urg-04lx')).extract([1.0] * 682)\ncount: str = features.outliers\n")
+    done = subprocess.run([python, "-m", "mypy", "--strict", "--cache-dir", tmp_path / "cache", use], capture_output=True, text=True,
+                          check=False, env={**os.environ, "MYPYPATH": str(PYTHON / "src")})
+    assert 'expression has type "int", variable has type "str"' in done.stdout
