@@ -20,6 +20,7 @@ MISSING_FILE = {
     "ale-merge": (ABSENT, 1),
     "ale-mounting": (ABSENT, 1),
     "ale-odometry": ("", 0),
+    "ale-plot": (ABSENT, 1),
     "ale-record": (f"--port /dev/null --no-lcm --out {ABSENT}", 1),
     "ale-replay": (ABSENT, 1),
     "ale-screen": ("", 0),
