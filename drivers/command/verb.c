@@ -14,7 +14,7 @@ static const form_t verbs[ALE_VERBS] = {
     [ALE_VERB_EXPLORE] = {"explore", 1, 1},   [ALE_VERB_RESET] = {"reset", 0, 0},
     [ALE_VERB_RELOCATE] = {"relocate", 3, 3}, [ALE_VERB_SAVE_MAP] = {"save_map", 1, 1},
     [ALE_VERB_LOAD_MAP] = {"load_map", 1, 4}, [ALE_VERB_RECORD] = {"record", 0, 0},
-    [ALE_VERB_SET] = {"set", 2, 2},
+    [ALE_VERB_SET] = {"set", 2, 2},           [ALE_VERB_GOTO] = {"goto", 2, 2},
 };
 
 static const char *const settings[ALE_SETTINGS] = {

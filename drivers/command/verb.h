@@ -15,6 +15,7 @@ typedef enum {
     ALE_VERB_LOAD_MAP,
     ALE_VERB_RECORD,
     ALE_VERB_SET,
+    ALE_VERB_GOTO,
     ALE_VERBS
 } ale_verb_t;
 

@@ -33,6 +33,7 @@ struct ale_bus {
     ale_scan_buffer_t scan;
     ale_map_buffer_t map;
     ale_pieces_buffer_t pieces;
+    ale_plan_buffer_t plan;
     ale_status_buffer_t status;
     float bot_ranges[ALE_MAX_BEAMS];
     uint8_t bytes[MESSAGE_BYTES];
@@ -153,6 +154,14 @@ int ale_bus_send_map_pieces(ale_bus_t *bus, const ale_map_t *map, int64_t utime,
     ale_convert_map_pieces(map, utime, part, &bus->pieces, &message);
     return send_bytes(bus, ALE_CHANNEL_MAP_PIECES,
                       lcmtypes_ale_map_pieces_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
+}
+
+int ale_bus_send_plan(ale_bus_t *bus, const ale_plan_report_t *report)
+{
+    lcmtypes_ale_plan_t message;
+    ale_convert_plan(report, &bus->plan, &message);
+    return send_bytes(bus, ALE_CHANNEL_PLAN,
+                      lcmtypes_ale_plan_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
 }
 
 int ale_bus_send_status(ale_bus_t *bus, const ale_status_report_t *report)

@@ -313,6 +313,26 @@ static void convert_operation(const ale_operation_report_t *report, lcmtypes_ale
     message->command_result = (char *)report->command_result;
 }
 
+void ale_convert_plan(const ale_plan_report_t *report, ale_plan_buffer_t *buffer,
+                      lcmtypes_ale_plan_t *message)
+{
+    *message = (lcmtypes_ale_plan_t){
+        .utime = report->now_us,
+        .state = (int8_t)report->state,
+        .words = (char *)report->words,
+        .has_place = report->has_place ? 1 : 0,
+        .place_x = ale_to_metres(report->place.x_um),
+        .place_y = ale_to_metres(report->place.y_um),
+        .num_points = (int32_t)report->points,
+        .x = buffer->x,
+        .y = buffer->y,
+    };
+    for (uint32_t k = 0; k < report->points; k++) {
+        buffer->x[k] = ale_to_metres(report->point[k].x_um);
+        buffer->y[k] = ale_to_metres(report->point[k].y_um);
+    }
+}
+
 void ale_convert_status(const ale_status_report_t *report, ale_status_buffer_t *buffer,
                         lcmtypes_ale_status_t *message)
 {

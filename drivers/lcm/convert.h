@@ -8,6 +8,7 @@
 #include <lcmtypes_ale_map_pieces_t.h>
 #include <lcmtypes_ale_map_t.h>
 #include <lcmtypes_ale_odometry_t.h>
+#include <lcmtypes_ale_plan_t.h>
 #include <lcmtypes_ale_pose_t.h>
 #include <lcmtypes_ale_scan_t.h>
 #include <lcmtypes_ale_status_t.h>
@@ -40,6 +41,11 @@ typedef struct {
 } ale_pieces_buffer_t;
 
 typedef struct {
+    float x[ALE_PLAN_POINTS];
+    float y[ALE_PLAN_POINTS];
+} ale_plan_buffer_t;
+
+typedef struct {
     char *name[ALE_STATUS_COUNTERS];
     int64_t value[ALE_STATUS_COUNTERS];
 } ale_status_buffer_t;
@@ -70,6 +76,10 @@ void ale_convert_map(const ale_map_t *map, int64_t utime, int16_t part, ale_map_
 /* Part 0..parts-1 of the lines that are in other maps than the first, in the order of the map. */
 void ale_convert_map_pieces(const ale_map_t *map, int64_t utime, int16_t part, ale_pieces_buffer_t *buffer,
                             lcmtypes_ale_map_pieces_t *message);
+
+/* The message points into the report, too. */
+void ale_convert_plan(const ale_plan_report_t *report, ale_plan_buffer_t *buffer,
+                      lcmtypes_ale_plan_t *message);
 
 /* The message points into the report. */
 void ale_convert_status(const ale_status_report_t *report, ale_status_buffer_t *buffer,

@@ -58,6 +58,28 @@ typedef struct {
     char command_result[ALE_ANSWER_BYTES];
 } ale_operation_report_t;
 
+enum { ALE_PLAN_POINTS = 64 };
+
+typedef enum {
+    ALE_PLAN_OFF,
+    ALE_PLAN_EXPLORES,
+    ALE_PLAN_RETURNS,
+    ALE_PLAN_GOES,
+    ALE_PLAN_ARRIVED,
+    ALE_PLAN_GIVEN_UP
+} ale_plan_state_t;
+
+/* ALE_PLAN: what the robot drives by itself. */
+typedef struct {
+    int64_t now_us;
+    ale_plan_state_t state;
+    char words[ALE_ANSWER_BYTES];
+    bool has_place;
+    ale_point_t place;
+    uint32_t points; /* 0: no path */
+    ale_point_t point[ALE_PLAN_POINTS];
+} ale_plan_report_t;
+
 /* ALE_STATUS. The last of the stages is their sum. */
 typedef struct {
     int64_t now_us;

@@ -55,6 +55,15 @@ static void give_orders(ale_command_handlers_t *handlers)
     ale_wake_post(handlers->exchange->drive_again);
 }
 
+/* Who takes the stick decides where the robot goes, from then on. */
+static void call_off_goal(ale_command_handlers_t *handlers)
+{
+    if (handlers->exchange->explore && ale_explore_is_going(handlers->exchange->explore)) {
+        ale_explore_request(handlers->exchange->explore, false);
+        handlers->orders.exploring = false;
+    }
+}
+
 static bool drive(ale_command_handlers_t *handlers, const ale_command_t *command)
 {
     ale_drive_arbiter_t *arbiter = &handlers->arbiter;
@@ -74,6 +83,7 @@ static bool drive(ale_command_handlers_t *handlers, const ale_command_t *command
     case ALE_ARBITER_GRANTED:
         break;
     }
+    call_off_goal(handlers);
     handlers->orders.operator_request = arbiter->request;
     give_orders(handlers);
     handlers->news = handlers->news || begins;
@@ -91,18 +101,27 @@ static bool stop(ale_command_handlers_t *handlers, const ale_command_t *command)
     return ANSWER(handlers, true, "stopped by %s", command->operator_name);
 }
 
+static bool drives_by_itself(ale_command_handlers_t *handlers)
+{
+    return handlers->exchange->explore || ANSWER(handlers, false, "this robot does not explore");
+}
+
+/* Whether the robot may set off because this operator says so. */
+static bool may_set_off(ale_command_handlers_t *handlers, const ale_command_t *command)
+{
+    const char *holder = ale_drive_arbiter_holder(&handlers->arbiter, handlers->now_us);
+    const bool taken = holder[0] != '\0' && strcmp(holder, command->operator_name) != 0;
+    return !taken || ANSWER(handlers, false, "%s drives", holder);
+}
+
 static bool explore(ale_command_handlers_t *handlers, const ale_command_t *command)
 {
     const bool on = strcmp(command->arg[0], "on") == 0;
     if (!on && strcmp(command->arg[0], "off") != 0) {
         return ANSWER(handlers, false, "explore on, or off");
     }
-    if (!handlers->exchange->explore) {
-        return ANSWER(handlers, false, "this robot does not explore");
-    }
-    const char *holder = ale_drive_arbiter_holder(&handlers->arbiter, handlers->now_us);
-    if (on && holder[0] != '\0' && strcmp(holder, command->operator_name) != 0) {
-        return ANSWER(handlers, false, "%s drives", holder);
+    if (!drives_by_itself(handlers) || (on && !may_set_off(handlers, command))) {
+        return false;
     }
     ale_explore_request(handlers->exchange->explore, on);
     handlers->orders.exploring = on;
@@ -151,6 +170,7 @@ static bool begin_job(ale_command_handlers_t *handlers, const ale_command_t *com
     }
     handlers->job = job;
     handlers->job_counter = command->counter;
+    handlers->job_begun_us = handlers->now_us;
     memcpy(handlers->job_operator, command->operator_name, sizeof handlers->job_operator);
     return true;
 }
@@ -158,8 +178,27 @@ static bool begin_job(ale_command_handlers_t *handlers, const ale_command_t *com
 /* One job at a time: its answer is still to be told. */
 static bool has_no_job(ale_command_handlers_t *handlers)
 {
-    return handlers->job == ALE_JOB_NONE || ANSWER(handlers, false, "busy with another %s: try again",
-                                                   handlers->job == ALE_JOB_RECORDING ? "recording" : "map");
+    static const char *const jobs[] = {[ALE_JOB_NONE] = "",
+                                       [ALE_JOB_MAP] = "map",
+                                       [ALE_JOB_RECORDING] = "recording",
+                                       [ALE_JOB_GOAL] = "goal"};
+    return handlers->job == ALE_JOB_NONE ||
+           ANSWER(handlers, false, "busy with another %s: try again", jobs[handlers->job]);
+}
+
+static bool go_to(ale_command_handlers_t *handlers, const ale_command_t *command)
+{
+    ale_point_t place;
+    if (!read_metres(command->arg[0], &place.x_um) || !read_metres(command->arg[1], &place.y_um)) {
+        return ANSWER(handlers, false, "goto wants x y, metres");
+    }
+    if (!drives_by_itself(handlers) || !may_set_off(handlers, command) || !has_no_job(handlers)) {
+        return false;
+    }
+    ale_explore_go(handlers->exchange->explore, place, handlers->newest_map);
+    handlers->orders.exploring = true;
+    give_orders(handlers);
+    return begin_job(handlers, command, ALE_JOB_GOAL, true);
 }
 
 static bool save_map(ale_command_handlers_t *handlers, const ale_command_t *command)
@@ -274,6 +313,7 @@ static const handler_t verbs[ALE_VERBS] = {
     [ALE_VERB_DRIVE] = drive,       [ALE_VERB_STOP] = stop,         [ALE_VERB_EXPLORE] = explore,
     [ALE_VERB_RESET] = reset,       [ALE_VERB_RELOCATE] = relocate, [ALE_VERB_SAVE_MAP] = save_map,
     [ALE_VERB_LOAD_MAP] = load_map, [ALE_VERB_RECORD] = record,     [ALE_VERB_SET] = set,
+    [ALE_VERB_GOTO] = go_to,
 };
 
 bool ale_command_handlers_obey(ale_command_handlers_t *handlers, const ale_command_t *command)

@@ -13,8 +13,11 @@
 #include "mapping/map_storage.h"
 #include "operator/drive_arbiter.h"
 
-/* What takes its time and is answered when it is done: a map saved or loaded, a flight recorded. */
-typedef enum { ALE_JOB_NONE, ALE_JOB_MAP, ALE_JOB_RECORDING } ale_job_t;
+/* What takes its time and is answered when it is done: a map saved or loaded, a flight recorded, a way
+ * planned. */
+typedef enum { ALE_JOB_NONE, ALE_JOB_MAP, ALE_JOB_RECORDING, ALE_JOB_GOAL } ale_job_t;
+
+enum { ALE_GOAL_PATIENCE_US = 3000000 }; /* a way is planned with the next scan, if one comes */
 
 /* What the handlers act on. */
 typedef struct {
@@ -33,6 +36,7 @@ typedef struct {
     ale_job_t job; /* under way: */
     char job_operator[ALE_NAME_BYTES];
     int64_t job_counter;
+    int64_t job_begun_us;
     ale_request_t job_request; /* what the estimate task is asked for once it is loaded */
     char result[ALE_ANSWER_BYTES];
 } ale_command_handlers_t;

@@ -115,6 +115,21 @@ static bool recording_done(ale_command_handlers_t *handlers, bool *obeyed)
     return true;
 }
 
+/* The same for a way to a place; without a scan there is none. */
+static bool goal_done(ale_command_handlers_t *handlers, bool *obeyed)
+{
+    ale_explore_t *explore = handlers->exchange->explore;
+    const ale_goal_answer_t answer = ale_explore_goal_answer(explore, handlers->result);
+    const int64_t now_us = ale_clock_now_us(&handlers->exchange->clock);
+    *obeyed = answer == ALE_GOAL_TAKEN;
+    if (answer == ALE_GOAL_PENDING && now_us - handlers->job_begun_us > ALE_GOAL_PATIENCE_US) {
+        ale_explore_request(explore, false);
+        snprintf(handlers->result, sizeof handlers->result, "no scan has come to plan a way with");
+        return true;
+    }
+    return answer != ALE_GOAL_PENDING;
+}
+
 static bool job_done(ale_command_handlers_t *handlers, bool *obeyed)
 {
     switch (handlers->job) {
@@ -122,6 +137,8 @@ static bool job_done(ale_command_handlers_t *handlers, bool *obeyed)
         return map_done(handlers, obeyed);
     case ALE_JOB_RECORDING:
         return recording_done(handlers, obeyed);
+    case ALE_JOB_GOAL:
+        return goal_done(handlers, obeyed);
     case ALE_JOB_NONE:
         break;
     }
@@ -164,7 +181,8 @@ void ale_commands_report(const ale_commands_t *commands, ale_operation_report_t 
     if (handlers->exchange->explore) {
         ale_explore_words(handlers->exchange->explore, report->exploration);
         if (report->who_drives[0] == '\0' && ale_explore_is_on(handlers->exchange->explore)) {
-            snprintf(report->who_drives, sizeof report->who_drives, "exploration");
+            snprintf(report->who_drives, sizeof report->who_drives, "%s",
+                     ale_explore_is_going(handlers->exchange->explore) ? "goal" : "exploration");
         }
     }
     memcpy(report->command_operator, commands->operator_name, sizeof report->command_operator);

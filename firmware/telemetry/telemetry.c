@@ -19,6 +19,7 @@
 #include "telemetry/map_publisher.h"
 #include "telemetry/odometry_intake.h"
 #include "telemetry/other_speakers.h"
+#include "telemetry/plan_publisher.h"
 #include "telemetry/realtime_watch.h"
 #include "telemetry/result_publisher.h"
 #include "telemetry/status_publisher.h"
@@ -45,6 +46,7 @@ struct ale_telemetry {
     ale_status_publisher_t status;
     ale_realtime_watch_t realtime;
     ale_map_publisher_t map;
+    ale_plan_publisher_t plan;
     int64_t next_keep_ns;
     ale_service_t service;
     ale_logger_t *logger; /* what a terminal or a disk does must not hold up poses */
@@ -200,6 +202,7 @@ static void work(ale_telemetry_t *telemetry)
     const int64_t now_ns = ale_rt_now_ns();
     ale_map_publisher_work(&telemetry->map, telemetry->results.epoch, now_ns);
     ale_commands_work(telemetry->commands);
+    ale_plan_publisher_work(&telemetry->plan, now_ns);
     ale_status_publisher_work(&telemetry->status, now_ns);
     if (now_ns >= telemetry->next_keep_ns && keep_map(telemetry)) {
         telemetry->next_keep_ns = now_ns + (int64_t)telemetry->config->keep_seconds * NS_PER_S;
@@ -269,6 +272,7 @@ static void init_publishers(ale_telemetry_t *telemetry, const ale_rt_report_t *r
     ale_other_speakers_init(&telemetry->others, boot, telemetry->config->name);
     ale_odometry_intake_init(&telemetry->odometry, telemetry->exchange);
     ale_map_publisher_init(&telemetry->map, telemetry->exchange, telemetry->bus);
+    telemetry->plan = (ale_plan_publisher_t){.exchange = telemetry->exchange, .bus = telemetry->bus};
     telemetry->status = (ale_status_publisher_t){
         .exchange = telemetry->exchange,
         .bus = telemetry->bus,

@@ -7,6 +7,7 @@
 
 /* Counted in scans, ten a second. */
 enum { PLAN_EVERY = 5, STALL_STEPS = 80, STUCK_STEPS = 10, BACKING_STEPS = 15 };
+enum { SURE_NO_WAY = 10 }; /* plans: walls of the map that are gone have been seen through by then */
 enum { SURE_PLANS = 4, COMFORT_CM = 15, UM_PER_CM = 10000 };
 #define LOOKAHEAD_UM 700000
 #define TIGHT_AHEAD_UM 400000
@@ -42,17 +43,70 @@ void ale_explorer_init(ale_explorer_t *explorer, const ale_explorer_config_t *co
 
 bool ale_explorer_is_active(const ale_explorer_t *explorer)
 {
-    return explorer->state != ALE_EXPLORER_OFF && explorer->state != ALE_EXPLORER_FINISHED;
+    switch (explorer->state) {
+    case ALE_EXPLORER_OFF:
+    case ALE_EXPLORER_FINISHED:
+    case ALE_EXPLORER_ARRIVED:
+    case ALE_EXPLORER_GIVEN_UP:
+        return false;
+    case ALE_EXPLORER_EXPLORING:
+    case ALE_EXPLORER_RETURNING:
+    case ALE_EXPLORER_TURNING:
+    case ALE_EXPLORER_BLOCKED:
+    case ALE_EXPLORER_GOING:
+        break;
+    }
+    return true;
+}
+
+static bool is_going(const ale_explorer_t *explorer)
+{
+    return explorer->state == ALE_EXPLORER_GOING;
 }
 
 void ale_explorer_request(ale_explorer_t *explorer, bool on)
 {
     if (!on) {
         explorer->state = ALE_EXPLORER_OFF;
-    } else if (!ale_explorer_is_active(explorer)) {
+    } else if (!ale_explorer_is_active(explorer) || is_going(explorer)) {
         explorer->state = ALE_EXPLORER_EXPLORING;
         explorer->begun = false;
+        explorer->walls.count = 0;
         ale_wander_begin(&explorer->wander);
+    }
+}
+
+void ale_explorer_go(ale_explorer_t *explorer, ale_point_t place, const ale_map_t *map)
+{
+    ale_plan_walls_t *walls = &explorer->walls;
+    walls->count = map ? map->line_count : 0;
+    for (uint16_t k = 0; k < walls->count; k++) {
+        walls->start[k] = map->line[k].start;
+        walls->end[k] = map->line[k].end;
+        walls->map_id[k] = map->line[k].map_id;
+    }
+    explorer->state = ALE_EXPLORER_GOING;
+    explorer->begun = false;
+    explorer->home = (ale_pose_t){place.x_um, place.y_um, 0};
+    explorer->steps_without_progress = 0;
+}
+
+static void give_up(ale_explorer_t *explorer, ale_given_up_t why)
+{
+    explorer->state = ALE_EXPLORER_GIVEN_UP;
+    explorer->why = why;
+    explorer->steps_without_progress = 0;
+    explorer->route.count = 0;
+}
+
+/* Those of other maps have nothing to do with where the robot is. */
+static void draw_walls(ale_explorer_t *explorer)
+{
+    const ale_plan_walls_t *walls = &explorer->walls;
+    for (uint16_t k = 0; k < walls->count; k++) {
+        if (walls->map_id[k] == explorer->map_id) {
+            ale_grid_add_wall(&explorer->grid, walls->start[k], walls->end[k]);
+        }
     }
 }
 
@@ -60,6 +114,12 @@ static void note_progress(ale_explorer_t *explorer)
 {
     explorer->progress_at = (ale_point_t){explorer->pose.x_um, explorer->pose.y_um};
     explorer->steps_without_progress = 0;
+}
+
+static ale_point_t half_way(ale_point_t a, ale_point_t b)
+{
+    return (ale_point_t){(int32_t)(((int64_t)a.x_um + b.x_um) / 2),
+                         (int32_t)(((int64_t)a.y_um + b.y_um) / 2)};
 }
 
 static void begin(ale_explorer_t *explorer, const ale_estimate_t *estimate)
@@ -74,13 +134,20 @@ static void begin(ale_explorer_t *explorer, const ale_estimate_t *estimate)
                                           .squeeze_cm = centimetres(radius_um),
                                           .comfort_cm = body_cm + COMFORT_CM,
                                           .see_cm = centimetres(radius_um)};
-    ale_grid_init(&explorer->grid, (ale_point_t){pose.x_um, pose.y_um});
+    explorer->map_id = estimate->map_id;
+    if (is_going(explorer)) {
+        ale_grid_init(&explorer->grid, half_way((ale_point_t){pose.x_um, pose.y_um},
+                                                (ale_point_t){explorer->home.x_um, explorer->home.y_um}));
+        draw_walls(explorer);
+    } else {
+        ale_grid_init(&explorer->grid, (ale_point_t){pose.x_um, pose.y_um});
+        explorer->state = ALE_EXPLORER_EXPLORING;
+        explorer->home = pose;
+    }
     ale_planner_init(&explorer->planner, &planner);
     ale_kept_scans_clear(&explorer->kept);
-    explorer->state = ALE_EXPLORER_EXPLORING;
     explorer->epoch = estimate->epoch;
     explorer->home_scan = estimate->scan;
-    explorer->home = pose;
     explorer->pose = pose;
     explorer->route.count = 0;
     explorer->goal = ALE_GRID_NONE;
@@ -96,9 +163,10 @@ static void begin(ale_explorer_t *explorer, const ale_estimate_t *estimate)
 static void draw_again(ale_explorer_t *explorer)
 {
     const ale_follower_t *follower = &explorer->config.follower;
+    draw_walls(explorer);
     ale_kept_scans_draw(&explorer->kept, follower->sensor, follower->shape.width_um / 2, &explorer->grid,
                         &explorer->straightened);
-    explorer->state = ALE_EXPLORER_EXPLORING;
+    explorer->state = is_going(explorer) ? ALE_EXPLORER_GOING : ALE_EXPLORER_EXPLORING;
     explorer->goal = ALE_GRID_NONE;
     explorer->route.count = 0;
     explorer->plans_without_goal = 0;
@@ -109,7 +177,7 @@ static void draw_again(ale_explorer_t *explorer)
 static void make_room(ale_explorer_t *explorer)
 {
     ale_point_t middle;
-    if (ale_grid_is_cramped(&explorer->grid, &middle)) {
+    if (!is_going(explorer) && ale_grid_is_cramped(&explorer->grid, &middle)) {
         const ale_point_t corner = explorer->grid.corner;
         ale_grid_init(&explorer->grid, middle);
         ale_planner_move(&explorer->planner, &explorer->grid, corner);
@@ -196,11 +264,40 @@ static void plan_exploring(ale_explorer_t *explorer, ale_point_t robot)
     }
 }
 
+static ale_given_up_t reason_for_no_way(const ale_explorer_t *explorer)
+{
+    const ale_point_t place = {explorer->home.x_um, explorer->home.y_um};
+    if (ale_grid_cell(&explorer->grid, place) == ALE_GRID_NONE) {
+        return ALE_GIVEN_UP_FAR;
+    }
+    return ale_planner_has_room(&explorer->planner, &explorer->grid, place) ? ALE_GIVEN_UP_CLOSED
+                                                                            : ALE_GIVEN_UP_TAKEN;
+}
+
+/* As with exploring: several times, one scan after the other. */
+static void plan_going(ale_explorer_t *explorer, ale_point_t robot)
+{
+    const ale_point_t place = {explorer->home.x_um, explorer->home.y_um};
+    if (ale_planner_venture(&explorer->planner, &explorer->grid, robot, place, &explorer->route)) {
+        explorer->plans_without_goal = 0;
+        return;
+    }
+    explorer->plans_without_goal++;
+    explorer->steps_since_plan = PLAN_EVERY;
+    if (explorer->plans_without_goal >= SURE_NO_WAY) {
+        give_up(explorer, reason_for_no_way(explorer));
+    }
+}
+
 static void plan(ale_explorer_t *explorer)
 {
     const ale_point_t robot = {explorer->pose.x_um, explorer->pose.y_um};
     explorer->steps_since_plan = 0;
     ale_planner_update(&explorer->planner, &explorer->grid);
+    if (is_going(explorer)) {
+        plan_going(explorer, robot);
+        return;
+    }
     if (explorer->state == ALE_EXPLORER_EXPLORING) {
         plan_exploring(explorer, robot);
     }
@@ -218,6 +315,8 @@ static void watch_progress(ale_explorer_t *explorer)
     explorer->steps_without_progress++;
     if (distance_um(robot, explorer->progress_at) > PROGRESS_UM) {
         note_progress(explorer);
+    } else if (explorer->steps_without_progress > STALL_STEPS && is_going(explorer)) {
+        give_up(explorer, ALE_GIVEN_UP_STUCK);
     } else if (explorer->steps_without_progress > STALL_STEPS) {
         const bool exploring = explorer->state == ALE_EXPLORER_EXPLORING;
         const bool given_up = exploring && explorer->goal != ALE_GRID_NONE &&
@@ -252,7 +351,7 @@ static ale_velocity_t drive_home(ale_explorer_t *explorer, const ale_scan_t *sca
     const ale_point_t home = {explorer->home.x_um, explorer->home.y_um};
     const int64_t left_um = distance_um(robot, home);
     if (left_um <= HOME_UM) {
-        explorer->state = ALE_EXPLORER_TURNING;
+        explorer->state = is_going(explorer) ? ALE_EXPLORER_ARRIVED : ALE_EXPLORER_TURNING;
         return standing;
     }
     if (left_um > HOME_NEAR_UM || explorer->route.count > HOME_NEAR_CELLS) {
@@ -278,12 +377,15 @@ static ale_velocity_t drive(ale_explorer_t *explorer, const ale_scan_t *scan)
     case ALE_EXPLORER_EXPLORING:
         return drive_route(explorer, scan);
     case ALE_EXPLORER_RETURNING:
+    case ALE_EXPLORER_GOING:
         return drive_home(explorer, scan);
     case ALE_EXPLORER_TURNING:
         return turn_home(explorer);
     case ALE_EXPLORER_OFF:
     case ALE_EXPLORER_FINISHED:
     case ALE_EXPLORER_BLOCKED:
+    case ALE_EXPLORER_ARRIVED:
+    case ALE_EXPLORER_GIVEN_UP:
         break;
     }
     return standing;
@@ -295,7 +397,9 @@ void ale_explorer_correct(ale_explorer_t *explorer, const ale_correction_t *corr
         return;
     }
     const ale_pose_t shift = ale_correction_at(correction, explorer->scan);
-    explorer->home = ale_pose_compose(ale_correction_at(correction, explorer->home_scan), explorer->home);
+    if (!is_going(explorer)) {
+        explorer->home = ale_pose_compose(ale_correction_at(correction, explorer->home_scan), explorer->home);
+    }
     explorer->progress_at = ale_pose_apply(shift, explorer->progress_at);
     explorer->pose = ale_pose_compose(shift, explorer->pose);
     ale_planner_correct(&explorer->planner, &explorer->grid, correction);
@@ -315,6 +419,17 @@ static ale_velocity_t move_while_lost(ale_explorer_t *explorer, const ale_scan_t
     return ale_wander_step(&explorer->wander, &explorer->config.follower, scan);
 }
 
+/* On the way to a place: before it began, and for some seconds, it may come back by itself. */
+static ale_velocity_t stand_while_lost(ale_explorer_t *explorer)
+{
+    explorer->steps_without_progress++;
+    if (!explorer->begun || explorer->steps_without_progress > STALL_STEPS) {
+        give_up(explorer, ALE_GIVEN_UP_LOST);
+    }
+    explorer->steps_since_plan = PLAN_EVERY;
+    return standing;
+}
+
 ale_velocity_t ale_explorer_step(ale_explorer_t *explorer, const ale_scan_t *scan,
                                  const ale_estimate_t *estimate, int64_t now_us)
 {
@@ -322,9 +437,14 @@ ale_velocity_t ale_explorer_step(ale_explorer_t *explorer, const ale_scan_t *sca
         return standing;
     }
     if (estimate->state == ALE_STATE_LOST) {
-        return move_while_lost(explorer, scan);
+        return is_going(explorer) ? stand_while_lost(explorer) : move_while_lost(explorer, scan);
     }
     ale_wander_begin(&explorer->wander);
+    if (is_going(explorer) && explorer->begun &&
+        (estimate->epoch != explorer->epoch || estimate->map_id != explorer->map_id)) {
+        give_up(explorer, ALE_GIVEN_UP_MAP);
+        return standing;
+    }
     if (!explorer->begun || estimate->epoch != explorer->epoch) {
         begin(explorer, estimate);
     }

@@ -95,6 +95,11 @@ static int32_t kind_of(int8_t evidence)
     return evidence < 0 ? -1 : (evidence > 0) + (evidence > ALE_GRID_HIT);
 }
 
+static void begin_scan(ale_grid_t *grid)
+{
+    grid->scan = grid->scan == UINT8_MAX ? 1 : (uint8_t)(grid->scan + 1);
+}
+
 /* Once a scan. 0 means never seen: evidence that cancels out leans to what was said last. */
 static void change(ale_grid_t *grid, ale_cell_t cell, int32_t by)
 {
@@ -112,6 +117,21 @@ static void change(ale_grid_t *grid, ale_cell_t cell, int32_t by)
     }
     if (kind_of(before) != kind_of(after)) {
         include(&grid->changed, cell);
+    }
+}
+
+void ale_grid_add_wall(ale_grid_t *grid, ale_point_t a, ale_point_t b)
+{
+    const int64_t dx_um = (int64_t)b.x_um - a.x_um;
+    const int64_t dy_um = (int64_t)b.y_um - a.y_um;
+    const int64_t steps = 1 + ale_max64(ale_abs64(dx_um), ale_abs64(dy_um)) / (ALE_GRID_CELL_UM / 2);
+    begin_scan(grid);
+    for (int64_t k = 0; k <= steps; k++) {
+        const ale_point_t p = {(int32_t)(a.x_um + dx_um * k / steps), (int32_t)(a.y_um + dy_um * k / steps)};
+        const ale_cell_t cell = ale_grid_cell(grid, p);
+        if (cell != ALE_GRID_NONE) {
+            change(grid, cell, 2 * ALE_GRID_HIT);
+        }
     }
 }
 
@@ -158,7 +178,7 @@ static void add_hits(ale_grid_t *grid, const ale_scan_t *scan, const uint32_t be
 void ale_grid_add_scan(ale_grid_t *grid, const ale_scan_t *scan, const uint32_t bearing_bam[],
                        ale_pose_t sensor)
 {
-    grid->scan = grid->scan == UINT8_MAX ? 1 : (uint8_t)(grid->scan + 1);
+    begin_scan(grid);
     add_hits(grid, scan, bearing_bam, sensor);
     int32_t silent = 0;
     for (int32_t k = 0; k < scan->beams; k++) {

@@ -73,6 +73,11 @@ void ale_grid_add_scan(ale_grid_t *grid, const ale_scan_t *scan, const uint32_t 
  * where that scan does not say otherwise. O(radius^2). */
 void ale_grid_add_disc(ale_grid_t *grid, ale_point_t p, int32_t radius_um);
 
+/* A wall that a map knows, from a to b: occupied until scans say otherwise. It counts as seen. O(length /
+ * cell).
+ */
+void ale_grid_add_wall(ale_grid_t *grid, ale_point_t a, ale_point_t b);
+
 /* The part with changes, which begins anew. Constant time. */
 ale_grid_part_t ale_grid_take_changed(ale_grid_t *grid);
 

@@ -3,6 +3,7 @@
 #include "base/fixed.h"
 
 enum { STRAIGHT_CM = 5, DIAGONAL_CM = 7, FULL_PENALTY = 3 };
+enum { UNSEEN_FACTOR = 3 }; /* a detour of that much through what has been seen is worth it */
 enum { TIGHT_FACTOR = 5, MOST_FACTOR = 9, STOOD_SLACK_CM = 5 };
 enum { END_CELLS = 10, REFUSED_CELLS = 6, SAME_GOAL_CELLS = 8, KEEP_COST = 150 };
 _Static_assert(DIAGONAL_CM *MOST_FACTOR <= ALE_WAVEFRONT_MAX_STEP, "steps must fit the wavefront's buckets");
@@ -13,6 +14,7 @@ typedef struct {
     const ale_grid_t *grid;
     ale_cell_t start;
     ale_cell_t end; /* ALE_GRID_NONE: not known yet */
+    bool ventures;  /* through what has not been seen, too */
 } search_t;
 
 void ale_planner_init(ale_planner_t *planner, const ale_planner_config_t *config)
@@ -52,14 +54,11 @@ static bool is_enough(const search_t *search, ale_cell_t cell, int32_t room_cm)
            (room_cm >= config->squeeze_cm - STOOD_SLACK_CM && ale_grid_was_visited(search->grid, cell));
 }
 
-/* What a step into the cell costs, as a factor on its length; 0: no room. */
-static uint32_t factor_of(const search_t *search, ale_cell_t cell)
+/* What the room about a cell costs; 0: there is too little. */
+static uint32_t factor_of_room(const search_t *search, ale_cell_t cell)
 {
     const ale_planner_config_t *config = &search->planner->config;
     const int32_t room_cm = search->planner->clearance.to_occupied_cm[cell];
-    if (!ale_grid_is_free(search->grid, cell)) {
-        return 0;
-    }
     if (room_cm >= config->comfort_cm) {
         return 1;
     }
@@ -71,6 +70,19 @@ static uint32_t factor_of(const search_t *search, ale_cell_t cell)
         return 0;
     }
     return (uint32_t)ale_min64(TIGHT_FACTOR + (config->body_cm - room_cm) / 2, MOST_FACTOR);
+}
+
+/* What a step into the cell costs, as a factor on its length; 0: not there. */
+static uint32_t factor_of(const search_t *search, ale_cell_t cell)
+{
+    if (ale_grid_is_free(search->grid, cell)) {
+        return factor_of_room(search, cell);
+    }
+    if (!search->ventures || !ale_grid_is_unknown(search->grid, cell)) {
+        return 0;
+    }
+    const uint32_t factor = factor_of_room(search, cell);
+    return factor > 0 && factor < UNSEEN_FACTOR ? UNSEEN_FACTOR : factor;
 }
 
 static void enter_neighbours(const search_t *search, ale_wavefront_t *front, ale_cell_t cell)
@@ -153,7 +165,7 @@ static ale_cell_t next_goal(const search_t *search, ale_wavefront_t *front, ale_
 bool ale_planner_explore(ale_planner_t *planner, const ale_grid_t *grid, ale_point_t robot,
                          ale_cell_t last_goal, ale_route_t *route)
 {
-    const search_t search = {planner, grid, ale_grid_cell(grid, robot), ALE_GRID_NONE};
+    const search_t search = {planner, grid, ale_grid_cell(grid, robot), ALE_GRID_NONE, false};
     route->count = 0;
     if (search.start == ALE_GRID_NONE) {
         return false;
@@ -166,24 +178,68 @@ bool ale_planner_explore(ale_planner_t *planner, const ale_grid_t *grid, ale_poi
     return goal != ALE_GRID_NONE;
 }
 
+static bool find_path(const search_t *search, ale_wavefront_t *front, ale_route_t *route)
+{
+    route->count = 0;
+    if (search->start == ALE_GRID_NONE || search->end == ALE_GRID_NONE) {
+        return false;
+    }
+    ale_wavefront_begin(front, search->grid, search->start);
+    ale_cell_t cell = ale_wavefront_next(front);
+    for (uint32_t k = 0; k < ALE_GRID_CELLS && cell != ALE_GRID_NONE && cell != search->end; k++) {
+        enter_neighbours(search, front, cell);
+        cell = ale_wavefront_next(front);
+    }
+    if (cell != ALE_GRID_NONE) {
+        trace(front, search->start, cell, route);
+    }
+    return cell != ALE_GRID_NONE;
+}
+
 bool ale_planner_go(ale_planner_t *planner, const ale_grid_t *grid, ale_point_t robot, ale_point_t place,
                     ale_route_t *route)
 {
-    const search_t search = {planner, grid, ale_grid_cell(grid, robot), ale_grid_cell(grid, place)};
-    route->count = 0;
-    if (search.start == ALE_GRID_NONE || search.end == ALE_GRID_NONE) {
-        return false;
+    const search_t search = {planner, grid, ale_grid_cell(grid, robot), ale_grid_cell(grid, place), false};
+    return find_path(&search, &planner->front, route);
+}
+
+bool ale_planner_venture(ale_planner_t *planner, const ale_grid_t *grid, ale_point_t robot, ale_point_t place,
+                         ale_route_t *route)
+{
+    const search_t search = {planner, grid, ale_grid_cell(grid, robot), ale_grid_cell(grid, place), true};
+    return find_path(&search, &planner->front, route);
+}
+
+bool ale_planner_has_room(const ale_planner_t *planner, const ale_grid_t *grid, ale_point_t place)
+{
+    const ale_cell_t cell = ale_grid_cell(grid, place);
+    return cell != ALE_GRID_NONE && !ale_grid_is_occupied(grid, cell) &&
+           planner->clearance.to_occupied_cm[cell] >= planner->config.squeeze_cm;
+}
+
+uint32_t ale_planner_outline(const ale_planner_t *planner, const ale_grid_t *grid, const ale_route_t *route,
+                             ale_point_t out[ALE_OUTLINE_POINTS])
+{
+    if (route->count == 0) {
+        return 0;
     }
-    ale_wavefront_begin(&planner->front, grid, search.start);
-    ale_cell_t cell = ale_wavefront_next(&planner->front);
-    for (uint32_t k = 0; k < ALE_GRID_CELLS && cell != ALE_GRID_NONE && cell != search.end; k++) {
-        enter_neighbours(&search, &planner->front, cell);
-        cell = ale_wavefront_next(&planner->front);
+    const ale_wavefront_t *front = &planner->front;
+    uint32_t steps = 1;
+    for (ale_cell_t cell = route->goal; cell != route->cell[0] && steps < ALE_GRID_CELLS;
+         cell = front->from[cell]) {
+        steps++;
     }
-    if (cell != ALE_GRID_NONE) {
-        trace(&planner->front, search.start, cell, route);
+    const uint32_t count = steps < 2 ? 2 : (steps < ALE_OUTLINE_POINTS ? steps : ALE_OUTLINE_POINTS);
+    ale_cell_t cell = route->goal;
+    uint32_t walked = 0; /* cells back from the goal */
+    for (uint32_t k = count; k > 0; k--) {
+        const uint32_t wanted = (count - k) * (steps - 1) / (count - 1);
+        for (; walked < wanted; walked++) {
+            cell = front->from[cell];
+        }
+        out[k - 1] = ale_grid_middle(grid, cell);
     }
-    return cell != ALE_GRID_NONE;
+    return count;
 }
 
 bool ale_planner_refuse(ale_planner_t *planner, ale_cell_t goal, uint32_t number)

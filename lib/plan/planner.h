@@ -19,7 +19,7 @@
 #include "plan/wavefront.h"
 #include "track/correction.h"
 
-enum { ALE_ROUTE_CELLS = 64, ALE_MAX_REFUSED = 64 };
+enum { ALE_ROUTE_CELLS = 64, ALE_MAX_REFUSED = 64, ALE_OUTLINE_POINTS = 64 };
 
 typedef struct {
     int32_t body_cm;    /* below ALE_CLEARANCE_FAR_CM, as all of these */
@@ -61,6 +61,18 @@ bool ale_planner_explore(ale_planner_t *planner, const ale_grid_t *grid, ale_poi
  * the grid. O(cells seen). */
 bool ale_planner_go(ale_planner_t *planner, const ale_grid_t *grid, ale_point_t robot, ale_point_t place,
                     ale_route_t *route);
+
+/* The same also through what has not been seen, at a price: it may turn out to be closed. O(cells). */
+bool ale_planner_venture(ale_planner_t *planner, const ale_grid_t *grid, ale_point_t robot, ale_point_t place,
+                         ale_route_t *route);
+
+/* Whether the robot could stand there, as far as is known. Constant time. */
+bool ale_planner_has_room(const ale_planner_t *planner, const ale_grid_t *grid, ale_point_t place);
+
+/* The whole of the path that was found last, in equal steps from the robot to its goal, map frame. The number
+ * of points, 2 or more; 0: there is no path. O(cells of the path). */
+uint32_t ale_planner_outline(const ale_planner_t *planner, const ale_grid_t *grid, const ale_route_t *route,
+                             ale_point_t out[ALE_OUTLINE_POINTS]);
 
 /* Goals within 30 cm of this one are not taken any more; number: of the newest scan. False: no room, already
  * ALE_MAX_REFUSED. Constant time. */

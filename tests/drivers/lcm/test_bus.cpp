@@ -12,6 +12,7 @@
 #include "ale/features_t.hpp"
 #include "ale/map_pieces_t.hpp"
 #include "ale/map_t.hpp"
+#include "ale/plan_t.hpp"
 #include "ale/pose_t.hpp"
 #include "ale/scan_t.hpp"
 #include "ale/status_t.hpp"
@@ -194,8 +195,17 @@ TEST_F(Wire, EveryMessageIsReadByAnotherLanguageBinding)
     status.counter[0] = {"bad_checksum", 3};
     std::snprintf(status.device, sizeof status.device, "URG-04LX");
 
+    ale_plan_report_t plan{};
+    plan.state = ALE_PLAN_GOES;
+    plan.has_place = true;
+    plan.place = {1500000, -250000};
+    plan.points = 2;
+    plan.point[1] = plan.place;
+    std::snprintf(plan.words, sizeof plan.words, "drives to 1.50 -0.25: 2 m to go");
+
     const ale_pose_t mounting = {145000, 0, 0};
     EXPECT_EQ(ale_bus_send_pose(bus, &pose), 0);
+    EXPECT_EQ(ale_bus_send_plan(bus, &plan), 0);
     EXPECT_EQ(ale_bus_send_tracking(bus, &pose.estimate), 0);
     EXPECT_EQ(ale_bus_send_features(bus, features.get(), 12, 7, mounting), 0);
     EXPECT_EQ(ale_bus_send_scan(bus, scan.get(), 12, 7, mounting), 0);
@@ -205,7 +215,7 @@ TEST_F(Wire, EveryMessageIsReadByAnotherLanguageBinding)
     EXPECT_EQ(ale_bus_send_bot_lidar(bus, scan.get(), 12), 0);
     EXPECT_EQ(ale_bus_send_bot_pose(bus, &pose), 0);
     EXPECT_EQ(ale_bus_send_drive(bus, 12, 250000, -1500000), 0);
-    receive(10);
+    receive(11);
 
     EXPECT_FLOAT_EQ(received.only<ale::pose_t>("ALE_POSE").map_y, 2);
     EXPECT_FLOAT_EQ(received.only<ale::features_t>("ALE_FEATURES").lines.at(1).rho, 3);
@@ -215,6 +225,12 @@ TEST_F(Wire, EveryMessageIsReadByAnotherLanguageBinding)
     const auto pieces = received.only<ale::map_pieces_t>("ALE_MAP_PIECES");
     EXPECT_EQ(pieces.line_id, std::vector<int32_t>{77});
     EXPECT_EQ(pieces.map_id, std::vector<int32_t>{2});
+    const auto way = received.only<ale::plan_t>("ALE_PLAN");
+    EXPECT_EQ(way.state, 3);
+    EXPECT_EQ(way.words, "drives to 1.50 -0.25: 2 m to go");
+    EXPECT_FLOAT_EQ(way.place_y, -0.25f);
+    EXPECT_EQ(way.x, (std::vector<float>{0, 1.5f}));
+    EXPECT_EQ(way.y, (std::vector<float>{0, -0.25f}));
     const auto health = received.only<ale::status_t>("ALE_STATUS");
     EXPECT_EQ(health.device, "URG-04LX");
     EXPECT_EQ(health.counter_name.at(0), "bad_checksum");

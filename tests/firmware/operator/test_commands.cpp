@@ -304,6 +304,35 @@ TEST_F(Commands, ExplorationIsSwitchedOnAndOffAndEndedByAStop)
     ale_explore_stop(exchange.explore);
 }
 
+TEST_F(Commands, AGoalIsAnsweredWhenAWayIsPlannedAndTheStickTakesItsPlace)
+{
+    EXPECT_EQ(ask(alice, {"goto", "1", "2"}), "-this robot does not explore");
+    exchange.explore = ale_explore_start(&config, &exchange);
+    ASSERT_NE(exchange.explore, nullptr);
+    EXPECT_EQ(ask(alice, {"goto", "1", "there"}), "-goto wants x y, metres");
+    EXPECT_EQ(ask(alice, {"goto", "1"}), "-goto takes 2 arguments, not 1");
+    send(alice, {"goto", "1", "2"});
+    EXPECT_TRUE(ale_explore_is_going(exchange.explore));
+    EXPECT_TRUE(orders().exploring) << "the drive thread follows it";
+    EXPECT_EQ(answer(), "-goto takes 2 arguments, not 1") << "the answer comes later";
+    EXPECT_EQ(ask(alice, {"goto", "2", "2"}), "-busy with another goal: try again");
+    ale_operation_report_t report;
+    ale_commands_report(commands, &report);
+    EXPECT_STREQ(report.who_drives, "goal");
+    EXPECT_EQ(ask(bob, {"drive", "0", "0"}), "+bob drives");
+    EXPECT_FALSE(ale_explore_is_going(exchange.explore));
+    EXPECT_FALSE(orders().exploring);
+    ale_commands_work(commands);
+    EXPECT_EQ(answer(), "-called off");
+    EXPECT_EQ(ask(alice, {"goto", "1", "2"}), "-bob drives") << "one drives at a time";
+    send(bob, {"goto", "1", "2"});
+    EXPECT_TRUE(ale_explore_is_going(exchange.explore));
+    EXPECT_EQ(ask(alice, {"stop"}), "+stopped by alice");
+    EXPECT_FALSE(ale_explore_is_going(exchange.explore));
+    ale_explore_stop(exchange.explore);
+    exchange.explore = nullptr;
+}
+
 TEST_F(Commands, AFlightRecordingIsWrittenWhereThereIsARecorder)
 {
     EXPECT_EQ(ask(alice, {"record"}), "-this robot records no flights");

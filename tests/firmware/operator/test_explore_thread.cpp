@@ -148,4 +148,58 @@ TEST_F(ExploreThread, AskedTwiceItGoesOn)
     EXPECT_TRUE(comes([&] { return asks_to_move(); }));
 }
 
+TEST_F(ExploreThread, DrivesToAPlaceAndTellsTheWayThere)
+{
+    EXPECT_FALSE(ale_explore_is_going(explore));
+    ale_explore_go(explore, {500000, 300000}, nullptr);
+    EXPECT_TRUE(ale_explore_is_going(explore)) << "at once, for those who report it";
+    char text[ALE_ANSWER_BYTES];
+    EXPECT_EQ(ale_explore_goal_answer(explore, text), ALE_GOAL_PENDING);
+    ASSERT_TRUE(comes([&] { return ale_explore_goal_answer(explore, text) == ALE_GOAL_TAKEN; }));
+    EXPECT_EQ(std::string(text), "drives to 0.50 0.30: 1 m to go");
+    EXPECT_TRUE(comes([&] { return asks_to_move(); }));
+    ale_plan_report_t plan = {};
+    const uint32_t number = ale_explore_plan(explore, &plan);
+    EXPECT_EQ(plan.state, ALE_PLAN_GOES);
+    EXPECT_TRUE(plan.has_place);
+    EXPECT_EQ(plan.place.x_um, 500000);
+    ASSERT_GE(plan.points, 2U);
+    EXPECT_NEAR(plan.point[0].x_um, 0, 100000);
+    EXPECT_NEAR(plan.point[plan.points - 1].x_um, 500000, 30000);
+    EXPECT_NEAR(plan.point[plan.points - 1].y_um, 300000, 30000);
+    EXPECT_TRUE(comes([&] { return ale_explore_plan(explore, &plan) != number; })) << "it is planned anew";
+}
+
+TEST_F(ExploreThread, AnotherWishCallsTheGoalOff)
+{
+    ale_explore_go(explore, {500000, 300000}, nullptr);
+    ale_explore_request(explore, false);
+    char text[ALE_ANSWER_BYTES];
+    EXPECT_EQ(ale_explore_goal_answer(explore, text), ALE_GOAL_REFUSED);
+    EXPECT_EQ(std::string(text), "called off");
+    EXPECT_FALSE(ale_explore_is_going(explore));
+    ale_explore_go(explore, {500000, 300000}, nullptr);
+    ale_explore_request(explore, true);
+    EXPECT_FALSE(ale_explore_is_going(explore));
+    EXPECT_TRUE(comes([&] { return words().find("explores: ") == 0; })) << words();
+    ale_plan_report_t plan = {};
+    ale_explore_plan(explore, &plan);
+    EXPECT_EQ(plan.state, ALE_PLAN_EXPLORES);
+    EXPECT_FALSE(plan.has_place);
+}
+
+TEST_F(ExploreThread, APlaceThatCannotBeReachedIsRefusedWithTheReason)
+{
+    ale_explore_go(explore, {-80000000, 1234000}, nullptr);
+    char text[ALE_ANSWER_BYTES];
+    ASSERT_TRUE(comes([&] { return ale_explore_goal_answer(explore, text) == ALE_GOAL_REFUSED; }));
+    EXPECT_EQ(std::string(text), "gave up -80.00 1.23: too far away to plan a way there");
+    EXPECT_TRUE(comes([&] { return !ale_explore_is_on(explore); }));
+    EXPECT_EQ(words(), text);
+    ale_explore_go(explore, {500000, 300000}, nullptr);
+    ASSERT_TRUE(
+        comes([&] { return ale_explore_goal_answer(explore, text) == ALE_GOAL_REFUSED; }, ALE_STATE_LOST));
+    EXPECT_EQ(std::string(text), "gave up 0.50 0.30: the pose is lost");
+}
+
 } // namespace

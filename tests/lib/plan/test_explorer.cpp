@@ -186,3 +186,143 @@ TEST_F(Explorer, AGoalThatCannotBeReachedIsGivenUpAndTheRobotGoesHome)
     }
     EXPECT_EQ(explorer_->state, ALE_EXPLORER_FINISHED) << "home is where it stands";
 }
+
+namespace
+{
+
+std::unique_ptr<ale_map_t> map_of(const std::vector<room::Wall> &walls, uint32_t map_id = 0)
+{
+    auto map = std::make_unique<ale_map_t>();
+    for (const room::Wall &wall : walls) {
+        ale_map_line_t &line = map->line[map->line_count++];
+        line.start = {convert::um(wall.x1), convert::um(wall.y1)};
+        line.end = {convert::um(wall.x2), convert::um(wall.y2)};
+        line.map_id = map_id;
+    }
+    return map;
+}
+
+} // namespace
+
+class Going : public Explorer
+{
+  protected:
+    void go(double x, double y, const ale_map_t *map = nullptr)
+    {
+        ale_explorer_go(explorer_.get(), {convert::um(x), convert::um(y)}, map);
+    }
+    // Steps until it is over, 600 at most; how far it then is from there.
+    double drive(double x, double y)
+    {
+        for (int k = 0; k < 600 && ale_explorer_is_active(explorer_.get()); k++) {
+            step();
+        }
+        return std::hypot(pose_.x() - x, pose_.y() - y);
+    }
+};
+
+TEST_F(Going, DrivesToThePlaceAndStandsThere)
+{
+    go(1.5, 0.5);
+    EXPECT_TRUE(ale_explorer_is_active(explorer_.get()));
+    EXPECT_LT(drive(1.5, 0.5), 0.05);
+    EXPECT_EQ(explorer_->state, ALE_EXPLORER_ARRIVED);
+    EXPECT_TRUE(stands(step()));
+}
+
+TEST_F(Going, StopsWhenItIsToldTo)
+{
+    go(1.5, 0.5);
+    EXPECT_FALSE(stands(step()));
+    ale_explorer_request(explorer_.get(), false);
+    EXPECT_TRUE(stands(step()));
+    EXPECT_EQ(explorer_->state, ALE_EXPLORER_OFF);
+}
+
+TEST_F(Going, ExploringAndGoingTakeEachOthersPlace)
+{
+    ale_explorer_request(explorer_.get(), true);
+    step();
+    go(1.5, 0.5);
+    step();
+    EXPECT_EQ(explorer_->state, ALE_EXPLORER_GOING);
+    ale_explorer_request(explorer_.get(), true);
+    step();
+    EXPECT_EQ(explorer_->state, ALE_EXPLORER_EXPLORING);
+    EXPECT_EQ(explorer_->walls.count, 0U);
+}
+
+TEST_F(Going, APlaceInAWallIsGivenUpForWantOfRoom)
+{
+    const auto map = map_of(walls_);
+    const ale_point_t in_wall = map->line[0].start;
+    ale_explorer_go(explorer_.get(), in_wall, map.get());
+    drive(0, 0);
+    EXPECT_EQ(explorer_->state, ALE_EXPLORER_GIVEN_UP);
+    EXPECT_EQ(explorer_->why, ALE_GIVEN_UP_TAKEN);
+    EXPECT_LT(steps_, 20) << "at once, not after a search on wheels";
+}
+
+TEST_F(Going, APlaceBehindWallsThatTheMapKnowsIsGivenUpWithoutAMove)
+{
+    std::vector<room::Wall> walls = walls_;
+    const std::vector<room::Wall> box = {{6, 6, 9, 6}, {9, 6, 9, 9}, {9, 9, 6, 9}, {6, 9, 6, 6}};
+    walls.insert(walls.end(), box.begin(), box.end());
+    const auto map = map_of(walls);
+    go(7.5, 7.5, map.get());
+    drive(7.5, 7.5);
+    EXPECT_EQ(explorer_->state, ALE_EXPLORER_GIVEN_UP);
+    EXPECT_EQ(explorer_->why, ALE_GIVEN_UP_CLOSED);
+}
+
+TEST_F(Going, WallsOfAMapThatIsNotJoinedDoNotStandInTheWay)
+{
+    const std::vector<room::Wall> across = {{1.0, -5, 1.0, 5}};
+    const auto other = map_of(across, 7);
+    go(1.5, 0.5, other.get());
+    EXPECT_LT(drive(1.5, 0.5), 0.05);
+    EXPECT_EQ(explorer_->state, ALE_EXPLORER_ARRIVED);
+}
+
+TEST_F(Going, AWallOfTheMapThatIsNotThereAnyMoreIsSeenThrough)
+{
+    const std::vector<room::Wall> across = {{1.0, -5, 1.0, 5}};
+    const auto map = map_of(across);
+    go(1.5, 0.5, map.get());
+    EXPECT_LT(drive(1.5, 0.5), 0.05);
+}
+
+TEST_F(Going, FartherThanTheGridIsTooFar)
+{
+    go(80, 0);
+    drive(0, 0);
+    EXPECT_EQ(explorer_->why, ALE_GIVEN_UP_FAR);
+}
+
+TEST_F(Going, LostItDoesNotSetOffAndOnTheWayItStandsForSomeSecondsBeforeItGivesUp)
+{
+    go(1.5, 0.5);
+    EXPECT_TRUE(stands(step(ALE_STATE_LOST)));
+    EXPECT_EQ(explorer_->why, ALE_GIVEN_UP_LOST);
+    go(1.5, 0.5);
+    EXPECT_FALSE(stands(step()));
+    for (int k = 0; k < 50; k++) {
+        EXPECT_TRUE(stands(step(ALE_STATE_LOST)));
+    }
+    EXPECT_EQ(explorer_->state, ALE_EXPLORER_GOING);
+    EXPECT_FALSE(stands(step()));
+    for (int k = 0; k < 90; k++) {
+        EXPECT_TRUE(stands(step(ALE_STATE_LOST)));
+    }
+    EXPECT_EQ(explorer_->state, ALE_EXPLORER_GIVEN_UP);
+    EXPECT_EQ(explorer_->why, ALE_GIVEN_UP_LOST);
+}
+
+TEST_F(Going, InAnotherMapThePlaceMeansNothing)
+{
+    go(1.5, 0.5);
+    step();
+    epoch_++;
+    EXPECT_TRUE(stands(step()));
+    EXPECT_EQ(explorer_->why, ALE_GIVEN_UP_MAP);
+}

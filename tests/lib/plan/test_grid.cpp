@@ -275,3 +275,33 @@ TEST(Grid, ClearedItHasSeenNothingAndSaysSoOfAllThatItHadSeen)
     const ale_grid_part_t changed = ale_grid_take_changed(grid.get());
     EXPECT_EQ(std::memcmp(&seen, &changed, sizeof seen), 0);
 }
+
+TEST(Grid, AWallOfTheMapIsOccupiedAllAlongAndSeenThroughItIsForgotten)
+{
+    auto grid = empty_grid();
+    ale_grid_add_wall(grid.get(), {1000000, -700000}, {1300000, 900000});
+    for (double t = 0; t <= 1; t += 0.01) {
+        bool there = false; // within a quarter of a cell: corners of cells that it cuts are left out
+        for (const double off : {-0.0125, 0.0, 0.0125}) {
+            const ale_point_t p = {convert::um(1.0 + 0.3 * t + off), convert::um(-0.7 + 1.6 * t)};
+            there = there || ale_grid_is_occupied(grid.get(), ale_grid_cell(grid.get(), p));
+        }
+        EXPECT_TRUE(there) << t;
+    }
+    EXPECT_EQ(evidence_at(*grid, 0.9, 0), 0) << "beside it nothing is known";
+    const ale_grid_part_t changed = ale_grid_take_changed(grid.get());
+    EXPECT_GE(changed.last_y - changed.first_y, 32);
+    ale_scan_t nothing = beams_of_nothing(200);
+    for (int k = 0; k < 30; k++) {
+        add(*grid, nothing, {0, 0, 0});
+    }
+    EXPECT_TRUE(ale_grid_is_occupied(grid.get(), ale_grid_cell(grid.get(), {1150000, 100000})))
+        << "beams that return nowhere clear up to a wall, and not it";
+}
+
+TEST(Grid, AWallOutsideTheSquareIsLeftOut)
+{
+    auto grid = empty_grid();
+    ale_grid_add_wall(grid.get(), {-2000000000, 2000000000}, {2000000000, 2000000000});
+    EXPECT_EQ(grid->seen, 0U);
+}

@@ -242,3 +242,68 @@ TEST(Planner, WhatWasRefusedStaysWhereItIsWhenTheSquareMovesAndGoesWhereTheMapGo
     EXPECT_EQ(floor.planner->refused[0],
               ale_grid_cell(floor.grid.get(), {place.x_um + 250000, place.y_um - 150000}));
 }
+
+TEST(Planner, VenturesThroughWhatHasNotBeenSeenAndRatherNot)
+{
+    const std::vector<std::string> unseen = {
+        "####################", "#........   .......#", "#..A.....   ...B...#", "#........   .......#",
+        "#..................#", "#..................#", "#..................#", "####################"};
+    Floor floor(unseen);
+    EXPECT_TRUE(floor.go('A', 'B'));
+    const uint32_t around = floor.route.cost;
+    ASSERT_TRUE(ale_planner_venture(floor.planner.get(), floor.grid.get(), floor.at('A'), floor.at('B'),
+                                    &floor.route));
+    EXPECT_LE(floor.route.cost, around) << "never more than the way that is known";
+    const std::vector<std::string> cut = {"####################", "#........   .......#",
+                                          "#..A.....   ...B...#", "#........   .......#",
+                                          "####################"};
+    Floor apart(cut);
+    EXPECT_FALSE(apart.go('A', 'B'));
+    EXPECT_EQ(apart.route.count, 0U);
+    ASSERT_TRUE(ale_planner_venture(apart.planner.get(), apart.grid.get(), apart.at('A'), apart.at('B'),
+                                    &apart.route));
+    const double straight_cm =
+        std::hypot(apart.at('A').x_um - apart.at('B').x_um, apart.at('A').y_um - apart.at('B').y_um) * 1e-4;
+    EXPECT_GT(apart.route.cost, straight_cm + 100) << "0.9 m of it at three times the price";
+}
+
+TEST(Planner, TheOutlineLeadsFromTheRobotToTheGoalInEqualStepsAroundTheWall)
+{
+    Floor floor(two_rooms);
+    ASSERT_TRUE(floor.go('A', 'B'));
+    ale_point_t outline[ALE_OUTLINE_POINTS];
+    const uint32_t count = ale_planner_outline(floor.planner.get(), floor.grid.get(), &floor.route, outline);
+    ASSERT_EQ(count, static_cast<uint32_t>(ALE_OUTLINE_POINTS)) << "the path has more cells than that";
+    EXPECT_EQ(ale_grid_cell(floor.grid.get(), outline[0]), floor.route.cell[0]);
+    EXPECT_EQ(ale_grid_cell(floor.grid.get(), outline[count - 1]), floor.route.goal);
+    for (uint32_t k = 1; k < count; k++) {
+        const double step =
+            std::hypot(outline[k].x_um - outline[k - 1].x_um, outline[k].y_um - outline[k - 1].y_um) * 1e-4;
+        EXPECT_LT(step, 15) << "one or two cells";
+        EXPECT_TRUE(ale_grid_is_free(floor.grid.get(), ale_grid_cell(floor.grid.get(), outline[k])));
+    }
+}
+
+TEST(Planner, TheOutlineOfAPathToWhereTheRobotStandsIsThatPlaceTwiceAndOfNoneIsEmpty)
+{
+    Floor floor(two_rooms);
+    ale_point_t outline[ALE_OUTLINE_POINTS];
+    EXPECT_EQ(ale_planner_outline(floor.planner.get(), floor.grid.get(), &floor.route, outline), 0U);
+    ASSERT_TRUE(floor.go('A', 'A'));
+    ASSERT_EQ(ale_planner_outline(floor.planner.get(), floor.grid.get(), &floor.route, outline), 2U);
+    EXPECT_EQ(outline[0].x_um, outline[1].x_um);
+}
+
+TEST(Planner, ThereIsRoomInARoomButNotInAWallOrBesideOne)
+{
+    Floor floor(two_rooms);
+    const ale_point_t inside = floor.at('A');
+    EXPECT_TRUE(ale_planner_has_room(floor.planner.get(), floor.grid.get(), inside));
+    const ale_point_t wall = {inside.x_um - 3 * scale * ALE_GRID_CELL_UM, inside.y_um};
+    EXPECT_FALSE(ale_planner_has_room(floor.planner.get(), floor.grid.get(), wall));
+    const ale_point_t beside = {inside.x_um - 2 * scale * ALE_GRID_CELL_UM - 2 * ALE_GRID_CELL_UM,
+                                inside.y_um};
+    EXPECT_FALSE(ale_planner_has_room(floor.planner.get(), floor.grid.get(), beside));
+    EXPECT_FALSE(ale_planner_has_room(floor.planner.get(), floor.grid.get(), {90000000, 0}))
+        << "beyond the grid";
+}
