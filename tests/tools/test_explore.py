@@ -85,7 +85,7 @@ def test_the_configuration_is_the_robots(tmp_path, room):
     ((), "--world WORLD is missing"),
     (("--world", "nowhere.world"), "nowhere.world"),
     (("--world", "tools/lab/worlds/home.world", "--seeds", "many"), "--seeds many: expected a whole number from 1 to 10000"),
-    (("--world", "tools/lab/worlds/home.world", "--map", "map.jpg"), "--map map.jpg: there are .png, .svg, .dxf, .pgm"),
+    (("--world", "tools/lab/worlds/home.world", "--map", "map.jpg"), "--map map.jpg: there are .png, .svg, .dxf, .pgm, .geojson"),
     (("--world", "tools/lab/worlds/home.world", "--config", "nothing.ini"), "nothing.ini"),
     (("--world", "tools/lab/worlds/home.world", "extra"), 'what is "extra"?'),
 ])

@@ -13,7 +13,7 @@ namespace
 const std::string &require_map_image(const std::string &path)
 {
     if (!ale::is_map_image_name(path)) {
-        throw WrongUse("--map " + path + ": there are .png, .svg, .dxf, .pgm");
+        throw WrongUse("--map " + path + ": there are .png, .svg, .dxf, .pgm, .geojson");
     }
     return path;
 }

@@ -23,8 +23,11 @@ struct Kind {
     const char *extension;
     void (*write)(const std::string &, const MapScene &);
 };
-constexpr std::array<Kind, 4> kinds = {
-    {{".png", write_png}, {".svg", write_svg}, {".dxf", write_dxf}, {".pgm", write_pgm}}};
+constexpr std::array<Kind, 5> kinds = {{{".png", write_png},
+                                        {".svg", write_svg},
+                                        {".dxf", write_dxf},
+                                        {".pgm", write_pgm},
+                                        {".geojson", write_geojson}}};
 
 const Kind *kind_of(const std::string &path)
 {

@@ -5,6 +5,7 @@
  *   .dxf   drawing for CAD: R12, metres, layers WALLS, CORNERS, TRAJECTORY
  *   .pgm   occupancy grid of the cloud's cells (5 cm without one), with a .yaml beside it: what ROS's
  * map_server reads
+ *   .geojson   walls, corners and way as features, in metres of the map
  *
  *   MapScene scene;  scene.map = &map;  scene.trajectory = ...;
  *   write_map_image("map.png", scene);       throws std::runtime_error with one line for people
@@ -79,6 +80,7 @@ void write_png(const std::string &path, const MapScene &scene);
 void write_svg(const std::string &path, const MapScene &scene);
 void write_dxf(const std::string &path, const MapScene &scene);
 void write_pgm(const std::string &path, const MapScene &scene);
+void write_geojson(const std::string &path, const MapScene &scene);
 
 } // namespace ale
 

@@ -19,7 +19,7 @@ const char usage[] =
     "  --seeds N       so many runs (default 1)\n"
     "  --noise NAME    real (default), white, none\n"
     "  --time S        longest exploration, seconds of the robot (default 1800)\n"
-    "  --map FILE      what the last run mapped: .png, .svg, .dxf, .pgm\n"
+    "  --map FILE      what the last run mapped: .png, .svg, .dxf, .pgm, .geojson\n"
     "  --help, --version\n"
     "One line a run on stdout. Exit: 0 when every run came back within 10 cm of its start, with 95 % of the "
     "area\n"

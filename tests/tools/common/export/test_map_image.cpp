@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <png.h>
 
 #include "common/export/map_image.h"
@@ -375,6 +376,24 @@ TEST(Scale, BarAndMeshSuitTheSize)
     EXPECT_EQ(scale_of({0, 0, 250 * metre, 8 * metre}).mesh_um, 20 * metre);
     EXPECT_EQ(length_label(500000), "0.5 m");
     EXPECT_EQ(length_label(20 * metre), "20 m");
+}
+
+TEST_F(MapImage, GeoJsonHasAFeatureForEachWallCornerAndTheWayInMetres)
+{
+    map_->line[1].id = 77;
+    map_->line[1].seen = 12;
+    map_->line[1].map_id = 3;
+    const nlohmann::json json = nlohmann::json::parse(content(write("map.geojson")));
+    EXPECT_EQ(json["type"], "FeatureCollection");
+    const auto &features = json["features"];
+    ASSERT_EQ(features.size(), 9U) << "four walls, four corners, one way";
+    EXPECT_EQ(features[1]["geometry"]["type"], "LineString");
+    EXPECT_EQ(features[1]["geometry"]["coordinates"], nlohmann::json::parse("[[3,-1],[3,1]]"));
+    EXPECT_EQ(features[1]["properties"],
+              nlohmann::json::parse(R"({"kind":"wall","id":77,"seen":12,"map_id":3})"));
+    EXPECT_EQ(features[4]["geometry"], nlohmann::json::parse(R"({"type":"Point","coordinates":[-1,-1]})"));
+    EXPECT_EQ(features[8]["geometry"]["coordinates"], nlohmann::json::parse("[[0,0],[1,0],[2,0.5]]"));
+    EXPECT_EQ(features[8]["properties"]["kind"], "way");
 }
 
 } // namespace
