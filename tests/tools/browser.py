@@ -79,8 +79,7 @@ class Browser:
                        {"type": "pause", "duration": held_ms}, {"type": "pointerUp", "button": 0}])
 
     def click(self, element_id):
-        x, y = self.run("const r = document.getElementById(arguments[0]).getBoundingClientRect();"
-                        "return [Math.round(r.x + r.width / 2), Math.round(r.y + r.height / 2)]", element_id)
+        x, y = self._middle(element_id)
         self._pointer([self._to(x, y), {"type": "pointerDown", "button": 0}, {"type": "pointerUp", "button": 0}])
 
     def hold(self, key, seconds):
@@ -90,13 +89,51 @@ class Browser:
                                                           {"type": "pause", "duration": round(seconds * 1000)},
                                                           {"type": "keyUp", "value": key}]}]})
 
+    def _middle(self, element_id):
+        return self.run("const e = document.getElementById(arguments[0]); e.scrollIntoViewIfNeeded();"
+                        "const r = e.getBoundingClientRect();"
+                        "return [Math.round(r.x + r.width / 2), Math.round(r.y + r.height / 2)]", element_id)
+
     @staticmethod
     def _to(x, y):
         return {"type": "pointerMove", "duration": 20, "x": x, "y": y}
 
-    def _pointer(self, actions):
+    def _pointer(self, actions, kind="mouse"):
         self._call("POST", f"{self.session}/actions", {"actions": [
-            {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": actions}]})
+            {"type": "pointer", "id": kind, "parameters": {"pointerType": kind}, "actions": actions}]})
+
+    def devtools(self, command, **parameters):
+        """A command of the DevTools protocol, for what WebDriver has no word for."""
+        return self._call("POST", f"{self.session}/goog/cdp/execute", {"cmd": command, "params": parameters})
+
+    def be_a_phone(self, width, height):
+        """A touch screen of that many CSS pixels, until be_a_window."""
+        self.devtools("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=2, mobile=True)
+        self.devtools("Emulation.setTouchEmulationEnabled", enabled=True)
+
+    def be_a_window(self):
+        self.devtools("Emulation.clearDeviceMetricsOverride")
+        self.devtools("Emulation.setTouchEmulationEnabled", enabled=False)
+
+    def tap(self, element_id):
+        x, y = self._middle(element_id)
+        self._pointer([self._to(x, y), {"type": "pointerDown", "button": 0}, {"type": "pointerUp", "button": 0}], "touch")
+
+    def press(self, *keys):
+        """One key after the other; names of keys as the browser has them."""
+        codes = {"Enter": "\ue007", "Escape": "\ue00c", "Tab": "\ue004", "ArrowLeft": "\ue012", "ArrowUp": "\ue013",
+                 "ArrowRight": "\ue014", "ArrowDown": "\ue015"}
+        actions = [{"type": way, "value": codes.get(key, key)} for key in keys for way in ("keyDown", "keyUp")]
+        self._call("POST", f"{self.session}/actions", {"actions": [{"type": "key", "id": "keyboard", "actions": actions}]})
+
+    def elements(self, selector):
+        """References to all elements that a CSS selector finds."""
+        found = self._call("POST", f"{self.session}/elements", {"using": "css selector", "value": selector})
+        return [next(iter(reference.values())) for reference in found]
+
+    def spoken_name(self, element):
+        """The name by which a screen reader knows an element, as the browser computes it."""
+        return self._call("GET", f"{self.session}/element/{element}/computedlabel")
 
     def resize(self, width, height):
         self._call("POST", f"{self.session}/window/rect", {"width": width, "height": height})

@@ -63,7 +63,8 @@ class RobotDouble:
         self.state = 2
         self.driver = "streaming"
         self.map_id, self.maps, self.wheels = 0, 1, "fine"
-        self.who_drives = ""
+        self.who_drives = self.exploration = ""
+        self.refused = False
         self.answer = ("", 0, "")  # operator, counter and result of the last command
 
     @property
@@ -184,6 +185,15 @@ class RobotDouble:
         pieces.num_lines = len(walls)
         self.bus.publish("ALE_MAP_PIECES", pieces.encode())
 
+    def publish_plan(self, state, words="", place=None, path=()):
+        """state: 3 drives to a place, 4 is there, 5 has given it up."""
+        plan = ale.plan_t()
+        plan.state, plan.words, plan.has_place = state, words, place is not None
+        plan.place_x, plan.place_y = place or (0, 0)
+        plan.x, plan.y = [x for x, _ in path], [y for _, y in path]
+        plan.num_points = len(path)
+        self.bus.publish("ALE_PLAN", plan.encode())
+
     def publish_status(self):
         status = self.status()
         self.bus.publish("ALE_STATUS", status.encode())
@@ -217,6 +227,6 @@ class RobotDouble:
         status.counter_value = [3, 1, 200, 0]
         status.num_counters = 4
         status.robot, status.takes_commands = self.name, True
-        status.who_drives, status.command_obeyed = self.who_drives, True
+        status.who_drives, status.exploration, status.command_obeyed = self.who_drives, self.exploration, not self.refused
         status.command_operator, status.command_counter, status.command_result = self.answer
         return status

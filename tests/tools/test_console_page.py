@@ -1,78 +1,18 @@
 """The console's page in headless Chromium: what an operator sees."""
-import re
-
 import pytest
 
 import browser
+from console_page import (ALARM, LINK, STATE, chromium, cockpit, let_the_camera_glide, middle, number, page,  # noqa: F401 (fixtures)
+                          pixels)
 from waiting import Pulse, assert_in_time, seconds_of, wait_until
 from watching import Console, alice, commands, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
 
 pytestmark = pytest.mark.skipif(bool(browser.missing()), reason=f"no browser test: {browser.missing()}")
 
-COUNT_PIXELS = """
-const [name, tolerance] = arguments;
-const canvas = document.getElementById("map");
-const copy = document.createElement("canvas");
-[copy.width, copy.height] = [canvas.width, canvas.height];
-const probe = copy.getContext("2d", {willReadFrequently: true});
-probe.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--" + name);
-probe.fillRect(0, 0, 1, 1);
-const wanted = probe.getImageData(0, 0, 1, 1).data;
-probe.drawImage(canvas, 0, 0);
-const pixels = probe.getImageData(0, 0, canvas.width, canvas.height).data;
-let count = 0, x = 0, y = 0;
-for (let k = 0; k < pixels.length; k += 4) {
-  if ([0, 1, 2].every((c) => Math.abs(pixels[k + c] - wanted[c]) <= tolerance)) {
-    count++; x += (k / 4) % canvas.width; y += Math.floor(k / 4 / canvas.width);
-  }
-}
-return {count, x: x / count / canvas.width, y: y / count / canvas.height};
-"""
-STATE = "document.body.dataset.state"
 BESIDE_THE_NUMBERS = """
 const box = (selector) => document.querySelector(selector).getBoundingClientRect();
 return box("#state-text").right <= box(".vitals").left && box("#state").height < 50;
 """
-LINK = "document.body.dataset.link"
-ALARM = "!document.getElementById('alarm').hidden && document.getElementById('alarm-word').textContent"
-
-
-@pytest.fixture(scope="module")
-def chromium():
-    running = browser.Browser()
-    yield running
-    running.close()
-
-
-@pytest.fixture
-def page(chromium, console):
-    chromium.open(console.url)
-    chromium.run("localStorage.clear()")
-    chromium.errors()
-    yield chromium
-    assert chromium.errors() == []  # of scripts, or resources refused
-
-
-def pixels(page, colour, tolerance=12):
-    return page.run(COUNT_PIXELS, colour, tolerance)
-
-
-def let_the_camera_glide(page):
-    """For a second of frames: of what is longer than a tenth between two of them it takes no notice."""
-    page.run("""
-        return new Promise((there) => {
-          let before = performance.now(), glided = 0;
-          const frame = (now) => {
-            glided += Math.min(100, now - before);
-            before = now;
-            glided < 1000 ? requestAnimationFrame(frame) : there();
-          };
-          requestAnimationFrame(frame);
-        });""")
-
-
-def number(text):
-    return float(re.search(r"-?[\d.]+", text)[0])
 
 
 def test_before_the_robot_is_heard_it_waits(page):
@@ -136,14 +76,14 @@ def test_what_the_scanner_reports_stands_over_the_map_in_plain_words(page, robot
 def test_a_map_that_is_not_joined_is_told_and_drawn_apart(page, robot, pulse):
     page.wait_for("document.getElementById('map-lines').textContent === '12'")
     page.wait_for("document.getElementById('maps').textContent === 'one'")
-    assert page.run("return document.getElementById('apart').hidden")
+    assert page.run("return document.getElementById('apart').hasAttribute('data-empty')")
     before = pixels(page, "apart")["count"]
     robot.map_id, robot.maps = 1, 2
     robot.publish_pieces(range(5))  # the walls of the first room
     page.wait_for("document.getElementById('state-text').textContent === 'new map, not joined yet'")
     page.wait_for("document.getElementById('advice').textContent.includes('until the robot knows a place again (2 in all).')")
     assert page.text("maps") == "new map, not joined yet"
-    page.wait_for("!document.getElementById('apart').hidden")
+    page.wait_for("!document.getElementById('apart').hasAttribute('data-empty')")
     let_the_camera_glide(page)
     assert pixels(page, "apart")["count"] > before + 500, "the second room, in which no line of the scan lies over them"
     robot.map_id = 0  # it has found back, into the map of the other walls
@@ -153,7 +93,7 @@ def test_a_map_that_is_not_joined_is_told_and_drawn_apart(page, robot, pulse):
     robot.publish_pieces([])
     robot.publish_map()
     robot.maps = 1
-    page.wait_for("document.getElementById('advice').hidden && document.getElementById('apart').hidden")
+    page.wait_for("document.getElementById('advice').hidden && document.getElementById('apart').hasAttribute('data-empty')")
 
 
 def test_wheels_that_are_not_believed_are_told_in_plain_words(page, robot, pulse):
@@ -287,16 +227,6 @@ def test_it_fits_a_tablet_either_way(page, pulse, width, height):
         page.resize(1280, 800)
 
 
-@pytest.fixture
-def cockpit(chromium, alice, pulse):
-    """The page of a console that may command a robot."""
-    chromium.open(alice.url)
-    chromium.wait_for("document.body.dataset.control === 'yes'")
-    chromium.errors()  # of the page before, whose console has ended
-    yield chromium
-    assert chromium.errors() == []
-
-
 def test_poses_of_others_are_told_over_the_map(cockpit, robot):
     """While the robot vouches for its own: beside each of them one that is numbered ahead."""
     def forge():
@@ -311,11 +241,6 @@ def test_poses_of_others_are_told_over_the_map(cockpit, robot):
     finally:
         others.stop()
     cockpit.wait_for("document.getElementById('advice').hidden")
-
-
-def middle(page, element_id):
-    return page.run("const r = document.getElementById(arguments[0]).getBoundingClientRect();"
-                    "return [r.x + r.width / 2, r.y + r.height / 2].map(Math.round)", element_id)
 
 
 def test_without_a_key_it_says_so_and_shows_no_controls(page, pulse):
@@ -439,3 +364,103 @@ def test_numbers_and_codes_are_put_in_words(page):
     assert words["maps"] == ["", "", "3 maps, not joined", "new map, not joined yet"]
     assert words["trouble"] == [False, True, False, True]
     assert words["drops"] == 3
+
+
+def test_a_press_on_the_map_sends_the_robot_there_and_its_path_is_drawn(cockpit, commands, robot):
+    cockpit.wait_for("document.getElementById('map-lines').textContent === '12'")
+    let_the_camera_glide(cockpit)
+    cockpit.click("goal")
+    assert cockpit.run("return document.getElementById('goal').ariaPressed") == "true"
+    cockpit.drag(420, 300, 420, 300)
+    cockpit.wait_for("document.getElementById('hint').hidden")
+    one, = commands(1)
+    x, y = (float(word) for word in one.args)
+    cursor = cockpit.text("cursor").split()
+    assert one.verb == "goto" and (x, y) == pytest.approx((float(cursor[1]), float(cursor[3])), abs=0.01)
+    before = pixels(cockpit, "path")["count"]
+    robot.who_drives, robot.exploration = "goal", "drives to 1.00 1.00: 2 m to go"
+    robot.publish_plan(3, robot.exploration, (2, 1.5), [(-1.5, -1.0), (-1.5, 1.6), (2, 1.5)])
+    cockpit.wait_for("document.getElementById('goal').textContent === 'leave goal'")
+    let_the_camera_glide(cockpit)
+    assert pixels(cockpit, "path")["count"] > before + 100
+    cockpit.click("goal")
+    assert commands(2)[1].verb == "stop"
+
+
+def test_why_a_goal_was_given_up_stands_over_the_map(cockpit, commands, robot):
+    why = "gave up 9.00 9.00: no way leads there that is wide enough"
+    cockpit.run("document.getElementById('goal').focus()")
+    cockpit.press("Enter", "ArrowUp", "Enter")
+    one, = commands(1)
+    assert one.verb == "goto"
+    robot.exploration, robot.refused = why, True
+    robot.answer = ("alice", one.counter, why)
+    robot.publish_plan(5, why, (9, 9))
+    cockpit.wait_for("document.getElementById('answer').className === 'bad'")
+    assert cockpit.text("answer") == why
+    cockpit.wait_for("document.getElementById('advice').textContent.includes('The robot gave up 9.00 9.00: no way leads there')")
+    assert cockpit.text("goal") == "drive there"
+
+
+def test_the_last_minutes_are_scrubbed_and_played(page, robot):
+    for _ in range(40):
+        robot.step()
+    page.wait_for("document.getElementById('scan').textContent === '39' && !document.getElementById('when').disabled")
+    page.wait_for("Number(document.getElementById('when').max) - Number(document.getElementById('when').min) > 300")
+    page.run("const when = document.getElementById('when'); when.value = (Number(when.min) + Number(when.max)) / 2;"
+             "when.dispatchEvent(new Event('input'))")
+    page.wait_for("document.body.dataset.time === 'past' && Number(document.getElementById('scan').textContent) < 39")
+    scan = int(page.text("scan"))
+    assert 0 < scan < 39
+    assert not page.run("return document.getElementById('past').hidden") and page.text("past-text").endswith("ago")
+    page.wait_for("document.getElementById('map-lines').textContent === '12'")  # what was to be seen then, all of it
+    robot.step()
+    page.run("return new Promise((later) => setTimeout(later, 300))")
+    assert page.text("scan") == str(scan), "what comes now is not shown then"
+    page.click("play")
+    page.wait_for("document.body.dataset.time === 'now'")
+    page.wait_for("document.getElementById('scan').textContent === '40'")
+    assert page.run("return document.getElementById('live').ariaPressed") == "true"
+
+
+def test_while_the_past_is_looked_at_nothing_but_stop_is_sent(cockpit, commands, robot):
+    cockpit.wait_for("Number(document.getElementById('when').max) - Number(document.getElementById('when').min) > 500")
+    cockpit.run("const when = document.getElementById('when'); when.value = when.min; when.dispatchEvent(new Event('input'))")
+    cockpit.wait_for("document.body.dataset.time === 'past' && document.body.dataset.control === 'off'")
+    assert "past" in cockpit.text("control-note")
+    cockpit.hold("w", 0.3)
+    cockpit.click("stop")
+    assert [c.verb for c in commands(1)] == ["stop"]
+    cockpit.press("n")
+    cockpit.wait_for("document.body.dataset.control === 'yes'")
+
+
+def test_plots_show_any_signal_also_of_before_the_page_was_opened(page, robot):
+    for _ in range(30):
+        robot.step()
+    page.wait_for("document.getElementById('scan').textContent === '29'")
+    page.reload()
+    page.run("const choice = document.getElementById('signal-1'); choice.value = 'sigma x'; choice.dispatchEvent(new Event('change'))")
+    page.wait_for("document.querySelector('#plots output').textContent === '4 mm (4 to 4)'")
+    page.run("const choice = document.getElementById('signal-1'); choice.value = 'count of bad checksum'; choice.dispatchEvent(new Event('change'))")
+    page.wait_for("document.querySelector('#plots output').textContent.startsWith('3 ')")
+    assert page.run("return document.getElementById('signal-2').options.length") > 20
+
+
+def test_the_occupancy_of_what_was_scanned_is_a_layer(page, robot, pulse):
+    page.wait_for("document.getElementById('map-lines').textContent === '12'")
+    assert page.run("return document.querySelector('[data-layer=occupancy]').ariaPressed") == "false"
+    page.wait_for("Number(document.getElementById('scan').textContent) > 20")
+    found = page.run("""
+        return import("/occupancy.js").then(({ Occupancy }) => {
+          const cells = new Occupancy();
+          for (let k = 0; k < 4; k++) cells.add([1.02, 0.02, 0.52, 0.52], [0.02, 0.02], 0);
+          const at = (x, y) => cells.tiles.get(`${Math.floor(x / 3.2)},${Math.floor(y / 3.2)}`)
+            ?.cells[(Math.floor(y / 0.05) % 64) * 64 + (Math.floor(x / 0.05) % 64)];
+          const seen = [at(1.02, 0.02), at(0.5, 0.02), at(0.52, 0.52), at(0.9, 0.9)];
+          cells.add([2, 2], [1.5, 1.5], 0);
+          return [...seen, cells.tiles.size, at(1.02, 0.02)];
+        });""")
+    assert found[0] > 6 and found[1] < 0 and found[2] > 6 and found[3] == 0
+    assert found[4] == 1 and found[5] == 0, "a pose that jumps begins anew"
+    page.run("document.querySelector('[data-layer=occupancy]').click()")

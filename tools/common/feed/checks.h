@@ -11,11 +11,16 @@
 #include "ale/features_t.hpp"
 #include "ale/map_pieces_t.hpp"
 #include "ale/map_t.hpp"
+#include "ale/plan_t.hpp"
 #include "ale/pose_t.hpp"
 #include "ale/scan_t.hpp"
 #include "ale/tracking_t.hpp"
 #include "base/limits.h"
 #include "map/line_map.h"
+
+extern "C" {
+#include "lcm/report.h"
+}
 
 namespace feed
 {
@@ -88,6 +93,17 @@ inline void check(const ale::tracking_t &tracking)
     require(tracking.scan >= 0, "negative number of a scan");
     require(tracking.maps >= 0 && tracking.wheel_faults >= 0, "negative count");
     require(tracking.wheel_word.size() <= 32, "a word of a whole page");
+}
+
+inline void check(const ale::plan_t &plan)
+{
+    require(plan.state >= 0 && plan.state <= 5, "unknown state");
+    require(plan.num_points <= ALE_PLAN_POINTS, "more points than a path has");
+    require(sane({plan.place_x, plan.place_y}), "place out of this world");
+    for (size_t k = 0; k < plan.x.size(); k++) {
+        require(sane({plan.x[k], plan.y[k]}), "path out of this world");
+    }
+    require(plan.words.size() <= 200, "a reason of a whole page");
 }
 
 } // namespace feed

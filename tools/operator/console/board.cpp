@@ -7,6 +7,22 @@
 namespace console
 {
 
+namespace
+{
+
+/* Of this computer; a clock that is set back must not bring times out of order. */
+int64_t now_ms()
+{
+    using std::chrono::duration_cast;
+    using std::chrono::milliseconds;
+    static const int64_t offset_ms =
+        duration_cast<milliseconds>(std::chrono::system_clock::now().time_since_epoch()).count() -
+        duration_cast<milliseconds>(Board::Clock::now().time_since_epoch()).count();
+    return offset_ms + duration_cast<milliseconds>(Board::Clock::now().time_since_epoch()).count();
+}
+
+} // namespace
+
 void Board::on_change(std::function<void()> wake)
 {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -31,8 +47,9 @@ void Board::pin(Topic topic, std::string text)
     {
         const std::lock_guard<std::mutex> lock(mutex_);
         Pinned &pinned = pinned_[static_cast<size_t>(topic)];
-        pinned.text = std::move(shared);
+        pinned.text = shared;
         pinned.number++;
+        history_.keep(topic, now_ms(), std::move(shared));
     }
     wake();
 }
@@ -46,6 +63,7 @@ Pinned Board::newest(Topic topic) const
 void Board::extend_trail(TrailPoint point)
 {
     const std::lock_guard<std::mutex> lock(mutex_);
+    history_.keep_point(now_ms(), point);
     if (!trail_.empty() && !point.first) {
         const TrailPoint &last = trail_.back();
         if (std::hypot(point.x - last.x, point.y - last.y) < trail_spacing_m_) {
@@ -85,6 +103,7 @@ void Board::clear()
     trail_.clear();
     trail_epoch_++;
     trail_spacing_m_ = finest_spacing_m;
+    history_.clear();
     arrivals_.clear();
     poses_ = 0;
     lost_poses_ = 0;
@@ -141,6 +160,24 @@ LinkHealth Board::link(Clock::time_point now) const
         health.pose_rate_hz = static_cast<double>(arrivals_.size() - 1) / span_s;
     }
     return health;
+}
+
+History::Span Board::span() const
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return history_.span();
+}
+
+Past Board::look_back(int64_t at_ms) const
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return {history_.span(), history_.trail(at_ms), history_.at(at_ms)};
+}
+
+std::vector<History::Text> Board::sample(Topic topic, size_t most) const
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return history_.sample(topic, most);
 }
 
 } // namespace console

@@ -1,7 +1,8 @@
 /* The board between the LCM thread, which pins the newest of everything to it, and the web thread, which
  * reads. What is replaced before a slow client has read it is gone for that client: newest wins.
  *
- * The trail is the exception: every client gets all of it, from wherever he stands. */
+ * The trail is the exception: every client gets all of it, from wherever he stands. What was to be seen in
+ * the last ten minutes is kept, too (history.h). */
 #ifndef CONSOLE_BOARD_H
 #define CONSOLE_BOARD_H
 
@@ -14,11 +15,11 @@
 #include <string>
 #include <vector>
 
+#include "operator/console/history.h"
+#include "operator/console/topic.h"
+
 namespace console
 {
-
-enum class Topic { pose, tracking, features, scan, map, status };
-constexpr size_t topic_count = 6;
 
 /* One message as pinned: its text, and how many of its topic there were so far, this one included. */
 struct Pinned {
@@ -26,17 +27,18 @@ struct Pinned {
     uint64_t number = 0;
 };
 
-struct TrailPoint {
-    float x;
-    float y;
-    bool first; /* no line from the point before: the pose jumped */
-};
-
 /* A stretch of the trail from index first on. The epoch changes when indices do. */
 struct TrailPiece {
     uint64_t epoch;
     size_t first;
     std::vector<TrailPoint> points;
+};
+
+/* A moment of the past: the span of what is kept, the way up to there, the newest of each topic. */
+struct Past {
+    History::Span span;
+    std::vector<TrailPoint> way;
+    std::vector<History::Text> texts;
 };
 
 /* What a console can say about its own link to the robot. */
@@ -70,6 +72,12 @@ class Board
     void note_malformed(uint64_t total);
     LinkHealth link(Clock::time_point now) const;
 
+    /* What the board showed then, milliseconds since 1970 of this computer. */
+    Past look_back(int64_t at_ms) const;
+    History::Span span() const;
+    /* So many of a topic over the whole time, for charts. */
+    std::vector<History::Text> sample(Topic topic, size_t most) const;
+
   private:
     static constexpr size_t trail_capacity = 20000;
     static constexpr float finest_spacing_m = 0.02F;
@@ -89,6 +97,7 @@ class Board
     uint64_t poses_ = 0;
     uint64_t lost_poses_ = 0;
     uint64_t malformed_ = 0;
+    History history_;
 };
 
 } // namespace console

@@ -1,5 +1,8 @@
 #include "operator/console/client.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "operator/console/messages.h"
 
 namespace console
@@ -21,6 +24,8 @@ std::optional<std::string> Client::choose(Board::Clock::time_point now)
 {
     if (life_ != board_.life()) {
         life_ = board_.life();
+        looks_back_ = false;
+        past_.clear();
         return hello_message(operator_name_);
     }
     if (!answers_.empty()) {
@@ -30,7 +35,15 @@ std::optional<std::string> Client::choose(Board::Clock::time_point now)
     }
     if (link_due_) {
         link_due_ = false;
-        return link_message(board_.link(now), skipped_);
+        return link_message(board_.link(now), skipped_, board_.span());
+    }
+    if (!past_.empty()) {
+        std::string message = std::move(past_.front());
+        past_.pop_front();
+        return message;
+    }
+    if (looks_back_) {
+        return std::nullopt;
     }
     auto trail = next_trail();
     return trail ? trail : next_topic();
@@ -73,7 +86,48 @@ void Client::link_due()
 bool Client::heard(const std::string &text)
 {
     const std::optional<PageMessage> message = page_message(text);
-    return message && (message->words.empty() ? got(message->drawn) : command(message->words));
+    if (!message) {
+        return false;
+    }
+    switch (message->kind) {
+    case PageMessage::Kind::got:
+        return got(message->drawn);
+    case PageMessage::Kind::command:
+        return command(message->words);
+    case PageMessage::Kind::look:
+        return look(message->at_ms);
+    case PageMessage::Kind::series:
+        return tell_series();
+    }
+    return false;
+}
+
+/* Where he looks next takes the place of what was still to be sent of where he looked. Now again: all anew.
+ */
+bool Client::look(std::optional<int64_t> at_ms)
+{
+    looks_back_ = at_ms.has_value();
+    if (at_ms) {
+        const Past past = board_.look_back(*at_ms);
+        past_ = {past_message(at_ms, past.span), trail_message({0, 0, past.way})};
+        std::transform(past.texts.begin(), past.texts.end(), std::back_inserter(past_),
+                       [](const History::Text &text) { return *text; });
+    } else {
+        past_ = {past_message(std::nullopt, board_.span())};
+        seen_.fill(0);
+        trail_epoch_ = 0;
+    }
+    return true;
+}
+
+bool Client::tell_series()
+{
+    if (answers_.size() >= most_answers) {
+        return false;
+    }
+    answers_.push_back(series_message(board_.sample(Topic::pose, series_points),
+                                      board_.sample(Topic::status, series_points)));
+    return true;
 }
 
 bool Client::got(uint64_t count)

@@ -2,7 +2,8 @@
  *
  * A page says how many messages it has drawn (got). More than `window` messages are
  * never on the way to it: a slow page, or one in a hidden tab, skips to the newest state instead of
- * falling behind, and what it skipped is counted. Web thread only. */
+ * falling behind, and what it skipped is counted. One that looks at the past gets what it asks for, and of
+ * now the link alone. Web thread only. */
 #ifndef CONSOLE_CLIENT_H
 #define CONSOLE_CLIENT_H
 
@@ -56,15 +57,20 @@ class Client
 
     /* Answers that a page has not fetched yet; more, and it is no page that waits for them. */
     static constexpr size_t most_answers = 64;
+    static constexpr size_t series_points = 600;
 
     bool got(uint64_t count);
+    bool look(std::optional<int64_t> at_ms);
+    bool tell_series();
     bool command(const std::vector<std::string> &words);
 
     const Board &board_;
     std::string operator_name_;
     Command command_;
     std::deque<std::string> answers_;
-    uint64_t life_ = 0; /* the robot's life that the page was told of */
+    bool looks_back_ = false;
+    std::deque<std::string> past_; /* what is still to be sent of where he looks */
+    uint64_t life_ = 0;            /* the robot's life that the page was told of */
     bool link_due_ = true;
     uint64_t sent_ = 0;
     uint64_t drawn_ = 0;

@@ -124,6 +124,24 @@ std::string tracking_message(const ale::tracking_t &tracking)
                     {"wheel_faults", tracking.wheel_faults}});
 }
 
+std::string plan_message(const ale::plan_t &plan)
+{
+    static const char *const states[] = {"off", "explores", "returns", "goes", "arrived", "given up"};
+    json path = json::array();
+    for (size_t k = 0; k < plan.x.size(); k++) {
+        path.push_back(number(plan.x[k], 1e3));
+        path.push_back(number(plan.y[k], 1e3));
+    }
+    return text_of(
+        {{"type", "plan"},
+         {"utime", plan.utime},
+         {"state", states[plan.state]},
+         {"words", plan.words},
+         {"place", plan.has_place != 0 ? json::array({number(plan.place_x, 1e3), number(plan.place_y, 1e3)})
+                                       : json(nullptr)},
+         {"path", path}});
+}
+
 std::string features_message(const ale::features_t &features)
 {
     json lines = json::array();
@@ -251,7 +269,7 @@ std::string trail_message(const TrailPiece &piece)
     return text_of({{"type", "trail"}, {"anew", piece.first == 0}, {"points", points}});
 }
 
-std::string link_message(const LinkHealth &link, uint64_t skipped)
+std::string link_message(const LinkHealth &link, uint64_t skipped, const History::Span &span)
 {
     return text_of({{"type", "link"},
                     {"pose_age_ms", link.pose_age_ms < 0 ? json(nullptr) : json(link.pose_age_ms)},
@@ -259,7 +277,36 @@ std::string link_message(const LinkHealth &link, uint64_t skipped)
                     {"poses", link.poses},
                     {"lost_poses", link.lost_poses},
                     {"malformed", link.malformed},
-                    {"skipped", skipped}});
+                    {"skipped", skipped},
+                    {"kept", json::array({span.from_ms, span.to_ms})}});
+}
+
+std::string past_message(std::optional<int64_t> at_ms, const History::Span &span)
+{
+    return text_of({{"type", "past"},
+                    {"at", at_ms ? json(*at_ms) : json(nullptr)},
+                    {"kept", json::array({span.from_ms, span.to_ms})}});
+}
+
+namespace
+{
+
+/* They are JSON already. */
+std::string list_of(const std::vector<History::Text> &texts)
+{
+    std::string list = "[";
+    for (const History::Text &text : texts) {
+        list += (list.size() > 1 ? "," : "") + *text;
+    }
+    return list + "]";
+}
+
+} // namespace
+
+std::string series_message(const std::vector<History::Text> &poses,
+                           const std::vector<History::Text> &statuses)
+{
+    return R"({"type":"series","poses":)" + list_of(poses) + R"(,"statuses":)" + list_of(statuses) + "}";
 }
 
 std::string sent_message(const std::string &verb, const Sent &sent)
@@ -283,6 +330,17 @@ std::optional<std::vector<std::string>> words_of(const json &list)
     return texts ? std::optional(list.get<std::vector<std::string>>()) : std::nullopt;
 }
 
+/* A time, or null for now. */
+std::optional<PageMessage> look_of(const json &at)
+{
+    if (at.is_null()) {
+        return PageMessage{PageMessage::Kind::look};
+    }
+    return at.is_number_integer()
+               ? std::optional(PageMessage{PageMessage::Kind::look, 0, {}, at.get<int64_t>()})
+               : std::nullopt;
+}
+
 } // namespace
 
 std::optional<PageMessage> page_message(const std::string &text)
@@ -291,12 +349,19 @@ std::optional<PageMessage> page_message(const std::string &text)
     if (!message.is_object()) {
         return std::nullopt;
     }
+    using Kind = PageMessage::Kind;
     const json type = message.value("type", json());
     if (type == "got" && message.contains("count") && message["count"].is_number_unsigned()) {
-        return PageMessage{message["count"].get<uint64_t>(), {}};
+        return PageMessage{Kind::got, message["count"].get<uint64_t>()};
+    }
+    if (type == "series") {
+        return PageMessage{Kind::series};
+    }
+    if (type == "look" && message.contains("at")) {
+        return look_of(message["at"]);
     }
     const auto words = type == "command" ? words_of(message.value("words", json())) : std::nullopt;
-    return words ? std::optional(PageMessage{0, *words}) : std::nullopt;
+    return words ? std::optional(PageMessage{Kind::command, 0, *words}) : std::nullopt;
 }
 
 } // namespace console

@@ -10,6 +10,7 @@
 
 #include "ale/features_t.hpp"
 #include "ale/map_t.hpp"
+#include "ale/plan_t.hpp"
 #include "ale/pose_t.hpp"
 #include "ale/scan_t.hpp"
 #include "ale/status_t.hpp"
@@ -26,6 +27,7 @@ namespace console
 std::string hello_message(const std::string &operator_name);
 std::string pose_message(const ale::pose_t &pose);
 std::string tracking_message(const ale::tracking_t &tracking);
+std::string plan_message(const ale::plan_t &plan);
 std::string features_message(const ale::features_t &features);
 std::string scan_message(const ale::scan_t &scan, const std::optional<Stain> &stain = {});
 std::string map_message(const ale::map_t &map, const feed::MapPieces &pieces = {});
@@ -36,16 +38,26 @@ struct Trust {
 };
 std::string status_message(const ale::status_t &status, const Trust &trust = {});
 std::string trail_message(const TrailPiece &piece);
-std::string link_message(const LinkHealth &link, uint64_t skipped);
+std::string link_message(const LinkHealth &link, uint64_t skipped, const History::Span &span = {});
+
+/* What follows is of the past, as it was at that time; nothing when it is of now again. The span of what is
+ * kept. */
+std::string past_message(std::optional<int64_t> at_ms, const History::Span &span);
+
+/* Messages of the past, for charts; each as it was. */
+std::string series_message(const std::vector<History::Text> &poses,
+                           const std::vector<History::Text> &statuses);
 
 /* What became of a page's command: on its way to the robot under that number, or not and why. */
 std::string sent_message(const std::string &verb, const Sent &sent);
 
-/* What a page says: {"type":"got","count":n}, or {"type":"command","words":["drive","0.2","0"]} (then words
- * is not empty). Nothing when the text is anything else. */
+/* What a page says: {"type":"got","count":n}; {"type":"command","words":["drive","0.2","0"]};
+ * {"type":"look","at":ms}, null for now; {"type":"series"}. Nothing when the text is anything else. */
 struct PageMessage {
+    enum class Kind { got, command, look, series } kind = Kind::got;
     uint64_t drawn = 0;
-    std::vector<std::string> words;
+    std::vector<std::string> words{};
+    std::optional<int64_t> at_ms{};
 };
 std::optional<PageMessage> page_message(const std::string &text);
 

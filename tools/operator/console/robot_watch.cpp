@@ -64,6 +64,7 @@ void RobotWatch::subscribe(feed::LcmFeed &feed)
     });
     feed.on_bytes("ALE_VOUCHED", [this](const uint8_t *bytes, size_t count) { vouched_bytes(bytes, count); });
     follow(feed, "ALE_TRACKING", &RobotWatch::tracking);
+    follow(feed, "ALE_PLAN", &RobotWatch::plan);
     follow(feed, "ALE_FEATURES", &RobotWatch::features);
     follow(feed, "ALE_SCAN", &RobotWatch::scan);
     follow(feed, "ALE_MAP", &RobotWatch::map);
@@ -130,6 +131,12 @@ void RobotWatch::tracking(const ale::tracking_t &tracking)
 {
     feed::check(tracking);
     board_.pin(Topic::tracking, tracking_message(tracking));
+}
+
+void RobotWatch::plan(const ale::plan_t &plan)
+{
+    feed::check(plan);
+    board_.pin(Topic::plan, plan_message(plan));
 }
 
 void RobotWatch::features(const ale::features_t &features)

@@ -8,6 +8,7 @@
 
 #include "ale/features_t.hpp"
 #include "ale/map_t.hpp"
+#include "ale/plan_t.hpp"
 #include "ale/pose_t.hpp"
 #include "ale/scan_t.hpp"
 #include "ale/status_t.hpp"
@@ -38,6 +39,7 @@ class RobotWatch
     /* Each throws std::runtime_error for a message that makes no sense; it is counted as malformed. */
     void pose(const ale::pose_t &pose);
     void tracking(const ale::tracking_t &tracking);
+    void plan(const ale::plan_t &plan);
     void features(const ale::features_t &features);
     void scan(const ale::scan_t &scan);
     void map(const ale::map_t &part);

@@ -238,3 +238,82 @@ TEST(Client, CommandThatIsNoneAndAFloodOfCommandsEndTheConnection)
     }
     EXPECT_FALSE(taken);
 }
+
+namespace
+{
+
+bool look(Client &client, const json &at)
+{
+    return client.heard(json{{"type", "look"}, {"at", at}}.dump());
+}
+
+std::vector<std::string> types_of(Client &client)
+{
+    std::vector<std::string> types;
+    while (const auto message = next(client)) {
+        types.push_back(message->value("type", "?"));
+    }
+    return types;
+}
+
+} // namespace
+
+TEST(Client, WhoLooksBackGetsWhatHeAskedForAndOfNowTheLinkAlone)
+{
+    Board board;
+    board.pin(Topic::pose, message_of("pose", 1));
+    board.pin(Topic::map, message_of("map", 1));
+    Client client = watcher(board);
+    drain(client);
+    ASSERT_TRUE(look(client, board.span().to_ms));
+    EXPECT_EQ(types_of(client), (std::vector<std::string>{"past", "trail", "pose", "map"}));
+    board.pin(Topic::pose, message_of("pose", 2));
+    EXPECT_TRUE(drain(client).empty()) << "nothing of now";
+    client.link_due();
+    const auto link = next(client);
+    EXPECT_EQ(link->value("type", ""), "link");
+    EXPECT_EQ((*link)["kept"], json({board.span().from_ms, board.span().to_ms}));
+    ASSERT_TRUE(look(client, nullptr));
+    const auto now = next(client);
+    EXPECT_EQ(now->value("type", ""), "past");
+    EXPECT_TRUE((*now)["at"].is_null());
+    std::map<std::string, int> counts = drain(client);
+    EXPECT_EQ(counts["pose"], 1);
+    EXPECT_EQ(counts["map"], 1) << "all of it anew";
+    EXPECT_EQ(counts["trail"], 1);
+    EXPECT_EQ(client.skipped(), 0U);
+}
+
+TEST(Client, AnotherWishTakesThePlaceOfWhatIsStillToBeSentOfTheFormerOne)
+{
+    Board board;
+    board.pin(Topic::pose, message_of("pose", 1));
+    Client client = watcher(board);
+    drain(client);
+    for (int k = 0; k < 50; k++) {
+        ASSERT_TRUE(look(client, board.span().to_ms));
+    }
+    EXPECT_EQ(types_of(client), (std::vector<std::string>{"past", "trail", "pose"}));
+}
+
+TEST(Client, TheSeriesHasWhatIsKeptForCharts)
+{
+    Board board;
+    board.pin(Topic::pose, message_of("pose", 1));
+    board.pin(Topic::status, message_of("status", 7));
+    Client client = watcher(board);
+    drain(client);
+    ASSERT_TRUE(client.heard(R"({"type":"series"})"));
+    const auto series = next(client);
+    EXPECT_EQ((*series)["poses"][0]["k"], 1);
+    EXPECT_EQ((*series)["statuses"][0]["k"], 7);
+}
+
+TEST(Client, WhatIsNoTimeEndsTheConnection)
+{
+    Board board;
+    Client client = watcher(board);
+    EXPECT_FALSE(look(client, "yesterday"));
+    EXPECT_FALSE(look(client, 1.5));
+    EXPECT_FALSE(client.heard(R"({"type":"look"})"));
+}

@@ -158,6 +158,32 @@ TEST_F(RobotWatched, WhichMapAndWhatTheWheelsDoIsPinned)
     }
 }
 
+TEST_F(RobotWatched, WhereTheRobotDrivesByItselfIsPinned)
+{
+    ale::plan_t plan{};
+    plan.state = 3;
+    plan.words = "drives to 1.00 2.00: 3 m to go";
+    plan.has_place = 1;
+    plan.place_x = 1;
+    plan.place_y = 2;
+    plan.num_points = 2;
+    plan.x = {0, 1};
+    plan.y = {0, 2};
+    watch.plan(plan);
+    const std::string text = *board.newest(Topic::plan).text;
+    for (const char *part : {"\"state\":\"goes\"", "\"place\":[1.0,2.0]", "\"path\":[0.0,0.0,1.0,2.0]"}) {
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+    }
+    plan.x[1] = std::numeric_limits<float>::infinity();
+    EXPECT_THROW(watch.plan(plan), std::runtime_error);
+    plan.x[1] = 1;
+    plan.state = 6;
+    EXPECT_THROW(watch.plan(plan), std::runtime_error);
+    plan.state = 0;
+    plan.num_points = 1000;
+    EXPECT_THROW(watch.plan(plan), std::runtime_error);
+}
+
 TEST_F(RobotWatched, MessagesOutOfThisWorldAreRefused)
 {
     ale::tracking_t tracking{};

@@ -4,22 +4,30 @@ import { Scene } from "./scene.js";
 import { View } from "./view.js";
 import { Painter } from "./paint.js";
 import { Health } from "./health.js";
+import { Layers } from "./layers.js";
 import { Pointing } from "./pointing.js";
 import { Control } from "./control.js";
+import { Plots } from "./plots.js";
+import { Timeline } from "./timeline.js";
 
 const canvas = document.getElementById("map");
 const scene = new Scene();
 const view = new View(canvas, scene, () => painter.wanted());
+const layers = new Layers(() => painter.wanted());
 const pointing = new Pointing(canvas, view, () => painter.wanted());
-const painter = new Painter(canvas, scene, view, pointing);
-const health = new Health();
+const painter = new Painter(canvas, scene, view, pointing, layers);
+const health = new Health(layers);
 const link = new Link((message) => {
+  timeline.take(message);
   scene.take(message);
-  control.take(message);
+  control.take(message, timeline.isPast);
   health.take(message, scene);
+  plots.take(message, timeline.isPast);
   painter.wanted();
 });
 const control = new Control(link, pointing);
+const timeline = new Timeline(link);
+const plots = new Plots(link);
 
 for (const [id, action] of Object.entries({
   "zoom-in": () => view.zoom(1.4),
@@ -38,6 +46,7 @@ function showTheme() {
   const preferred = lightPreferred.matches ? "light" : "dark";
   document.documentElement.dataset.theme = localStorage.getItem("theme") ?? preferred;
   painter.themeChanged();
+  plots.due = true;
 }
 
 function changeTheme() {
@@ -46,12 +55,17 @@ function changeTheme() {
 }
 
 // A lost link must show within one second: it is looked at ten times a second, whatever arrives.
-setInterval(() => health.showLink(link, scene), 100);
+setInterval(() => {
+  health.showLink(link, scene);
+  control.showLink(link.state);
+  timeline.showLink(link.state);
+}, 100);
 
 function frame(now) {
   view.step(now);
   painter.frame();
   health.frame();
+  plots.frame();
   link.drawn();
   requestAnimationFrame(frame);
 }

@@ -5,9 +5,21 @@ const DRIVE_PERIOD_MS = 80; // the robot stands still 300 ms after the last one
 const STICK_DEAD = 0.12; // part of the stick's way that a thumb's rest covers
 const SURE_MS = 3000; // a button that destroys something wants a second press within that time
 const KEYS = { w: [1, 0], s: [-1, 0], a: [0, 1], d: [0, -1] };
-const CONTROLS = ["explore", "reset", "save-map", "load-map", "relocate", "set", "freeze"];
+const ARROWS = { arrowup: "w", arrowdown: "s", arrowleft: "a", arrowright: "d" }; // while the stick has the focus
+const DUMB = ["gone", "connecting"]; // links on which nothing can be said
+const CONTROLS = ["goal", "explore", "reset", "save-map", "load-map", "relocate", "set", "freeze"];
+
+const WRITTEN_TO = "input:not([type=range]), select"; // keys are theirs
+
+const EXPLORING = /^(explores|all seen|looks for its place)/; // of ALE_STATUS
+const GOING = /^drives to/;
 
 const element = (id) => document.getElementById(id);
+
+function driveKey(event) {
+  const key = event.key.toLowerCase();
+  return event.target.id === "stick" ? (ARROWS[key] ?? key) : key;
+}
 
 export class Control {
   constructor(link, pointing) {
@@ -16,6 +28,7 @@ export class Control {
     this.keys = new Set();
     this.stick = [0, 0]; // forward, left: -1 .. 1
     this.driving = false;
+    this.linkState = "connecting";
     this.operator = null;
     this.status = null;
     this.#listenToStick();
@@ -25,13 +38,19 @@ export class Control {
     this.#show();
   }
 
-  take(message) {
+  // isPast: what comes is of the past, which answers no commands.
+  take(message, isPast) {
     switch (message.type) {
       case "hello":
         this.operator = message.operator;
+        this.hasKey = message.operator !== null;
         this.status = null;
         break;
+      case "past":
+        this.past = isPast;
+        break;
       case "status":
+        if (isPast) return;
         this.status = message;
         this.#answer(message.command);
         break;
@@ -44,16 +63,34 @@ export class Control {
     this.#show();
   }
 
-  // Why nothing can be commanded, or an empty text.
-  get obstacle() {
+  // The state of the link, as link.js has it.
+  showLink(state) {
+    if (state === this.linkState) return;
+    this.linkState = state;
+    this.#show();
+  }
+
+  // Why not even STOP can be said, or an empty text.
+  get silence() {
+    if (DUMB.includes(this.linkState)) return "no link to the console: nothing can be sent";
     if (this.operator === null) return "watching only: ale-console has no key (--keys)";
     if (!this.status) return "no robot heard yet";
     return this.status.takes_commands ? "" : "the robot takes no commands (ale-slamd --keys)";
   }
 
+  // Why nothing but STOP can be commanded, or an empty text. Who does not see the robot does not drive it.
+  get obstacle() {
+    if (this.past) return this.silence || "this is the past: STOP alone is sent";
+    return this.silence || (this.linkState === "lost" ? "link lost: STOP alone is sent" : "");
+  }
+
   get exploring() {
-    const words = this.status?.exploration ?? "";
-    return words !== "" && !words.startsWith("finished");
+    return this.status?.who_drives === "exploration" || EXPLORING.test(this.status?.exploration ?? "");
+  }
+
+  // It has a place to drive to.
+  get going() {
+    return GOING.test(this.status?.exploration ?? "");
   }
 
   #command(...words) {
@@ -61,6 +98,7 @@ export class Control {
   }
 
   #stop() {
+    if (this.silence) return;
     this.#release();
     this.driving = false;
     this.#command("stop");
@@ -115,16 +153,20 @@ export class Control {
 
   #listenToKeys() {
     addEventListener("keydown", (event) => {
-      if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("input, select")) return;
-      const key = event.key.toLowerCase();
-      if (key === " " && !this.obstacle) {
+      if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches(WRITTEN_TO)) return;
+      const key = driveKey(event);
+      if (key === " " && !this.silence) {
         event.preventDefault();
         this.#stop();
       } else if (KEYS[key] && !this.obstacle) {
+        event.preventDefault();
         this.keys.add(key);
       }
     });
-    addEventListener("keyup", (event) => this.keys.delete(event.key.toLowerCase()));
+    addEventListener("keyup", (event) => {
+      this.keys.delete(event.key.toLowerCase());
+      this.keys.delete(ARROWS[event.key.toLowerCase()]);
+    });
     // Nobody drives from a page that nobody looks at.
     addEventListener("blur", () => this.#release());
     document.addEventListener("visibilitychange", () => document.hidden && this.#release());
@@ -138,6 +180,7 @@ export class Control {
       reset: () => this.#whenSure("reset", () => this.#command("reset")),
       "save-map": () => this.#command("save_map", name()),
       "load-map": () => this.#whenSure("load-map", () => this.#command("load_map", name())),
+      goal: () => this.going ? this.#stop() : this.pointing.goal((x, y) => this.#command("goto", x.toFixed(3), y.toFixed(3))),
       relocate: () => this.pointing.pose((x, y, theta) =>
         this.#command("relocate", x.toFixed(3), y.toFixed(3), theta.toFixed(4))),
       freeze: () => this.#command("set", "freeze_map", this.status?.map_frozen ? "no" : "yes"),
@@ -180,12 +223,15 @@ export class Control {
 
   #show() {
     const obstacle = this.obstacle;
-    document.body.dataset.control = obstacle ? "no" : "yes";
+    document.body.dataset.control = this.hasKey ? (obstacle ? "off" : "yes") : "watching";
     element("control-note").textContent = obstacle;
     for (const id of CONTROLS) element(id).disabled = obstacle !== "";
+    element("stop").disabled = this.silence !== "";
+    element("stick").setAttribute("aria-disabled", String(obstacle !== ""));
     if (obstacle) this.#release();
     element("operator").textContent = this.operator ?? "nobody";
     element("who-drives").textContent = this.status?.who_drives || "nobody";
+    element("goal").textContent = this.going ? "leave goal" : "drive there";
     element("exploration").textContent = (this.status?.exploration || "off").replace(/ m2\b/, " m²");
     element("explore").setAttribute("aria-pressed", String(this.exploring));
     element("freeze").setAttribute("aria-pressed", String(Boolean(this.status?.map_frozen)));

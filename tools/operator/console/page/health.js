@@ -1,6 +1,6 @@
 // The health strip and panel: everything that is not the map.
 import {
-  ADVICE_ON_HEARING, adviceOnScanner, adviceOnTracking, codesInWords, counterInWords, countDrops, degrees, duration, heading, isTrouble, mapsInWords, metres, millimetres, STATES,
+  ADVICE_ON_HEARING, adviceOnPlan, adviceOnScanner, adviceOnTracking, codesInWords, counterInWords, countDrops, degrees, duration, heading, isTrouble, mapsInWords, metres, millimetres, STATES,
   wheelsInWords,
 } from "./words.js";
 
@@ -9,7 +9,8 @@ const STAGE_COLOURS = ["#7c8cff", "#38bdf8", "#22d3b6", "#ffb84d", "#f472b6"];
 const HISTORY = 150; // scans in the chart of times
 
 export class Health {
-  constructor() {
+  constructor(layers) {
+    this.layers = layers;
     this.times = []; // stages_us of the last scans
     this.chart = document.getElementById("times");
     this.chartDue = true;
@@ -19,12 +20,12 @@ export class Health {
 
   take(message, scene) {
     switch (message.type) {
-      case "hello": this.times = []; break;
+      case "hello": case "past": this.times = []; break;
       case "pose": this.#pose(message); break;
       case "tracking":
         show("maps", mapsInWords(message)[0] || "one", message.maps > 1 ? "fair" : "");
+        this.layers.tellEmpty("apart", !scene.hasWallsApart);
         show("wheels", wheelsInWords(message.wheels, message.wheel_faults), message.wheels === "fine" ? "" : "fair");
-        showApart(scene);
         break;
       case "features":
         show("lines", message.lines.length);
@@ -35,7 +36,7 @@ export class Health {
         show("map-lines", message.lines.length);
         show("map-corners", message.corners.length);
         show("map-version", message.version);
-        showApart(scene);
+        this.layers.tellEmpty("apart", !scene.hasWallsApart);
         break;
       case "status": this.#status(message); break;
       case "link": this.#link(message, scene); break;
@@ -54,7 +55,7 @@ export class Health {
     show("state-word", word);
     show("state-text", text);
     showAlarm(state, scene, word, text);
-    const advice = [...(scene.status?.warnings ?? []), adviceOnScanner(scene.status?.driver, scene.scan?.stain), ...adviceOnTracking(scene.tracking)];
+    const advice = [...(scene.status?.warnings ?? []), adviceOnScanner(scene.status?.driver, scene.scan?.stain), ...adviceOnTracking(scene.tracking), adviceOnPlan(scene.plan)];
     showAdvice(heard ? advice.filter(Boolean) : state === "waiting" ? [ADVICE_ON_HEARING] : []);
   }
 
@@ -181,10 +182,6 @@ function showAdvice(advice) {
     paragraph.textContent = text;
     return paragraph;
   }));
-}
-
-function showApart(scene) {
-  document.getElementById("apart").hidden = !scene.hasWallsApart;
 }
 
 function show(id, text, mood) {

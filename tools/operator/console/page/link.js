@@ -16,6 +16,7 @@ export class Link {
     this.poseAt = -Infinity; // a pose, by this page's clock
     this.statusAt = -Infinity;
     this.scansCome = true; // as the status says
+    this.past = false; // poses and statuses that come are old ones
     this.opened = false;
     // A page that comes to the front again asks at once for what it missed.
     document.addEventListener("visibilitychange", () => this.drawn());
@@ -76,11 +77,15 @@ export class Link {
         location.reload(); // the console was replaced by another version
       }
       this.poseAt = -Infinity;
-    } else if (message.type === "pose" && this.posesSinceOpened++ > 0) {
+      this.past = false;
+    } else if (message.type === "past") {
+      this.past = message.at !== null;
+      this.posesSinceOpened = 0;
+    } else if (!this.past && message.type === "pose" && this.posesSinceOpened++ > 0) {
       this.poseAt = now; // the first may be an old one, kept for newcomers: the link report tells its age
     } else if (message.type === "link" && message.pose_age_ms !== null) {
       this.poseAt = now - message.pose_age_ms;
-    } else if (message.type === "status") {
+    } else if (!this.past && message.type === "status") {
       this.statusAt = now;
       this.scansCome = /^(streaming|asking scan by scan)/.test(message.driver);
     }

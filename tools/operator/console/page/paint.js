@@ -8,6 +8,7 @@ const ELLIPSE_MAGNIFIED = 10; // millimetres would not be seen; the legend says 
 const HEADING_LENGTH = 3; // radii of the robot
 const SURE_AFTER_SCANS = 5; // a tenth of a metre apart, as a rule; a wall seen less often is drawn paler
 const APART_DASH = [8, 5]; // walls of a map that the robot's is not joined with: told by shape as well as by colour
+const PATH_DASH = [2, 7];
 const FRESH_TRAIL_POINTS = 250;
 const GRID_LEAST_PX = 44;
 const BAND_LEAST_PX = 2.5;
@@ -25,11 +26,12 @@ function ellipse(context, [xx, xy, yy], least, scale) {
 }
 
 export class Painter {
-  constructor(canvas, scene, view, pointing) {
+  constructor(canvas, scene, view, pointing, layers) {
     this.canvas = canvas;
     this.scene = scene;
     this.view = view;
     this.pointing = pointing;
+    this.layers = layers;
     this.context = canvas.getContext("2d");
     this.due = true;
   }
@@ -54,16 +56,32 @@ export class Painter {
     c.lineCap = "round";
     c.lineJoin = "round";
     this.#grid();
-    this.#sight();
-    this.#trail();
-    this.#points();
-    this.#lineBands();
+    this.#layer("occupancy", () => this.scene.occupancy.draw(c, this.view, this.#numbers("sight"), this.#numbers("wall")));
+    this.#layer("scan", () => this.#sight());
+    this.#layer("trail", () => this.#trail());
+    this.#layer("path", () => this.#plan());
+    this.#layer("scan", () => this.#points());
+    this.#layer("lines", () => this.#uncertain() && this.#lineBands());
     this.#walls();
-    this.#currentLines(1.75, 1);
-    this.#corners();
+    this.#layer("lines", () => this.#currentLines());
+    this.#layer("corners", () => this.#corners());
     this.#robot();
     this.#pointedAt();
     this.#scaleBar();
+  }
+
+  #layer(name, draw) {
+    if (this.layers.isOn(name)) draw();
+  }
+
+  // A colour as [r, g, b].
+  #numbers(name) {
+    const text = this.colour(name).trim();
+    return [1, 3, 5].map((k) => parseInt(text.slice(k, k + 2), 16));
+  }
+
+  #uncertain() {
+    return this.layers.isOn("uncertainty");
   }
 
   #fitToScreen() {
@@ -148,12 +166,43 @@ export class Painter {
     c.globalAlpha = 1;
   }
 
+  // Where the robot drives by itself, and the place that it was told to drive to.
+  #plan() {
+    const plan = this.scene.plan;
+    if (!plan || plan.state === "off") return;
+    const c = this.context;
+    c.strokeStyle = c.fillStyle = this.colour("path");
+    c.lineWidth = 3;
+    c.setLineDash(PATH_DASH);
+    this.#path(plan.path);
+    c.stroke();
+    c.setLineDash([]);
+    if (!plan.place) return;
+    const [px, py] = this.view.toScreen(...plan.place);
+    c.beginPath();
+    c.arc(px, py, 9, 0, 2 * Math.PI);
+    c.stroke();
+    c.beginPath();
+    if (plan.state === "given up") {
+      for (const d of [-1, 1]) {
+        c.moveTo(px - 5, py - 5 * d);
+        c.lineTo(px + 5, py + 5 * d);
+      }
+      c.stroke();
+    } else {
+      c.arc(px, py, 3.5, 0, 2 * Math.PI);
+      c.fill();
+    }
+  }
+
   #walls() {
     const lines = this.scene.map?.lines ?? [];
     const here = lines.filter((l) => !this.scene.isApart(l));
-    this.#strokeWalls(lines.filter((l) => this.scene.isApart(l)), "apart", 1, APART_DASH);
-    this.#strokeWalls(here.filter((l) => l.seen < SURE_AFTER_SCANS), "wall", 0.45);
-    this.#strokeWalls(here.filter((l) => l.seen >= SURE_AFTER_SCANS), "wall", 1);
+    this.#layer("apart", () => this.#strokeWalls(lines.filter((l) => this.scene.isApart(l)), "apart", 1, APART_DASH));
+    this.#layer("map", () => {
+      this.#strokeWalls(here.filter((l) => l.seen < SURE_AFTER_SCANS), "wall", 0.45);
+      this.#strokeWalls(here.filter((l) => l.seen >= SURE_AFTER_SCANS), "wall", 1);
+    });
   }
 
   #strokeWalls(lines, colour, alpha, dash = []) {
@@ -174,18 +223,16 @@ export class Painter {
     c.globalAlpha = 1;
   }
 
-  #currentLines(width, alpha) {
+  #currentLines() {
     const c = this.context;
     c.strokeStyle = this.colour("line");
-    c.lineWidth = width;
-    c.globalAlpha = alpha;
+    c.lineWidth = 1.75;
     c.beginPath();
     for (const [x1, y1, x2, y2] of this.scene.lines) {
       c.moveTo(...this.view.toScreen(x1, y1));
       c.lineTo(...this.view.toScreen(x2, y2));
     }
     c.stroke();
-    c.globalAlpha = 1;
   }
 
   // Three sigma to either side, magnified like the robot's.
@@ -234,7 +281,7 @@ export class Painter {
   }
 
   #cornerEllipse(px, py, cov) {
-    if (cov.some((v) => !Number.isFinite(v))) return;
+    if (!this.#uncertain() || cov.some((v) => !Number.isFinite(v))) return;
     const c = this.context;
     c.save();
     c.translate(px, py);
@@ -244,11 +291,12 @@ export class Painter {
     c.restore();
   }
 
-  // What the operator measures, or where he says the robot is.
+  // What the operator measures, or where he says the robot is; and the cross that his keys move.
   #pointedAt() {
-    const { mode, from, to } = this.pointing;
-    if (!from) return;
+    const { mode, from, to, cross } = this.pointing;
     const c = this.context;
+    if (mode && cross) this.#cross(...this.view.toScreen(...cross));
+    if (!from) return;
     const [px, py] = this.view.toScreen(...from);
     const [qx, qy] = this.view.toScreen(...to);
     c.strokeStyle = c.fillStyle = this.colour("pointed");
@@ -267,6 +315,18 @@ export class Painter {
     this.#label(`${this.pointing.metres.toFixed(3)} m`, (px + qx) / 2, (py + qy) / 2);
   }
 
+  #cross(px, py) {
+    const c = this.context;
+    c.strokeStyle = this.colour("pointed");
+    c.lineWidth = 2;
+    c.beginPath();
+    for (const [dx, dy] of [[14, 0], [0, 14]]) {
+      c.moveTo(px - dx, py - dy);
+      c.lineTo(px + dx, py + dy);
+    }
+    c.stroke();
+  }
+
   #label(text, x, y) {
     const c = this.context;
     c.font = "600 15px system-ui, sans-serif";
@@ -275,7 +335,7 @@ export class Painter {
     c.beginPath();
     c.roundRect(x - width / 2, y - 34, width, 24, 6);
     c.fill();
-    c.fillStyle = this.colour("ground");
+    c.fillStyle = this.colour("on");
     c.textAlign = "center";
     c.fillText(text, x, y - 17);
   }
@@ -308,7 +368,7 @@ export class Painter {
   // Three sigma, magnified: how far the robot's edge may lie from where it is drawn, and the wedge of its heading.
   #uncertainty(pose, radius) {
     const [xx, xy, , , yy, , , , tt] = pose.cov;
-    if ([xx, xy, yy, tt].some((v) => v === null)) return;
+    if (!this.#uncertain() || [xx, xy, yy, tt].some((v) => v === null)) return;
     const c = this.context;
     ellipse(c, [xx, xy, yy], radius + 1.5, this.view.scale);
     c.globalAlpha = 0.14;

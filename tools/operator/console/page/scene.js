@@ -1,5 +1,7 @@
 // What is known of the robot and its world, in map coordinates (metres, x right, y up on the screen).
 
+import { Occupancy } from "./occupancy.js";
+
 const RECENT_POSES = 40;
 
 export function compose(a, b) {
@@ -14,11 +16,14 @@ export function apply(pose, x, y) {
 
 export class Scene {
   constructor() {
+    this.occupancy = new Occupancy();
+    this.past = false;
     this.#forget();
   }
 
   #forget() {
     this.pose = null; // newest pose message
+    this.plan = null; // newest: where the robot drives by itself
     this.tracking = null; // newest: which map the pose is in, what the wheels do
     this.recent = new Map(); // scan number -> pose message: features and scans are drawn where they were taken
     this.features = null;
@@ -37,8 +42,10 @@ export class Scene {
 
   take(message) {
     switch (message.type) {
-      case "hello": this.#forget(); break;
+      case "hello": this.#forget(); this.past = false; this.occupancy.forget(); break;
+      case "past": this.#forget(); this.past = message.at !== null; break;
       case "pose": this.#takePose(message); break;
+      case "plan": this.plan = message; break;
       case "tracking": this.tracking = message; break;
       case "features": this.#takeFeatures(message); break;
       case "scan": this.#takeScan(message); break;
@@ -95,6 +102,10 @@ export class Scene {
     }
     this.points = points;
     this.sight = sight;
+    if (!this.past && pose.scan === message.scan && pose.state === "good" && this.addedScan !== message.scan) {
+      this.addedScan = message.scan;
+      this.occupancy.add(points, sensorNow, this.tracking?.map_id ?? 0);
+    }
   }
 
   // The wall is in another map than the robot: where it is drawn says nothing.

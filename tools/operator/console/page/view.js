@@ -158,11 +158,13 @@ export class View {
   }
 
   #key(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("input, select")) return;
+    if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey || event.target.matches("input, select, #stick")) return;
     const step = 60;
     const action = {
       "+": () => this.zoom(1.25), "=": () => this.zoom(1.25), "-": () => this.zoom(0.8),
-      0: () => this.whole(), m: () => document.getElementById("measure").click(), f: () => this.follow(),
+      0: () => this.whole(), f: () => this.follow(),
+      m: () => document.getElementById("measure").click(), l: () => document.getElementById("layers").click(),
+      g: () => document.getElementById("goal").click(),
       ArrowLeft: () => this.pan(step, 0), ArrowRight: () => this.pan(-step, 0),
       ArrowUp: () => this.pan(0, step), ArrowDown: () => this.pan(0, -step),
     }[event.key];

@@ -114,6 +114,11 @@ export function adviceOnTracking(tracking) {
   return [mapsInWords(tracking)[1], wheels && `Wheels not believed: ${wheels}.`].filter(Boolean);
 }
 
+// A place that the robot could not drive to, in the robot's words.
+export function adviceOnPlan(plan) {
+  return plan?.state === "given up" ? `The robot ${plan.words}. Choose another place, or take the stick.` : null;
+}
+
 export const STATES = {
   good: ["good", ""],
   weak: ["weak", "position uncertain"],
