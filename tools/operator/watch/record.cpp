@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "operator/watch/core_types.h"
+#include "common/feed/core_types.h"
 
 namespace watch
 {
@@ -64,8 +64,8 @@ void Record::add_scan_to_cloud()
     if (!scan_ || !newest_.pose || newest_.pose->scan != scan_->scan) {
         return;
     }
-    cloud_.add(*core_scan(*scan_), core_scan_pose(*newest_.pose),
-               core_pose(scan_->sensor_x, scan_->sensor_y, scan_->sensor_theta));
+    cloud_.add(*feed::core_scan(*scan_), feed::core_scan_pose(*newest_.pose),
+               feed::core_pose(scan_->sensor_x, scan_->sensor_y, scan_->sensor_theta));
     scan_.reset();
 }
 
@@ -74,7 +74,7 @@ ale::Trajectory Record::trajectory() const
     ale::Trajectory poses;
     for (const PoseRow &row : history_) {
         const ale::pose_t &pose = row.pose;
-        poses.push_back({pose.utime, core_pose(pose.map_x, pose.map_y, pose.map_theta)});
+        poses.push_back({pose.utime, feed::core_pose(pose.map_x, pose.map_y, pose.map_theta)});
     }
     return poses;
 }

@@ -10,7 +10,7 @@
 #include "common/export/map_image.h"
 #include "common/export/text_file.h"
 #include "common/export/trajectory.h"
-#include "operator/watch/core_types.h"
+#include "common/feed/core_types.h"
 
 namespace watch
 {
@@ -91,7 +91,7 @@ std::string summary_line(const Record &record)
 
 void write_picture(const Record &record, const std::string &path)
 {
-    const auto map = core_map(record.newest().map, record.newest().pieces);
+    const auto map = feed::core_map(record.newest().map, record.newest().pieces);
     ale::MapScene scene;
     scene.map = map.get();
     scene.trajectory = record.trajectory();

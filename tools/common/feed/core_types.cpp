@@ -1,4 +1,4 @@
-#include "operator/watch/core_types.h"
+#include "common/feed/core_types.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@ extern "C" {
 #include "lcm/convert.h"
 }
 
-namespace watch
+namespace feed
 {
 
 namespace
@@ -89,7 +89,7 @@ std::unique_ptr<ale_scan_t> core_scan(const ale::scan_t &scan)
     return out;
 }
 
-std::unique_ptr<ale_map_t> core_map(const ale::map_t &map, const feed::MapPieces &pieces)
+std::unique_ptr<ale_map_t> core_map(const ale::map_t &map, const MapPieces &pieces)
 {
     auto out = std::make_unique<ale_map_t>();
     out->version = static_cast<uint32_t>(map.version);
@@ -103,4 +103,4 @@ std::unique_ptr<ale_map_t> core_map(const ale::map_t &map, const feed::MapPieces
     return out;
 }
 
-} // namespace watch
+} // namespace feed

@@ -1,7 +1,7 @@
 /* What came over LCM in metres and radians, in the core's integers: for everything that draws and writes
  * what the core makes. */
-#ifndef WATCH_CORE_TYPES_H
-#define WATCH_CORE_TYPES_H
+#ifndef ALE_COMMON_FEED_CORE_TYPES_H
+#define ALE_COMMON_FEED_CORE_TYPES_H
 
 #include <memory>
 
@@ -15,7 +15,7 @@ extern "C" {
 #include "track/pipeline.h"
 }
 
-namespace watch
+namespace feed
 {
 
 ale_pose_t core_pose(float x, float y, float theta);
@@ -27,8 +27,8 @@ ale::ScanPose core_scan_pose(const ale::pose_t &pose);
 std::unique_ptr<ale_scan_t> core_scan(const ale::scan_t &scan);
 
 /* Walls and corners beyond the core's capacity are left out. */
-std::unique_ptr<ale_map_t> core_map(const ale::map_t &map, const feed::MapPieces &pieces = {});
+std::unique_ptr<ale_map_t> core_map(const ale::map_t &map, const MapPieces &pieces = {});
 
-} // namespace watch
+} // namespace feed
 
 #endif

@@ -1,5 +1,5 @@
 // From messages back to the core's integers.
-#include "operator/watch/core_types.h"
+#include "common/feed/core_types.h"
 
 #include <limits>
 
@@ -12,7 +12,7 @@ TEST(CoreTypes, AMapKeepsItsWallsToTheMicrometre)
     map.lines[0].x1 = 1.25F;
     map.lines[0].y2 = -0.5F;
     map.lines[0].seen = 7;
-    const auto core = watch::core_map(map);
+    const auto core = feed::core_map(map);
     ASSERT_EQ(core->line_count, 1);
     EXPECT_EQ(core->line[0].start.x_um, 1250000);
     EXPECT_EQ(core->line[0].end.y_um, -500000);
@@ -33,7 +33,7 @@ TEST(CoreTypes, AWallInAnotherMapSaysSo)
     message.map_id = {2};
     feed::MapPieces pieces;
     pieces.add(message);
-    const auto core = watch::core_map(map, pieces);
+    const auto core = feed::core_map(map, pieces);
     EXPECT_EQ(core->line[0].map_id, 0U);
     EXPECT_EQ(core->line[1].map_id, 2U);
 }
@@ -43,7 +43,7 @@ TEST(CoreTypes, AMapBeyondTheCapacityIsCutThere)
     ale::map_t map{};
     map.lines.resize(ALE_MAP_MAX_LINES + 10);
     map.corners.resize(ALE_MAP_MAX_CORNERS + 10);
-    const auto core = watch::core_map(map);
+    const auto core = feed::core_map(map);
     EXPECT_EQ(core->line_count, ALE_MAP_MAX_LINES);
     EXPECT_EQ(core->corner_count, ALE_MAP_MAX_CORNERS);
 }
@@ -59,7 +59,7 @@ TEST(CoreTypes, AScanKeepsGeometryRangesAndFlags)
     scan.range_mm = {1000, 0, 0, 0};
     scan.codes = {0, 0x81, 7, 0x83};
     scan.num_ranges = scan.num_codes = 4;
-    const auto core = watch::core_scan(scan);
+    const auto core = feed::core_scan(scan);
     EXPECT_EQ(core->beams, 4);
     EXPECT_EQ(core->range_um[0], 2000000);
     EXPECT_EQ(core->flag[0], ALE_BEAM_VALID);
@@ -79,7 +79,7 @@ TEST(CoreTypes, ARangeBeyondAllReachIsHeldAtTheLimit)
     scan.range_mm = {std::numeric_limits<int16_t>::max(), -5};
     scan.codes = {0, 0};
     scan.num_ranges = scan.num_codes = 2;
-    const auto core = watch::core_scan(scan);
+    const auto core = feed::core_scan(scan);
     EXPECT_EQ(core->range_um[0], ALE_MAX_RANGE_UM);
     EXPECT_EQ(core->range_um[1], 0);
 }
