@@ -145,6 +145,7 @@ class RobotDouble:
 
     def publish_scan(self):
         scan = ale.scan_t()
+        scan.utime = time.time_ns() // 1000 - 70000
         scan.scan, scan.stamp_beam, scan.beam_time_us = self.scan, STAMP_BEAM, BEAM_TIME * 1e6
         scan.first_bearing, scan.step, scan.range_max = FIRST_BEARING, STEP, RANGE_MAX
         scan.range_unit_mm = 1

@@ -143,7 +143,9 @@ define link
 endef
 
 # Programs: one folder each, with a main; a folder with other rules has them in NAME.mk.
-TOOL_FOLDERS = $(patsubst %/,%,$(sort $(dir $(wildcard tools/*/*/main.c tools/*/*/main.cpp))))
+TOOL_FOLDERS = $(filter-out $(LEFT_OUT),$(patsubst %/,%,$(sort $(dir $(wildcard tools/*/*/main.c tools/*/*/main.cpp)))))
+# The bridge to ROS 2 wants Cyclone DDS: where that is not there (no idlc), all the rest is built.
+LEFT_OUT := $(if $(shell command -v idlc),,tools/operator/ros2)
 PROGRAMS = $(addprefix $(BUILD)/bin/ale-,$(if $(wildcard firmware/main.c),slamd) $(notdir $(TOOL_FOLDERS)))
 
 # Names of the release before, as links: ale-screen for ale-watch --screen, ale-mounting for ale-calibrate.
