@@ -1,2 +1,2 @@
-# ale-merge closes loops as ale-replay does, with its progress bar: these parts are linked in.
-$(BUILD)/bin/ale-merge: $(call objects,$(addprefix tools/lab/replay/,loops.cpp summary.cpp))
+# ale-merge has the progress bar of ale-replay: that part is linked in.
+$(BUILD)/bin/ale-merge: $(call objects,tools/lab/replay/summary.cpp)

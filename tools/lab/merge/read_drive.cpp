@@ -9,9 +9,9 @@
 #include <zlib.h>
 
 #include "common/command_line/wrong_use.h"
-#include "common/log/core_object.h"
+#include "common/offline/core_object.h"
+#include "common/offline/loops.h"
 #include "graph/optimise/scan_node.h"
-#include "lab/replay/loops.h"
 #include "lab/replay/summary.h"
 
 extern "C" {

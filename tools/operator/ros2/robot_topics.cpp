@@ -255,7 +255,7 @@ void RobotTopics::send(const ale::OccupancyGrid &grid, int64_t utime)
     nav_msgs_msg_dds__OccupancyGrid_ out{};
     out.header = header(utime, frame);
     out.info.map_load_time = ros_time(utime);
-    out.info.resolution = static_cast<float>(ale::OccupancyGrid::cell_um * metre);
+    out.info.resolution = static_cast<float>(grid.cell_um() * metre);
     out.info.width = static_cast<uint32_t>(grid.columns());
     out.info.height = static_cast<uint32_t>(grid.rows());
     out.info.origin = ros_pose(
