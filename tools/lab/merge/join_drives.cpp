@@ -1,5 +1,7 @@
 #include "lab/merge/join_drives.h"
 
+#include <utility>
+
 #include "graph/loops/loop_closer.h"
 #include "graph/optimise/scan_alignment.h"
 
@@ -71,25 +73,39 @@ struct Moved {
     uint32_t frame;
 };
 
+/* The same for all scans between two breaks. */
+std::vector<size_t> stretches_of(const Drive &drive)
+{
+    std::vector<size_t> stretch; /* by scan */
+    for (const DriveScan &scan : drive.scans) {
+        stretch.push_back(stretch.empty() ? 0 : stretch.back() + (scan.follows ? 0 : 1));
+    }
+    return stretch;
+}
+
+/* The nodes that a scan lies between, both the same where the way leads to one only. `next`: the first at or
+ * after the scan. */
+std::pair<size_t, size_t> nodes_beside(const Drive &drive, const std::vector<size_t> &stretch, size_t scan,
+                                       size_t next)
+{
+    const auto is_tied = [&](size_t node) { return stretch[drive.nodes[node].scan] == stretch[scan]; };
+    const bool by_later = next < drive.nodes.size() && (next == 0 || is_tied(next));
+    const bool by_earlier = next > 0 && (!by_later || is_tied(next - 1));
+    return {by_earlier ? next - 1 : next, by_later ? next : next - 1};
+}
+
 /* The scans of a drive follow the nodes before and after them, as far as the way leads there. */
 void bend(Drive *drive, const std::vector<Moved> &moved)
 {
-    std::vector<size_t> stretch; /* by scan; one for all between two breaks */
-    for (const DriveScan &scan : drive->scans) {
-        stretch.push_back(stretch.empty() ? 0 : stretch.back() + (scan.follows ? 0 : 1));
-    }
-    size_t next = 0; /* node at or after the scan */
+    const std::vector<size_t> stretch = stretches_of(*drive);
+    size_t next = 0;
     for (size_t k = 0; k < drive->scans.size(); k++) {
         next += next < drive->nodes.size() && drive->nodes[next].scan < k;
-        const auto is_tied = [&](size_t node) { return stretch[drive->nodes[node].scan] == stretch[k]; };
-        const bool by_later = next < drive->nodes.size() && (next == 0 || is_tied(next));
-        const bool by_earlier = next > 0 && (!by_later || is_tied(next - 1));
-        const size_t first = by_earlier ? next - 1 : next;
-        const size_t last = by_later ? next : next - 1;
-        DriveScan &scan = drive->scans[k];
+        const auto [first, last] = nodes_beside(*drive, stretch, k, next);
         const uint32_t from = drive->nodes[first].scan;
         const double part =
             first == last ? 0 : (static_cast<double>(k) - from) / (drive->nodes[last].scan - from);
+        DriveScan &scan = drive->scans[k];
         scan.pose =
             blend(compose(moved[first].shift, scan.pose), compose(moved[last].shift, scan.pose), part);
         scan.frame = moved[first].frame;
