@@ -31,7 +31,7 @@ def blind_from(path: str | os.PathLike[str]) -> list[tuple[float, float]]:
 
 
 def _read(path: str | os.PathLike[str]) -> configparser.ConfigParser:
-    file = configparser.ConfigParser(inline_comment_prefixes=("#", ";"), interpolation=None)
+    file = configparser.ConfigParser(inline_comment_prefixes=("#", ";"), interpolation=None, strict=False)  # a section may go on later
     with open(path, encoding="utf-8") as text:
         try:
             file.read_file(text)
