@@ -8,6 +8,10 @@
 /* Largest scan that is accepted: a 270 degree scanner at 0.25 degrees a beam. The URG-04LX has 682. */
 #define ALE_MAX_BEAMS 1081
 
+/* Most points that a scanner may measure in a turn: 32,000 a second at 8 turns a second. What is more than
+ * ALE_MAX_BEAMS is joined (base/turn.h). */
+#define ALE_MAX_TURN_POINTS 4096
+
 /* Lines, curves and corners of one scan. A zigzag of eight-beam walls over 1081 beams has 135 lines. */
 #define ALE_MAX_LINES 136
 #define ALE_MAX_CURVES 32

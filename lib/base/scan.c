@@ -4,8 +4,38 @@
 
 enum { URG_FIRST_RANGE_MM = 20, URG_NOT_A_STEP = 19 };
 
+int32_t ale_scan_turn_beams(const ale_scan_t *scan)
+{
+    const int64_t step_bam = ale_abs64(scan->step_bam);
+    if (scan->beams < 2 || step_bam == 0) {
+        return 0;
+    }
+    const int64_t last = scan->beams - 1;
+    if (last * step_bam > UINT32_MAX) {
+        return 0;
+    }
+    const uint32_t ahead_bam = scan->first_bearing_bam - ale_scan_bearing(scan, (int32_t)last);
+    const int64_t gap = ale_round_div(scan->step_bam < 0 ? 0U - ahead_bam : ahead_bam, step_bam);
+    return gap < 1 || gap > ALE_MAX_GAP_BEAMS ? 0 : (int32_t)(last + gap);
+}
+
+/* Place of a beam among the evenly spaced ones, Q8. */
+static int64_t place_q8(const ale_scan_t *scan, int32_t beam)
+{
+    const int64_t step_bam = ale_abs64(scan->step_bam);
+    if (!scan->own_bearings || (uint32_t)beam >= scan->beams || step_bam == 0) {
+        return (int64_t)beam << 8;
+    }
+    const uint32_t ahead_bam = scan->bearing_bam[beam] - scan->first_bearing_bam;
+    return ale_round_div((int64_t)(scan->step_bam < 0 ? 0U - ahead_bam : ahead_bam) << 8, step_bam);
+}
+
 int32_t ale_scan_beam_offset_us(const ale_scan_t *scan, int32_t beam)
 {
+    if (scan->own_bearings) {
+        const int64_t from_stamp_q8 = place_q8(scan, beam) - ((int64_t)scan->stamp_beam << 8);
+        return (int32_t)ale_round_div(from_stamp_q8 * scan->beam_time_ns, 256000);
+    }
     return (int32_t)ale_round_div((int64_t)(beam - scan->stamp_beam) * scan->beam_time_ns, 1000);
 }
 

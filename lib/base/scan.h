@@ -4,6 +4,10 @@
  *                                                              negative: a scanner mounted upside down)
  *   time of beam k    = stamp_us + (k - stamp_beam) * beam_time_ns / 1000
  *
+ * A scanner whose points lie on no grid gives each beam a bearing of its own (own_bearings; base/turn.h makes
+ * such a scan). Then step_bam is the mean step, in the order of the beams, and a beam's place on the grid, by
+ * which its time goes, need not be whole: (bearing_bam[k] - first_bearing_bam) / step_bam.
+ *
  * stamp_beam may lie outside 0..beams-1: the URG-04LX stamps its step 0, 44 steps before the first beam.
  * beam_time_ns 0 means that the whole scan was taken at its stamp.
  *
@@ -38,15 +42,25 @@ typedef struct {
     int32_t range_um[ALE_MAX_BEAMS];
     uint8_t flag[ALE_MAX_BEAMS]; /* ale_beam_flag_t */
     uint8_t code[ALE_MAX_BEAMS]; /* the device's raw error code where it gave one, else 0 */
+    bool own_bearings;           /* bearing_bam holds, in place of the grid */
+    uint32_t bearing_bam[ALE_MAX_BEAMS];
 } ale_scan_t;
 
-/* Bearing of a beam in the sensor's frame, BAM; any beam, also outside 0..beams-1. Constant time. */
+/* Bearing of a beam in the sensor's frame, BAM; outside 0..beams-1 that of the grid. Constant time. */
 static inline uint32_t ale_scan_bearing(const ale_scan_t *scan, int32_t beam)
 {
+    if (scan->own_bearings && (uint32_t)beam < scan->beams) {
+        return scan->bearing_bam[beam];
+    }
     return scan->first_bearing_bam + (uint32_t)beam * (uint32_t)scan->step_bam;
 }
 
-/* Time of a beam relative to the stamp, in microseconds, rounded; it must fit int32. Constant time. */
+/* Beams of the whole turn where the first beam follows the last one within ALE_MAX_GAP_BEAMS, as though those
+ * between had no value: beam k + ale_scan_turn_beams() is beam k. 0: the scan has two ends. Constant time. */
+int32_t ale_scan_turn_beams(const ale_scan_t *scan);
+
+/* Time of a beam relative to the stamp, in microseconds, rounded; it must fit int32. With bearings of their
+ * own it follows from the bearing, for the mirror turns evenly. Constant time. */
 int32_t ale_scan_beam_offset_us(const ale_scan_t *scan, int32_t beam);
 
 /* Whether all beams lie within ALE_MAX_SWEEP_US of the stamp, whichever way the mirror turns: what readers of
