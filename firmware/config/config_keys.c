@@ -36,6 +36,8 @@ const ale_config_key_t ale_config_keys[] = {
      "Noise of the scanner, one sigma, as ale-calibrate fits it: error of each beam alone, micrometres"},
     {"noise", "own_ppm", NUMBER(pipeline.extract.noise.own_ppm, 0, 0, 100000),
      "and parts of a million of the range,"},
+    {"noise", "own_ppm_per_m", NUMBER(pipeline.extract.noise.own_ppm_per_m, 0, 0, 10000),
+     "of a scanner that triangulates also for each metre of the range,"},
     {"noise", "shared_um", NUMBER(pipeline.extract.noise.shared_um, 0, 0, 100000),
      "error that neighbouring beams share, micrometres"},
     {"noise", "shared_ppm", NUMBER(pipeline.extract.noise.shared_ppm, 0, 0, 100000),

@@ -36,7 +36,8 @@ ale_noise_t ale_noise_default(void)
 
 int64_t ale_noise_own_var_um2(const ale_noise_t *noise, int32_t range_um)
 {
-    return ranged_var_um2(noise->own_um, noise->own_ppm, range_um);
+    const int64_t squared_ppm = ale_round_div((int64_t)noise->own_ppm_per_m * range_um, 1000000);
+    return ranged_var_um2(noise->own_um, noise->own_ppm, range_um) + ranged_var_um2(0, squared_ppm, range_um);
 }
 
 int64_t ale_noise_shared_var_um2(const ale_noise_t *noise, int32_t range_um)

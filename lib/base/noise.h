@@ -1,7 +1,9 @@
 /* Sensor noise model, paper section II, (1) to (7), with what the real URG-04LX adds to it.
  *
  * A range d at bearing phi has an own error of each beam, independent from beam to beam,
- *     s_own^2 = own_um^2 + (own_ppm * d)^2,
+ *     s_own^2 = own_um^2 + (own_ppm * d)^2 + (own_ppm_per_m * d * d)^2,
+ *
+ * the last part where the scanner triangulates, 0 where it times the light;
  * an error that neighbouring beams share (most of the data sheet's 1 %; the paper names bias in section II
  * and then models none), correlated over about shared_beams beams,
  *     s_shared^2 = shared_um^2 + (shared_ppm * d)^2,
@@ -18,7 +20,8 @@
 typedef struct {
     int32_t own_um; /* of each beam: a constant part, and one proportional to the range */
     int32_t own_ppm;
-    int32_t shared_um; /* of neighbouring beams together */
+    int32_t own_ppm_per_m; /* and one to its square: at most 10,000 */
+    int32_t shared_um;     /* of neighbouring beams together */
     int32_t shared_ppm;
     int32_t shared_beams; /* after so many the correlation has fallen to 1/e; at least 1 */
     int32_t surface_um;   /* of a whole surface */

@@ -1,25 +1,25 @@
 #include "base/scan.h"
 
 #include "base/fixed.h"
+#include "base/trig.h"
 
 enum { URG_FIRST_RANGE_MM = 20, URG_NOT_A_STEP = 19 };
 
 int32_t ale_scan_turn_beams(const ale_scan_t *scan)
 {
     const int64_t step_bam = ale_abs64(scan->step_bam);
-    if (scan->beams < 2 || step_bam == 0) {
-        return 0;
-    }
     const int64_t last = scan->beams - 1;
-    if (last * step_bam > UINT32_MAX) {
+    if (last * step_bam <= ALE_BAM_HALF_TURN || last * step_bam > UINT32_MAX + step_bam) {
         return 0;
     }
-    const uint32_t ahead_bam = scan->first_bearing_bam - ale_scan_bearing(scan, (int32_t)last);
-    const int64_t gap = ale_round_div(scan->step_bam < 0 ? 0U - ahead_bam : ahead_bam, step_bam);
-    return gap < 1 || gap > ALE_MAX_GAP_BEAMS ? 0 : (int32_t)(last + gap);
+    const int64_t turn_bam = ale_bam_diff(scan->first_bearing_bam, ale_scan_bearing(scan, (int32_t)last));
+    const int64_t ahead_bam = scan->step_bam < 0 ? -turn_bam : turn_bam;
+    const int64_t gap =
+        ale_max64(ale_round_div(ahead_bam, step_bam), 1); /* or the ends meet, give or take a step */
+    return ahead_bam < -step_bam || gap > ALE_MAX_GAP_BEAMS ? 0 : (int32_t)(last + gap);
 }
 
-/* Place of a beam among the evenly spaced ones, Q8. */
+/* Place of a beam among the evenly spaced ones, at most the last of them; Q8. */
 static int64_t place_q8(const ale_scan_t *scan, int32_t beam)
 {
     const int64_t step_bam = ale_abs64(scan->step_bam);
@@ -27,7 +27,8 @@ static int64_t place_q8(const ale_scan_t *scan, int32_t beam)
         return (int64_t)beam << 8;
     }
     const uint32_t ahead_bam = scan->bearing_bam[beam] - scan->first_bearing_bam;
-    return ale_round_div((int64_t)(scan->step_bam < 0 ? 0U - ahead_bam : ahead_bam) << 8, step_bam);
+    const int64_t here_q8 = ((int64_t)(scan->step_bam < 0 ? 0U - ahead_bam : ahead_bam) << 8) / step_bam;
+    return ale_min64(here_q8, (int64_t)(scan->beams - 1) << 8);
 }
 
 int32_t ale_scan_beam_offset_us(const ale_scan_t *scan, int32_t beam)

@@ -7,8 +7,8 @@
 #include "base/noise.h"
 
 typedef struct {
-    ale_noise_t noise;     /* each deviation 0..100,000 um, ppm; shared_beams 1..ALE_MAX_BEAMS;
-                            * bearing_nrad 0..100,000,000 */
+    ale_noise_t noise;     /* each deviation 0..100,000 um, ppm; own_ppm_per_m 0..10,000;
+                            * shared_beams 1..ALE_MAX_BEAMS;     bearing_nrad 0..100,000,000 */
     uint16_t min_points;   /* fewest beams of a line, 5..ALE_MAX_BEAMS */
     int32_t min_length_um; /* shortest line, from 0 on */
     uint16_t smooth_span;  /* beams of the lowess window, odd, 1..31; 1: not smoothed */

@@ -89,7 +89,7 @@ static int64_t distance_um(const ale_line_t *line, direction_t n, ale_point_t p)
  * it does not, the one wall was seen beyond it, off the other by more than noise: something hides the corner.
  */
 static bool ends_at_corner(const ale_line_t *a, const ale_line_t *b, direction_t na, direction_t nb,
-                           ale_point_t corner)
+                           ale_point_t corner, int64_t gap)
 {
     const int64_t turn = cross(a->end, b->start);
     const int64_t sense = turn < 0 ? -1 : 1;
@@ -100,7 +100,7 @@ static bool ends_at_corner(const ale_line_t *a, const ale_line_t *b, direction_t
         off_um = distance_um(a, na, b->start);
     }
     const int64_t range_um = ale_isqrt((uint64_t)squared_distance(corner, (ale_point_t){0, 0}));
-    const int64_t width_um = sense * turn / ale_max64(range_um * (b->first - a->last), 1);
+    const int64_t width_um = sense * turn / ale_max64(range_um * gap, 1);
     return off_um <= OVERSHOOT * (a->rmse_um + b->rmse_um + width_um);
 }
 
@@ -159,7 +159,7 @@ static int64_t facing_end_var_um2(const ale_line_t *a, const ale_line_t *b, cons
     return f->spacing2_um2 * (3 * f->gap * f->gap + 1) / 12 + parting_um2;
 }
 
-static bool corner_of(const ale_line_t *a, const ale_line_t *b, direction_t na, direction_t nb,
+static bool corner_of(const ale_line_t *a, const ale_line_t *b, direction_t na, direction_t nb, int64_t gap,
                       ale_corner_t *corner)
 {
     const int64_t det = ale_round_shift(na.c * nb.s - na.s * nb.c, 30);
@@ -175,7 +175,7 @@ static bool corner_of(const ale_line_t *a, const ale_line_t *b, direction_t na, 
     if (squared_distance(corner->p, a->end) > reach2 || squared_distance(corner->p, b->start) > reach2) {
         return false;
     }
-    if (!ends_at_corner(a, b, na, nb, corner->p)) {
+    if (!ends_at_corner(a, b, na, nb, corner->p, gap)) {
         return false;
     }
     set_shape(corner, wall_direction(a, na, corner->p, a->start), wall_direction(b, nb, corner->p, b->end));
@@ -183,20 +183,29 @@ static bool corner_of(const ale_line_t *a, const ale_line_t *b, direction_t na, 
     return true;
 }
 
-void ale_corner_find(int64_t step_nrad, ale_features_t *out)
+/* Beams from one line to the next, of a whole turn also over the seam. */
+static int32_t gap_between(const ale_line_t *a, const ale_line_t *b, int32_t turn_beams)
+{
+    const int32_t gap = b->first - a->last;
+    return gap < 0 ? gap + turn_beams : gap;
+}
+
+void ale_corner_find(int64_t step_nrad, int32_t turn_beams, ale_features_t *out)
 {
     out->corner_count = 0;
-    if (out->line_count == 0) {
+    if (out->line_count < 2) {
         return;
     }
     direction_t next = normal_of(&out->line[0]);
-    for (uint16_t k = 0; k + 1 < out->line_count; k++) {
+    const uint16_t last = (uint16_t)(out->line_count - (turn_beams > 0 ? 1 : 2)); /* that has a next one */
+    for (uint16_t k = 0; k <= last; k++) {
+        const uint16_t after = (uint16_t)(k + 1 < out->line_count ? k + 1 : 0);
         ale_line_t *a = &out->line[k];
-        ale_line_t *b = &out->line[k + 1];
+        ale_line_t *b = &out->line[after];
         ale_corner_t *corner = &out->corner[out->corner_count];
         const direction_t here = next;
         next = normal_of(b);
-        const int32_t gap = b->first - a->last;
+        const int32_t gap = gap_between(a, b, turn_beams);
         if (gap > MAX_GAP_BEAMS) {
             continue;
         }
@@ -207,11 +216,11 @@ void ale_corner_find(int64_t step_nrad, ale_features_t *out)
                                 spacing2_at_um2(b, b->start, step_nrad), gap};
         a->var_end_um2 = facing_end_var_um2(a, b, &end);
         b->var_start_um2 = facing_end_var_um2(b, a, &start);
-        if (!corner_of(a, b, here, next, corner)) {
+        if (!corner_of(a, b, here, next, gap, corner)) {
             continue;
         }
         corner->first_line = k;
-        corner->second_line = (uint16_t)(k + 1);
+        corner->second_line = after;
         a->last_end = ALE_END_EDGE;
         b->first_end = ALE_END_EDGE;
         out->corner_count++;

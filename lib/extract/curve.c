@@ -235,8 +235,8 @@ void ale_curve_find(ale_run_list_t *r, bool again)
 void ale_curve_fit(const ale_prepared_scan_t *scan, ale_segment_t run, ale_curve_t *curve)
 {
     const ale_circle_t circle = ale_circle_fit(scan, run.first, run.last);
-    curve->first = scan->points.beam[run.first];
-    curve->last = scan->points.beam[run.last];
+    curve->first = ale_points_beam(&scan->points, run.first);
+    curve->last = ale_points_beam(&scan->points, run.last);
     curve->centre.x_um = (int32_t)ale_round_shift(circle.x_q4 * 1000, ALE_POINT_SHIFT);
     curve->centre.y_um = (int32_t)ale_round_shift(circle.y_q4 * 1000, ALE_POINT_SHIFT);
     curve->radius_um = (int32_t)ale_round_shift(circle.radius_q4 * 1000, ALE_POINT_SHIFT);

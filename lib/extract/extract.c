@@ -16,11 +16,13 @@
 #include "extract/run_noise.h"
 #include "extract/runs.h"
 #include "extract/scan_noise.h"
+#include "extract/seam.h"
 #include "extract/segment.h"
 #include "extract/workspace.h"
 
 enum {
     MOST_DEVIATION = 100000, /* um, ppm */
+    MOST_PPM_PER_M = 10000,
     MOST_BEARING_NRAD = 100000000,
     MOST_ROBUST_PASSES = 8,
     MOST_ROUNDS = 2,    /* of splitting, joining and placing, where a round changes something */
@@ -56,9 +58,9 @@ static bool within(int32_t value, int32_t least, int32_t most)
 static bool noise_in_range(const ale_noise_t *n)
 {
     return within(n->own_um, 0, MOST_DEVIATION) && within(n->own_ppm, 0, MOST_DEVIATION) &&
-           within(n->shared_um, 0, MOST_DEVIATION) && within(n->shared_ppm, 0, MOST_DEVIATION) &&
-           within(n->shared_beams, 1, ALE_MAX_BEAMS) && within(n->surface_um, 0, MOST_DEVIATION) &&
-           within(n->bearing_nrad, 0, MOST_BEARING_NRAD);
+           within(n->own_ppm_per_m, 0, MOST_PPM_PER_M) && within(n->shared_um, 0, MOST_DEVIATION) &&
+           within(n->shared_ppm, 0, MOST_DEVIATION) && within(n->shared_beams, 1, ALE_MAX_BEAMS) &&
+           within(n->surface_um, 0, MOST_DEVIATION) && within(n->bearing_nrad, 0, MOST_BEARING_NRAD);
 }
 
 int ale_extractor_init(ale_extractor_t *e, const ale_extract_config_t *config)
@@ -120,14 +122,14 @@ static bool is_wall(ale_run_list_t *r, ale_run_t *run)
     return true;
 }
 
-static uint8_t end_kind(const ale_prepared_scan_t *scan, int32_t end, int32_t beyond)
+static uint8_t end_kind(const ale_prepared_scan_t *scan, int32_t end, int32_t side)
 {
     const ale_points_t *p = &scan->points;
-    if (beyond < 0 || beyond >= p->count || ale_abs64(p->beam[end] - p->beam[beyond]) > ALE_MAX_GAP_BEAMS) {
+    const ale_beyond_t beyond = ale_segment_beyond(p, &scan->segments, end, side);
+    if (beyond.point < 0 || beyond.gap > ALE_MAX_GAP_BEAMS) {
         return ALE_END_LIMIT;
     }
-    const bool jump = scan->segments.jump_after[end < beyond ? end : beyond];
-    return jump && p->range_um[beyond] < p->range_um[end] ? ALE_END_OCCLUDED : ALE_END_EDGE;
+    return beyond.jump && p->range_um[beyond.point] < p->range_um[end] ? ALE_END_OCCLUDED : ALE_END_EDGE;
 }
 
 /* Direction of the points' x axis in the sensor's frame. */
@@ -168,39 +170,56 @@ static void write_line(ale_extractor_t *e, ale_run_t *wall, const frame_t *frame
         e->runs.refused[ALE_REFUSED_CAPACITY]++;
         return;
     }
-    line.first_end = end_kind(&e->runs.scan, run.first, run.first - 1);
-    line.last_end = end_kind(&e->runs.scan, run.last, run.last + 1);
+    line.first_end = end_kind(&e->runs.scan, run.first, -1);
+    line.last_end = end_kind(&e->runs.scan, run.last, 1);
     turn_line(&line, frame);
     out->line[out->line_count++] = line;
 }
 
-/* Fits the runs and gives them out in the sensor's frame. */
-static void write_features(ale_extractor_t *e, uint32_t frame_bam, ale_features_t *out)
+/* The run that begins with the lowest beam of the scan: where the order of the points began within the turn
+ * it is not the first one. */
+static int32_t first_in_scan(const ale_run_list_t *r)
 {
-    const frame_t frame = {frame_bam, ale_direction(frame_bam)};
+    const int32_t turn_beams = r->scan.points.turn_beams;
+    int32_t k = turn_beams > 0 ? 0 : r->count;
+    while (k < r->count && r->scan.points.beam[r->run[k].first] < turn_beams) {
+        k++;
+    }
+    return k < r->count ? k : 0;
+}
+
+/* Fits the runs and gives them out in the sensor's frame. */
+static void write_features(ale_extractor_t *e, ale_features_t *out)
+{
+    const ale_points_t *points = &e->runs.scan.points;
+    const frame_t frame = {points->frame_bam, ale_direction(points->frame_bam)};
+    const int32_t first = first_in_scan(&e->runs);
     out->line_count = 0;
     out->curve_count = 0;
-    for (int32_t k = 0; k < e->runs.count; k++) {
-        ale_run_t *run = &e->runs.run[k];
+    for (int32_t i = 0; i < e->runs.count; i++) {
+        ale_run_t *run = &e->runs.run[first + i < e->runs.count ? first + i : first + i - e->runs.count];
         if (run->curved) {
             write_curve(&e->runs, (ale_segment_t){run->first, run->last}, &frame, out);
         } else if (is_wall(&e->runs, run)) {
             write_line(e, run, &frame, out);
         }
     }
-    ale_corner_find(e->runs.scan.points.step_nrad, out);
+    ale_corner_find(points->step_nrad, points->turn_beams, out);
     out->outliers = e->outliers;
     memcpy(out->refused, e->runs.refused, sizeof out->refused);
 }
 
 /* Points whose surfaces are told apart: noise measured, stray points removed, segments cut. */
-static void prepare_points(ale_extractor_t *e, const ale_scan_t *scan)
+static void prepare_points(ale_extractor_t *e, const ale_scan_t *scan, const uint32_t *bearing_bam)
 {
     ale_points_t *points = &e->runs.scan.points;
     ale_scan_noise_t *noise = &e->runs.scan.noise;
     ale_segments_t *segments = &e->runs.scan.segments;
-    ale_points_list(points, scan);
-    ale_scan_noise_measure(noise, &e->config.noise, points, scan->step_bam);
+    ale_points_list(points, scan, bearing_bam);
+    if (points->turn_beams > 0) {
+        ale_seam_open(&e->runs.scan);
+    }
+    ale_scan_noise_measure(noise, &e->config.noise, points, scan);
     ale_segment_suspect(segments, points, noise);
     e->runs.effort = segments->suspect_count;
     const int32_t spikes = ale_outlier_remove_spikes(points, segments, noise);
@@ -289,7 +308,7 @@ __attribute__((noinline)) void ale_extract_scan(ale_extractor_t *e, const ale_sc
 {
     ale_prepared_scan_t *prepared = &e->runs.scan;
     const bool smoothed = e->config.smooth_span > 1;
-    prepare_points(e, scan);
+    prepare_points(e, scan, bearing_bam);
     ale_points_place(&prepared->points, scan, bearing_bam);
     if (smoothed) {
         smooth_points(e);
@@ -303,7 +322,10 @@ __attribute__((noinline)) void ale_extract_scan(ale_extractor_t *e, const ale_sc
         ale_run_list_forget_fits(&e->runs);
     }
     improve_runs(&e->runs);
-    write_features(e, ale_points_frame_bam(&prepared->points, scan), out);
+    if (prepared->points.turn_beams > 0) {
+        ale_seam_close(&e->runs);
+    }
+    write_features(e, out);
     ale_stage_end(&e->hook, ALE_STAGE_EXTRACT);
 }
 
@@ -314,5 +336,7 @@ ale_noise_t ale_extractor_noise(const ale_extractor_t *e)
     noise.own_um = (int32_t)ale_isqrt((uint64_t)ale_mul_shift(measured->own_mm2_q36, 1000000, 36));
     noise.own_ppm =
         (int32_t)ale_isqrt((uint64_t)ale_mul_shift(measured->own_relative_q36, 1000000000000, 36));
+    noise.own_ppm_per_m =
+        (int32_t)ale_isqrt((uint64_t)ale_mul_shift(measured->own_square_q60, 1000000000000000000, 60));
     return noise;
 }

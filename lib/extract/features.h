@@ -1,10 +1,13 @@
 /* Features of one scan: lines, corners and curves in the sensor's frame.
  *
  * A line is given in normal form, x cos(alpha) + y sin(alpha) = rho with rho >= 0. Beams are numbered as in
- * the scan; all ranges of beams include both ends. Plain values: nothing is owned, a copy is a copy. */
+ * the scan; all ranges of beams include both ends. In a scan of a whole turn, whose first beam follows the
+ * last one, a range may go on over that seam: then its first beam is above its last one. Plain values:
+ * nothing is owned, a copy is a copy. */
 #ifndef ALE_EXTRACT_FEATURES_H
 #define ALE_EXTRACT_FEATURES_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #include "base/limits.h"
@@ -72,10 +75,17 @@ typedef struct {
     uint16_t corner_count;
     uint16_t curve_count;
     uint16_t outliers;              /* beams set aside as stray points */
-    ale_line_t line[ALE_MAX_LINES]; /* in the order of the beams */
+    ale_line_t line[ALE_MAX_LINES]; /* in the order of the beams; one over the seam is the last */
     ale_corner_t corner[ALE_MAX_CORNERS];
     ale_curve_t curve[ALE_MAX_CURVES];
     uint16_t refused[ALE_REFUSALS];
 } ale_features_t;
+
+/* The line over the seam of a whole turn, or NULL. */
+static inline const ale_line_t *ale_features_line_over_seam(const ale_features_t *features)
+{
+    const ale_line_t *last = features->line_count > 0 ? &features->line[features->line_count - 1] : NULL;
+    return last && last->first > last->last ? last : NULL;
+}
 
 #endif

@@ -70,7 +70,9 @@ static int64_t slope_share_q16(const ale_prepared_scan_t *scan, ale_segment_t ru
         return 1 << 16;
     }
     const int64_t rho2_mm2 = (rho_um / 1000) * (rho_um / 1000);
-    const int64_t even_q36 = rho2_mm2 * ale_min64(noise->own_relative_q36, ALE_MOST_RELATIVE_Q36);
+    const int64_t middle_mm = scan->points.range_um[(run.first + run.last) / 2] / 1000;
+    const int64_t relative_q36 = ale_scan_noise_relative_q36(noise, middle_mm * middle_mm);
+    const int64_t even_q36 = rho2_mm2 * ale_min64(relative_q36, ALE_MOST_RELATIVE_Q36);
     int64_t constant_q36[SAMPLES];
     int64_t bearing_q36[SAMPLES];
     int64_t along2_mm2[SAMPLES];
@@ -107,10 +109,10 @@ static int64_t slope_share_q16(const ale_prepared_scan_t *scan, ale_segment_t ru
 /* Points at an end where another wall adjoins that may be of either: they lie within a deviation of both, if
  * the walls are at right angles. To which of them each is given depends on its error, so they tell nothing.
  */
-static int64_t doubtful_points_q8(const ale_prepared_scan_t *scan, int32_t i, int32_t beyond,
+static int64_t doubtful_points_q8(const ale_prepared_scan_t *scan, int32_t i, ale_beyond_t beyond,
                                   int64_t sigma_um, int64_t along_um)
 {
-    if (beyond < 0 || beyond >= scan->points.count || scan->segments.jump_after[i < beyond ? i : beyond]) {
+    if (beyond.point < 0 || beyond.jump) {
         return 0;
     }
     const int64_t across_um = ale_max64(ale_mul_nano(scan->points.range_um[i], scan->points.step_nrad), 1);
@@ -148,19 +150,18 @@ static void set_covariance(const ale_prepared_scan_t *scan, const ale_spread_t *
  * beam and that of the next point, where the following beam would meet it range^2 step / rho farther: a third
  * of that squared, for each of them. Where the surface goes on, but not as a line, the end may be a beam and
  * more off. */
-static int64_t end_var_um2(const ale_prepared_scan_t *scan, int32_t i, int32_t beyond, int32_t rho_um)
+static int64_t end_var_um2(const ale_prepared_scan_t *scan, int32_t i, ale_beyond_t beyond, int32_t rho_um)
 {
     const int64_t range_um = scan->points.range_um[i];
     const int64_t across_um = ale_mul_nano(range_um, scan->points.step_nrad);
     const int64_t along_um = ale_round_div(across_um * range_um, ale_max64(rho_um, 1));
     const int64_t spacing_um = ale_min64(along_um, range_um);
     const int64_t spacing2_um2 = spacing_um * spacing_um;
-    if (beyond < 0 || beyond >= scan->points.count) {
+    if (beyond.point < 0) {
         return spacing2_um2 / 3;
     }
-    const int64_t gap = ale_abs64(scan->points.beam[beyond] - scan->points.beam[i]);
-    const int64_t unseen = gap <= ALE_MAX_GAP_BEAMS ? gap * gap : 1;
-    return spacing2_um2 * unseen / (scan->segments.jump_after[i < beyond ? i : beyond] ? 3 : 1);
+    const int64_t unseen = beyond.gap <= ALE_MAX_GAP_BEAMS ? (int64_t)beyond.gap * beyond.gap : 1;
+    return spacing2_um2 * unseen / (beyond.jump ? 3 : 1);
 }
 
 static int64_t along_line_um(ale_point_t p, int64_t c_q30, int64_t s_q30)
@@ -183,8 +184,8 @@ ale_run_fit_t ale_line_fit(const ale_prepared_scan_t *scan, ale_segment_t run, a
         s = -s;
         alpha += ALE_BAM_HALF_TURN;
     }
-    line->first = scan->points.beam[run.first];
-    line->last = scan->points.beam[run.last];
+    line->first = ale_points_beam(&scan->points, run.first);
+    line->last = ale_points_beam(&scan->points, run.last);
     line->points = (uint16_t)m.fit.n;
     line->alpha_bam = alpha;
     line->rho_um = (int32_t)rho;
@@ -195,13 +196,15 @@ ale_run_fit_t ale_line_fit(const ale_prepared_scan_t *scan, ale_segment_t run, a
     const int64_t mean_along_um =
         along_line_um((ale_point_t){(int32_t)m.mean_x_um, (int32_t)m.mean_y_um}, c, s);
     const int64_t sigma_um = ale_isqrt((uint64_t)um2_of_q8(m.fit.var_q8));
+    const ale_beyond_t before = ale_segment_beyond(&scan->points, &scan->segments, run.first, -1);
+    const ale_beyond_t after = ale_segment_beyond(&scan->points, &scan->segments, run.last, 1);
     const int64_t doubtful_q8 =
-        doubtful_points_q8(scan, run.first, run.first - 1, sigma_um, along_line_um(line->start, c, s)) +
-        doubtful_points_q8(scan, run.last, run.last + 1, sigma_um, along_line_um(line->end, c, s));
+        doubtful_points_q8(scan, run.first, before, sigma_um, along_line_um(line->start, c, s)) +
+        doubtful_points_q8(scan, run.last, after, sigma_um, along_line_um(line->end, c, s));
     const int64_t slope_q16 =
         slope_share_q16(scan, run, &m, rho, mean_along_um, (ale_direction_t){(int32_t)c, (int32_t)s});
     set_covariance(scan, &m, doubtful_q8, slope_q16, mean_along_um, line);
-    line->var_start_um2 = end_var_um2(scan, run.first, run.first - 1, line->rho_um);
-    line->var_end_um2 = end_var_um2(scan, run.last, run.last + 1, line->rho_um);
+    line->var_start_um2 = end_var_um2(scan, run.first, before, line->rho_um);
+    line->var_end_um2 = end_var_um2(scan, run.last, after, line->rho_um);
     return m.fit;
 }

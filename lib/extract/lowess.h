@@ -8,8 +8,8 @@
 
 #include <stdint.h>
 
+#include "base/histogram.h"
 #include "base/limits.h"
-#include "extract/histogram.h"
 
 /* Widest window, beams. */
 #define ALE_MAX_SPAN 31

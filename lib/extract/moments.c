@@ -115,9 +115,10 @@ typedef struct {
 static inline noise_at_t noise_of(const ale_scan_noise_t *noise, int64_t n, const ale_moments_t *s)
 {
     const int64_t inverse2_q54 = ale_min64(s->inverse2_q54 / n, MOST_INVERSE2_Q54);
-    const int64_t own_q36 = (inverse2_q54 * noise->own_um2_q8 >> 26) + noise->own_relative_q36;
-    const noise_at_t at = {ale_min64(own_q36, ALE_MOST_RELATIVE_Q36),
-                           (s->xx + s->yy) / (n << (2 * ALE_POINT_SHIFT))};
+    const int64_t range2 = (s->xx + s->yy) / (n << (2 * ALE_POINT_SHIFT));
+    const int64_t own_q36 =
+        (inverse2_q54 * noise->own_um2_q8 >> 26) + ale_scan_noise_relative_q36(noise, range2);
+    const noise_at_t at = {ale_min64(own_q36, ALE_MOST_RELATIVE_Q36), range2};
     return at;
 }
 

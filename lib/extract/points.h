@@ -1,5 +1,8 @@
 /* The points of a scan: the beams that have a value, in beam order, numbered from 0 without gaps.
  *
+ * In a scan of a whole turn the order begins where a surface most likely ends (seam.h); beams before that one
+ * are numbered on, by turn_beams more.
+ *
  * Points are in 1/16 mm (Q4), in a frame whose x axis lies midway between the first and the last of them, so
  * that neither the angle at which a scan begins nor empty beams around it change any number. */
 #ifndef ALE_EXTRACT_POINTS_H
@@ -26,7 +29,9 @@ typedef struct {
     int32_t cos_q36[ALE_MAX_BEAMS]; /* points a micrometre of range, Q36 */
     int32_t sin_q36[ALE_MAX_BEAMS];
 
-    int64_t step_nrad; /* from beam to beam, without sign */
+    int64_t step_nrad;  /* from beam to beam, without sign */
+    int32_t turn_beams; /* of a whole turn, after which the beams repeat; 0: the scan has two ends */
+    uint32_t frame_bam; /* direction of the x axis of the points, in the sensor's frame */
     uint16_t count;
     uint16_t beam[ALE_MAX_BEAMS];
     int32_t range_um[ALE_MAX_BEAMS];
@@ -40,13 +45,22 @@ typedef struct {
         gap_after[ALE_MAX_BEAMS / ALE_MAX_GAP_BEAMS + 1]; /* points before more missing beams than that */
 } ale_points_t;
 
-/* Lists the valid beams of a scan: all but x_q4, y_q4. O(beams). */
-void ale_points_list(ale_points_t *points, const ale_scan_t *scan);
+/* The beam of the scan that a point is. */
+static inline uint16_t ale_points_beam(const ale_points_t *points, int32_t i)
+{
+    const uint16_t beam = points->beam[i];
+    const bool beyond_seam = points->turn_beams > 0 && beam >= points->turn_beams;
+    return (uint16_t)(beam - (beyond_seam ? points->turn_beams : 0));
+}
 
-/* Direction of the x axis of the points, in the sensor's frame. */
-uint32_t ale_points_frame_bam(const ale_points_t *points, const ale_scan_t *scan);
+/* Lists the valid beams of a scan: all but x_q4, y_q4, frame_bam. bearing_bam as in ale_extract_scan.
+ * O(beams). */
+void ale_points_list(ale_points_t *points, const ale_scan_t *scan, const uint32_t *bearing_bam);
 
-/* x_q4, y_q4 of the listed points. bearing_bam as in ale_extract_scan. O(points). */
+/* Notes after which points more than ALE_MAX_GAP_BEAMS have no value. O(points). */
+void ale_points_note_gaps(ale_points_t *points);
+
+/* frame_bam, and x_q4, y_q4 of the listed points. O(points). */
 void ale_points_place(ale_points_t *points, const ale_scan_t *scan, const uint32_t *bearing_bam);
 
 /* Moves the placed points along their beams to the smoothed ranges, 2^44 / smooth_q44. O(points). */

@@ -45,8 +45,7 @@ static int64_t block_ratio_q8(const ale_prepared_scan_t *scan, int32_t start, in
     const int64_t range_um = middle_range_um(scan, start);
     const int64_t d_um = d * range_um / middle;
     const int64_t range_mm = range_um / 1000;
-    const int64_t own_q20 =
-        (scan->noise.own_mm2_q36 + scan->noise.own_relative_q36 * range_mm * range_mm) >> 16;
+    const int64_t own_q20 = ale_scan_noise_own_q20(&scan->noise, range_mm * range_mm);
     return d_um * d_um * (BLOCK << 8) / ale_max64((own_q20 * 6000000) >> 20, 1);
 }
 
@@ -90,7 +89,7 @@ static int64_t shared_scale_q8(ale_scan_noise_t *noise, const blocks_t *blocks)
     }
     const int64_t range_mm = blocks->range_mm / blocks->count;
     const int64_t range_mm2 = range_mm * range_mm;
-    const int64_t own_q20 = (noise->own_mm2_q36 + noise->own_relative_q36 * range_mm2) >> 16;
+    const int64_t own_q20 = ale_scan_noise_own_q20(noise, range_mm2);
     const int64_t model_q20 =
         (noise->shared_prior_mm2_q36 + noise->shared_prior_relative_q36 * range_mm2) >> 16;
     const int64_t excess_q8 =

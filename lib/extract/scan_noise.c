@@ -20,7 +20,9 @@ enum {
 };
 /* The least and the most own noise that is believed, um. */
 enum { SIGMA_FLOOR_UM = 400, SIGMA_MOST_UM = 100000 };
-static const int64_t micro_q36 = 68719; /* 2^36 / 10^6 */
+static const int64_t micro_q36 = 68719;    /* 2^36 / 10^6 */
+static const int64_t micro2_q60 = 1152922; /* 2^60 / 10^12 */
+static const int64_t most_square_q60 = (int64_t)1 << 29;
 static const int64_t nrad2_per_rad2 = 1000000000000000000;
 
 typedef struct {
@@ -73,7 +75,46 @@ static void count_over_gaps(ale_scan_noise_t *noise, const ale_points_t *p, int3
     }
 }
 
+/* From point i to the next one, in steps from beam to beam; Q8. */
+static int64_t steps_q8(const ale_scan_t *scan, const ale_points_t *p, int32_t i)
+{
+    const int64_t ahead_bam = ale_bam_diff(ale_scan_bearing(scan, ale_points_beam(p, i + 1)),
+                                           ale_scan_bearing(scan, ale_points_beam(p, i)));
+    return ale_max64(ahead_bam * 256 / scan->step_bam, 0);
+}
+
+/* The same where beams have bearings of their own: each neighbour weighs by the other's distance. */
+static void count_between(ale_scan_noise_t *noise, const ale_scan_t *scan, const ale_points_t *p, int32_t i,
+                          int64_t curvature_q30, octave_t *octave)
+{
+    const int32_t most = p->sparse ? ALE_MAX_GAP_BEAMS : 1;
+    const int64_t left = steps_q8(scan, p, i - 1);
+    const int64_t right = steps_q8(scan, p, i);
+    if (left + right > 0 && p->beam[i] - p->beam[i - 1] <= most && p->beam[i + 1] - p->beam[i] <= most) {
+        const int64_t q = p->inverse_q44[i];
+        const int64_t neighbours = right * p->inverse_q44[i - 1] + left * p->inverse_q44[i + 1];
+        const int64_t bend_q30 = left * right * curvature_q30 >> 16;
+        const int64_t d = 2 * neighbours / (left + right) - 2 * q + (q * bend_q30 >> 30);
+        count_difference(noise, d, p->range_um[i], octave);
+    }
+}
+
 /* Every STRIDE-th difference, from both ends to the middle: neighbouring ones share two of three points. */
+static void collect_between(ale_scan_noise_t *noise, const ale_scan_t *scan, const ale_points_t *p,
+                            int64_t curvature_q30, octave_t octave[OCTAVES])
+{
+    const int32_t stride = p->sparse ? 1 : DIFFERENCE_STRIDE;
+    int32_t i = 1;
+    int32_t j = p->count - 2;
+    for (; i < j; i += stride, j -= stride) {
+        count_between(noise, scan, p, i, curvature_q30, octave);
+        count_between(noise, scan, p, j, curvature_q30, octave);
+    }
+    if (i == j) {
+        count_between(noise, scan, p, i, curvature_q30, octave);
+    }
+}
+
 static void collect_next(ale_scan_noise_t *noise, const ale_points_t *p, int64_t curvature_q30,
                          octave_t octave[OCTAVES])
 {
@@ -97,12 +138,15 @@ static void collect_over_gaps(ale_scan_noise_t *noise, const ale_points_t *p, in
 }
 
 /* Second differences about every third point; in a sparse scan about all, over the gaps. */
-static int32_t collect(ale_scan_noise_t *noise, const ale_points_t *p, int64_t curvature_q30,
+static int32_t collect(ale_scan_noise_t *noise, const ale_scan_t *scan, const ale_points_t *p,
                        octave_t octave[OCTAVES])
 {
+    const int64_t curvature_q30 = 2 * (((int64_t)1 << 30) - ale_cos_q30((uint32_t)scan->step_bam));
     memset(noise->histogram, 0, sizeof noise->histogram);
     memset(octave, 0, OCTAVES * sizeof *octave);
-    if (p->sparse) {
+    if (scan->own_bearings && scan->step_bam != 0) {
+        collect_between(noise, scan, p, curvature_q30, octave);
+    } else if (p->sparse) {
         collect_over_gaps(noise, p, curvature_q30, octave);
     } else {
         collect_next(noise, p, curvature_q30, octave);
@@ -123,10 +167,11 @@ static int32_t collect(ale_scan_noise_t *noise, const ale_points_t *p, int64_t c
     return used;
 }
 
-/* What the model sigma^2 = a + b r^2 is fitted to. */
+/* What the model sigma^2 = a + b r^2, or a + b r^4 where the scanner triangulates, is fitted to. */
 typedef struct {
     const octave_t *octave;
     int32_t used;
+    bool squared;
     int64_t variance_q8[OCTAVES]; /* in units of which an octave's misfit counts */
     int64_t var_unit_q8;          /* the least of them */
     int64_t range_unit_um;        /* the largest range */
@@ -134,8 +179,16 @@ typedef struct {
 
 typedef struct {
     int64_t a_q15; /* in units of var_unit */
-    int64_t b_q15; /* in units of var_unit / range_unit^2 */
+    int64_t b_q15; /* in units of var_unit / range_unit^2, or range_unit^4 */
 } noise_model_t;
+
+/* What b is multiplied by, at a range of an octave. */
+static int64_t growth(const octaves_t *o, int32_t k, int32_t bits)
+{
+    const int64_t r = (o->octave[k].range_um << bits) / o->range_unit_um;
+    const int64_t r2 = (r * r) >> bits;
+    return o->squared ? (r2 * r2) >> bits : r2;
+}
 
 /* Least squares of the misfits, weighted by the samples; a, b >= 0. */
 static noise_model_t fit_model(const octaves_t *o)
@@ -148,8 +201,7 @@ static noise_model_t fit_model(const octaves_t *o)
     for (int32_t k = 0; k < o->used; k++) {
         const octave_t *octave = &o->octave[k];
         const int64_t p = (o->var_unit_q8 << ROW_BITS) / o->variance_q8[k];
-        const int64_t r = (octave->range_um << ROW_BITS) / o->range_unit_um;
-        const int64_t t = (p * ((r * r) >> ROW_BITS)) >> ROW_BITS;
+        const int64_t t = (p * growth(o, k, ROW_BITS)) >> ROW_BITS;
         const int64_t y = ale_min64((octave->sigma_q4 * octave->sigma_q4 << ROW_BITS) / o->variance_q8[k],
                                     (int64_t)MOST_MISFIT << ROW_BITS);
         const int64_t n = octave->samples;
@@ -178,17 +230,20 @@ static noise_model_t fit_model(const octaves_t *o)
     return (noise_model_t){py * (1 << 15) / ale_max64(pp, 1), 0};
 }
 
-/* Noise does not fall with the range, and rises no faster than it. An octave that says more than this allows
- * beside a better known one has changes of the range for noise: clutter. */
-static bool shows_clutter(const octave_t *octave, const octave_t *other)
+/* Noise does not fall with the range, and rises no faster than it, or where the scanner triangulates than its
+ * square. An octave that says more than this allows beside a better known one has changes of the range for
+ * noise: clutter. */
+static bool shows_clutter(const octave_t *octave, const octave_t *other, bool squared)
 {
+    const int64_t farther_um = ale_max64(octave->range_um, other->range_um);
+    const int64_t allowed_q4 =
+        squared ? ale_mul_div(other->sigma_q4, farther_um, other->range_um) : other->sigma_q4;
     return octave->samples < other->samples &&
-           octave->sigma_q4 * other->range_um >
-               CLUTTER_FACTOR * other->sigma_q4 * ale_max64(octave->range_um, other->range_um);
+           octave->sigma_q4 * other->range_um > CLUTTER_FACTOR * allowed_q4 * farther_um;
 }
 
 /* Puts the octaves that are no clutter beside the best known one first, and says how many they are. */
-static int32_t leave_clutter_out(octave_t *octave, int32_t used)
+static int32_t leave_clutter_out(octave_t *octave, int32_t used, bool squared)
 {
     int32_t best_known = 0;
     for (int32_t k = 1; k < used; k++) {
@@ -197,7 +252,7 @@ static int32_t leave_clutter_out(octave_t *octave, int32_t used)
     const octave_t best = octave[best_known];
     int32_t kept = 0;
     for (int32_t k = 0; k < used; k++) {
-        if (!shows_clutter(&octave[k], &best)) {
+        if (!shows_clutter(&octave[k], &best, squared)) {
             octave[kept++] = octave[k];
         }
     }
@@ -216,7 +271,7 @@ static void set_variance_unit(octaves_t *o)
  * units of its own variance an octave of few points that are near each other by chance would count most. */
 static void measure_own(ale_scan_noise_t *noise, const octave_t *octave, int32_t used)
 {
-    octaves_t o = {.octave = octave, .used = used, .range_unit_um = 1};
+    octaves_t o = {.octave = octave, .used = used, .squared = noise->own_square_q60 > 0, .range_unit_um = 1};
     for (int32_t k = 0; k < used; k++) {
         o.variance_q8[k] = octave[k].sigma_q4 * octave[k].sigma_q4;
         o.range_unit_um = ale_max64(o.range_unit_um, octave[k].range_um);
@@ -224,8 +279,7 @@ static void measure_own(ale_scan_noise_t *noise, const octave_t *octave, int32_t
     set_variance_unit(&o);
     const noise_model_t first = fit_model(&o);
     for (int32_t k = 0; k < used; k++) {
-        const int64_t r_q15 = (octave[k].range_um << 15) / o.range_unit_um;
-        const int64_t times_q15 = first.a_q15 + ((first.b_q15 * ((r_q15 * r_q15) >> 15)) >> 15);
+        const int64_t times_q15 = first.a_q15 + ((first.b_q15 * growth(&o, k, 15)) >> 15);
         o.variance_q8[k] = ale_max64((o.var_unit_q8 * times_q15) >> 15, 1);
     }
     set_variance_unit(&o);
@@ -234,14 +288,30 @@ static void measure_own(ale_scan_noise_t *noise, const octave_t *octave, int32_t
     noise->own_relative_q36 =
         ale_mul_div((m.b_q15 * o.var_unit_q8) >> 15, (int64_t)1 << (36 - 2 * SIGMA_BITS),
                     o.range_unit_um * o.range_unit_um);
+    if (o.squared) {
+        const int64_t range_mm = ale_max64(o.range_unit_um / 1000, 1);
+        noise->own_square_q60 = ale_clamp64(
+            ale_mul_div(noise->own_relative_q36, 1 << 24, range_mm * range_mm), 1, most_square_q60);
+        noise->own_relative_q36 = 0;
+    }
+}
+
+static int64_t farthest_um(const ale_points_t *p)
+{
+    int32_t most_um = 0;
+    for (int32_t i = 0; i < p->count; i++) {
+        most_um = p->range_um[i] > most_um ? p->range_um[i] : most_um;
+    }
+    return most_um;
 }
 
 void ale_scan_noise_measure(ale_scan_noise_t *noise, const ale_noise_t *prior, const ale_points_t *points,
-                            int32_t step_bam)
+                            const ale_scan_t *scan)
 {
     noise->own_mm2_q36 = (int64_t)prior->own_um * prior->own_um * micro_q36;
     noise->own_scale_q16 = 1 << 16;
     noise->own_relative_q36 = (int64_t)prior->own_ppm * prior->own_ppm * micro_q36 / 1000000;
+    noise->own_square_q60 = (int64_t)prior->own_ppm_per_m * prior->own_ppm_per_m * micro2_q60 / 1000000;
     noise->shared_mm2_q36 = (int64_t)prior->shared_um * prior->shared_um * micro_q36;
     noise->shared_relative_q36 = (int64_t)prior->shared_ppm * prior->shared_ppm * micro_q36 / 1000000;
     noise->shared_prior_mm2_q36 = noise->shared_mm2_q36;
@@ -251,11 +321,14 @@ void ale_scan_noise_measure(ale_scan_noise_t *noise, const ale_noise_t *prior, c
     noise->shared_beams = prior->shared_beams;
     noise->bearing_nrad = prior->bearing_nrad;
     octave_t octave[OCTAVES];
-    const int64_t curvature_q30 = 2 * (((int64_t)1 << 30) - ale_cos_q30((uint32_t)step_bam));
-    const int32_t used = collect(noise, points, curvature_q30, octave);
+    const int32_t used = collect(noise, scan, points, octave);
     if (used > 0) {
-        measure_own(noise, octave, leave_clutter_out(octave, used));
+        measure_own(noise, octave, leave_clutter_out(octave, used, noise->own_square_q60 > 0));
     }
     noise->sigma_um = ((int64_t)ale_isqrt((uint64_t)noise->own_mm2_q36) * 1000) >> 18;
     noise->sigma_per_range_q20 = (int64_t)ale_isqrt((uint64_t)noise->own_relative_q36 << 24) >> 10;
+    if (noise->own_square_q60 > 0) {
+        const int64_t farthest_mm = farthest_um(points) / 1000;
+        noise->sigma_per_range_q20 += (farthest_mm * ale_isqrt((uint64_t)noise->own_square_q60)) >> 10;
+    }
 }

@@ -5,9 +5,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/histogram.h"
 #include "base/noise.h"
 #include "base/scan.h"
-#include "extract/histogram.h"
 #include "extract/points.h"
 
 /* No variance is believed to exceed (9 % of the range)^2: Q36 of the squared range. */
@@ -15,11 +15,13 @@
 
 enum { ALE_NOISE_OCTAVES = 14 };
 
-/* Noise of this scan: variance of a range of r mm is constant_mm2 + relative * r^2. All Q36. The own part is
- * independent from beam to beam, the shared part correlated over shared_beams. */
+/* Noise of this scan: variance of a range of r mm is constant_mm2 + relative * r^2, all Q36, and of the own
+ * part of a scanner that triangulates square * r^4 (then relative is 0), square in 1 / mm^2 Q60. The own part
+ * is independent from beam to beam, the shared part correlated over shared_beams. */
 typedef struct {
     int64_t own_mm2_q36;
     int64_t own_relative_q36;
+    int64_t own_square_q60;
     int64_t own_um2_q8;    /* own_mm2, as the moments need it */
     int64_t own_scale_q16; /* correction of both, from residuals (run_noise.h) */
     int64_t shared_mm2_q36;
@@ -42,10 +44,22 @@ typedef struct {
     uint16_t histogram[ALE_NOISE_OCTAVES][ALE_HISTOGRAM_BINS]; /* scratch of the measurements */
 } ale_scan_noise_t;
 
+/* Own variance over the squared range, but for its constant part, at a squared range below 2^33 mm^2; Q36. */
+static inline int64_t ale_scan_noise_relative_q36(const ale_scan_noise_t *noise, int64_t range2_mm2)
+{
+    return noise->own_relative_q36 + (noise->own_square_q60 * range2_mm2 >> 24);
+}
+
+/* Own variance at a squared range, mm^2 Q20. */
+static inline int64_t ale_scan_noise_own_q20(const ale_scan_noise_t *noise, int64_t range2_mm2)
+{
+    return (noise->own_mm2_q36 + ale_scan_noise_relative_q36(noise, range2_mm2) * range2_mm2) >> 16;
+}
+
 /* Takes over the configured model, and measures the own noise: from the second differences of 1/range (zero
  * on a straight wall but for noise), by a quantile in octaves of the range. Where the scan has too few points
- * the configured own noise serves. step_bam: from beam to beam. O(points). */
+ * the configured own noise serves. Of the scan its bearings are read. O(points). */
 void ale_scan_noise_measure(ale_scan_noise_t *noise, const ale_noise_t *configured,
-                            const ale_points_t *points, int32_t step_bam);
+                            const ale_points_t *points, const ale_scan_t *scan);
 
 #endif

@@ -39,13 +39,14 @@ static inline int64_t slope_um(const ale_points_t *p, int32_t i)
     return (change_um < 0 ? -change_um : change_um) / (p->beam[i + 1] - p->beam[i]);
 }
 
-/* A change of range that noise and 45 degrees of incidence do not explain is a jump, unless both
- * neighbouring changes show that the surface is steeper than that; so is a wide gap. */
-static bool is_jump(const ale_points_t *p, const jump_limit_t *limit, int32_t i)
+/* From point i over `gap` beams to the next point. A change of range that noise and 45 degrees of incidence
+ * do not explain is a jump, unless both neighbouring changes show that the surface is steeper than that; so
+ * is a wide gap. */
+static inline bool is_jump(const ale_points_t *p, const jump_limit_t *limit, int32_t i, int32_t next,
+                           int64_t gap)
 {
-    const int64_t change_um = ale_abs64((int64_t)p->range_um[i + 1] - p->range_um[i]);
-    const int64_t gap = p->beam[i + 1] - p->beam[i];
-    const int64_t range_um = ale_min64(p->range_um[i], p->range_um[i + 1]);
+    const int64_t change_um = ale_abs64((int64_t)p->range_um[next] - p->range_um[i]);
+    const int64_t range_um = ale_min64(p->range_um[i], p->range_um[next]);
     const int64_t allowed_um =
         limit->constant_um + (range_um * (limit->noise_q20 + gap * limit->incidence_q20) >> 20);
     if (change_um <= allowed_um) {
@@ -53,7 +54,13 @@ static bool is_jump(const ale_points_t *p, const jump_limit_t *limit, int32_t i)
     }
     const int64_t beyond_um = (change_um - allowed_um) * 2;
     return gap > ALE_MAX_GAP_BEAMS || beyond_um > 3 * gap * slope_um(p, i - 1) ||
-           beyond_um > 3 * gap * slope_um(p, i + 1);
+           beyond_um > 3 * gap * slope_um(p, next);
+}
+
+static bool is_jump_at_seam(const ale_points_t *p, const jump_limit_t *limit)
+{
+    const int32_t last = p->count - 1;
+    return p->turn_beams == 0 || is_jump(p, limit, last, 0, p->beam[0] + p->turn_beams - p->beam[last]);
 }
 
 static void end_segment(ale_segments_t *s, int32_t first, int32_t last)
@@ -113,13 +120,14 @@ void ale_segment_cut(ale_segments_t *s, const ale_points_t *points, const ale_sc
     memset(s->jump_after, 0, points->count * sizeof *s->jump_after);
     for (int32_t k = 0; k < s->suspect_count; k++) {
         const int32_t i = s->suspect[k];
-        if (is_jump(points, &limit, i)) {
+        if (is_jump(points, &limit, i, i + 1, points->beam[i + 1] - points->beam[i])) {
             s->jump_after[i] = true;
             end_segment(s, first, i);
             first = i + 1;
         }
     }
     s->jump_after[points->count - 1] = true;
+    s->jump_at_seam = is_jump_at_seam(points, &limit);
     end_segment(s, first, points->count - 1);
 }
 

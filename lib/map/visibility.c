@@ -27,8 +27,8 @@ static int32_t beam_towards(const ale_posed_scan_t *from, uint32_t direction_bam
         return NOT_IN_VIEW;
     }
     int32_t beam = (int32_t)(from_first / step);
-    for (int i = 0; from->bearing_bam && i < 2; i++) {
-        const int32_t error = ale_bam_diff(direction_bam, from->bearing_bam[beam]);
+    for (int i = 0; (from->bearing_bam || scan->own_bearings) && i < 2; i++) {
+        const int32_t error = ale_bam_diff(direction_bam, ale_posed_bearing(from, beam));
         const int64_t next = beam + ale_round_div(reversed ? -(int64_t)error : error, step);
         if (next < 0 || next >= scan->beams) {
             return NOT_IN_VIEW;

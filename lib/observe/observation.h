@@ -43,12 +43,19 @@ typedef struct {
     int64_t var_angle_urad2;
     int32_t start_time_us; /* when its ends were measured, relative to the scan's stamp */
     int32_t end_time_us;
-    uint16_t first_beam; /* of those that show it */
+    uint16_t first_beam; /* of those that show it; beyond last_beam: over the seam of a whole turn */
     uint16_t last_beam;
     uint8_t start_end; /* ale_end_kind_t of either end */
     uint8_t end_end;
     uint8_t kind; /* ale_observation_kind_t */
 } ale_observation_t;
+
+/* Beams of its scan from the first to the last that shows it. */
+static inline int32_t ale_observation_beams(const ale_observation_t *observation, const ale_scan_t *scan)
+{
+    const int32_t ahead = observation->last_beam - observation->first_beam;
+    return (ahead < 0 ? ahead + scan->beams : ahead) + 1;
+}
 
 static inline int64_t ale_observation_length_um(const ale_observation_t *observation)
 {

@@ -44,8 +44,7 @@ static int64_t spacing_um(const segments_t *p, int32_t point)
 
 static uint32_t bearing_of(const segments_t *p, int32_t point)
 {
-    const int32_t beam = p->memory->beam[point];
-    return p->from.bearing_bam ? p->from.bearing_bam[beam] : ale_scan_bearing(p->from.scan, beam);
+    return ale_posed_bearing(&p->from, p->memory->beam[point]);
 }
 
 /* Computed on demand: of a run that is not chosen only a few are asked for. */
@@ -230,6 +229,20 @@ static void end_run(segments_t *p, int32_t *first)
     *first = p->points;
 }
 
+/* Whether the beam is in the line over the seam of a whole turn, or of the others in the first that does not
+ * end before it. */
+static bool is_in_line(const ale_features_t *features, int32_t k, uint32_t *line)
+{
+    const ale_line_t *over_seam = ale_features_line_over_seam(features);
+    if (over_seam && (k >= over_seam->first || k <= over_seam->last)) {
+        return true;
+    }
+    while (*line < features->line_count && features->line[*line].last < k) {
+        (*line)++;
+    }
+    return *line < features->line_count && features->line[*line].first <= k;
+}
+
 /* Runs of the beams that have an echo and are in no line. */
 static void find_runs(segments_t *p, const ale_features_t *features)
 {
@@ -237,10 +250,7 @@ static void find_runs(segments_t *p, const ale_features_t *features)
     uint32_t line = 0;
     int32_t first = 0;
     for (int32_t k = 0; k < scan->beams; k++) {
-        while (line < features->line_count && features->line[line].last < k) {
-            line++;
-        }
-        if (line < features->line_count && features->line[line].first <= k) {
+        if (is_in_line(features, k, &line)) {
             end_run(p, &first);
         } else if (scan->flag[k] == ALE_BEAM_VALID) {
             p->memory->beam[p->points] = (uint16_t)k;

@@ -43,8 +43,10 @@ std::vector<int> lines_of(const ale_features_t &features, size_t beams)
 {
     std::vector<int> line(beams, -1);
     for (int k = 0; k < features.line_count; k++) {
-        for (size_t beam = features.line[k].first; beam <= features.line[k].last && beam < beams; beam++) {
-            line[beam] = k;
+        const ale_line_t &one = features.line[k];
+        const size_t last = one.last + (one.first > one.last ? beams : 0); // over the seam of a whole turn
+        for (size_t beam = one.first; beam <= last && beam < 2 * beams; beam++) {
+            line[beam % beams] = k;
         }
     }
     return line;
@@ -95,7 +97,7 @@ CornerFeature corner_of(const ale_corner_t &corner, const Pose &sensor)
 
 struct DeskewedScan {
     const ale_scan_t &scan;
-    const uint32_t *bearing_bam; // NULL: evenly spaced
+    const uint32_t *bearing_bam; // NULL: the scan's own
     const ale_features_t &features;
     Pose sensor;
 };

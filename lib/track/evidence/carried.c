@@ -126,7 +126,9 @@ static void spread(come_t *come, int32_t from, int32_t step)
 
 static void take_out(come_t *come, const ale_observation_t *observation)
 {
-    for (int32_t k = observation->first_beam; k <= observation->last_beam; k++) {
+    const int32_t beams = ale_observation_beams(observation, come->now);
+    for (int32_t i = 0; i < beams; i++) {
+        const int32_t k = (observation->first_beam + i) % come->now->beams;
         if (come->now->flag[k] == ALE_BEAM_VALID) {
             add(come, k);
         }
@@ -163,13 +165,15 @@ static bool moves(const ale_carried_t *carried, const ale_scan_t *scan)
 }
 
 /* Whether most beams of an observation showed in the last scan what goes along. */
-static bool moved_aside(const ale_carried_t *carried, const ale_observation_t *observation)
+static bool moved_aside(const ale_carried_t *carried, const ale_observation_t *observation,
+                        const ale_scan_t *scan)
 {
     int32_t moved = 0;
-    for (int32_t k = observation->first_beam; k <= observation->last_beam; k++) {
-        moved += carried->came_um[k] < 0;
+    const int32_t beams = ale_observation_beams(observation, scan);
+    for (int32_t i = 0; i < beams; i++) {
+        moved += carried->came_um[(observation->first_beam + i) % scan->beams] < 0;
     }
-    return 2 * moved > observation->last_beam - observation->first_beam + 1;
+    return 2 * moved > beams;
 }
 
 static void find(const ale_carried_t *carried, const ale_seen_t *before, const ale_seen_t *now,
@@ -180,7 +184,7 @@ static void find(const ale_carried_t *carried, const ale_seen_t *before, const a
     for (uint32_t i = 0; i < now->observation_count; i++) {
         const ale_observation_t *observation = &now->observation[i];
         if (!is_matched(&association[i]) && !is_out(come, observation) &&
-            ((to_and_fro && moved_aside(carried, observation)) ||
+            ((to_and_fro && moved_aside(carried, observation, now->posed.scan)) ||
              was_looked_through(before, &viewpoint, observation))) {
             take_out(come, observation);
         }

@@ -27,8 +27,8 @@ uint32_t bam(double turns)
     return static_cast<uint32_t>(static_cast<int64_t>(std::llround(std::ldexp(turns, 32))));
 }
 
-std::unique_ptr<ale_scan_t> scan_of(const std::vector<Point> &points, ale_turn_status_t expected = ALE_TURN_FINE,
-                                    uint32_t *left_out = nullptr)
+std::unique_ptr<ale_scan_t> scan_of(const std::vector<Point> &points,
+                                    ale_turn_status_t expected = ALE_TURN_FINE, uint32_t *left_out = nullptr)
 {
     auto turn = std::make_unique<ale_turn_t>();
     auto scan = std::make_unique<ale_scan_t>();
@@ -179,7 +179,8 @@ TEST(Turn, PointsOfTwoSurfacesAreNotJoined)
     }
     const auto scan = scan_of(points);
     EXPECT_EQ(scan->beams, 721);
-    const auto near = std::count_if(scan->range_um, scan->range_um + scan->beams, [](int r) { return r < 1.2e6; });
+    const auto near =
+        std::count_if(scan->range_um, scan->range_um + scan->beams, [](int r) { return r < 1.2e6; });
     EXPECT_EQ(near, 5);
 }
 
@@ -204,7 +205,8 @@ TEST(Turn, AnyPointsGiveAScanInOrder)
         std::vector<Point> points;
         for (int k = 0; k < count; k++) {
             const double bearing = wild ? static_cast<double>(random()) / 4294967296.0 : -1.1 * k / count;
-            points.push_back({wild == 2 ? std::floor(bearing * 40) / 40 : bearing, static_cast<int32_t>(random() >> 7),
+            points.push_back({wild == 2 ? std::floor(bearing * 40) / 40 : bearing,
+                              static_cast<int32_t>(random() >> 7),
                               static_cast<ale_beam_flag_t>(random() % 4 / 3 * 2)});
         }
         uint32_t left_out = 0;
@@ -215,7 +217,8 @@ TEST(Turn, AnyPointsGiveAScanInOrder)
         for (int k = 1; k < scan->beams; k++) {
             const uint32_t from_first = scan->bearing_bam[k] - scan->bearing_bam[0];
             const uint32_t before = scan->bearing_bam[k - 1] - scan->bearing_bam[0];
-            ASSERT_TRUE(scan->step_bam > 0 ? from_first >= before : -from_first >= -before) << round << ' ' << k;
+            ASSERT_TRUE(scan->step_bam > 0 ? from_first >= before : -from_first >= -before)
+                << round << ' ' << k;
         }
     }
 }

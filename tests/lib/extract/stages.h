@@ -25,8 +25,8 @@ namespace scene
 inline void list_points(ale_extractor_t *e, const ale_scan_t &scan)
 {
     ale_prepared_scan_t &s = e->runs.scan;
-    ale_points_list(&s.points, &scan);
-    ale_scan_noise_measure(&s.noise, &e->config.noise, &s.points, scan.step_bam);
+    ale_points_list(&s.points, &scan, nullptr);
+    ale_scan_noise_measure(&s.noise, &e->config.noise, &s.points, &scan);
     ale_segment_suspect(&s.segments, &s.points, &s.noise);
     e->runs.effort = s.segments.suspect_count;
 }

@@ -65,7 +65,7 @@ std::unique_ptr<ale_features_t> found(const ale_line_t &a, const ale_line_t &b, 
     features->line[1] = b;
     features->line[1].first = static_cast<uint16_t>(50 + gap_beams);
     features->line[1].last = 150;
-    ale_corner_find(step_nrad, features.get());
+    ale_corner_find(step_nrad, 0, features.get());
     return features;
 }
 

@@ -8,7 +8,7 @@
 #include "reference/robust_lowess.h"
 
 extern "C" {
-#include "extract/histogram.h"
+#include "base/histogram.h"
 #include "extract/lowess.h"
 }
 

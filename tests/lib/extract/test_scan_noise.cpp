@@ -1,4 +1,5 @@
 // lib/extract/scan_noise.c against its twin in double.
+#include <algorithm>
 #include <random>
 
 #include "lib/extract/agreement.h"
@@ -35,6 +36,37 @@ TEST(ScanNoise, OwnNoiseIsThatOfTheTwin)
         close += all_close ? 1 : 0;
     }
     EXPECT_GE(close, scans * 19 / 20);
+}
+
+// A scanner that triangulates: 1 mm, and 2 mm at one metre that grow with the square of the range.
+TEST(ScanNoise, NoiseThatGrowsWithTheSquareOfTheRangeIsMeasured)
+{
+    ale_extract_config_t config = ale_extract_default_config();
+    config.noise.own_ppm_per_m = 1000; // half of what it is
+    std::vector<double> square;
+    scene::extractor extractor;
+    ale_extractor_t *e = extractor.get();
+    ASSERT_EQ(ale_extractor_init(e, &config), 0);
+    ale_features_t features;
+    for (unsigned k = 0; k < 60; k++) {
+        std::mt19937 engine(k);
+        std::normal_distribution<double> gauss;
+        const auto walls = scene::box(-1 - 0.05 * k, -0.8, 2 + 0.1 * k, 1.5);
+        const auto scan = scene::empty_scan(450, -scene::pi, 2 * scene::pi / 450);
+        for (uint16_t beam = 0; beam < scan->beams; beam++) {
+            const double range = scene::cast(walls, scene::bearing_of(*scan, beam));
+            const double sigma = std::hypot(0.001, 0.002 * range * range);
+            ale_scan_set_range(scan.get(), beam, static_cast<int32_t>(1e6 * (range + sigma * gauss(engine))));
+        }
+        ale_extract_scan(e, scan.get(), nullptr, &features);
+        const ale_noise_t measured = ale_extractor_noise(e);
+        EXPECT_EQ(measured.own_ppm, 0);
+        square.push_back(measured.own_ppm_per_m);
+        EXPECT_GE(features.line_count, 4) << k;
+        EXPECT_LE(features.line_count, 5) << k;
+    }
+    std::sort(square.begin(), square.end());
+    EXPECT_NEAR(square[30], 2000, 200);
 }
 
 // Every other beam, or half of them at random, without an echo. Bound: as above.

@@ -312,13 +312,19 @@ TEST(Pipeline, NoiseForScansAndJunkForStampsBreakNothing)
         stamp += static_cast<int64_t>(rng() % 4000000) - 1000000;
         scan.beams = static_cast<uint16_t>(rng() % (ALE_MAX_BEAMS + 1));
         scan.beam_time_ns = rng() % 2 ? 97656 : 0;
-        scan.step_bam = rng() % 2 ? 4194304 : -3000000;
+        const int64_t whole_turn = INT64_C(0x100000000) / (scan.beams + 1);
+        scan.step_bam = rng() % 2   ? 4194304
+                        : rng() % 2 ? -3000000
+                                    : static_cast<int32_t>(whole_turn & INT32_MAX);
         scan.first_bearing_bam = static_cast<uint32_t>(rng());
         scan.range_min_um = 20000;
         scan.range_max_um = 80000000;
         for (uint16_t i = 0; i < scan.beams; i++) {
             ale_scan_set_range(&scan, i, static_cast<int32_t>(rng() % 80000000));
+            scan.bearing_bam[i] =
+                scan.first_bearing_bam + i * static_cast<uint32_t>(scan.step_bam) + rng() % 5000000;
         }
+        scan.own_bearings = k % 3 == 0;
         const ale_odometry_t o = {stamp,
                                   {static_cast<int32_t>(rng() % 100000), 0, static_cast<uint32_t>(rng())}};
         ale_pipeline_odometry(p.get(), &o);

@@ -21,6 +21,7 @@ extern "C" {
 #include "extract/run_noise.h"
 #include "extract/runs.h"
 #include "extract/scan_noise.h"
+#include "extract/seam.h"
 #include "extract/segment.h"
 #include "match/observability.h"
 #include "motion/deskew.h"
@@ -86,6 +87,31 @@ ale_scan_t any_scan(Random &random)
     return scan_of(costly, 0, random);
 }
 
+/* The same with bearings of their own, which every step that asks for them takes one by one. */
+ale_scan_t with_own_bearings(const ale_scan_t &scan)
+{
+    ale_scan_t own = scan;
+    own.own_bearings = true;
+    for (int k = 0; k < scan.beams; k++) {
+        own.bearing_bam[k] = ale_scan_bearing(&scan, k);
+    }
+    return own;
+}
+
+/* What a whole turn takes besides: its order, and what meets at the seam. */
+void open_seam(Parts &parts, ale_prepared_scan_t *scan)
+{
+    scan->points.turn_beams = ALE_MAX_BEAMS;
+    parts.measure("order of a whole turn", 1, [&] { ale_seam_open(scan); });
+}
+
+void close_seam(Parts &parts, ale_run_list_t *runs)
+{
+    runs->scan.points.turn_beams = ALE_MAX_BEAMS;
+    runs->scan.segments.jump_at_seam = false;
+    parts.measure("seam of a whole turn", 1, [&] { ale_seam_close(runs); });
+}
+
 /* The extractor's steps, in the order of ale_extract_scan, each as often as it is taken at most: a scan that
  * is costly to search is searched once; one with more than ALE_MANY_RUNS runs is spared breaks and curves,
  * which cost more than the fits of the runs beyond. */
@@ -96,9 +122,14 @@ void extraction(Parts &parts, ale_extractor_t *e, const ale_scan_t &scan, const 
     ale_points_t *points = &runs->scan.points;
     ale_scan_noise_t *noise = &runs->scan.noise;
     ale_segments_t *segments = &runs->scan.segments;
-    parts.measure("points", 1, [&] { ale_points_list(points, &scan); });
-    parts.measure("noise of the beams", 1,
-                  [&] { ale_scan_noise_measure(noise, &e->config.noise, points, scan.step_bam); });
+    parts.measure("points", 1, [&] { ale_points_list(points, &scan, bearing_bam); });
+    open_seam(parts, &runs->scan);
+    ale_points_list(points, &scan, bearing_bam);
+    const ale_scan_t own = with_own_bearings(scan);
+    for (const ale_scan_t *one : {&own, &scan}) {
+        parts.measure("noise of the beams", 1,
+                      [&] { ale_scan_noise_measure(noise, &e->config.noise, points, one); });
+    }
     parts.measure("suspects", 1, [&] { ale_segment_suspect(segments, points, noise); });
     parts.measure("spikes", 1, [&] { ale_outlier_remove_spikes(points, segments, noise); });
     parts.measure("segments", 1, [&] { ale_segment_cut(segments, points, noise); });
@@ -126,6 +157,7 @@ void extraction(Parts &parts, ale_extractor_t *e, const ale_scan_t &scan, const 
         parts.measure("breaks placed, third time", 1, [&] { ale_runs_place(runs, ALE_BREAK_WIDE_STEP); });
         parts.measure("curves again", 1, [&] { ale_curve_find(runs, true); });
     }
+    close_seam(parts, runs);
     for (int32_t k = 0; k < runs->count; k++) {
         ale_line_t line;
         parts.measure("a line's fit", ALE_MANY_RUNS, [&] {
@@ -133,7 +165,7 @@ void extraction(Parts &parts, ale_extractor_t *e, const ale_scan_t &scan, const 
         });
     }
     ale_extract_scan(e, &scan, nullptr, out);
-    parts.measure("corners", 1, [&] { ale_corner_find(points->step_nrad, out); });
+    parts.measure("corners", 1, [&] { ale_corner_find(points->step_nrad, points->turn_beams, out); });
 }
 
 void looking(Parts &parts)
@@ -153,7 +185,9 @@ void looking(Parts &parts)
         std::vector<uint32_t> bearing(ALE_MAX_BEAMS);
         ale_scan_t moved = any_scan(random);
         const int32_t velocity[ALE_AXES] = {40000, 20000, 60000};
+        ale_scan_t own = with_own_bearings(moved);
         parts.measure("straightening", 1, [&] { ale_deskew(&moved, velocity, bearing.data()); });
+        parts.measure("straightening", 1, [&] { ale_deskew(&own, velocity, bearing.data()); });
         extraction(parts, extractor.get(), any_scan(random), bearing.data(), features.get());
         const ale_scan_t scan = any_scan(random);
         ale_extract_scan(extractor.get(), &scan, bearing.data(), features.get());

@@ -46,6 +46,9 @@ ale_scan_t mounted(const ale_scan_t &scan, bool upside_down)
     if (upside_down) {
         turned.first_bearing_bam = 0U - scan.first_bearing_bam;
         turned.step_bam = -scan.step_bam;
+        for (uint32_t &bearing_bam : turned.bearing_bam) {
+            bearing_bam = 0U - bearing_bam;
+        }
     }
     return turned;
 }

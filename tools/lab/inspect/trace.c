@@ -16,13 +16,13 @@ static int32_t um(int32_t q4)
 }
 
 /* The extractor works in a frame that looks along the middle of its points. */
-static void copy_points(const ale_extractor_t *e, const ale_scan_t *scan, inspect_trace_t *trace)
+static void copy_points(const ale_extractor_t *e, inspect_trace_t *trace)
 {
     const ale_points_t *points = &e->runs.scan.points;
-    const ale_direction_t frame = ale_direction(ale_points_frame_bam(points, scan));
+    const ale_direction_t frame = ale_direction(points->frame_bam);
     trace->points = points->count;
     for (int32_t i = 0; i < points->count; i++) {
-        trace->beam[i] = points->beam[i];
+        trace->beam[i] = ale_points_beam(points, i);
         const ale_point_t p = ale_turn((ale_point_t){um(points->x_q4[i]), um(points->y_q4[i])}, frame);
         trace->x_um[i] = p.x_um;
         trace->y_um[i] = p.y_um;
@@ -98,7 +98,7 @@ int inspect_trace(const ale_scan_t *scan, const ale_extract_config_t *config, in
     if (trace->smoothed) {
         ale_points_place_smoothed(&e->runs.scan.points, e->smooth_q44);
     }
-    copy_points(e, scan, trace);
+    copy_points(e, trace);
     free(e);
     return 0;
 }

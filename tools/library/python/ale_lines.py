@@ -34,12 +34,14 @@ class _Scan(ctypes.Structure):
                 ("first_bearing_bam", ctypes.c_uint32), ("step_bam", ctypes.c_int32),
                 ("range_min_um", ctypes.c_int32), ("range_max_um", ctypes.c_int32), ("beams", ctypes.c_uint16),
                 ("range_um", ctypes.c_int32 * MAX_BEAMS), ("flag", ctypes.c_uint8 * MAX_BEAMS),
-                ("code", ctypes.c_uint8 * MAX_BEAMS)]
+                ("code", ctypes.c_uint8 * MAX_BEAMS), ("own_bearings", ctypes.c_bool),
+                ("bearing_bam", ctypes.c_uint32 * MAX_BEAMS)]
 
 
 class _Noise(ctypes.Structure):
     _fields_ = [(name, ctypes.c_int32) for name in
-                ("own_um", "own_ppm", "shared_um", "shared_ppm", "shared_beams", "surface_um", "bearing_nrad")]
+                ("own_um", "own_ppm", "own_ppm_per_m", "shared_um", "shared_ppm", "shared_beams", "surface_um",
+                 "bearing_nrad")]
 
 
 class _Config(ctypes.Structure):

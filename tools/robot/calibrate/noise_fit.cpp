@@ -50,7 +50,7 @@ double common_length(const TemporalFit &temporal, const LastingFit &lasting)
 
 ale_noise_t noise_of(const TemporalFit &temporal, const LastingFit &lasting, bool surface_known)
 {
-    ale_noise_t noise;
+    ale_noise_t noise{};
     noise.own_um = rounded_sqrt(temporal.own + lasting.own, 1e6);
     noise.own_ppm = rounded_sqrt(temporal.own_relative, 1e6);
     noise.shared_um = rounded_sqrt(temporal.shared + lasting.shared, 1e6);

@@ -1,7 +1,7 @@
 /* Quantiles of many values at once, by counting them in logarithmic bins: four to the octave, so a quantile
  * is within 13 % of the exact one before the interpolation in the bin, within 3 % after it. */
-#ifndef ALE_EXTRACT_HISTOGRAM_H
-#define ALE_EXTRACT_HISTOGRAM_H
+#ifndef ALE_BASE_HISTOGRAM_H
+#define ALE_BASE_HISTOGRAM_H
 
 #include <stdint.h>
 

@@ -1,4 +1,4 @@
-#include "extract/histogram.h"
+#include "base/histogram.h"
 
 enum { BINS_PER_OCTAVE_SHIFT = 2 };
 
