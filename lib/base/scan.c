@@ -19,7 +19,7 @@ int32_t ale_scan_turn_beams(const ale_scan_t *scan)
     return ahead_bam < -step_bam || gap > ALE_MAX_GAP_BEAMS ? 0 : (int32_t)(last + gap);
 }
 
-/* Place of a beam among the evenly spaced ones, at most the last of them; Q8. */
+/* Place of a beam among the evenly spaced ones, at most one behind the last of them; Q8. */
 static int64_t place_q8(const ale_scan_t *scan, int32_t beam)
 {
     const int64_t step_bam = ale_abs64(scan->step_bam);
@@ -28,7 +28,7 @@ static int64_t place_q8(const ale_scan_t *scan, int32_t beam)
     }
     const uint32_t ahead_bam = scan->bearing_bam[beam] - scan->first_bearing_bam;
     const int64_t here_q8 = ((int64_t)(scan->step_bam < 0 ? 0U - ahead_bam : ahead_bam) << 8) / step_bam;
-    return ale_min64(here_q8, (int64_t)(scan->beams - 1) << 8);
+    return ale_min64(here_q8, (int64_t)scan->beams << 8);
 }
 
 int32_t ale_scan_beam_offset_us(const ale_scan_t *scan, int32_t beam)

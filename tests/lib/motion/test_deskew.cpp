@@ -68,7 +68,7 @@ TEST(Deskew, MovesTheBeamsOfAWholeTurnByTheirOwnTimes)
         for (int k = 0; k < beams; k++) {
             const double place = k == 0 ? 0 : k + 0.4 * unit(rng);
             scan.bearing_bam[k] = static_cast<uint32_t>(static_cast<int64_t>(place * scan.step_bam));
-            range[static_cast<size_t>(k)] = 0.4 + 2.5 * (1 + unit(rng));
+            range[static_cast<size_t>(k)] = 0.8 + 2.5 * (1 + unit(rng));
             scan.range_um[k] = convert::um(range[static_cast<size_t>(k)]);
         }
         const int32_t velocity[3] = {convert::um(v[0] * tick_s), convert::um(v[1] * tick_s),
