@@ -31,3 +31,10 @@ def free_udp_port():
             except OSError:
                 continue
             return port
+
+
+def free_tcp_port():
+    """Of this computer; nobody has it at the moment."""
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]

@@ -50,6 +50,15 @@ static int open_offered(ale_port_t *port, const char *name, int32_t baud)
     return port->backend->open(port, name, baud);
 }
 
+/* So is a connection; a scanner takes one at a time, and has no rate. */
+static const char tcp_prefix[] = "tcp:";
+
+static int open_connection(ale_port_t *port, const char *address)
+{
+    port->backend = &ale_port_tcp_backend;
+    return port->backend->open(port, address, 0);
+}
+
 static struct flock whole_of_it(void)
 {
     return (struct flock){.l_type = F_WRLCK, .l_whence = SEEK_SET};
@@ -118,6 +127,17 @@ static int open_device(ale_port_t *port, const char *path, int32_t baud)
     return open_locked(port, real_path, baud);
 }
 
+static int open_any(ale_port_t *port, const char *path, int32_t baud)
+{
+    const size_t offered_prefix = offered.prefix ? strlen(offered.prefix) : 0;
+    const size_t tcp = sizeof tcp_prefix - 1;
+    if (offered_prefix > 0 && strncmp(path, offered.prefix, offered_prefix) == 0) {
+        return open_offered(port, path + offered_prefix, baud);
+    }
+    return strncmp(path, tcp_prefix, tcp) == 0 ? open_connection(port, path + tcp)
+                                               : open_device(port, path, baud);
+}
+
 int ale_port_open(ale_port_t **out, const char *path, int32_t baud)
 {
     *out = NULL;
@@ -127,10 +147,7 @@ int ale_port_open(ale_port_t **out, const char *path, int32_t baud)
     }
     port->fd = -1;
     port->lock = -1;
-    const size_t prefix = offered.prefix ? strlen(offered.prefix) : 0;
-    const int status = prefix > 0 && strncmp(path, offered.prefix, prefix) == 0
-                           ? open_offered(port, path + prefix, baud)
-                           : open_device(port, path, baud);
+    const int status = open_any(port, path, baud);
     if (status < 0) {
         free(port);
         return status;

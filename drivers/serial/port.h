@@ -1,5 +1,6 @@
-/* A serial port: open, read, write, wait, close. Two back ends behind one interface: libserialport for
- * real ports, a bare descriptor (termios and poll) for pseudo terminals, which libserialport refuses.
+/* A serial port: open, read, write, wait, close. Three back ends behind one interface: libserialport for
+ * real ports, a bare descriptor (termios and poll) for pseudo terminals, which libserialport refuses, and a
+ * TCP connection for scanners on Ethernet ("tcp:192.168.0.10:10940").
  *
  * One owner thread. Calls retry on EINTR. A port that is gone stays gone until it is closed and opened
  * again: ALE_PORT_GONE means close at once (the device node's number stays taken while it is open). */
@@ -17,8 +18,8 @@ struct ale_port_backend; /* serial/port_backend.h */
 
 /* Opens path (links are resolved) exclusively, raw, 8N1, no flow control, DTR untouched. ALE_PORT_OK and
  * *out, the caller's to close; else *out is NULL and the status ALE_PORT_ABSENT, DENIED, BUSY (and nothing
- * was done to the port), FILE, FOLDER, OTHER, BAUD (baud is not possible there), or GONE (any other error,
- * and no memory). */
+ * was done to the port), FILE, FOLDER, OTHER, BAUD (baud is not possible there), of "tcp:" ADDRESS, REFUSED,
+ * UNREACHED, UNANSWERED (within a second), or GONE (any other error, and no memory). */
 int ale_port_open(ale_port_t **out, const char *path, int32_t baud);
 
 /* Changes the rate, bit/s. ALE_PORT_OK, or ALE_PORT_BAUD: the rate is as it was. */
@@ -38,6 +39,10 @@ int ale_port_wait(ale_port_t *port, int32_t timeout_ms);
 
 /* True when a change of the rate has an effect (a real RS-232 port); false for pseudo terminals and USB. */
 bool ale_port_has_baud(const ale_port_t *port);
+
+/* Sets the line DTR, on which the motor of some scanners hangs. ALE_PORT_OK, or ALE_PORT_OTHER: the port has
+ * none, as a pseudo terminal. */
+int ale_port_set_dtr(ale_port_t *port, bool on);
 
 /* NULL: nothing. */
 void ale_port_close(ale_port_t *port);

@@ -34,6 +34,7 @@ struct ale_port {
 
 extern const ale_port_backend_t ale_port_fd_backend;
 extern const ale_port_backend_t ale_port_libserialport_backend;
+extern const ale_port_backend_t ale_port_tcp_backend; /* its path: address and port */
 
 /* Sets any rate, also those without a constant (Linux: termios2, BOTHER). 0, or ALE_PORT_BAUD. */
 int ale_port_set_any_baud(int fd, int32_t baud);
