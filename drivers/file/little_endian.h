@@ -18,6 +18,17 @@ static inline void ale_put_u64(uint8_t *out, uint64_t value)
     }
 }
 
+static inline void ale_put_u16(uint8_t *out, uint16_t value)
+{
+    out[0] = (uint8_t)value;
+    out[1] = (uint8_t)(value >> 8);
+}
+
+static inline uint16_t ale_get_u16(const uint8_t *in)
+{
+    return (uint16_t)(in[0] | in[1] << 8);
+}
+
 static inline uint32_t ale_get_u32(const uint8_t *in)
 {
     uint32_t value = 0;

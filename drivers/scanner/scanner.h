@@ -14,6 +14,14 @@
 
 typedef struct ale_scanner ale_scanner_t;
 
+enum { ALE_SCANNER_NAMES = 64 };
+
+/* Whether there is a family of that name; all of their names, in words; whether any scanner of theirs has
+ * that rate, bit/s. */
+bool ale_scanner_has_family(const char *name);
+void ale_scanner_families(char names[ALE_SCANNER_NAMES]);
+bool ale_scanner_has_baud(int32_t baud);
+
 /* Makes the driver; the port is opened by the steps, so that a sensor may come later. What config points to
  * must outlive the scanner. NULL: out of memory, or no family of that name. */
 ale_scanner_t *ale_scanner_open(const ale_scanner_config_t *config);

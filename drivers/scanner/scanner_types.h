@@ -47,7 +47,7 @@ typedef enum {
 typedef struct {
     char model[64];
     char firmware[64];
-    char serial[32];
+    char serial[40];
 } ale_scanner_identity_t;
 
 typedef struct {

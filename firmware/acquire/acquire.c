@@ -28,6 +28,7 @@ static ale_scanner_config_t scanner_config(const ale_config_t *config, const ale
 {
     const ale_clock_t *clock = &exchange->clock;
     return (ale_scanner_config_t){
+        .family = config->type,
         .path = config->port[0] ? config->port : NULL,
         .serial = config->serial[0] ? config->serial : NULL,
         .baud = config->baud,

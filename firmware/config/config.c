@@ -9,6 +9,7 @@ ale_config_t ale_config_default(void)
         .explore_speed_um_s = explorer.follower.speed_um_s,
         .explore_turn_urad_s = explorer.follower.turn_urad_s,
         .explore_clearance_um = explorer.clearance_um,
+        .type = "urg",
         .port = "/dev/ttyACM0",
         .priority = 80,
         .cpu = -1,

@@ -28,8 +28,9 @@ typedef struct {
     int32_t explore_speed_um_s;     /* most speed of the exploration, by itself */
     int32_t explore_turn_urad_s;
     int32_t explore_clearance_um; /* of its ways, beyond width and margin */
+    char type[16];                /* family of the scanner, or "auto" */
     char port[ALE_CONFIG_PATH];   /* empty: found by serial number */
-    char serial[32];              /* empty: any */
+    char serial[40];              /* empty: any */
     int32_t baud;                 /* 0: detected */
     bool reversed;
     uint16_t first_step; /* 0, 0: what the sensor says */

@@ -4,6 +4,7 @@
 
 #define FIELD(member) offsetof(ale_config_t, member), sizeof(((ale_config_t *)0)->member)
 #define TEXT(member) ALE_KEY_TEXT, 0, FIELD(member), 0, 0
+#define FAMILY(member) ALE_KEY_FAMILY, 0, FIELD(member), 0, 0
 #define URL(member) ALE_KEY_URL, 0, FIELD(member), 0, 0
 #define PREFIX(member) ALE_KEY_PREFIX, 0, FIELD(member), 0, 0
 #define BOOL(member) ALE_KEY_BOOL, 0, FIELD(member), 0, 0
@@ -14,6 +15,9 @@
 #define SECTORS ALE_KEY_SECTORS, 0, FIELD(pipeline.blind), 0, 0
 
 const ale_config_key_t ale_config_keys[] = {
+    {"sensor", "type", FAMILY(type),
+     "Family of the scanner: urg (Hokuyo, SCIP), ldrobot (LD06, LD19, STL-19P), rplidar (SLAMTEC A1"
+     " to S3); auto: whichever answers."},
     {"sensor", "port", TEXT(port),
      "Serial device of the scanner, best a stable name under /dev/serial/by-id.\n"
      "Empty: every serial port is asked for the scanner with the serial number below.\n"

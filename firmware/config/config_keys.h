@@ -14,6 +14,7 @@ typedef enum {
     ALE_KEY_SECTORS, /* pipeline.blind: from:to in degrees, separated by commas */
     ALE_KEY_ODD,     /* a NUMBER that must be odd */
     ALE_KEY_RATE,    /* a NUMBER that a scanner has as its rate, or 0 */
+    ALE_KEY_FAMILY,  /* a TEXT that names a family of scanners */
     ALE_KEY_URL,     /* a TEXT that LCM is joined by, or empty */
     ALE_KEY_PREFIX   /* a TEXT that names of channels may begin with, or empty */
 } ale_key_kind_t;

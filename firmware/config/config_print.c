@@ -63,6 +63,7 @@ static void print_value(const ale_config_t *config, const ale_config_key_t *key,
     char text[ALE_DECIMAL_TEXT];
     switch (key->kind) {
     case ALE_KEY_TEXT:
+    case ALE_KEY_FAMILY:
     case ALE_KEY_URL:
     case ALE_KEY_PREFIX:
         fputs(field, out);

@@ -9,7 +9,7 @@
 #include "config/config_keys.h"
 #include "config/decimal.h"
 #include "config/degrees.h"
-#include "scanner/urg/baud.h"
+#include "scanner/scanner.h"
 
 /* One reading: inih calls the handler without the line's number, so the reader counts lines itself. */
 typedef struct {
@@ -100,13 +100,22 @@ static int read_rate(reading_t *reading, const ale_config_key_t *key, int32_t *f
     if (read_number(reading, key, field, text) < 0) {
         return -1;
     }
-    return *field == 0 || ale_baud_is_known(*field)
+    return *field == 0 || ale_scanner_has_baud(*field)
                ? 0
                : FAIL(
                      reading,
-                     "%s.%s: %.40s is no rate that a scanner has: 9600, 19200, 38400, 57600, 115200, 250000, "
-                     "500000 or 750000; 0: found by trying",
+                     "%s.%s: %.40s is no rate that a scanner has: 9600, 19200, 38400, 57600, 115200, 230400, "
+                     "250000, 256000, 460800, 500000, 750000 or 1000000; 0: found by trying",
                      key->section, key->key, text);
+}
+
+static int read_family(reading_t *reading, const ale_config_key_t *key, char *field, const char *text)
+{
+    char names[ALE_SCANNER_NAMES];
+    ale_scanner_families(names);
+    return ale_scanner_has_family(text)
+               ? read_text(reading, key, field, text)
+               : FAIL(reading, "%s.%s: %.40s is none of %s", key->section, key->key, text, names);
 }
 
 static int read_url(reading_t *reading, const ale_config_key_t *key, char *field, const char *text)
@@ -169,6 +178,8 @@ static int read_value(reading_t *reading, const ale_config_key_t *key, const cha
         return read_sectors(reading, key, text);
     case ALE_KEY_RATE:
         return read_rate(reading, key, (int32_t *)(void *)field, text);
+    case ALE_KEY_FAMILY:
+        return read_family(reading, key, field, text);
     case ALE_KEY_URL:
         return read_url(reading, key, field, text);
     case ALE_KEY_PREFIX:

@@ -19,7 +19,7 @@ ORDER = {
     "lib/graph": ("optimise", "walls", "loops"),
     "lib/track": ("evidence",),
     "drivers": ("file", "serial", "scanner", "command", "motor", "store", "lcm", "log"),
-    "drivers/scanner": ("urg",),
+    "drivers/scanner": ("urg", "rotary", "ldrobot", "rplidar"),
     "firmware": ("realtime", "config", "exchange", "system", "recorder", "acquire", "estimate", "mapping", "operator", "telemetry",
                  "deploy"),
 }

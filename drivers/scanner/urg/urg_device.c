@@ -7,6 +7,7 @@
 
 #include "base/fixed.h"
 #include "scanner/scanner_family.h"
+#include "scanner/urg/baud.h"
 #include "scanner/urg/scip_parse.h"
 #include "scanner/urg/urg_action.h"
 #include "scanner/urg/urg_dialogue.h"
@@ -458,5 +459,10 @@ static void close_scanner(ale_scanner_t *scanner)
     free(urg);
 }
 
-const ale_scanner_family_t ale_scanner_urg = {
-    .name = "urg", .open = open_scanner, .step = step, .health = health, .close = close_scanner};
+const ale_scanner_family_t ale_scanner_urg = {.name = "urg",
+                                              .tries = 1,
+                                              .has_baud = ale_baud_is_known,
+                                              .open = open_scanner,
+                                              .step = step,
+                                              .health = health,
+                                              .close = close_scanner};

@@ -157,6 +157,8 @@ TEST(Config, ErrorsNameFileLineAndKey)
               "robot.ini:2: sensor.reversed: maybe is neither yes nor no");
     EXPECT_EQ(refusal("[extract]\nsmooth_span = 10\n"),
               "robot.ini:2: extract.smooth_span: 10 is not a number from 1 to 31, odd");
+    EXPECT_EQ(refusal("[sensor]\ntype = sick\n"),
+              "robot.ini:2: sensor.type: sick is none of urg, ldrobot, rplidar, auto");
     EXPECT_EQ(refusal("[sensor]\nblind = 10\n"),
               "robot.ini:2: sensor.blind: a sector is from:to in degrees, -360 to 360");
     EXPECT_EQ(refusal("[sensor]\nblind = 1:2,1:2,1:2,1:2,1:2,1:2,1:2,1:2,1:2\n"),
@@ -170,7 +172,7 @@ TEST(Config, ErrorsNameFileLineAndKey)
     EXPECT_EQ(refusal("[sensor]\nport = " + std::string(300, 'p') + "\n"),
               "robot.ini:2: longer than 198 characters");
     EXPECT_EQ(refusal("[sensor]\nserial = " + std::string(50, 's') + "\n"),
-              "robot.ini:2: sensor.serial: longer than 31 characters");
+              "robot.ini:2: sensor.serial: longer than 39 characters");
 }
 
 TEST(Config, EveryNumberRefusesWhatLiesBeyondItsRange)
