@@ -272,6 +272,8 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	-@ALE_LONG_TESTS=1 $(SUB) system T=console_explores
 	@$(PHASE) "Python's wheel in an empty virtual environment"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=test_python_wheel
+	@$(PHASE) "simulated scanners read by clients that are not ours, a minute each"
+	-@ALE_LONG_TESTS=1 $(SUB) system T=independent_clients
 	@$(PHASE) "hostile messages, ten thousand of every kind"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=whatever_is_sent
 	@$(PHASE) "explorations in a closed loop with the simulator, more of them"

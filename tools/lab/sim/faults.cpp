@@ -26,7 +26,7 @@ constexpr Description descriptions[] = {
     {"garbage", FaultKind::garbage, true, 300, 1e5}, {"repeat", FaultKind::repeat, false, 0, 0},
     {"silence", FaultKind::silence, true, 2, 3600},  {"unplug", FaultKind::unplug, true, 2, 3600},
     {"reset11", FaultKind::reset11, false, 0, 0},    {"hardware", FaultKind::hardware, true, 50, 97},
-    {"wrap", FaultKind::wrap, false, 0, 0},
+    {"wrap", FaultKind::wrap, false, 0, 0},          {"stall", FaultKind::stall, true, 2, 3600},
 };
 
 constexpr double longest_s = 1e6;

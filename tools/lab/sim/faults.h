@@ -11,6 +11,7 @@
  *   silence:S      for S seconds the device hears nothing and says nothing (2)
  *   unplug:S       the device is gone for S seconds and comes back as after power-up (2)
  *   reset11        the device starts anew, in SCIP 1.1
+ *   stall:S        the motor of a rotary scanner stands still for S seconds (2)
  *   hardware:NN    the stream ends with the status NN instead of ranges (50)
  *   wrap           the device's clock passes 2^24 ms; here WHEN counts from the program's start
  */
@@ -27,7 +28,7 @@
 namespace sim
 {
 
-enum class FaultKind { flip, cut, garbage, repeat, silence, unplug, reset11, hardware, wrap };
+enum class FaultKind { flip, cut, garbage, repeat, silence, unplug, reset11, hardware, wrap, stall };
 
 struct Fault {
     FaultKind kind;

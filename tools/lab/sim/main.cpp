@@ -24,8 +24,8 @@ namespace
 sim::World world_of(const sim::Options &options)
 {
     sim::World world = sim::load_world(options.world);
-    if (options.sensor) {
-        world.sensor = *options.sensor;
+    if (options.mounting) {
+        world.sensor = *options.mounting;
     }
     return world;
 }

@@ -12,15 +12,20 @@ namespace
 {
 
 const char usage[] =
-    "usage: ale-sim (--log LOG | --world WORLD) --pty LINK [options]\n"
+    "usage: ale-sim (--log LOG | --world WORLD) (--pty LINK | --tcp PORT) [options]\n"
     "       ale-sim --world WORLD --write-log FILE [--truth FILE]\n"
     "       ale-sim (--log LOG | --world WORLD) --describe\n"
-    "A URG-04LX on a pseudo terminal, seeing a recorded log or a simulated world. It plays from the moment "
+    "A laser scanner on a pseudo terminal, seeing a recorded log or a simulated world. It plays from the "
+    "moment "
     "a\n"
     "client first asks for ranges.\n"
+    "  --sensor NAME        urg-04lx (default), utm-30lx, ust-10lx, ld06, ld19, stl-19p, rplidar-a1, "
+    "rplidar-a2,\n"
+    "                       rplidar-c1, rplidar-s2\n"
     "  --log LOG            play a recording (any format that ale-replay reads)\n"
     "  --world WORLD        drive through a plan of walls: x1 y1 x2 y2, # start x y theta, # via x y\n"
     "  --pty LINK           symbolic link to the pseudo terminal; removed at the end\n"
+    "  --tcp PORT           a TCP port of this computer in its place, as of a scanner on Ethernet\n"
     "  --protocol P         scip2 (default); scip1: powers up in 1.1, can be switched; scip1-only\n"
     "  --speed X            time runs X times as fast (default 1); ale-slamd wants the same --time-scale\n"
     "  --baud-limit N       the line carries N bytes a second (default: no limit)\n"
@@ -29,7 +34,8 @@ const char usage[] =
     "  --seed N             another run of noise and wheel errors (default 1)\n"
     "  --faults SPEC        e.g. flip@5,garbage:300@8,silence:2@12,unplug:2@#200: NAME[:ARGUMENT]@SECONDS "
     "or\n"
-    "                       @#SCAN; flip cut garbage:N repeat silence:S unplug:S reset11 hardware:NN wrap\n"
+    "                       @#SCAN; flip cut garbage:N repeat silence:S unplug:S reset11 hardware:NN wrap "
+    "stall:S\n"
     "  --lcm-url URL        where ALE_ODOMETRY goes (default: LCM_DEFAULT_URL, else LCM's own)\n"
     "  --no-odometry        send none\n"
     "  --truth FILE         the robot's true pose at the stamp of every scan sent (TUM); worlds only\n"
@@ -37,7 +43,8 @@ const char usage[] =
     "For worlds:\n"
     "  --drive              obey ALE_DRIVE (inertia, slip, collisions) instead of following the way\n"
     "  --drive-key FILE     with --drive: obey only who has this key (ale-keys --drive), by ALE_DRIVE_KEYED\n"
-    "  --noise NAME         real (default), white, none\n"
+    "  --noise NAME         real, white, none, ld06, rplidar-a1, ust-10lx, utm-30lx (default: the sensor's "
+    "own)\n"
     "  --sensor X,Y,THETA   mounting of the laser, metres and radians (default: as the world says)\n"
     "  --odometry-lag S     odometry is so much younger than its stamp says (default 0)\n"
     "  --wheels WAY,TURN,BIAS  what the wheels count of a metre and of a radian, and radians counted for a\n"
@@ -49,9 +56,13 @@ const char usage[] =
     "At the end, on stdout: scans, sent, damaged, swallowed (and collisions), one a line.\n"
     "Exit: 0 fine, 1 failed, 2 wrong use.\n";
 
+/* A client of a scanner of a whole turn misses the beginning of the first one: the robot stands meanwhile. */
+constexpr int64_t first_turns_us = 1000000;
+
 void bind_scanner(cli::CommandLine &line, SimulatorOptions &o)
 {
     line.text("pty", o.link);
+    line.number("tcp", o.tcp_port, int32_t{1}, int32_t{65535});
     line.choice("protocol", o.protocol,
                 cli::Choices<Protocol>{{"scip1", Protocol::scip1},
                                        {"scip1-only", Protocol::scip1_only},
@@ -73,16 +84,29 @@ WheelGains gains_of(const std::string &word)
             cli::number_of(what, bias, -1.0, 1.0)};
 }
 
+/* Where it sits, or which one it is. */
+void take_sensor(const std::string &word, Options &o)
+{
+    if (word.find(',') != std::string::npos) {
+        const cli::Mounting at = cli::mounting_of("--sensor", word);
+        o.mounting = {at.x_m, at.y_m, at.theta_rad};
+        return;
+    }
+    const std::optional<Sensor> sensor = sensor_named(word);
+    if (!sensor) {
+        throw cli::WrongUse("--sensor " + word + ": there are " + sensor_names() +
+                            ", or X,Y,THETA for its mounting");
+    }
+    o.sensor = *sensor;
+}
+
 void bind_world(cli::CommandLine &line, Options &o)
 {
     line.text("world", o.world);
     line.flag("drive", o.drive);
     line.text("drive-key", o.drive_key);
-    line.text("noise", o.world_source.noise);
-    line.option("sensor", [&o](const std::string &word) {
-        const cli::Mounting at = cli::mounting_of("--sensor", word);
-        o.sensor = {at.x_m, at.y_m, at.theta_rad};
-    });
+    line.text("noise", o.noise);
+    line.option("sensor", [&o](const std::string &word) { take_sensor(word, o); });
     line.option("odometry-lag", [&o](const std::string &word) {
         o.world_source.odometry_lag_us = std::llround(cli::number_of("--odometry-lag", word, 0.0, 1.0) * 1e6);
     });
@@ -116,7 +140,8 @@ void check(const Options &o)
 {
     const bool play = o.write_log.empty() && !o.describe;
     require(o.log.empty() != o.world.empty(), "give either --log LOG or --world WORLD");
-    require(!play || !o.simulator.link.empty(), "--pty LINK is missing");
+    require(!play || o.simulator.link.empty() != (o.simulator.tcp_port == 0),
+            "give either --pty LINK or --tcp PORT");
     require(o.truth.empty() || !o.world.empty(),
             "--truth: nobody knows the truth of a log, only of a --world");
     require(o.write_log.empty() || !o.world.empty(), "--write-log needs a --world");
@@ -129,7 +154,11 @@ void check(const Options &o)
     files.writes("--write-log", o.write_log);
     files.writes("--truth", o.truth);
     parse_faults(o.simulator.faults);
-    noise_model(o.world_source.noise);
+    require(!o.sensor.is_rotary() || o.log.empty(),
+            "--log is for scanners that speak SCIP: no --sensor of a whole turn");
+    require(!o.sensor.is_rotary() || o.write_log.empty(),
+            "--write-log writes scans of a URG-04LX: no other --sensor");
+    noise_model(o.noise.empty() ? o.sensor.noise : o.noise);
     require(!o.drive || o.world_source.odometry_lag_us == 0, "--drive and --odometry-lag do not go together");
 }
 
@@ -144,6 +173,14 @@ int with_options(int argc, char **argv, const std::function<int(const Options &)
         check(options);
         options.world_source.once = options.once || !options.write_log.empty();
         options.world_source.journey.seed = options.simulator.seed;
+        options.world_source.scanner = options.sensor.scanner;
+        if (options.sensor.is_rotary()) {
+            options.world_source.rotary = options.sensor.rotary;
+            options.world_source.rest_us = first_turns_us;
+        }
+        options.world_source.noise = options.noise.empty() ? options.sensor.noise : options.noise;
+        options.simulator.family = options.sensor.family;
+        options.simulator.rplidar = options.sensor.rplidar;
         return work(options);
     });
 }

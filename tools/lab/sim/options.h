@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "lab/sim/device/sensors.h"
 #include "lab/sim/simulator.h"
 #include "lab/sim/world/world_source.h"
 
@@ -17,7 +18,9 @@ struct Options {
     std::string world;
     SimulatorOptions simulator;
     WorldSource::Options world_source;
-    std::optional<Pose> sensor;
+    std::optional<Pose> mounting;
+    Sensor sensor = *sensor_named("urg-04lx");
+    std::string noise; /* empty: the sensor's own */
     bool once = false;
     bool drive = false;
     std::string drive_key; /* empty: ALE_DRIVE of anybody */

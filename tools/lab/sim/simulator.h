@@ -5,15 +5,17 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "lab/sim/bus.h"
 #include "lab/sim/clock.h"
 #include "lab/sim/device/scip_device.h"
+#include "lab/sim/device/sensors.h"
 #include "lab/sim/faults.h"
-#include "lab/sim/line.h"
-#include "lab/sim/pty.h"
+#include "lab/sim/line/line.h"
+#include "lab/sim/line/port.h"
 #include "lab/sim/source.h"
 
 namespace sim
@@ -21,6 +23,9 @@ namespace sim
 
 struct SimulatorOptions {
     std::string link;
+    int32_t tcp_port = 0; /* goes before link */
+    SensorFamily family = SensorFamily::urg;
+    RplidarModel rplidar;
     Protocol protocol = Protocol::scip2;
     double speed = 1;
     int64_t baud_limit = 0; /* bytes a second, 0: none */
@@ -55,6 +60,9 @@ class Simulator
   private:
     void play(int64_t now_us);
     void play_turn(const Turn &turn, int64_t now_us);
+    void play_sweep(const Sweep &sweep, int64_t now_us);
+    bool is_swallowed(int64_t now_us);
+    std::string at_the_clients_rate(const std::string &bytes) const;
     void send(const std::vector<Reply> &replies, int64_t now_us);
     void strike(const Fault &fault, int64_t now_us);
     void listen(int64_t now_us);
@@ -69,8 +77,8 @@ class Simulator
     std::FILE *truth_;
     Clock clock_;
     Faults faults_;
-    ScipDevice device_;
-    Pty pty_;
+    std::unique_ptr<Device> device_;
+    std::unique_ptr<Port> port_;
     Line line_;
     Tally tally_;
     std::optional<int64_t> play_start_us_;

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "lab/sim/device/scanner.h"
+#include "lab/sim/device/sweep.h"
 
 namespace sim
 {
@@ -18,7 +19,7 @@ struct OdometryReport {
     Pose pose;
 };
 
-using Event = std::variant<Turn, OdometryReport>;
+using Event = std::variant<Turn, OdometryReport, Sweep>;
 
 /* A turn is known when it is over and the device has had this long to prepare the reply. */
 constexpr int64_t reply_delay_us = 1000;

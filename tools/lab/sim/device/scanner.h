@@ -38,6 +38,7 @@ struct Scanner {
     int32_t front_step = 384;  /* AFRT */
     int32_t end_step = 768;    /* the last step that may be asked for */
     int32_t rpm = 600;         /* SCAN */
+    bool tells_state = false;  /* knows %ST */
     std::optional<Recorded> recorded;
 
     int64_t period_us() const

@@ -62,6 +62,13 @@ Reply ScipDevice::parameters(const std::string &echo) const
     return writer.reply();
 }
 
+/* Standby, time mode, laser on, scans on their way: as newer models than the URG-04LX count them. */
+Reply ScipDevice::state(const std::string &echo) const
+{
+    const char *measuring = stream_ ? "004" : laser_ ? "003" : "000";
+    return ReplyWriter(echo, "00").summed(time_mode_ ? "002" : measuring).reply();
+}
+
 Reply ScipDevice::condition(const std::string &echo) const
 {
     const std::string origin = baud_ == rates[0] ? "<-Default setting by user" : "";

@@ -237,6 +237,9 @@ Reply ScipDevice::execute_scip2(const std::string &line)
 {
     const std::string command = scip_command(line);
     const std::string symbol = command.substr(0, 2);
+    if (command == "%ST" && scanner_.tells_state) {
+        return state(line);
+    }
     if (time_mode_ && symbol != "TM") {
         return short_reply(line, "0E");
     }

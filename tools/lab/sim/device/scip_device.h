@@ -32,7 +32,7 @@ enum class Protocol {
     scip2       /* powers up in 2.0 */
 };
 
-class ScipDevice
+class ScipDevice final : public Device
 {
   public:
     struct Options {
@@ -46,27 +46,27 @@ class ScipDevice
     ScipDevice(const Scanner &scanner, const Options &options);
 
     /* As after the supply came on: default protocol, laser and stream off, clock at 0. */
-    void power_up(int64_t now_us);
+    void power_up(int64_t now_us) override;
     /* A power-up that comes back in SCIP 1.1. */
-    void power_up_in_scip1(int64_t now_us);
+    void power_up_in_scip1(int64_t now_us) override;
 
-    void receive(std::string_view bytes, int64_t now_us);
-    std::vector<Reply> answer(int64_t now_us);
+    void receive(std::string_view bytes, int64_t now_us) override;
+    std::vector<Reply> answer(int64_t now_us) override;
     /* When answer() will have something to say by itself; nothing: not before a command or a turn. */
-    std::optional<int64_t> answer_due_us() const;
+    std::optional<int64_t> answer_due_us() const override;
 
     /* The turn is over; device_start_us is when it began, on the clock of now_us. */
-    std::vector<Reply> turn(const Turn &turn, int64_t device_start_us);
+    std::vector<Reply> turn(const Turn &turn, int64_t device_start_us) override;
 
     /* The next frame of the stream carries this error status and no data, and the stream is over. */
-    void break_stream(const std::string &status);
+    void break_stream(const std::string &status) override;
 
     /* Somebody has asked for ranges since the start. */
-    bool wanted() const
+    bool wanted(bool /* connected */ = true) const override
     {
         return wanted_;
     }
-    bool streaming() const
+    bool streaming() const override
     {
         return stream_.has_value();
     }
@@ -97,6 +97,7 @@ class ScipDevice
     Reply identity(const std::string &echo) const;
     Reply parameters(const std::string &echo) const;
     Reply condition(const std::string &echo) const;
+    Reply state(const std::string &echo) const;
     Reply laser_on(const std::string &echo);
     Reply laser_off(const std::string &echo);
     Reply reset(const std::string &echo);

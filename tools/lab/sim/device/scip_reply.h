@@ -8,17 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "lab/sim/device/device.h"
+
 extern "C" {
 #include "scanner/urg/scip_encode.h"
 }
 
 namespace sim
 {
-
-struct Reply {
-    std::string bytes;
-    std::optional<int64_t> turn_start_us; /* of the ranges in it, microseconds of play; nothing: none */
-};
 
 /* A line without the ";string" that only asks to be echoed, and what follows the symbol of a command of
  * SCIP 2.0. */
@@ -57,6 +54,11 @@ class ReplyWriter
         ale_scip_put_plain(&writer_, text.c_str());
         return *this;
     }
+    ReplyWriter &summed(const std::string &text)
+    {
+        ale_scip_put_status(&writer_, text.c_str());
+        return *this;
+    }
     ReplyWriter &stamp(uint32_t stamp_ms)
     {
         ale_scip_put_stamp(&writer_, stamp_ms);
@@ -72,7 +74,9 @@ class ReplyWriter
     Reply reply(std::optional<int64_t> turn_start_us = std::nullopt)
     {
         ale_scip_put_end(&writer_);
-        return {{bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(writer_.used)}, turn_start_us};
+        return {{bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(writer_.used)},
+                turn_start_us,
+                turn_start_us.has_value()};
     }
 
   private:

@@ -3,7 +3,8 @@
  * Default `real`, after recordings of the sensor: each beam errs by itself (1.5 mm + 0.08 % of the range),
  * neighbours share an error (2 mm + 0.2 %) that wanders over about 12 beams, every wall has a bias of its own
  * (6 mm: colour, gloss), 30 % of the depth edges show a mixed pixel, 1 % of the beams fail, more at grazing
- * incidence. `white`: max(3 mm, 0.7 %) of each beam alone and 2 % failures. `none`: the exact distance. */
+ * incidence. `white`: max(3 mm, 0.7 %) of each beam alone and 2 % failures. `none`: the exact distance. Other
+ * scanners err by models of their own, after their data sheets. */
 #ifndef ALE_LAB_SIM_SENSOR_NOISE_H
 #define ALE_LAB_SIM_SENSOR_NOISE_H
 
@@ -22,6 +23,8 @@ struct NoiseModel {
     double own_floor;
     double own_constant;
     double own_proportional;
+    double own_quadratic; /* of a triangulating scanner: metres at a range of one metre, growing with its
+                             square */
     double shared_constant;
     double shared_proportional;
     double surface;

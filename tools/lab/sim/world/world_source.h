@@ -1,7 +1,9 @@
-/* A URG-04LX on a robot that drives through a world. Each beam is cast from where the sensor is at that
+/* A scanner on a robot that drives through a world. Each beam is cast from where the sensor is at that
  * beam's own time, so the scans are bent by the motion as real ones are. */
 #ifndef ALE_LAB_SIM_WORLD_SOURCE_H
 #define ALE_LAB_SIM_WORLD_SOURCE_H
+
+#include <algorithm>
 
 #include "lab/sim/source.h"
 #include "lab/sim/world/journey.h"
@@ -16,8 +18,11 @@ class WorldSource : public Source
     struct Options {
         Journey::Options journey;
         std::string noise = "real";
-        bool once = false;           /* ends a second after the way is over */
-        int64_t odometry_lag_us = 0; /* odometry tells where the wheels will be so much later */
+        Scanner scanner;
+        std::optional<Rotary> rotary; /* goes before scanner */
+        int64_t rest_us = 0;          /* the robot stands so long before it begins its way */
+        bool once = false;            /* ends a second after the way is over */
+        int64_t odometry_lag_us = 0;  /* odometry tells where the wheels will be so much later */
     };
 
     WorldSource(const World &world, const Options &options);
@@ -33,13 +38,13 @@ class WorldSource : public Source
     Event next() override;
     std::optional<Pose> truth(int64_t play_us) override
     {
-        return journey_.truth(play_us);
+        return journey_.truth(way_us(play_us));
     }
 
     /* What the odometry stamped so says: where the wheels are a lag later. */
     Pose odometry(int64_t stamp_us)
     {
-        return journey_.wheels(stamp_us + options_.odometry_lag_us);
+        return journey_.wheels(way_us(stamp_us + options_.odometry_lag_us));
     }
     const World &world() const
     {
@@ -51,7 +56,15 @@ class WorldSource : public Source
     }
 
   private:
+    bool over(int64_t start_us) const;
+    int64_t way_us(int64_t play_us) const
+    {
+        return options_.rest_us > 0 ? std::max<int64_t>(0, play_us - options_.rest_us) : play_us;
+    }
     Turn measure(uint32_t number);
+    Sweep measure_sweep(uint32_t number);
+    double turned(double play_us) const;
+    double sweep_start_us(uint32_t number) const;
     Hit before_walkers(Hit hit, const Pose &beam, int64_t play_us) const;
     int64_t turn_due_us() const;
 
@@ -60,7 +73,7 @@ class WorldSource : public Source
     Scanner scanner_;
     Journey journey_;
     SensorNoise noise_;
-    uint32_t next_turn_ = 0;
+    uint32_t next_turn_ = 0; /* or sweep */
     int64_t next_odometry_us_ = 0;
 };
 

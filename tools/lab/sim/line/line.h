@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "lab/sim/pty.h"
+#include "lab/sim/line/port.h"
 
 namespace sim
 {
@@ -38,7 +38,7 @@ class Line
         queue_.clear();
     }
 
-    void pump(Pty &pty, int64_t now_us, int64_t host_us)
+    void pump(Port &port, int64_t now_us, int64_t host_us)
     {
         if (!busy()) {
             paid_us_ = now_us;
@@ -48,7 +48,7 @@ class Line
         if (ready.empty()) {
             return;
         }
-        const size_t sent = pty.write(ready, host_us);
+        const size_t sent = port.write(ready, host_us);
         queue_.erase(0, sent);
         paid_us_ = rate_ > 0 && busy() ? paid_us_ + static_cast<int64_t>(sent) * 1000000 / rate_ : now_us;
     }

@@ -1,4 +1,4 @@
-#include "lab/sim/pty.h"
+#include "lab/sim/line/pty.h"
 
 #include <algorithm>
 #include <cerrno>
