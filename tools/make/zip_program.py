@@ -9,7 +9,7 @@ import sys
 import zipfile
 
 OLDEST = (1980, 1, 1, 0, 0, 0)
-MAIN = "import sys\nfrom {name}.main import main\nsys.exit(main({version!r}))\n"
+MAIN = "import sys\nfrom {name}.main import main\n\nif __name__ == '__main__':\n    sys.exit(main({version!r}))\n"
 
 
 def main():

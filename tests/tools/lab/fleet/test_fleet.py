@@ -1,6 +1,5 @@
 """ale-fleet: the same table however it came about, and nothing lost."""
-import importlib.machinery
-import importlib.util
+import importlib
 import json
 import pathlib
 import subprocess
@@ -12,7 +11,6 @@ from at_hand import BINARIES, ROOT, WORLDS
 
 pytest.importorskip("distributed", reason="python3-distributed is not here")
 
-FLEET = ROOT / "tools/lab/fleet/ale-fleet"
 SCANS = 60
 LOGS = 4
 
@@ -34,7 +32,7 @@ def drives(tmp_path_factory):
 
 
 def fleet(folder, out, program=BINARIES / "ale-replay", code=1, logs=LOGS):
-    done = subprocess.run([sys.executable, FLEET, "replay", *(f"{folder}/d{k}.log" for k in range(logs)), "--against", f"{folder}/truths",
+    done = subprocess.run([BINARIES / "ale-fleet", "replay", *(f"{folder}/d{k}.log" for k in range(logs)), "--against", f"{folder}/truths",
                            "--set", "sensor.x=0,0.1", "--out", out, "--workers", "2", "--page", f"{out}.page", "--program", program],
                           capture_output=True, text=True, check=False)
     assert done.returncode == code, done.stderr
@@ -59,9 +57,8 @@ def test_a_worker_that_is_killed_on_the_way_changes_no_byte(drives, tmp_path):
 
 
 def test_a_run_goes_on_from_what_is_done(drives, tmp_path):
-    loader = importlib.machinery.SourceFileLoader("ale_fleet", str(FLEET))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("ale_fleet", loader))
-    loader.exec_module(module)
+    sys.path.insert(0, str(ROOT / "tools/lab/fleet"))
+    module = importlib.import_module("ale_fleet.main")
     task = (f"{drives}/d0.log", f"{drives}/truths/d0.tum", (("sensor.x", "0"),))
     row = {**dict.fromkeys(module.one_replay.RESULTS, ""), "scans": "12345"}
     part = tmp_path / "table.csv.part"

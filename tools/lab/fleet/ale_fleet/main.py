@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Many drives judged at once, on all cores of this machine or on many machines.
 
     ale-fleet replay LOG... --out TABLE [--against FOLDER] [--set section.key=VALUE,VALUE]... [--page FOLDER]
@@ -23,8 +22,7 @@ import pathlib
 import shutil
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import one_replay  # noqa: E402
+from ale_fleet import one_replay
 
 RETRIES = 3
 BAR = 40
@@ -148,8 +146,9 @@ def setting(word):
     return name, values.split(",")
 
 
-def parsed():
+def parsed(version):
     parser = argparse.ArgumentParser(prog="ale-fleet", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--version", action="version", version=f"ale-fleet {version}")
     commands = parser.add_subparsers(dest="command", required=True)
     replay = commands.add_parser("replay", help="logs through ale-replay")
     replay.add_argument("logs", nargs="+", metavar="LOG")
@@ -171,8 +170,8 @@ def parsed():
     return options
 
 
-def main():
-    options = parsed()
+def judged(options):
+    """All that was asked for; the exit code."""
     tasks = Tasks(options)
     run(tasks, options)
     rows = tasks.rows()
@@ -186,9 +185,10 @@ def main():
     return 1 if broken else 0
 
 
-if __name__ == "__main__":
+def main(version):
+    options = parsed(version)
     try:
-        sys.exit(main())
+        return judged(options)
     except KeyboardInterrupt:
         sys.exit("ale-fleet: ended; what is done is kept, the same words go on")
     except ImportError as missing:

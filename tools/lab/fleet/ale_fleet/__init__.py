@@ -1,0 +1,1 @@
+"""ale-plot: runs as pictures."""
