@@ -85,7 +85,7 @@ std::string text_of(const json &message)
 std::string hello_message(const std::string &operator_name)
 {
     return text_of({{"type", "hello"},
-                    {"protocol", 2},
+                    {"protocol", 3},
                     {"operator", operator_name.empty() ? json(nullptr) : json(operator_name)}});
 }
 
