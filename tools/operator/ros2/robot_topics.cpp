@@ -51,11 +51,11 @@ std::vector<float> ranges_of(const ale::scan_t &scan)
 {
     constexpr float metre = 0.001F;
     const int unit_mm = std::max<int>(scan.range_unit_mm, 1);
-    std::vector<float> ranges(scan.range_mm.size());
-    for (size_t k = 0; k < ranges.size(); k++) {
+    std::vector<float> ranges;
+    for (size_t k = 0; k < scan.range_mm.size(); k++) {
         const unsigned code = scan.codes[k];
-        ranges[k] =
-            code == 0 ? static_cast<float>(int{scan.range_mm[k]} * unit_mm) * metre : without_range(code);
+        const float range = static_cast<float>(int{scan.range_mm[k]} * unit_mm) * metre;
+        ranges.push_back(code == 0 ? range : without_range(code));
     }
     return ranges;
 }
