@@ -13,7 +13,7 @@ class Refused(Exception):
 
 
 class WebSocket:
-    def __init__(self, url, origin=None, host=None, tls=None):
+    def __init__(self, url, origin=None, host=None, tls=None, protocol=None):
         place = urllib.parse.urlsplit(url)
         self.socket = socket.create_connection((place.hostname, place.port), timeout=180)
         if tls:
@@ -25,6 +25,8 @@ class WebSocket:
                  f"Sec-WebSocket-Key: {key}", "Sec-WebSocket-Version: 13"]
         if origin:
             lines.append(f"Origin: {origin}")
+        if protocol:
+            lines.append(f"Sec-WebSocket-Protocol: {protocol}")
         self.socket.sendall("\r\n".join([*lines, "", ""]).encode())
         head = self._until(b"\r\n\r\n").decode()
         if " 101 " not in head.splitlines()[0]:
@@ -59,8 +61,12 @@ class WebSocket:
         return first, self._take(length)
 
     def next(self):
-        """The next message, decoded; pings are answered: the console hangs up on who does not."""
-        text = b""
+        """The next message, decoded."""
+        return json.loads(self.next_bytes()[1])
+
+    def next_bytes(self):
+        """(whether it is text, the next message); pings are answered: the console hangs up on who does not."""
+        text, kind = b"", 0
         while True:
             first, data = self._frame()
             opcode = first & 0x0F
@@ -70,13 +76,16 @@ class WebSocket:
                 self._send(0x8A, data)
             if opcode in (9, 10):
                 continue
-            text += data
+            text, kind = text + data, kind or opcode
             if first & 0x80:
                 self.received += 1
-                return json.loads(text)
+                return kind == 1, text
 
     def send(self, text):
         self._send(0x81, text.encode())
+
+    def send_bytes(self, data):
+        self._send(0x82, data)
 
     def _send(self, kind, data):
         mask = os.urandom(4)

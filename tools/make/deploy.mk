@@ -26,7 +26,7 @@ install: all install-programs install-service install-documents ## install progr
 install-programs: all
 	install -d $(DESTDIR)$(PREFIX)/bin $(SHARE)/ale-slam/worlds $(SHARE)/ale-slam/python $(SHARE)/java
 	install -m 755 $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin
-	$(STRIP) $(patsubst $(BUILD)/bin/%,$(DESTDIR)$(PREFIX)/bin/%,$(PROGRAMS))
+	$(STRIP) $(patsubst $(BUILD)/bin/%,$(DESTDIR)$(PREFIX)/bin/%,$(filter-out $(PYTHON_PROGRAMS),$(PROGRAMS)))
 	cp -P $(OLDER_NAMES) $(DESTDIR)$(PREFIX)/bin
 	install -m 644 $(wildcard lib/messages/*.lcm) $(SHARE)/ale-slam
 	install -m 644 $(wildcard tools/lab/worlds/*.world) $(SHARE)/ale-slam/worlds

@@ -5,7 +5,7 @@
 #   drivers/**/*.c       -> libale_drivers.a    with the generated LCM types
 #   firmware/**/*.c      -> libale_firmware.a   all but main.c; main.c -> ale-slamd; one realtime/rt_$(RT).c (rtai.mk)
 #   tools/common/*/*     -> libale_tools.a      linked to every tool
-#   tools/GROUP/NAME/**  -> ale-NAME            page/ beside them is embedded
+#   tools/GROUP/NAME/**  -> ale-NAME            page/ beside them is embedded; or of Python, all in one file
 #
 # Dependencies point down only: the include paths of each floor name only what lies below it.
 
@@ -146,7 +146,10 @@ endef
 TOOL_FOLDERS = $(filter-out $(LEFT_OUT),$(patsubst %/,%,$(sort $(dir $(wildcard tools/*/*/main.c tools/*/*/main.cpp)))))
 # The bridge to ROS 2 wants Cyclone DDS: where that is not there (no idlc), all the rest is built.
 LEFT_OUT := $(if $(shell command -v idlc),,tools/operator/ros2)
-PROGRAMS = $(addprefix $(BUILD)/bin/ale-,$(if $(wildcard firmware/main.c),slamd) $(notdir $(TOOL_FOLDERS)))
+# A folder with a main.py is a program of Python: its modules in one file.
+PYTHON_FOLDERS = $(patsubst %/,%,$(sort $(dir $(wildcard tools/*/*/main.py))))
+PYTHON_PROGRAMS = $(addprefix $(BUILD)/bin/ale-,$(notdir $(PYTHON_FOLDERS)))
+PROGRAMS = $(addprefix $(BUILD)/bin/ale-,$(if $(wildcard firmware/main.c),slamd) $(notdir $(TOOL_FOLDERS))) $(PYTHON_PROGRAMS)
 
 # Names of the release before, as links: ale-screen for ale-watch --screen, ale-mounting for ale-calibrate.
 OLDER_NAMES = $(addprefix $(BUILD)/bin/,ale-screen ale-mounting)
@@ -174,5 +177,13 @@ $$(OBJ)/$(1)/page.o: $$(OBJ)/$(1)/page.cpp $$(FLAGS_STAMP)
 	$$(Q)$$(CXX) $$(CXX_FLAGS) $$(TOOL_INCLUDES) -c $$< -o $$@
 endef
 $(foreach tool,$(TOOL_FOLDERS),$(eval $(call program,$(tool))))
+
+define python_program
+$(BUILD)/bin/ale-$(notdir $(1)): $$(wildcard $(1)/*.py $(1)/*.json) lib/base/version.h tools/make/python_program.py $$(LCM_STAMP)
+	$$(call say,python,$$@)
+	@mkdir -p $$(@D)
+	$$(Q)$$(PYTHON) tools/make/python_program.py $$@ $(1) $$(BUILD)/python/ale
+endef
+$(foreach tool,$(PYTHON_FOLDERS),$(eval $(call python_program,$(tool))))
 
 -include $(shell find $(OBJ) -name '*.d' 2>/dev/null)

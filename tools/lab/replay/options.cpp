@@ -21,6 +21,8 @@ constexpr char usage[] =
     "Runs a recorded log through the code of the firmware, as fast as it goes.\n"
     "LOG: CARMEN, rover, .scan or Odometry/Laser text, .scip recording, LCM event log; plain, gzip or "
     "bzip2.\n"
+    "     A bag of ROS 1 or ROS 2, or MCAP, with LaserScan and Odometry, by ale-foxglove (PyPI's rosbags, "
+    "mcap).\n"
     "  --features F.jsonl      lines, corners and curves of every scan\n"
     "  --poses F.jsonl         both poses, covariance and state at every scan\n"
     "  --trajectory F.tum      map pose at every scan, with all corrections\n"
@@ -30,6 +32,7 @@ constexpr char usage[] =
     "repeated\n"
     "  --map-resolution M      side of a cell of a .pgm, metres (default 0.05)\n"
     "  --points                draw the points of the scans faintly behind the map (.svg, .png)\n"
+    "  --lcm F                 what the robot would send over LCM, as an event log\n"
     "  --timing F.csv          thread CPU time of every stage of every scan\n"
     "  --odometry on|off       use the odometry of the log (default on)\n"
     "  --loops on|off          close loops (default on)\n"
@@ -64,6 +67,7 @@ void bind_results(cli::CommandLine &line, ReplayOptions &o)
     });
     line.flag("points", o.points);
     line.text("timing", o.timing);
+    line.text("lcm", o.lcm);
     line.text("save-map", o.save_map);
 }
 
@@ -92,6 +96,7 @@ void check_files(const ReplayOptions &options)
     files.writes("--trajectory", options.trajectory);
     files.writes("--trajectory-live", options.trajectory_live);
     files.writes("--timing", options.timing);
+    files.writes("--lcm", options.lcm);
     for (const std::string &path : options.maps) {
         files.writes("--map", path);
     }
@@ -107,7 +112,8 @@ bool draws_grid(const ReplayOptions &options)
 bool needs_poses(const ReplayOptions &options)
 {
     return !options.poses.empty() || !options.trajectory.empty() || !options.trajectory_live.empty() ||
-           !options.maps.empty() || !options.load_map.empty() || !options.save_map.empty();
+           !options.maps.empty() || !options.load_map.empty() || !options.save_map.empty() ||
+           !options.lcm.empty();
 }
 
 void check(const ReplayOptions &options)
@@ -121,8 +127,8 @@ void check(const ReplayOptions &options)
     if (options.map_cell_um != ScanCloud::usual_cell_um && !draws_grid(options)) {
         throw cli::WrongUse("--map-resolution is of a --map F.pgm");
     }
-    if (options.save_map == "-" || options.load_map == "-") {
-        throw cli::WrongUse("a saved map is a file");
+    if (options.save_map == "-" || options.load_map == "-" || options.lcm == "-") {
+        throw cli::WrongUse("a saved map and an LCM log are files");
     }
     check_files(options);
 }

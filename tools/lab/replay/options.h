@@ -20,6 +20,7 @@ struct ReplayOptions : RobotOptions {
     std::string trajectory_live;
     std::vector<std::string> maps;
     std::string timing;
+    std::string lcm;
     std::string load_map;
     std::string save_map;
     int32_t map_cell_um = ScanCloud::usual_cell_um; /* of .pgm */

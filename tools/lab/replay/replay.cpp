@@ -9,7 +9,9 @@
 #include "common/log/robot_config.h"
 #include "common/offline/core_object.h"
 #include "common/offline/offline_slam.h"
+#include "lab/replay/bag.h"
 #include "lab/replay/features_file.h"
+#include "lab/replay/lcm_file.h"
 #include "lab/replay/poses_file.h"
 #include "lab/replay/summary.h"
 #include "lab/replay/timing_file.h"
@@ -49,6 +51,7 @@ class Replay
     void lose(int64_t stamp_us);
     void put_results(int64_t stamp_us, const ale_features_t *features, const StageClock &clock);
     void put_estimate(const ale_estimate_t &estimate);
+    void put_lcm(const ale_scan_t &scan, const ale_features_t &features);
     ale_pose_t framed(const ale_pose_t &robot) const;
     bool wants_map() const;
     void load_map();
@@ -56,6 +59,7 @@ class Replay
     void draw_maps();
 
     const ReplayOptions &options_;
+    LogFile file_;
     LogReader log_;
     ale_config_t config_{};
     std::optional<OfflineSlam> slam_;       /* unless */
@@ -67,6 +71,7 @@ class Replay
     std::optional<TextFile> live_file_;
     std::optional<TextFile> trajectory_file_;
     std::optional<TimingFile> timing_file_;
+    std::optional<LcmFile> lcm_file_;
 
     StageClock clock_; /* of the extractor */
     ReplayCounts counts_;
@@ -74,13 +79,14 @@ class Replay
     ale_features_t features_{};
 };
 
-Replay::Replay(const ReplayOptions &options) : options_(options), log_(options.log)
+Replay::Replay(const ReplayOptions &options) : options_(options), file_(options.log), log_(file_.path())
 {
     open_if_named(features_file_, options.features);
     open_if_named(poses_file_, options.poses);
     open_if_named(live_file_, options.trajectory_live);
     open_if_named(trajectory_file_, options.trajectory);
     open_if_named(timing_file_, options.timing);
+    open_if_named(lcm_file_, options.lcm);
 }
 
 /* Sets the core up, once it is known what with: before the first scan or odometry. */
@@ -147,7 +153,18 @@ void Replay::extract(const ale_scan_t &scan)
 void Replay::track(const ale_scan_t &scan)
 {
     put_estimate(slam_->scan(scan));
+    if (lcm_file_) {
+        put_lcm(scan, slam_->features());
+    }
     put_results(scan.stamp_us, &slam_->features(), slam_->clock());
+}
+
+void Replay::put_lcm(const ale_scan_t &scan, const ale_features_t &features)
+{
+    const auto number = static_cast<uint32_t>(counts_.scans);
+    lcm_file_->put_scan(scan, number, config_.pipeline.sensor);
+    lcm_file_->put_features(features, scan.stamp_us, number, config_.pipeline.sensor);
+    lcm_file_->put_map(*slam_, scan.stamp_us);
 }
 
 /* A scan that the device sent and nobody could read: answered by prediction. */
@@ -193,6 +210,9 @@ void Replay::put_estimate(const ale_estimate_t &estimate)
     if (poses_file_) {
         poses_file_->put(estimate);
     }
+    if (lcm_file_) {
+        lcm_file_->put_estimate(estimate);
+    }
     if (live_file_) {
         put_tum_line(*live_file_, {estimate.stamp_us, framed(estimate.map)});
     }
@@ -208,6 +228,9 @@ void Replay::take_odometry(const ale_odometry_t &sample)
 {
     if (slam_) {
         slam_->odometry(sample);
+    }
+    if (lcm_file_) {
+        lcm_file_->put_odometry(sample);
     }
 }
 
@@ -233,11 +256,11 @@ void Replay::take(const ale_log_event_t &event)
 }
 
 /* The points are read from the log once more: by then the corrected poses are known. */
-ScanCloud gather_points(const ReplayOptions &options, const ale_config_t &config,
+ScanCloud gather_points(const std::string &path, int32_t cell_um, const ale_config_t &config,
                         const std::vector<ScanPose> &track)
 {
-    ScanCloud cloud(options.map_cell_um);
-    LogReader log(options.log);
+    ScanCloud cloud(cell_um);
+    LogReader log(path);
     auto event = std::make_unique<ale_log_event_t>();
     size_t next = 0;
     while (log.next(*event) && next < track.size()) {
@@ -264,7 +287,7 @@ void Replay::draw_maps()
     if (options_.maps.empty()) {
         return;
     }
-    const ScanCloud cloud = gather_points(options_, config_, slam_->trajectory());
+    const ScanCloud cloud = gather_points(file_.path(), options_.map_cell_um, config_, slam_->trajectory());
     MapScene scene;
     scene.map = map.get();
     scene.cloud = &cloud;
@@ -303,6 +326,9 @@ void Replay::finish()
     }
     if (timing_file_) {
         timing_file_->close();
+    }
+    if (lcm_file_) {
+        lcm_file_->close();
     }
     if (slam_) {
         draw_maps();

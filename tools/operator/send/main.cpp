@@ -8,6 +8,7 @@
 #include "common/command_line/command_line.h"
 #include "common/command_line/interrupt.h"
 #include "common/feed/vouched.h"
+#include "operator/send/dictation.h"
 #include "operator/send/robot_link.h"
 
 extern "C" {
@@ -39,6 +40,7 @@ constexpr char usage[] =
     "  relocate X Y THETA      the robot is there, in metres and radians of the map\n"
     "  save_map NAME, load_map NAME [X Y THETA]\n"
     "  set drive_speed V, set drive_turn W, set publish_scan yes|no, set freeze_map yes|no\n"
+    "  -                       commands from the standard input, one a line; each is answered by a line\n"
     "Options come before the verb. Exit status: 0 obeyed, 1 not, 2 wrong use.\n";
 
 constexpr int first_status_ms = 4000;
@@ -79,12 +81,20 @@ void check_order(const std::vector<std::string> &words)
     }
 }
 
+bool is_dictated(const Options &options)
+{
+    return options.words == std::vector<std::string>{"-"};
+}
+
 /* A command that no robot could obey is told before one is looked for. */
 void check(const Options &options)
 {
     check_order(options.words);
     if (options.keys.empty() || options.words.empty()) {
         throw cli::WrongUse(options.keys.empty() ? "--keys is missing" : "which verb?");
+    }
+    if (is_dictated(options)) {
+        return;
     }
     const ale_command_t command = command_of(options.words);
     char error[ALE_VERB_ERROR];
@@ -271,6 +281,10 @@ int run(const Options &options)
     const ale_keys_t robots = feed::believed(options.robots, options.keys);
     send::RobotLink link(options.lcm_url, options.robot, key_of(options), robots);
     const bool alone = is_alone(options, robots.count);
+    if (is_dictated(options)) {
+        send::obey_dictation(link, alone);
+        return 0;
+    }
     wait_for_robot(link, options);
     if (options.words[0] == "stop") {
         return stop(link, alone);

@@ -1,0 +1,248 @@
+"""ale-foxglove: live, as a client of its WebSocket sees it; recordings turned into each other, as `mcap` and `rosbags` read them."""
+import json
+import math
+import os
+import pathlib
+import struct
+import subprocess
+import time
+
+import ale
+import pytest
+
+from at_hand import BINARIES, ROOT
+from foxglove_client import FoxgloveClient
+from robot_double import WALLS
+from watching import commands, lcm_url, pulse, robot  # noqa: F401 (fixtures)
+
+pytest.importorskip("foxglove", reason="PyPI's foxglove-sdk is not here")
+mcap_reader = pytest.importorskip("mcap.reader", reason="PyPI's mcap is not here")
+protobuf = pytest.importorskip("mcap_protobuf.decoder", reason="PyPI's mcap-protobuf-support is not here")
+
+PYTHON_FIRST = {**os.environ, "PATH": f"{pathlib.Path(os.sys.executable).parent}:{os.environ['PATH']}"}
+LOG = ROOT / "tests/digest/apartment.log.gz"
+
+
+def run(*words):
+    return subprocess.run([BINARIES / "ale-foxglove", *map(str, words)], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=300,
+                          check=False, env=PYTHON_FIRST)
+
+
+def converted(source, out):
+    done = run("convert", source, out)
+    assert done.returncode == 0, done.stderr
+    return out
+
+
+class Bridge:
+    def __init__(self, lcm_url, *words):
+        self.process = subprocess.Popen([BINARIES / "ale-foxglove", "--lcm-url", lcm_url, "--port", "0", *map(str, words)],
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=PYTHON_FIRST)
+        self.url = self.process.stdout.readline().strip()
+        self.said = ""
+
+    def end(self):
+        if self.process.poll() is None:
+            self.process.terminate()
+            self.said = self.process.communicate(timeout=180)[1]
+        return self.process.returncode
+
+
+@pytest.fixture
+def bridge(lcm_url):
+    started = []
+
+    def start(*words):
+        started.append(Bridge(lcm_url, *words))
+        return started[-1]
+    yield start
+    assert [each.end() for each in started] == [0] * len(started)
+
+
+@pytest.fixture
+def alice(tmp_path):
+    subprocess.run([BINARIES / "ale-keys", "alice"], cwd=tmp_path, check=True, capture_output=True, timeout=180)
+    return tmp_path / "alice.key"
+
+
+class Decoder:
+    """By the schema that comes with the channel, and not by ours."""
+
+    def __init__(self):
+        self.factory = protobuf.DecoderFactory()
+
+    def __call__(self, schema, channel, message):
+        if channel.message_encoding == "json":
+            return json.loads(message.data)
+        return self.factory.decoder_for(channel.message_encoding, schema)(message.data)
+
+
+def messages(path):
+    """{topic: [(schema's name, time, message)]} with every sum checked."""
+    found, decode = {}, Decoder()
+    with open(path, "rb") as file:
+        for schema, channel, message in mcap_reader.make_reader(file, validate_crcs=True).iter_messages():
+            found.setdefault(channel.topic, []).append((schema.name, message.log_time, decode(schema, channel, message)))
+    return found
+
+
+TWIST = {"linear": {"x": 0.25, "y": 0, "z": 0}, "angular": {"x": 0, "y": 0, "z": -0.5}}
+
+
+def pose_message(x, y, theta, frame="map"):
+    return {"header": {"frame_id": frame}, "pose": {"position": {"x": x, "y": y, "z": 0}, "orientation": {
+        "x": 0, "y": 0, "z": math.sin(theta / 2), "w": math.cos(theta / 2)}}}
+
+
+def test_a_client_gets_scan_lines_map_frames_and_plots_live(bridge, pulse):
+    client = FoxgloveClient(bridge().url)
+    wanted = {"/scan": "foxglove.LaserScan", "/lines": "foxglove.SceneUpdate", "/corners": "foxglove.SceneUpdate",
+              "/tf": "foxglove.FrameTransforms", "/pose": "foxglove.PoseInFrame", "/signals": "ale.signals"}
+    for topic, schema in wanted.items():
+        client.subscribe(topic)
+        assert client.channels[topic]["schemaName"] == schema
+    for topic in wanted:
+        assert len(client.wait_for(topic)) > 10
+    assert json.loads(client.wait_for("/signals"))["sigma"]["x"] == pytest.approx(0.004, rel=1e-3)
+    client.close()
+
+
+def test_what_is_shown_is_recorded_and_is_what_the_robot_said(bridge, robot, tmp_path):
+    running = bridge("--record", tmp_path / "live.mcap")
+    robot.drive(11)
+    robot.publish_map()
+    robot.drive(3)
+    assert running.end() == 0
+    found = messages(tmp_path / "live.mcap")
+    frames = {(each.parent_frame_id, each.child_frame_id) for _, _, message in found["/tf"] for each in message.transforms}
+    assert frames == {("map", "odom"), ("odom", "base_link"), ("base_link", "laser")}
+    schema, _, scan = found["/scan"][-1]
+    assert schema == "foxglove.LaserScan" and len(scan.ranges) == 682 and math.isnan(scan.ranges[100])
+    assert scan.start_angle == pytest.approx(-340 * math.tau / 1024)
+    walls = found["/map"][-1][2].entities[0].lines[0].points
+    assert len(walls) == 2 * len(WALLS) and (walls[0].x, walls[0].y) == pytest.approx(WALLS[0][:2])
+    assert len(found["/lines"][-1][2].entities[0].lines[0].points) == 10 and len(found["/corners"][-1][2].entities[0].spheres) == 3
+    assert "streaming" in {message.message for _, _, message in found["/log"]}
+    assert found["/health"][-1][2]["counters"]["bad_checksum"] == 3
+
+
+def test_without_a_key_nothing_is_commanded_and_that_is_said(bridge, pulse, commands):
+    running = bridge()
+    client = FoxgloveClient(running.url)
+    for _ in range(20):
+        client.publish("/cmd_vel", "geometry_msgs/Twist", TWIST)
+        client.publish("/initialpose", "geometry_msgs/PoseWithCovarianceStamped", {"pose": pose_message(1, 2, 0)["pose"],
+                                                                                   "header": {"frame_id": "map"}})
+    answer = client.call("/ale/command", {"words": "explore on"})
+    assert answer == {"obeyed": False, "words": "this bridge has no key: it only shows (ale-foxglove --keys FILE)"}
+    assert commands(1, seconds=1) == []
+    client.close()
+    assert running.end() == 0 and "/cmd_vel: refused: this bridge has no key" in running.said
+
+
+def test_with_a_key_a_client_drives_places_and_commands(bridge, pulse, robot, commands, alice):
+    client = FoxgloveClient(bridge("--keys", alice).url)
+    end = time.monotonic() + 120
+
+    def publish_until(topic, schema, message, verb):
+        while not any(each.verb == verb for each in commands(0)):
+            assert time.monotonic() < end
+            client.publish(topic, schema, message)
+            commands(lambda so_far: any(each.verb == verb for each in so_far), seconds=0.2)
+        return next(each for each in commands(0) if each.verb == verb)
+    driven = publish_until("/cmd_vel", "geometry_msgs/Twist", TWIST, "drive")
+    assert driven.args == ["0.250000", "-0.500000"] and driven.operator_name == "alice"
+    placed = publish_until("/initialpose", "geometry_msgs/PoseWithCovarianceStamped",
+                           {"header": {"frame_id": "map"}, "pose": {"pose": pose_message(1.5, -2, 0.5)["pose"]}}, "relocate")
+    assert [float(word) for word in placed.args] == pytest.approx([1.5, -2.0, 0.5])
+    client.close()
+
+
+@pytest.mark.parametrize("topic, message, why", [
+    ("/cmd_vel", b"{", "no such message"), ("/cmd_vel", {}, "no such message"), ("/cmd_vel", b"[" * 5000, "no such message"),
+    ("/cmd_vel", b'{"linear": {"x": NaN}, "angular": {"z": 0}}', "out of this world"),
+    ("/cmd_vel", {"linear": {"x": 0.1, "y": 0.5}, "angular": {"z": 0}}, "sideways"),
+    ("/cmd_vel", {"linear": {"x": "0.1\nstop"}, "angular": {"z": 0}}, "out of this world"),
+    ("/initialpose", pose_message(0, 0, 0, frame="odom"), 'frame "odom"'),
+    ("/goal_pose", {"header": {"frame_id": "map"}, "pose": {"position": {"x": 0, "y": 0}, "orientation": {}}}, "no heading")])
+def test_what_is_no_command_is_refused_in_words(bridge, pulse, commands, alice, topic, message, why):
+    running = bridge("--keys", alice)
+    client = FoxgloveClient(running.url)
+    client.publish(topic, "of no account", message)
+    client.call("/ale/command", b"junk")  # comes behind it
+    assert commands(1, seconds=0.3) == []
+    client.close()
+    assert running.end() == 0 and why in running.said
+
+
+def test_a_recording_becomes_an_mcap_that_its_own_reader_takes_and_comes_back_the_same(tmp_path):
+    scip = converted(LOG, tmp_path / "drive.scip")
+    shown = converted(scip, tmp_path / "drive.mcap")
+    with open(shown, "rb") as file:
+        summary = mcap_reader.make_reader(file, validate_crcs=True).get_summary()
+    counts = {summary.channels[k].topic: count for k, count in summary.statistics.channel_message_counts.items()}
+    assert counts["/scan"] == counts["/pose"] == counts["/lines"] > 100 and counts["/map"] > 5
+    assert converted(shown, tmp_path / "again.scip").read_bytes() == scip.read_bytes()
+    log = converted(shown, tmp_path / "drive.lcm")
+    assert converted(converted(log, tmp_path / "log.mcap"), tmp_path / "again.lcm").read_bytes() == log.read_bytes()
+
+
+def replayed(log, out):
+    done = subprocess.run([BINARIES / "ale-replay", log, "--trajectory-live", out], capture_output=True, text=True, timeout=300, check=False,
+                          env=PYTHON_FIRST)
+    assert done.returncode == 0, done.stderr
+    return [[float(word) for word in line.split()] for line in out.read_text(encoding="utf-8").splitlines()]
+
+
+def test_a_drive_stays_the_same_drive_on_its_way_through_the_formats(tmp_path):
+    """Poses of the log and of what became of it: its ranges are whole millimetres, which are kept, as is the time of every scan."""
+    was = replayed(LOG, tmp_path / "log.tum")
+    lcm = converted(LOG, tmp_path / "a.lcm")
+    for path in (lcm, converted(lcm, tmp_path / "b.scip")):
+        now = replayed(path, tmp_path / "now.tum")
+        assert len(now) == len(was)
+        assert [row[0] for row in now] == pytest.approx([row[0] for row in was], abs=2e-6)
+        assert max(math.hypot(a[1] - b[1], a[2] - b[2]) for a, b in zip(was, now)) < 0.001
+
+
+def events(path):
+    with open(path, "rb") as file:
+        data = file.read()
+    at = 0
+    while at < len(data):
+        _, _, utime, name, size = struct.unpack_from(">IqqII", data, at)
+        yield utime, data[at + 28:at + 28 + name].decode(), data[at + 28 + name:at + 28 + name + size]
+        at += 28 + name + size
+
+
+def test_events_of_a_log_have_the_times_of_their_messages(tmp_path):
+    log = converted(LOG, tmp_path / "a.lcm")
+    found = list(events(log))
+    assert {name for _, name, _ in found} == {"ALE_SCAN", "ALE_ODOMETRY", "ALE_ODOMETRY_EXACT", "ALE_POSE", "ALE_TRACKING", "ALE_FEATURES",
+                                              "ALE_MAP", "ALE_MAP_PIECES"}
+    assert all(utime == struct.unpack_from(">q", data, 8)[0] for utime, _, data in found)
+    scans = [ale.scan_t.decode(data) for _, name, data in found if name == "ALE_SCAN"]
+    assert [scan.scan for scan in scans] == list(range(len(scans)))
+
+
+@pytest.mark.parametrize("source, out, why", [
+    ("absent", "a.mcap", "absent"), (LOG, "a.txt", "a name that ends in"), (LOG, "no/folder/a.lcm", "No such file"),
+    (ROOT / "README.md", "a.lcm", "README.md")])
+def test_what_cannot_be_converted_is_told_in_one_line_and_leaves_nothing(source, out, why, tmp_path):
+    done = run("convert", source, tmp_path / out)
+    assert done.returncode == 1 and why in done.stderr and done.stderr.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_layout_names_only_what_the_bridge_sends_and_takes(tmp_path):
+    assert run("layout", tmp_path / "ale.json").returncode == 0
+    layout = json.loads((tmp_path / "ale.json").read_text(encoding="utf-8"))
+    panels = layout["configById"]
+    topics = {"/map", "/scan", "/lines", "/corners", "/pose", "/odometry"}
+    assert set(panels["3D!robot"]["topics"]) == topics
+
+    def named(tree):
+        return [tree] if isinstance(tree, str) else named(tree["first"]) + named(tree["second"])
+    assert sorted(named(layout["layout"])) == sorted(panels)
+    for each in panels["Plot!pose"]["paths"] + panels["Plot!stages"]["paths"]:
+        assert each["value"].startswith("/signals.")

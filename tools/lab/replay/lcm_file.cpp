@@ -1,0 +1,130 @@
+#include "lab/replay/lcm_file.h"
+
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include <endian.h>
+
+namespace ale
+{
+
+namespace
+{
+
+/* Event: u32 sync, i64 number, i64 microseconds, i32 lengths of channel and data, these; big endian. A
+ * message: its fingerprint, then its utime. */
+constexpr size_t header_bytes = 28;
+constexpr size_t stamp_at = 12;
+constexpr size_t channel_length_at = 20;
+constexpr size_t data_length_at = 24;
+constexpr size_t utime_at = 8;
+constexpr uint32_t maps_every = 10;
+
+using Header = std::array<char, header_bytes>;
+
+uint32_t length_at(const Header &header, size_t at)
+{
+    uint32_t value;
+    std::memcpy(&value, header.data() + at, sizeof value);
+    return be32toh(value);
+}
+
+/* liblcm stamps an event with the present; here it is the time of the message. */
+void stamp_events(std::fstream &file)
+{
+    constexpr uint32_t stamp_bytes = 8;
+    std::array<char, stamp_bytes> utime{};
+    Header header{};
+    std::streamoff at = 0;
+    while (file.seekg(at).read(header.data(), header.size())) {
+        const std::streamoff data =
+            at + static_cast<std::streamoff>(header_bytes + length_at(header, channel_length_at));
+        file.seekg(data + static_cast<std::streamoff>(utime_at)).read(utime.data(), stamp_bytes);
+        file.seekp(at + static_cast<std::streamoff>(stamp_at)).write(utime.data(), stamp_bytes);
+        at = data + static_cast<std::streamoff>(length_at(header, data_length_at));
+    }
+}
+
+std::string url_of(const std::string &path)
+{
+    return "file://" + std::filesystem::absolute(path).string() + "?mode=w";
+}
+
+} // namespace
+
+LcmFile::LcmFile(const std::string &path) : path_(path), bus_(nullptr, ale_bus_close)
+{
+    char error[ALE_BUS_ERROR];
+    bus_.reset(ale_bus_open(url_of(path).c_str(), error));
+    if (!bus_) {
+        throw std::runtime_error(path + ": cannot be written");
+    }
+}
+
+void LcmFile::took(int result)
+{
+    if (result < 0) {
+        throw std::runtime_error(path_ + ": cannot be written");
+    }
+}
+
+void LcmFile::put_scan(const ale_scan_t &scan, uint32_t number, const ale_pose_t &sensor)
+{
+    took(ale_bus_send_scan(bus_.get(), &scan, scan.stamp_us, number, sensor));
+}
+
+void LcmFile::put_odometry(const ale_odometry_t &sample)
+{
+    took(ale_bus_send_exact_odometry(bus_.get(), &sample));
+    took(ale_bus_send_odometry(bus_.get(), &sample));
+}
+
+void LcmFile::put_estimate(const ale_estimate_t &estimate)
+{
+    ale_pose_report_t report{};
+    report.estimate = estimate;
+    report.first_beam_us = report.arrival_us = report.sent_us = estimate.stamp_us;
+    took(ale_bus_send_pose(bus_.get(), &report));
+    took(ale_bus_send_tracking(bus_.get(), &estimate));
+}
+
+void LcmFile::put_features(const ale_features_t &features, int64_t stamp_us, uint32_t number,
+                           const ale_pose_t &sensor)
+{
+    took(ale_bus_send_features(bus_.get(), &features, stamp_us, number, sensor));
+}
+
+void LcmFile::put_map(const OfflineSlam &slam, int64_t stamp_us)
+{
+    if (scans_without_map_++ % maps_every != 0) {
+        return;
+    }
+    slam.copy_map(map_.get());
+    if (map_->version == sent_version_) {
+        return;
+    }
+    sent_version_ = map_->version;
+    for (int16_t part = 0; part < ale_map_pieces_parts(map_.get()); part++) {
+        took(ale_bus_send_map_pieces(bus_.get(), map_.get(), stamp_us, part));
+    }
+    for (int16_t part = 0; part < ale_map_parts(map_.get()); part++) {
+        took(ale_bus_send_map_part(bus_.get(), map_.get(), stamp_us, part));
+    }
+}
+
+void LcmFile::close()
+{
+    bus_.reset();
+    std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
+    stamp_events(file);
+    file.clear();
+    file.close();
+    if (!file) {
+        throw std::runtime_error(path_ + ": cannot be written");
+    }
+}
+
+} // namespace ale

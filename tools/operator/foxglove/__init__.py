@@ -1,0 +1,1 @@
+"""The bridge between the robot and Foxglove (README.md)."""

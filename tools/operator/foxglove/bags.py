@@ -1,0 +1,220 @@
+"""ROS 1 and ROS 2 bags, and MCAP with their messages or Foxglove's, as messages of LCM: ALE_SCAN and ALE_ODOMETRY.
+
+    for event in bags.events(path): ...           # lcm_log.Event
+
+Read by PyPI's `rosbags` without ROS; MCAP without a bag's folder about it by `mcap`. LaserScan, MultiEchoLaserScan (first echo),
+Odometry; the mounting of the laser from /tf_static or /tf, as far as it is a turn about the vertical.
+"""
+import json
+import math
+import pathlib
+import sys
+
+import ale
+
+from .lcm_log import Event
+from .near import Missing
+
+MOST_BEAMS = 1081
+ROS1, MCAP = b"#ROSBAG V2.0", b"\x89MCAP0\r\n"
+LASER, ECHOES, ODOMETRY, FRAMES = ("sensor_msgs/msg/LaserScan", "sensor_msgs/msg/MultiEchoLaserScan", "nav_msgs/msg/Odometry",
+                                   "tf2_msgs/msg/TFMessage")
+WANTED = (LASER, ECHOES, ODOMETRY, FRAMES)
+NO_RETURN, UNKNOWN, TOO_NEAR = 0x81, 0x82, 0x85
+
+
+def is_mcap(path):
+    return pathlib.Path(path).is_file() and starts_with(path, MCAP)
+
+
+def is_bag(path):
+    path = pathlib.Path(path)
+    return (path / "metadata.yaml").exists() if path.is_dir() else starts_with(path, ROS1) or starts_with(path, MCAP)
+
+
+def starts_with(path, magic):
+    with open(path, "rb") as file:
+        return file.read(len(magic)) == magic
+
+
+def needed(name):
+    try:
+        return __import__(name, fromlist=["x"])
+    except ImportError as error:
+        package = {"mcap_protobuf.decoder": "mcap-protobuf-support"}.get(name, name.split(".")[0])
+        raise Missing(f"bags and MCAP are read by Python's package {package}: pip install {package}") from error
+
+
+def ros_messages(path):
+    """(type, topic, nanoseconds, message) of a bag."""
+    reader_module = needed("rosbags.highlevel")
+    stores = needed("rosbags.typesys")
+    with reader_module.AnyReader([pathlib.Path(path)], default_typestore=stores.get_typestore(stores.Stores.ROS2_HUMBLE)) as reader:
+        connections = [connection for connection in reader.connections if connection.msgtype in WANTED]
+        for connection, at, raw in reader.messages(connections=connections):
+            yield connection.msgtype, connection.topic, at, reader.deserialize(raw, connection.msgtype)
+
+
+def mcap_messages(path):
+    """The same of a single MCAP file: ROS 2's and ROS 1's messages, and Foxglove's LaserScan."""
+    readers = needed("mcap.reader")
+    stores = needed("rosbags.typesys")
+    store = {"cdr": stores.get_typestore(stores.Stores.ROS2_HUMBLE), "ros1": stores.get_typestore(stores.Stores.ROS1_NOETIC)}
+    with open(path, "rb") as file:
+        for schema, channel, message in readers.make_reader(file).iter_messages():
+            name = (schema.name if schema else "").replace("/msg/", "/").replace("/", "/msg/")
+            if name in WANTED and channel.message_encoding in store:
+                types = store[channel.message_encoding]
+                decode = types.deserialize_cdr if channel.message_encoding == "cdr" else types.deserialize_ros1
+                yield name, channel.topic, message.log_time, decode(message.data, name)
+            elif schema and schema.name == "foxglove.LaserScan":
+                yield LASER, channel.topic, message.log_time, foxglove_scan(schema, channel, message)
+
+
+class Fields:
+    """A structure of some other message, under ROS's names."""
+
+    def __init__(self, **fields):
+        self.__dict__.update(fields)
+
+
+def foxglove_scan(schema, channel, message):
+    if channel.message_encoding == "json":
+        scan = json.loads(message.data)
+        ranges = [math.nan if r is None else r for r in scan["ranges"]]
+        sec, nanosec = scan["timestamp"]["sec"], scan["timestamp"]["nsec"]
+        first, last, frame = scan["start_angle"], scan["end_angle"], scan.get("frame_id", "")
+    else:
+        factory = needed("mcap_protobuf.decoder").DecoderFactory()
+        scan = factory.decoder_for(channel.message_encoding, schema)(message.data)
+        ranges, sec, nanosec = list(scan.ranges), scan.timestamp.seconds, scan.timestamp.nanos
+        first, last, frame = scan.start_angle, scan.end_angle, scan.frame_id
+    step = (last - first) / max(len(ranges) - 1, 1)
+    return Fields(header=Fields(stamp=Fields(sec=sec, nanosec=nanosec), frame_id=frame), angle_min=first, angle_increment=step,
+                  time_increment=0.0, range_min=0.0, range_max=max([r for r in ranges if math.isfinite(r)], default=0.0) + 0.001,
+                  ranges=ranges)
+
+
+def utime_of(header):
+    return header.stamp.sec * 1000000 + header.stamp.nanosec // 1000
+
+
+def heading(turn):
+    return math.atan2(2 * (turn.w * turn.z + turn.x * turn.y), 1 - 2 * (turn.y * turn.y + turn.z * turn.z))
+
+
+def name_of(frame):
+    return frame.lstrip("/")
+
+
+class Frames:
+    """Who is mounted where, as far as /tf_static and /tf have told: the first word on each pair counts."""
+
+    def __init__(self):
+        self.parent = {}
+
+    def take(self, message):
+        for each in message.transforms:
+            move = each.transform.translation
+            self.parent.setdefault(name_of(each.child_frame_id), (name_of(each.header.frame_id), move.x, move.y,
+                                                                  heading(each.transform.rotation)))
+
+    def mounting(self, frame, robot):
+        """(x, y, theta) of a frame as seen from the robot's, or None."""
+        x, y, theta, steps = 0.0, 0.0, 0.0, 0
+        while frame != robot and frame in self.parent and steps < 20:
+            frame, px, py, turn = self.parent[frame]
+            c, s = math.cos(turn), math.sin(turn)
+            x, y, theta, steps = px + c * x - s * y, py + s * x + c * y, theta + turn, steps + 1
+        return (x, y, theta) if frame == robot else None
+
+
+def code_of(distance, scan):
+    if math.isnan(distance) or distance == 0:
+        return UNKNOWN
+    if distance < scan.range_min:
+        return TOO_NEAR
+    return 0 if distance < scan.range_max else NO_RETURN
+
+
+def lcm_scan(scan, ranges, number, mounting):
+    every = -(-len(ranges) // MOST_BEAMS)  # of a scanner with more beams than the core holds
+    ranges = [float(r) for r in ranges[::every]]
+    codes = [code_of(r, scan) for r in ranges]
+    unit = max(1, math.ceil(max([r for r, code in zip(ranges, codes) if code == 0], default=0) * 1000 / 32767))
+    out = ale.scan_t()
+    out.utime, out.scan, out.stamp_beam = utime_of(scan.header), number, 0
+    out.beam_time_us = scan.time_increment * 1e6 * every
+    out.first_bearing, out.step = scan.angle_min, scan.angle_increment * every
+    out.range_min, out.range_max, out.range_unit_mm = scan.range_min, scan.range_max, unit
+    out.sensor_x, out.sensor_y, out.sensor_theta = mounting
+    out.range_mm = [round(r * 1000 / unit) if code == 0 else 0 for r, code in zip(ranges, codes)]
+    out.codes = bytes(codes)
+    out.num_ranges = out.num_codes = len(ranges)
+    return out
+
+
+def lcm_odometry(message):
+    out = ale.odometry_t()
+    at = message.pose.pose
+    out.utime = utime_of(message.header)
+    out.x, out.y, out.theta = at.position.x, at.position.y, heading(at.orientation)
+    return out
+
+
+def bam(theta):
+    return (round(theta / (2 * math.pi) * 2**32) + 2**31) % 2**32 - 2**31
+
+
+def lcm_exact(message):
+    """The same place, to the last bit (ALE_ODOMETRY_EXACT goes before it)."""
+    out = ale.odometry_exact_t()
+    at = message.pose.pose
+    out.utime = utime_of(message.header)
+    out.x_um, out.y_um, out.theta_bam = round(at.position.x * 1e6), round(at.position.y * 1e6), bam(heading(at.orientation))
+    return out
+
+
+class Converter:
+    """One laser, that of the first scan; one odometry."""
+
+    def __init__(self, frames):
+        self.frames = frames
+        self.topics = {}
+        self.scans = 0
+        self.robot = "base_link"
+        self.ignored = set()
+
+    def wants(self, kind, topic):
+        group = LASER if kind == ECHOES else kind
+        chosen = self.topics.setdefault(group, topic) == topic
+        if not chosen and topic not in self.ignored:
+            self.ignored.add(topic)
+            print(f"ale-foxglove: {topic} is left out: {self.topics[group]} came first", file=sys.stderr)
+        return chosen
+
+    def events(self, kind, topic, message):
+        if kind == FRAMES or not self.wants(kind, topic):
+            return
+        at = utime_of(message.header)
+        if kind == ODOMETRY:
+            self.robot = name_of(message.child_frame_id) or self.robot
+            yield Event(at, "ALE_ODOMETRY_EXACT", lcm_exact(message).encode())
+            yield Event(at, "ALE_ODOMETRY", lcm_odometry(message).encode())
+            return
+        ranges = message.ranges if kind == LASER else [r.echoes[0] if len(r.echoes) else math.nan for r in message.ranges]
+        mounting = self.frames.mounting(name_of(message.header.frame_id), self.robot) or (0.0, 0.0, 0.0)
+        yield Event(at, "ALE_SCAN", lcm_scan(message, ranges, self.scans, mounting).encode())
+        self.scans += 1
+
+
+def events(path):
+    """The bag is read twice: who is mounted where may be told late."""
+    messages = mcap_messages if is_mcap(path) else ros_messages
+    frames = Frames()
+    for kind, _, _, message in messages(path):
+        if kind == FRAMES:
+            frames.take(message)
+    converter = Converter(frames)
+    for kind, topic, _, message in messages(path):
+        yield from converter.events(kind, topic, message)

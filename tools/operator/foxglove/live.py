@@ -1,0 +1,139 @@
+"""The live bridge: LCM in, a WebSocket server that Foxglove opens, commands back."""
+import json
+import queue
+import signal
+import sys
+import threading
+
+import foxglove
+from foxglove import websocket
+
+from . import bus as lcm_bus
+from . import orders, scene
+from .near import program
+
+SCHEMA = {"type": "object", "title": "ale.command", "properties": {"words": {"type": "string"}}}
+ANSWER = {"type": "object", "title": "ale.answer", "properties": {"obeyed": {"type": "boolean"}, "words": {"type": "string"}}}
+DRIVES_A_SECOND = 20
+
+
+def say(text):
+    print(f"ale-foxglove: {text}", file=sys.stderr, flush=True)
+
+
+class Desk:
+    """What clients publish, one after the other; of set points only the newest, since older ones are of no use."""
+
+    def __init__(self, given):
+        self.given = given  # Orders
+        self.waiting = queue.Queue(16)
+        self.drive = None
+        self.told = {}
+        self.counts = {"obeyed": 0, "refused": 0}
+        threading.Thread(target=self._work, daemon=True).start()
+
+    def take(self, topic, data):
+        try:
+            line = orders.command_of(topic, data)
+        except orders.Refused as refusal:
+            self.tell(topic, False, str(refusal))
+            return
+        if line.startswith("drive "):
+            self.drive = line
+        else:
+            try:
+                self.waiting.put_nowait((topic, line))
+            except queue.Full:
+                self.tell(topic, False, "too many commands at once")
+
+    def _work(self):
+        while True:
+            try:
+                topic, line = self.waiting.get(timeout=1 / DRIVES_A_SECOND)
+            except queue.Empty:
+                topic, line, self.drive = "/cmd_vel", self.drive, None
+            if line:
+                self.tell(topic, *self.given.give(line))
+
+    def tell(self, topic, obeyed, words):
+        """Each answer once in a row."""
+        self.counts["obeyed" if obeyed else "refused"] += 1
+        if self.told.get(topic) != (obeyed, words):
+            self.told[topic] = (obeyed, words)
+            say(f"{topic}: {'' if obeyed else 'refused: '}{words}")
+
+
+class Listener(websocket.ServerListener):
+    def __init__(self, desk):
+        self.desk = desk
+        self.topics = {}
+
+    def on_client_advertise(self, client, channel):
+        if channel.topic in orders.TOPICS and channel.encoding != "json":
+            self.desk.tell(channel.topic, False, f"only JSON is understood, not {channel.encoding}")
+        self.topics[client.id, channel.id] = (channel.topic, channel.encoding)
+
+    def on_client_unadvertise(self, client, client_channel_id):
+        self.topics.pop((client.id, client_channel_id), None)
+
+    def on_message_data(self, client, client_channel_id, data):
+        topic, encoding = self.topics.get((client.id, client_channel_id), ("", ""))
+        if topic in orders.TOPICS and encoding == "json":
+            self.desk.take(topic, data)
+
+
+def service(given):
+    """/ale/command: any verb that the robot knows, as ale-send takes it."""
+    def handle(request):
+        try:
+            words = json.loads(request.payload)["words"]
+            obeyed, answer = given.give(words) if isinstance(words, str) else (False, '"words" is a text')
+        except (ValueError, KeyError, TypeError):
+            obeyed, answer = False, 'not {"words": "explore on"}'
+        return json.dumps({"obeyed": obeyed, "words": answer}).encode()
+
+    def described(schema):
+        return foxglove.MessageSchema(encoding="json", schema=foxglove.Schema(
+            name=schema["title"], encoding="jsonschema", data=json.dumps(schema).encode()))
+    return foxglove.Service("/ale/command", schema=foxglove.ServiceSchema("ale.command", request=described(SCHEMA),
+                                                                          response=described(ANSWER)), handler=handle)
+
+
+def orders_of(options):
+    if not options.keys:
+        return orders.Orders(None)
+    command = [program("ale-send"), "--keys", options.keys]
+    for name in ("robots", "robot", "lcm_url"):
+        if getattr(options, name):
+            command += [f"--{name.replace('_', '-')}", getattr(options, name)]
+    return orders.Orders(command)
+
+
+def run(options):
+    foxglove.set_log_level("WARN")
+    context = foxglove.Context()
+    shown = scene.Scene(context)
+    heard = lcm_bus.Bus(options.lcm_url, list(shown.takers))
+    given = orders_of(options)
+    desk = Desk(given)
+    server = foxglove.start_server(
+        name="ALE-SLAM", host=options.host, port=options.port, context=context, server_listener=Listener(desk),
+        capabilities=[websocket.Capability.ClientPublish, websocket.Capability.Services], supported_encodings=["json"],
+        services=[service(given)], message_backlog_size=256)
+    recording = foxglove.open_mcap(options.record, context=context) if options.record else None
+    stopping = threading.Event()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: stopping.set())
+    print(f"ws://{options.host}:{server.port}", flush=True)
+    try:
+        while not stopping.is_set():
+            for channel, data in heard.receive(0.2):
+                shown.take(channel, data)
+    finally:
+        server.stop()
+        if recording:
+            recording.close()
+        given.close()
+        say(f"{shown.malformed} messages of the robot were malformed; commands: {desk.counts['obeyed']} obeyed, "
+            f"{desk.counts['refused']} refused")
+    return 0
