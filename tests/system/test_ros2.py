@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from at_hand import BINARIES
+from at_hand import BINARIES, LONG
 from chain import wrap
 from commanded import Commanded
 from waiting import wait_until
@@ -15,7 +15,8 @@ if not (BINARIES / "ale-ros2").exists():
     pytest.skip("ale-ros2 was not built: no Cyclone DDS (cyclonedds-dev, cyclonedds-tools)", allow_module_level=True)
 
 from ros_peer import Bridge, RosPeer, free_domain  # noqa: E402
-from ros_types import Header, Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion, Time, Twist, Vector3  # noqa: E402
+from ros_types import (Header, Point, Pose, PoseStamped, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion, Time, Twist,  # noqa: E402
+                       Vector3)
 
 
 def forward(metres_a_second):
@@ -26,6 +27,12 @@ def elsewhere():
     return PoseWithCovarianceStamped(Header(Time(), "map"), PoseWithCovariance(Pose(Point(5.0, 5.0, 0.0), Quaternion()), [0.0] * 36))
 
 
+def goes_to_start(listener):
+    plans = listener.messages["ALE_PLAN"]
+    return plans and plans[-1].state == 3 and plans[-1].has_place and (plans[-1].place_x, plans[-1].place_y) == (0, 0)
+
+
+@LONG
 def test_only_a_bridge_with_a_key_that_the_robot_knows_moves_it(chain):
     robot = Commanded(chain)
     domain = free_domain()
@@ -58,4 +65,6 @@ def test_only_a_bridge_with_a_key_that_the_robot_knows_moves_it(chain):
     before = len(poses) - 1
     wait_until(lambda: drive.write(forward(0.2)) or moved_since(before) > 0.2, 180, "the robot to drive")
     assert abs(wrap(poses[-1].map_theta - poses[before].map_theta)) < 0.2
+    goal = peer.writer("goal_pose", PoseStamped)
+    wait_until(lambda: goal.write(PoseStamped(Header(Time(), "map"), Pose(Point(), Quaternion()))) or goes_to_start(chain.listener), 180, "the plan")
     assert bridge.end() == 0

@@ -8,7 +8,7 @@ import sys
 import ale
 import pytest
 
-from at_hand import BINARIES, ROOT
+from at_hand import BINARIES, LONG, ROOT
 from test_foxglove import events
 
 rosbag1 = pytest.importorskip("rosbags.rosbag1", reason="PyPI's rosbags is not here")
@@ -150,7 +150,8 @@ def apart(was, now):
     return max(math.hypot(np.interp(t, times, x) - at_x, np.interp(t, times, y) - at_y) for t, at_x, at_y, *_ in now if t >= times[0])
 
 
-@pytest.mark.parametrize("write, name", [(write_ros1, "drive.bag"), (write_ros2, "drive"), (write_mcap_bag, "drive"), (write_single_mcap, "drive")])
+@pytest.mark.parametrize("write, name", [(write_ros1, "drive.bag"), (write_ros2, "drive"), pytest.param(write_mcap_bag, "drive", marks=LONG),
+                                         pytest.param(write_single_mcap, "drive", marks=LONG)])
 def test_a_bag_is_replayed_to_the_poses_and_the_map_of_the_log_it_was_made_of(write, name, drive, tmp_path):
     bag = write(tmp_path / name, drive)
     was = poses(LOG, tmp_path)
@@ -160,6 +161,7 @@ def test_a_bag_is_replayed_to_the_poses_and_the_map_of_the_log_it_was_made_of(wr
     assert (tmp_path / "map.png").stat().st_size > 1000
 
 
+@LONG
 def test_the_mounting_of_the_laser_is_that_of_tf(drive, tmp_path):
     bag = write_ros2(tmp_path / "bag", drive[:6], mounted=MOUNTED)
     assert run("ale-foxglove", "convert", bag, tmp_path / "bag.lcm").returncode == 0
@@ -167,6 +169,7 @@ def test_the_mounting_of_the_laser_is_that_of_tf(drive, tmp_path):
     assert (scan.sensor_x, scan.sensor_y, scan.sensor_theta) == pytest.approx(MOUNTED)
 
 
+@LONG
 def test_the_first_echo_of_many_counts(drive, tmp_path):
     bag = write_ros2(tmp_path / "echoes", drive[:60], echoes=True)
     plain = write_ros2(tmp_path / "plain", drive[:60])

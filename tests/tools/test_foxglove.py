@@ -10,7 +10,7 @@ import time
 import ale
 import pytest
 
-from at_hand import BINARIES, ROOT
+from at_hand import BINARIES, LONG, ROOT
 from foxglove_client import FoxgloveClient
 from robot_double import WALLS
 from watching import commands, lcm_url, pulse, robot  # noqa: F401 (fixtures)
@@ -111,6 +111,7 @@ def test_what_is_shown_is_recorded_and_is_what_the_robot_said(bridge, robot, tmp
     running = bridge("--record", tmp_path / "live.mcap")
     robot.drive(11)
     robot.publish_map()
+    robot.publish_plan(3, "drives to 2.00 1.00", place=(2, 1), path=[(0.5, -0.6), (1, 0), (2, 1)])
     robot.drive(3)
     assert running.end() == 0
     found = messages(tmp_path / "live.mcap")
@@ -122,6 +123,9 @@ def test_what_is_shown_is_recorded_and_is_what_the_robot_said(bridge, robot, tmp
     walls = found["/map"][-1][2].entities[0].lines[0].points
     assert len(walls) == 2 * len(WALLS) and (walls[0].x, walls[0].y) == pytest.approx(WALLS[0][:2])
     assert len(found["/lines"][-1][2].entities[0].lines[0].points) == 10 and len(found["/corners"][-1][2].entities[0].spheres) == 3
+    way = found["/plan"][-1][2].entities[0]
+    assert [(point.x, point.y) for point in way.lines[0].points] == [(0.5, pytest.approx(-0.6)), (1, 0), (2, 1)]
+    assert (way.spheres[0].pose.position.x, way.spheres[0].pose.position.y) == (2, 1) and way.frame_id == "map"
     assert "streaming" in {message.message for _, _, message in found["/log"]}
     assert found["/health"][-1][2]["counters"]["bad_checksum"] == 3
 
@@ -140,6 +144,7 @@ def test_without_a_key_nothing_is_commanded_and_that_is_said(bridge, pulse, comm
     assert running.end() == 0 and "/cmd_vel: refused: this bridge has no key" in running.said
 
 
+@LONG
 def test_with_a_key_a_client_drives_places_and_commands(bridge, pulse, robot, commands, alice):
     client = FoxgloveClient(bridge("--keys", alice).url)
     end = time.monotonic() + 120
@@ -155,24 +160,30 @@ def test_with_a_key_a_client_drives_places_and_commands(bridge, pulse, robot, co
     placed = publish_until("/initialpose", "geometry_msgs/PoseWithCovarianceStamped",
                            {"header": {"frame_id": "map"}, "pose": {"pose": pose_message(1.5, -2, 0.5)["pose"]}}, "relocate")
     assert [float(word) for word in placed.args] == pytest.approx([1.5, -2.0, 0.5])
+    assert publish_until("/goal_pose", "geometry_msgs/PoseStamped", pose_message(2, 1, 0.5), "goto").args == ["2.000000", "1.000000"]
     client.close()
 
 
-@pytest.mark.parametrize("topic, message, why", [
+NO_COMMANDS = [
     ("/cmd_vel", b"{", "no such message"), ("/cmd_vel", {}, "no such message"), ("/cmd_vel", b"[" * 5000, "no such message"),
     ("/cmd_vel", b'{"linear": {"x": NaN}, "angular": {"z": 0}}', "out of this world"),
     ("/cmd_vel", {"linear": {"x": 0.1, "y": 0.5}, "angular": {"z": 0}}, "sideways"),
     ("/cmd_vel", {"linear": {"x": "0.1\nstop"}, "angular": {"z": 0}}, "out of this world"),
     ("/initialpose", pose_message(0, 0, 0, frame="odom"), 'frame "odom"'),
-    ("/goal_pose", {"header": {"frame_id": "map"}, "pose": {"position": {"x": 0, "y": 0}, "orientation": {}}}, "no heading")])
-def test_what_is_no_command_is_refused_in_words(bridge, pulse, commands, alice, topic, message, why):
+    ("/goal_pose", {"header": {"frame_id": "map"}, "pose": {"position": {"x": 0, "y": 0}, "orientation": {}}}, "no heading")]
+
+
+def test_what_is_no_command_is_refused_in_words(bridge, pulse, commands, alice):
     running = bridge("--keys", alice)
     client = FoxgloveClient(running.url)
-    client.publish(topic, "of no account", message)
-    client.call("/ale/command", b"junk")  # comes behind it
+    for topic, message, _ in NO_COMMANDS:
+        client.publish(topic, "of no account", message)
+    client.call("/ale/command", b"junk")  # comes behind them
     assert commands(1, seconds=0.3) == []
     client.close()
-    assert running.end() == 0 and why in running.said
+    assert running.end() == 0
+    assert all(f"{topic}: refused: " in running.said and why in running.said for topic, _, why in NO_COMMANDS)
+    assert f"commands: 0 obeyed, {len(NO_COMMANDS)} refused" in running.said
 
 
 def test_a_recording_becomes_an_mcap_that_its_own_reader_takes_and_comes_back_the_same(tmp_path):
@@ -238,7 +249,7 @@ def test_the_layout_names_only_what_the_bridge_sends_and_takes(tmp_path):
     assert run("layout", tmp_path / "ale.json").returncode == 0
     layout = json.loads((tmp_path / "ale.json").read_text(encoding="utf-8"))
     panels = layout["configById"]
-    topics = {"/map", "/scan", "/lines", "/corners", "/pose", "/odometry"}
+    topics = {"/map", "/plan", "/scan", "/lines", "/corners", "/pose", "/odometry"}
     assert set(panels["3D!robot"]["topics"]) == topics
 
     def named(tree):

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from at_hand import BINARIES
+from at_hand import BINARIES, LONG
 from watching import commands, lcm_url, pulse, robot  # noqa: F401 (fixtures)
 
 pytest.importorskip("cyclonedds", reason="PyPI's cyclonedds is not here")
@@ -122,6 +122,7 @@ def test_frames_lead_from_map_to_laser_and_there_is_one_parent_for_each(bridge, 
     assert at.pose.covariance[0] == pytest.approx(0.004**2) and at.pose.covariance[35] == pytest.approx(0.003**2)
 
 
+@LONG
 def test_who_comes_late_gets_the_map_and_the_mounting_at_once_though_nothing_new_is_sent(bridge, peer, robot):
     early = peer.reader("map", OccupancyGrid, LATCHED)
     bridge()
@@ -150,6 +151,7 @@ def wall_at(grid, x, y):
     return grid.data[row * grid.info.width + column]
 
 
+@LONG
 def test_in_a_map_that_is_not_joined_nobody_is_told_where_in_map_the_robot_is(bridge, peer, robot):
     robot.map_id, robot.maps = 1, 2
     transforms = peer.reader("tf", TFMessage, RELIABLE)
@@ -165,6 +167,7 @@ def test_in_a_map_that_is_not_joined_nobody_is_told_where_in_map_the_robot_is(br
     assert message.status[0].level == 1
 
 
+@LONG
 def test_a_silent_robot_is_stale(bridge, peer):
     said = peer.reader("diagnostics", DiagnosticArray, RELIABLE)
     bridge()
@@ -206,7 +209,7 @@ def test_a_publisher_moves_nothing_where_the_bridge_has_no_key(bridge, peer, pul
     assert any("/cmd_vel is refused: this bridge has no key" in line for line in running.said)
 
 
-def test_with_a_key_ros_drives_and_says_where_the_robot_is(bridge, peer, pulse, commands, alice):
+def test_with_a_key_ros_drives_and_says_where_the_robot_is_and_is_to_go(bridge, peer, pulse, commands, alice):
     bridge("--keys", alice)
     drive, place = peer.writer("cmd_vel", Twist), peer.writer("initialpose", PoseWithCovarianceStamped)
     heard = lambda verb: [each for each in commands(0) if each.verb == verb]  # noqa: E731
@@ -222,10 +225,17 @@ def test_with_a_key_ros_drives_and_says_where_the_robot_is(bridge, peer, pulse, 
         return heard("relocate")
     publish_until(place, initial_pose(1.5, -2.0, 0.5), placed)
     assert [float(word) for word in heard("relocate")[0].args] == pytest.approx([1.5, -2.0, 0.5])
+
+    def sent():
+        commands(lambda so_far: any(each.verb == "goto" for each in so_far), seconds=0.05)
+        return heard("goto")
+    publish_until(peer.writer("goal_pose", PoseStamped), PoseStamped(header("map"), pose_of(2.0, 1.0, 0.5)), sent)
+    assert heard("goto")[0].args == ["2.000000", "1.000000"]
     numbers = [each.counter for each in commands(0)]
     assert numbers == sorted(set(numbers))
 
 
+@LONG
 def test_a_stamped_twist_is_taken_where_that_is_asked_for(bridge, peer, pulse, commands, alice):
     bridge("--stamped", "--keys", alice)
     writer = peer.writer("cmd_vel", TwistStamped)
@@ -233,15 +243,19 @@ def test_a_stamped_twist_is_taken_where_that_is_asked_for(bridge, peer, pulse, c
     assert commands(1)[0].args == ["0.100000", "0.000000"]
 
 
-@pytest.mark.parametrize("topic, kind, message, why", [
+NO_COMMANDS = [
+    ("cmd_vel", Twist, twist(0.1, 0.0, sideways=0.2), "sideways"),
+    ("initialpose", PoseWithCovarianceStamped, initial_pose(0, 0, 0, frame="\x1b[31m" + "x" * 10000), "only those in")]
+MORE_NO_COMMANDS = [
     ("cmd_vel", Twist, twist(math.nan, 0.0), "out of this world"),
     ("cmd_vel", Twist, twist(0.1, math.inf), "out of this world"),
-    ("cmd_vel", Twist, twist(0.1, 0.0, sideways=0.2), "sideways"),
     ("initialpose", PoseWithCovarianceStamped, initial_pose(0, 0, 0, frame="odom"), 'frame "odom"'),
-    ("initialpose", PoseWithCovarianceStamped, initial_pose(0, 0, 0, frame="\x1b[31m" + "x" * 10000), "only those in"),
     ("initialpose", PoseWithCovarianceStamped, initial_pose(1e9, 0, 0), "out of this world"),
     ("initialpose", PoseWithCovarianceStamped,
-     PoseWithCovarianceStamped(header("map"), PoseWithCovariance(Pose(Point(), Quaternion(0.0, 0.0, 0.0, 0.0)), [0.0] * 36)), "no heading")])
+     PoseWithCovarianceStamped(header("map"), PoseWithCovariance(Pose(Point(), Quaternion(0.0, 0.0, 0.0, 0.0)), [0.0] * 36)), "no heading")]
+
+
+@pytest.mark.parametrize("topic, kind, message, why", NO_COMMANDS + [pytest.param(*each, marks=LONG) for each in MORE_NO_COMMANDS])
 def test_what_is_no_command_is_refused_in_words(bridge, peer, pulse, commands, alice, topic, kind, message, why):
     running = bridge("--keys", alice)
     said = peer.reader("diagnostics", DiagnosticArray, RELIABLE)

@@ -16,7 +16,8 @@ from foxglove.messages import (Color, Duration, FrameTransform, FrameTransforms,
 
 STATES = ("lost", "weak", "good")
 NO_RETURN, TOO_NEAR = 0x81, 0x85  # codes of beams without a range
-LINE, CORNER, WALL, APART = (Color(r=r, g=g, b=b, a=1.0) for r, g, b in ((0.1, 0.5, 1.0), (1.0, 0.4, 0.1), (0.9, 0.9, 0.9), (0.7, 0.3, 1.0)))
+LINE, CORNER, WALL, APART, PLAN = (Color(r=r, g=g, b=b, a=1.0) for r, g, b in (
+    (0.1, 0.5, 1.0), (1.0, 0.4, 0.1), (0.9, 0.9, 0.9), (0.7, 0.3, 1.0), (0.2, 0.9, 0.4)))
 
 
 def turn(theta):
@@ -54,6 +55,15 @@ def segments(lines, colour, width):
     return LinePrimitive(type=LinePrimitiveLineType.LineList, thickness=width, color=colour, points=points)
 
 
+def way(plan):
+    points = [Point3(x=x, y=y, z=0.0) for x, y in zip(plan.x, plan.y)]
+    return LinePrimitive(type=LinePrimitiveLineType.LineStrip, thickness=0.06, color=PLAN, points=points) if points else None
+
+
+def ball(x, y, size, colour):
+    return SpherePrimitive(pose=pose_of(x, y, 0.0), size=Vector3(x=size, y=size, z=size), color=colour)
+
+
 def entity(name, frame, utime, seconds, lines=(), spheres=()):
     """seconds: it is gone then; 0: it stays until the next one of that name."""
     return SceneUpdate(entities=[SceneEntity(
@@ -69,6 +79,7 @@ class Scene:
         self.lines = made(channels.SceneUpdateChannel, "/lines")
         self.corners = made(channels.SceneUpdateChannel, "/corners")
         self.walls = made(channels.SceneUpdateChannel, "/map")
+        self.plan = made(channels.SceneUpdateChannel, "/plan")
         self.pose = made(channels.PoseInFrameChannel, "/pose")
         self.wheels = made(channels.PoseInFrameChannel, "/odometry")
         self.tf = made(channels.FrameTransformsChannel, "/tf")
@@ -78,7 +89,8 @@ class Scene:
         self.takers = {"ALE_SCAN": (ale.scan_t, self.take_scan), "ALE_POSE": (ale.pose_t, self.take_pose),
                        "ALE_TRACKING": (ale.tracking_t, self.take_tracking), "ALE_FEATURES": (ale.features_t, self.take_features),
                        "ALE_MAP": (ale.map_t, self.take_map), "ALE_MAP_PIECES": (ale.map_pieces_t, self.take_pieces),
-                       "ALE_STATUS": (ale.status_t, self.take_status), "ALE_ODOMETRY": (ale.odometry_t, self.take_odometry)}
+                       "ALE_STATUS": (ale.status_t, self.take_status), "ALE_ODOMETRY": (ale.odometry_t, self.take_odometry),
+                       "ALE_PLAN": (ale.plan_t, self.take_plan)}
         self.newest = None  # pose
         self.parts, self.pieces, self.apart = {}, {}, (0, frozenset())
         self.said = {}
@@ -136,8 +148,7 @@ class Scene:
     def take_features(self, features):
         at = features.utime * 1000
         self.lines.log(entity("lines", "laser", features.utime, 0.5, [segments(features.lines, LINE, 0.03)]), log_time=at)
-        size = Vector3(x=0.08, y=0.08, z=0.08)
-        spheres = [SpherePrimitive(pose=pose_of(corner.x, corner.y, 0.0), size=size, color=CORNER) for corner in features.corners]
+        spheres = [ball(corner.x, corner.y, 0.08, CORNER) for corner in features.corners]
         self.corners.log(entity("corners", "laser", features.utime, 0.5, spheres=spheres), log_time=at)
 
     def take_map(self, part):
@@ -154,6 +165,11 @@ class Scene:
         whole = gathered(self.pieces, part)
         if whole:
             self.apart = (part.version, frozenset(line for each in whole for line in each.line_id))
+
+    def take_plan(self, plan):
+        """The robot repeats it every second while there is one."""
+        place = [ball(plan.place_x, plan.place_y, 0.2, PLAN)] if plan.has_place else []
+        self.plan.log(entity("plan", "map", plan.utime, 3, [way(plan)], place), log_time=plan.utime * 1000)
 
     def take_status(self, status):
         at = status.utime * 1000
