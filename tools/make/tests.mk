@@ -275,7 +275,7 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	@$(PHASE) "simulated scanners read by clients that are not ours, a minute each"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=independent_clients
 	@$(PHASE) "the bridges to ROS 2 and Foxglove, all of their tests"
-	-@ALE_LONG_TESTS=1 $(SUB) system T="test_ros2 or test_foxglove or test_bags"
+	-@ALE_LONG_TESTS=1 $(SUB) system T="ros2 or test_foxglove or test_bags"
 	@$(PHASE) "hostile messages, ten thousand of every kind"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=whatever_is_sent
 	@$(PHASE) "explorations in a closed loop with the simulator, more of them"
