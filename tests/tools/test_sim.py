@@ -384,7 +384,7 @@ def test_the_description_is_a_configuration(tmp_path):
 @pytest.mark.parametrize("words, code, message", [
     ([], 2, "give either --log LOG or --world WORLD"),
     (["--world", "w", "--log", "l", "--pty", "p"], 2, "give either"),
-    (["--world", "w"], 2, "--pty LINK is missing"),
+    (["--world", "w"], 2, "give either --pty LINK or --tcp PORT"),
     (["--log", "l", "--pty", "p", "--drive"], 2, "--drive needs a --world"),
     (["--log", "l", "--pty", "p", "--truth", "t"], 2, "--truth"),
     (["--world", "w", "--pty", "p", "--speed", "0"], 2, "--speed 0"),

@@ -221,7 +221,7 @@ def test_settings_are_those_of_the_robot_s_configuration(ale, tmp_path):
     sections = {"sensor", "noise", "extract", "odometry"}
     keys = {(section, key) for section, key in re.findall(r'^    \{"(\w+)", "(\w+)",', (ROOT / "firmware/config/config_keys.c").read_text(), re.M)
             if section in sections or key in ("max_speed", "max_turn")}
-    not_of_an_array = {("sensor", key) for key in ("port", "serial", "baud", "reversed", "blind", "first_step", "last_step")}
+    not_of_an_array = {("sensor", key) for key in ("type", "port", "serial", "baud", "reversed", "blind", "first_step", "last_step")}
     assert {f"{section}.{key}" for section, key in keys - not_of_an_array} == set(described)
     path.write_text("[sensor]\nx = far\nblind = -120:-100, 90:100\n", encoding="utf-8")
     with pytest.raises(ValueError, match="robot.ini: sensor.x: 'far' is not a number"):

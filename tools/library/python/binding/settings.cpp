@@ -55,6 +55,7 @@ const Setting settings[] = {
     {"sensor.theta", -pi, pi, get_theta, set_theta},
     NUMBER("noise.own_um", extract.noise.own_um, 1, 0, 100000),
     NUMBER("noise.own_ppm", extract.noise.own_ppm, 1, 0, 100000),
+    NUMBER("noise.own_ppm_per_m", extract.noise.own_ppm_per_m, 1, 0, 10000),
     NUMBER("noise.shared_um", extract.noise.shared_um, 1, 0, 100000),
     NUMBER("noise.shared_ppm", extract.noise.shared_ppm, 1, 0, 100000),
     NUMBER("noise.shared_beams", extract.noise.shared_beams, 1, 1, ALE_MAX_BEAMS),
