@@ -1,9 +1,9 @@
 #!/bin/sh
 # clang-tidy, two at a time, one file each (of a second one it says that a va_list is uninitialised): tidy.sh BUILD FILE...
-# Generated LCM types are taken as system headers.
+# Generated types of LCM and DDS are taken as system headers.
 build=$1
 shift
-flags="-Ilib -Idrivers -Ifirmware -Itools -Itests -isystem $build/lcmtypes -isystem /usr/include/eigen3 -D_GNU_SOURCE"
+flags="-Ilib -Idrivers -Ifirmware -Itools -Itests -isystem $build/lcmtypes -isystem $build/dds -isystem /usr/include/eigen3 -D_GNU_SOURCE"
 tidy() {
     extension=$1
     standard=$2

@@ -36,11 +36,10 @@ std::vector<Drive> read_drives(const Options &options)
         drives.push_back(read_drive(path, options));
     }
     std::stable_sort(drives.begin(), drives.end(), is_earlier);
-    const auto same = std::adjacent_find(drives.begin(), drives.end(), [](const Drive &a, const Drive &b) {
-        return a.checksum == b.checksum;
-    });
-    if (same != drives.end()) {
-        throw std::runtime_error(same->name + " and " + (same + 1)->name + " are the same drive");
+    for (size_t k = 1; k < drives.size(); k++) {
+        if (drives[k].checksum == drives[k - 1].checksum) {
+            throw std::runtime_error(drives[k - 1].name + " and " + drives[k].name + " are the same drive");
+        }
     }
     number_frames(&drives);
     return drives;
