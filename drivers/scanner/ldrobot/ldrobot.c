@@ -67,7 +67,7 @@ static int64_t advance(ale_ldrobot_t *l, uint16_t stamp_ms)
 static uint32_t bearing_of(uint32_t start, uint32_t sweep, uint32_t k)
 {
     const uint64_t clockwise = (uint64_t)start * GAPS + (uint64_t)sweep * k;
-    return (uint32_t)(0 - (clockwise << 32) / (TURN * GAPS));
+    return (uint32_t)(0 - (clockwise << 32) / ((uint64_t)TURN * GAPS));
 }
 
 static bool fill(ale_ldrobot_t *l, ale_rotary_packet_t *packet)
@@ -86,7 +86,7 @@ static bool fill(ale_ldrobot_t *l, ale_rotary_packet_t *packet)
     packet->speed_mdeg_s = ale_get_u16(bytes + AT_SPEED) * 1000;
     packet->count = ALE_LDROBOT_POINTS;
     for (uint32_t k = 0; k < ALE_LDROBOT_POINTS; k++) {
-        const uint8_t *at = bytes + AT_POINTS + k * POINT_BYTES;
+        const uint8_t *at = bytes + AT_POINTS + (size_t)k * POINT_BYTES;
         packet->points[k] = (ale_rotary_point_t){bearing_of(start, sweep, k), ale_get_u16(at) * 1000};
     }
     return true;

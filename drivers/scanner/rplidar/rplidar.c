@@ -375,7 +375,7 @@ static void facts(const void *state, ale_rotary_facts_t *f)
     snprintf(f->identity.firmware, sizeof f->identity.firmware, "%d.%02d", l->firmware >> 8,
              l->firmware & 0xff);
     for (unsigned k = 0; k < sizeof l->serial && 2 * k + 2 < sizeof f->identity.serial; k++) {
-        snprintf(f->identity.serial + 2 * k, 3, "%02X", l->serial[k]);
+        snprintf(f->identity.serial + (size_t)2 * k, 3, "%02X", l->serial[k]);
     }
     if (l->health != 0) {
         snprintf(f->words, sizeof f->words, "it says of itself: %s, code %d",

@@ -131,7 +131,7 @@ static uint32_t bearing_of(uint32_t clockwise_q16)
 static void take_nodes(ale_rplidar_parser_t *p, ale_rotary_packet_t *packet)
 {
     for (uint32_t k = 0; k < ALE_RPLIDAR_NODES; k++) {
-        const uint8_t *node = p->bytes + k * ALE_RPLIDAR_NODE;
+        const uint8_t *node = p->bytes + (size_t)k * ALE_RPLIDAR_NODE;
         const uint32_t angle_q6 = (uint32_t)ale_get_u16(node + 1) >> 1;
         const int32_t quarters = ale_get_u16(node + 3);
         packet->points[k] = (ale_rotary_point_t){bearing_of(angle_q6 << 10), quarters * UM_A_QUARTER_MM};
@@ -151,8 +151,8 @@ static uint32_t start_q6(const uint8_t *capsule)
 static void take_cabins(const uint8_t *capsule, uint32_t sweep_q6, ale_rotary_packet_t *packet)
 {
     for (uint32_t k = 0; k < ALE_RPLIDAR_CAPSULE_POINTS; k++) {
-        const uint8_t *cabin = capsule + AT_CABINS + k / 2 * CABIN_BYTES;
-        const uint32_t word = ale_get_u16(cabin + k % 2 * 2);
+        const uint8_t *cabin = capsule + AT_CABINS + (size_t)(k / 2) * CABIN_BYTES;
+        const uint32_t word = ale_get_u16(cabin + (size_t)(k % 2) * 2);
         const uint32_t low = k % 2 == 0 ? cabin[4] & 0xfU : (uint32_t)cabin[4] >> 4;
         const uint32_t less_q3 = low | (word & 3U) << 4;
         const uint32_t even_q16 = (start_q6(capsule) << 10) + (sweep_q6 << 5) * k;
@@ -165,8 +165,8 @@ static void take_dense(const uint8_t *capsule, uint32_t sweep_q6, ale_rotary_pac
 {
     for (uint32_t k = 0; k < ALE_RPLIDAR_DENSE_POINTS; k++) {
         const uint32_t even_q16 = (start_q6(capsule) << 10) + (sweep_q6 << 10) * k / ALE_RPLIDAR_DENSE_POINTS;
-        packet->points[k] =
-            (ale_rotary_point_t){bearing_of(even_q16), ale_get_u16(capsule + AT_CABINS + 2 * k) * 1000};
+        packet->points[k] = (ale_rotary_point_t){bearing_of(even_q16),
+                                                 ale_get_u16(capsule + AT_CABINS + (size_t)2 * k) * 1000};
     }
 }
 

@@ -49,21 +49,23 @@ void ObservationRecord::add(const ale_scan_observation_t &observation)
                       {observation.line, observation.line + observation.line_count},
                       {observation.corner, observation.corner + observation.corner_count},
                       nullptr,
-                      static_cast<uint32_t>(sensors_.size() - 1)};
+                      static_cast<uint32_t>(sensors_.size())};
     if (needs_beams(observation)) {
         scan.beams = std::make_unique<ale_seen_copy_t>(seen);
         last_beams_pose_ = seen.robot;
         last_beams_us_ = observation.stamp_us;
     }
     scans_.push_back(std::move(scan));
-    sensors_.back() = ale_pose_between(seen.robot, seen.sensor);
+    sensor_ = ale_pose_between(seen.robot, seen.sensor);
 }
 
 void ObservationRecord::append(ObservationRecord &&later, uint32_t first_scan)
 {
-    const auto first_drive = static_cast<uint32_t>(epoch_ == 0 ? 0 : sensors_.size());
+    if (epoch_ != 0) {
+        sensors_.push_back(sensor_);
+    }
     epoch_ = epoch_ == 0 ? later.epoch_ : epoch_;
-    sensors_.resize(first_drive);
+    const auto first_drive = static_cast<uint32_t>(sensors_.size());
     sensors_.insert(sensors_.end(), later.sensors_.begin(), later.sensors_.end());
     for (RecordedScan &scan : later.scans_) {
         scan.scan += first_scan;
@@ -71,6 +73,7 @@ void ObservationRecord::append(ObservationRecord &&later, uint32_t first_scan)
         scan.drive += first_drive;
         scans_.push_back(std::move(scan));
     }
+    sensor_ = later.sensor_;
     later = ObservationRecord();
 }
 

@@ -70,7 +70,7 @@ class ObservationRecord
     // Pose of the sensor on the robot that took it.
     const ale_pose_t &sensor(const RecordedScan &scan) const
     {
-        return sensors_[scan.drive];
+        return scan.drive < sensors_.size() ? sensors_[scan.drive] : sensor_;
     }
     // Of the map; 0: nothing was added.
     uint32_t epoch() const
@@ -82,7 +82,8 @@ class ObservationRecord
     bool needs_beams(const ale_scan_observation_t &observation) const;
 
     uint32_t epoch_ = 0;
-    std::vector<ale_pose_t> sensors_ = {ale_pose_t{}}; // by drive
+    std::vector<ale_pose_t> sensors_; // of drives that others followed
+    ale_pose_t sensor_{};             // and of the last
     std::vector<ale_map_line_t> prior_lines_;
     std::vector<ale_map_corner_t> prior_corners_;
     std::vector<RecordedScan> scans_;
