@@ -20,12 +20,12 @@
 typedef struct {
     int32_t own_um; /* of each beam: a constant part, and one proportional to the range */
     int32_t own_ppm;
-    int32_t own_ppm_per_m; /* and one to its square: at most 10,000 */
-    int32_t shared_um;     /* of neighbouring beams together */
+    int32_t shared_um; /* of neighbouring beams together */
     int32_t shared_ppm;
     int32_t shared_beams; /* after so many the correlation has fallen to 1/e; at least 1 */
     int32_t surface_um;   /* of a whole surface */
     int32_t bearing_nrad;
+    int32_t own_ppm_per_m; /* of each beam's own part, to the square of the range: at most 10,000 */
 } ale_noise_t;
 
 /* The URG-04LX as measured on recordings, by `ale-calibrate noise`. */

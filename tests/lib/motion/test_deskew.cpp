@@ -84,8 +84,8 @@ TEST(Deskew, MovesTheBeamsOfAWholeTurnByTheirOwnTimes)
                                                             Eigen::Vector2d(std::cos(a), std::sin(a)) *
                                                             range[static_cast<size_t>(k)];
             const double b = convert::radians(bearing[static_cast<size_t>(k)]);
-            EXPECT_NEAR(scan.range_um[k] * 1e-6 * std::cos(b), p[0], 30e-6);
-            EXPECT_NEAR(scan.range_um[k] * 1e-6 * std::sin(b), p[1], 30e-6);
+            EXPECT_NEAR(scan.range_um[k] * 1e-6 * std::cos(b), p[0], 40e-6);
+            EXPECT_NEAR(scan.range_um[k] * 1e-6 * std::sin(b), p[1], 40e-6);
         }
     }
 }
