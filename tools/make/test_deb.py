@@ -98,8 +98,9 @@ def programs(layer):
     found = sorted((layer.root / "usr/bin").glob("ale-*"))
     assert len(found) > 12 and sum(path.lstat().st_size for path in found) < MOST_BYTES
     for path in found:
-        sections = layer.run("readelf", "--section-headers", "--wide", f"/usr/bin/{path.name}")
-        assert ".symtab" not in sections and ".debug" not in sections, f"{path.name} is not stripped"
+        if path.read_bytes().startswith(b"\x7fELF"):  # the others are Python
+            sections = layer.run("readelf", "--section-headers", "--wide", f"/usr/bin/{path.name}")
+            assert ".symtab" not in sections and ".debug" not in sections, f"{path.name} is not stripped"
         page = layer.run("man", "--pager=cat", path.name)
         assert "SYNOPSIS" in page and path.name in page, page
 
