@@ -99,32 +99,36 @@ def test_what_others_say_in_the_robots_name_changes_nothing_that_is_signed(alice
 
 
 def test_poses_that_are_not_the_robots_own_are_told_as_such_and_take_the_place_of_none(alice, robot):
-    """Ten a second, each with a forged one behind it that is numbered 6 ahead."""
+    """Ten a second, each with a forged one behind it that is numbered 15 ahead. As of a scanner that turns, numbers keep pace
+    with the clock, whatever the machine has to do: the console takes for forged what is numbered ahead of that."""
     page = WebSocket(alice.url)
     robot.publish_status()
     while not page.wait_for("status")["vouched"]:
         pass
-    own, forged, warned, begin = set(), 0, False, time.monotonic()
-    while len(own) < 40:
-        assert time.monotonic() < begin + 180
+    begin = time.monotonic()
+
+    def beat():
+        due = int((time.monotonic() - begin) * 10)
+        if due // 10 > robot.scan // 10:
+            robot.publish_status()
+        robot.scan = due
         robot.publish_pose()
         other = robot.pose()
-        other.scan, other.map_x = robot.scan + 6, 90.0
+        other.scan, other.map_x = robot.scan + 15, 90.0
         robot.bus.publish("ALE_POSE", other.encode())
-        if robot.scan % 10 == 9:
-            robot.publish_status()
-        before = robot.scan
-        robot.scan += 1
-        if not warned:
-            warned = before % 10 == 9 and any("not the robot's own" in line for line in page.wait_for("status")["warnings"])
-            first = robot.scan
-        else:
-            shown = page.wait_for("pose")
-            forged += shown["map"][0] > 80
-            own.update({shown["scan"]} if shown["map"][0] < 80 and shown["scan"] >= first else ())
-        time.sleep(0.1)
-    assert forged <= 3, "some that were on their way when it was found out"
-    assert robot.scan - first <= 45, "its own are shown, nearly every one"
+
+    both = Pulse(0.1, beat)
+    try:
+        until(page, lambda message: message["type"] == "status" and any("not the robot's own" in line for line in message["warnings"]), "a warning")
+        first, sent_before = robot.scan + 2, len(both.beats)
+        taken = until(page, lambda message: message["type"] == "pose" and message["map"][0] < 80 and message["scan"] >= first + 40, "its own poses")
+        sent = len(both.beats) - sent_before
+    finally:
+        both.stop()
+    shown = [message for message in taken if message["type"] == "pose" and message["scan"] >= first]
+    forged = [pose["scan"] for pose in shown if pose["map"][0] > 80]
+    assert len(forged) <= 3, "some that were on their way when it was found out"
+    assert len(shown) - len(forged) >= 0.8 * sent, "its own are shown, nearly every one"
 
 
 def test_poses_of_another_program_take_the_place_of_none_whatever_their_number(alice, robot, lcm_url):
