@@ -3,6 +3,7 @@ upright and sideways, and nothing that moves under a finger."""
 import pytest
 
 import browser
+from at_hand import LONG
 from console_page import LINK, STATE, chromium, cockpit, let_the_camera_glide, middle, page, pixels  # noqa: F401 (fixtures)
 from waiting import Pulse
 from watching import alice, commands, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
@@ -10,6 +11,8 @@ from watching import alice, commands, console, lcm_url, pulse, robot  # noqa: F4
 pytestmark = pytest.mark.skipif(bool(browser.missing()), reason=f"no browser test: {browser.missing()}")
 
 PHONES = [(390, 844), (844, 390)]
+# Of each law one case is in `make test`, the others in `make test-all`.
+THEMES = ["dark", pytest.param("light", marks=LONG)]
 LEAST_CONTRAST = 4.5  # WCAG 2.1, 1.4.3
 
 CONTRASTS = """
@@ -70,7 +73,7 @@ def assert_readable(page, when):
     assert poor == [], when
 
 
-@pytest.mark.parametrize("theme", ["dark", "light"])
+@pytest.mark.parametrize("theme", THEMES)
 def test_every_text_can_be_read_in_every_state(cockpit, robot, theme):
     cockpit.run("localStorage.clear()")
     if cockpit.run("return document.documentElement.dataset.theme") != theme:
@@ -88,7 +91,7 @@ def test_every_text_can_be_read_in_every_state(cockpit, robot, theme):
     assert_readable(cockpit, "with advice, a hint, an answer")
 
 
-@pytest.mark.parametrize("theme", ["dark", "light"])
+@pytest.mark.parametrize("theme", THEMES)
 def test_every_text_can_be_read_without_a_robot_and_without_a_link(page, console, theme):
     if page.run("return document.documentElement.dataset.theme") != theme:
         page.click("theme")
@@ -106,11 +109,11 @@ def test_every_control_has_a_name_that_a_screen_reader_says(cockpit):
     cockpit.be_a_phone(*PHONES[0])  # where every button is there to be seen
     try:
         cockpit.tap("layers")
-        names = [cockpit.spoken_name(element) for element in cockpit.elements(f"{CONTROLS}, canvas, table")]
-        buttons = [cockpit.spoken_name(element) for element in cockpit.elements("button")]
+        names = {element: cockpit.spoken_name(element) for element in cockpit.elements(f"{CONTROLS}, canvas, table")}
+        buttons = [names[element] for element in cockpit.elements("button")]
     finally:
         cockpit.be_a_window()
-    assert len(names) > 40 and [name for name in names if len(name) < 3] == []
+    assert len(names) > 40 and [name for name in names.values() if len(name) < 3] == []
     assert len(buttons) == len(set(buttons)), "no two buttons of one name"
 
 
@@ -139,7 +142,7 @@ def test_before_a_robot_is_heard_nothing_can_be_pressed(alice, chromium):
     assert chromium.run(ENABLED) == []
 
 
-@pytest.fixture(params=PHONES, ids=["upright", "sideways"])
+@pytest.fixture(params=[pytest.param(PHONES[0], id="upright"), pytest.param(PHONES[1], id="sideways", marks=LONG)])
 def phone(request, chromium):
     chromium.be_a_phone(*request.param)
     yield request.param
@@ -178,7 +181,7 @@ def test_a_finger_presses_and_holds(phone, cockpit, commands):
     assert [c.verb for c in commands(1)] == ["set"]
 
 
-@pytest.mark.parametrize("size", [(1280, 800), *PHONES])
+@pytest.mark.parametrize("size", [PHONES[0], *(pytest.param(size, marks=LONG) for size in ((1280, 800), PHONES[1]))])
 def test_nothing_moves_under_a_finger(cockpit, robot, size):
     cockpit.be_a_phone(*size)
     try:
@@ -267,8 +270,8 @@ def test_the_cursor_tells_its_place_in_the_map(page, pulse):
     assert places[0][1] == places[1][1]
 
 
-@pytest.mark.parametrize("layer, colour, tolerance", [("map", "wall", 25), ("lines", "line", 25), ("corners", "corner", 25),
-                                                      ("scan", "scan", 25), ("trail", "trail", 40)])
+@pytest.mark.parametrize("layer, colour, tolerance", [("map", "wall", 25), *(pytest.param(*case, marks=LONG) for case in (
+    ("lines", "line", 25), ("corners", "corner", 25), ("scan", "scan", 25), ("trail", "trail", 40)))])
 def test_a_layer_is_switched_off_and_on_and_stays_so(page, robot, layer, colour, tolerance):
     for _ in range(30):
         robot.step()

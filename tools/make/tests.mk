@@ -270,6 +270,8 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	-@ALE_LONG_TESTS=1 $(CHECKED) VENV=$(abspath $(VENV)) SYSTEM_PROGRAMS= T="$(HOSTILE_TESTS)" system
 	@$(PHASE) "the robot explores at a click in the browser"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=console_explores
+	@$(PHASE) "the console's page in every size, theme and layer"
+	-@ALE_LONG_TESTS=1 $(SUB) system T=test_console_access
 	@$(PHASE) "Python's wheel in an empty virtual environment"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=test_python_wheel
 	@$(PHASE) "simulated scanners read by clients that are not ours, a minute each"
