@@ -9,7 +9,7 @@ namespace console
 namespace
 {
 
-constexpr int64_t trail_ms = 2 * 60 * 1000;
+constexpr int64_t trail_ms = int64_t{2} * 60 * 1000;
 constexpr int64_t scan_ms = 200; /* what belongs to the newest pose has come by then */
 
 } // namespace
