@@ -10,7 +10,8 @@ enum {
     STEP_MS = 50,
     WRITE_MS = 200,
     REOPEN_MS = 100, /* first pause before the port is opened again; doubled up to the longest */
-    LONGEST_REOPEN_MS = 400
+    LONGEST_REOPEN_MS = 400,
+    LEAST_WALL_US = 100000 /* a simulator may run fast, but this computer's scheduler does not */
 };
 
 static double scale(const ale_connection_t *c)
@@ -27,6 +28,12 @@ int64_t ale_connection_now_us(const ale_connection_t *c)
     clock_gettime(CLOCK_MONOTONIC, &now);
     const int64_t host_us = (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000;
     return (int64_t)((double)host_us * scale(c));
+}
+
+int64_t ale_connection_deadline_us(const ale_connection_t *c, int32_t ms)
+{
+    const int64_t least_us = (int64_t)((double)LEAST_WALL_US * scale(c));
+    return ale_connection_now_us(c) + ale_max64((int64_t)ms * 1000, least_us);
 }
 
 void ale_connection_init(ale_connection_t *c, const ale_scanner_config_t *config)

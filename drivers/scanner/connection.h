@@ -33,6 +33,10 @@ void ale_connection_init(ale_connection_t *connection, const ale_scanner_config_
 /* The clock of the config, microseconds. */
 int64_t ale_connection_now_us(const ale_connection_t *connection);
 
+/* The moment in so many milliseconds of that clock, but not in less than the 100 ms that this computer's
+ * scheduler may take, however fast the clock runs. */
+int64_t ale_connection_deadline_us(const ale_connection_t *connection, int32_t ms);
+
 /* Of a closed one: waits until it is time to open, at most step_ms, and opens when it is. True: opened, or
  * failed to, and then words says why; false: not yet. path: of the port that was tried. */
 bool ale_connection_open(ale_connection_t *connection, int32_t baud, char path[128], char words[168]);

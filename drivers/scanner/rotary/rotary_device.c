@@ -14,8 +14,7 @@ enum {
     FIRST_SCAN_MS = 1000, /* from the beginning of listening to the first whole turn */
     SILENT_TURNS = 5,
     LEAST_SILENCE_MS = 400,
-    RESTARTS = 2,           /* of the stream without a scan, before the port is opened anew */
-    LEAST_WALL_US = 100000, /* a simulator may run fast, but this computer's scheduler does not */
+    RESTARTS = 2, /* of the stream without a scan, before the port is opened anew */
     BITS_A_BYTE = 10
 };
 
@@ -49,9 +48,7 @@ static int32_t baud_of(const ale_rotary_t *r)
 
 static void set_deadline(ale_rotary_t *r, int32_t ms)
 {
-    const double scale = r->config.time_scale > 0 ? r->config.time_scale : 1;
-    const int64_t least_us = (int64_t)(LEAST_WALL_US * scale);
-    r->deadline_us = ale_connection_now_us(&r->connection) + ale_max64((int64_t)ms * 1000, least_us);
+    r->deadline_us = ale_connection_deadline_us(&r->connection, ms);
 }
 
 /* Status in plain words; tells the caller of the step if it is news. */

@@ -3,9 +3,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-#include "base/fixed.h"
+#include "scanner/connection.h"
 #include "scanner/scanner_family.h"
 #include "scanner/urg/baud.h"
 #include "scanner/urg/scip_parse.h"
@@ -13,17 +12,6 @@
 #include "scanner/urg/urg_dialogue.h"
 #include "scanner/urg/urg_frames.h"
 #include "scanner/urg/urg_stream.h"
-#include "serial/port.h"
-#include "serial/port_candidates.h"
-
-enum {
-    READ_BYTES = 4096,
-    STEP_MS = 50,
-    WRITE_MS = 200,
-    REOPEN_MS = 100, /* first pause before the port is opened again; doubled up to the longest */
-    LONGEST_REOPEN_MS = 400,
-    LEAST_WALL_US = 100000 /* a simulator may run fast, but this computer's scheduler does not */
-};
 
 typedef struct {
     ale_scanner_t scanner; /* first */
@@ -31,16 +19,7 @@ typedef struct {
     ale_scanner_health_t health;
     bool changed;
 
-    ale_port_t *port;
-    char candidates[ALE_PORT_CANDIDATES][ALE_PORT_PATH];
-    uint32_t candidate_count;
-    uint32_t candidate; /* next one to try */
-    int64_t open_at_us;
-    uint32_t open_failures;
-    uint8_t bytes[READ_BYTES]; /* as read */
-    uint32_t byte_count;
-    uint32_t bytes_used;
-    int64_t read_us;
+    ale_connection_t connection;
     int64_t deadline_us;
 
     ale_scip_parser_t parser;
@@ -49,26 +28,9 @@ typedef struct {
     ale_urg_stream_t stream;
 } ale_urg_t;
 
-static double scale(const ale_urg_t *urg)
-{
-    return urg->config.time_scale > 0 ? urg->config.time_scale : 1;
-}
-
-static int64_t now_us(const ale_urg_t *urg)
-{
-    if (urg->config.now_us != NULL) {
-        return urg->config.now_us(urg->config.now_user);
-    }
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    const int64_t host_us = (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000;
-    return (int64_t)((double)host_us * scale(urg));
-}
-
 static void set_deadline(ale_urg_t *urg, int32_t ms)
 {
-    const int64_t floor_us = (int64_t)((double)LEAST_WALL_US * scale(urg));
-    urg->deadline_us = now_us(urg) + ale_max64((int64_t)ms * 1000, floor_us);
+    urg->deadline_us = ale_connection_deadline_us(&urg->connection, ms);
 }
 
 /* Status in plain words; tells the caller of the step if it is news. */
@@ -89,22 +51,10 @@ static void tell_state(ale_urg_t *urg)
 
 static void close_port(ale_urg_t *urg)
 {
-    ale_port_close(urg->port);
-    urg->port = NULL;
-    urg->byte_count = 0;
-    urg->bytes_used = 0;
+    ale_connection_close(&urg->connection);
     ale_urg_dialogue_close(&urg->dialogue);
     ale_urg_frames_close(&urg->frames);
     tell_state(urg);
-}
-
-static void schedule_open(ale_urg_t *urg)
-{
-    const uint32_t doublings = urg->open_failures < 4 ? urg->open_failures : 4;
-    const int32_t pause_ms = REOPEN_MS << doublings;
-    urg->open_failures++;
-    urg->open_at_us =
-        now_us(urg) + (int64_t)1000 * (pause_ms < LONGEST_REOPEN_MS ? pause_ms : LONGEST_REOPEN_MS);
 }
 
 static void reopen(ale_urg_t *urg, const char *reason)
@@ -112,26 +62,20 @@ static void reopen(ale_urg_t *urg, const char *reason)
     say(urg, reason);
     urg->health.reopens++;
     close_port(urg);
-    schedule_open(urg);
 }
 
 /* Bytes to the port, through the tap; trouble closes the port. */
 static void send_line(ale_urg_t *urg, const char *text)
 {
-    const uint32_t count = (uint32_t)strlen(text);
-    const int status = ale_port_write(urg->port, (const uint8_t *)text, count, WRITE_MS);
+    const int status = ale_connection_send(&urg->connection, (const uint8_t *)text, (uint32_t)strlen(text));
     if (status < 0) {
         reopen(urg, ale_port_strerror(status));
-        return;
-    }
-    if (urg->config.tap != NULL) {
-        urg->config.tap(urg->config.tap_user, true, (const uint8_t *)text, count, now_us(urg));
     }
 }
 
 static ale_urg_action_t set_baud(ale_urg_t *urg, int32_t baud)
 {
-    const bool set = ale_port_set_baud(urg->port, baud) == ALE_PORT_OK;
+    const bool set = ale_port_set_baud(urg->connection.port, baud) == ALE_PORT_OK;
     ale_scip_parser_reset(&urg->parser);
     return ale_urg_dialogue_baud_set(&urg->dialogue, baud, set);
 }
@@ -204,85 +148,30 @@ static void perform(ale_urg_t *urg, ale_urg_action_t action)
     }
 }
 
-/* The port to try now: the given one, or the next that a scanner may hang on; NULL when there is none. */
-static const char *next_path(ale_urg_t *urg)
+static void step_closed(ale_urg_t *urg)
 {
-    if (urg->config.path != NULL) {
-        return urg->config.path;
-    }
-    if (urg->candidate >= urg->candidate_count) {
-        urg->candidate_count = ale_port_candidates("/dev", urg->candidates);
-        urg->candidate = 0;
-    }
-    return urg->candidate_count > 0 ? urg->candidates[urg->candidate++] : NULL;
-}
-
-static void open_port(ale_urg_t *urg)
-{
-    const char *path = next_path(urg);
-    if (path == NULL) {
-        say(urg, "no serial device is there that could be a scanner");
-        schedule_open(urg);
+    const int32_t baud = ale_urg_dialogue_first_baud(&urg->dialogue);
+    char words[sizeof urg->health.status];
+    if (!ale_connection_open(&urg->connection, baud, urg->health.port, words)) {
         return;
     }
-    snprintf(urg->health.port, sizeof urg->health.port, "%s", path);
-    const int32_t baud = ale_urg_dialogue_first_baud(&urg->dialogue);
-    const int status = ale_port_open(&urg->port, path, baud);
-    if (status < 0) {
-        char words[ALE_PORT_WORDS];
-        char text[sizeof urg->health.status];
-        ale_port_explain(status, path, words);
-        snprintf(text, sizeof text, "%.60s: %s", path, words);
-        say(urg, text);
-        schedule_open(urg);
+    if (urg->connection.port == NULL) {
+        say(urg, words);
         return;
     }
     ale_scip_parser_reset(&urg->parser);
     ale_urg_frames_open(&urg->frames);
-    perform(urg, ale_urg_dialogue_open(&urg->dialogue, baud, ale_port_has_baud(urg->port)));
-}
-
-/* Milliseconds to wait for the port until a moment of the urg's clock, within what a step may take. */
-static int32_t wait_ms(const ale_urg_t *urg, int64_t until_us)
-{
-    const int32_t most_ms = urg->config.step_ms > 0 ? urg->config.step_ms : STEP_MS;
-    const int64_t left_us = (int64_t)((double)(until_us - now_us(urg)) / scale(urg));
-    return (int32_t)ale_clamp64((left_us + 999) / 1000, 0, most_ms);
-}
-
-static void step_closed(ale_urg_t *urg)
-{
-    if (now_us(urg) < urg->open_at_us) {
-        ale_port_wait(NULL, wait_ms(urg, urg->open_at_us));
-    }
-    if (now_us(urg) >= urg->open_at_us) {
-        open_port(urg);
-    }
+    perform(urg, ale_urg_dialogue_open(&urg->dialogue, baud, ale_port_has_baud(urg->connection.port)));
 }
 
 static void receive(ale_urg_t *urg)
 {
-    int status = ale_port_wait(urg->port, wait_ms(urg, urg->deadline_us));
-    if (status > 0) {
-        status = ale_port_read(urg->port, urg->bytes, sizeof urg->bytes);
-    }
+    const int status = ale_connection_receive(&urg->connection, urg->deadline_us);
     if (status < 0) {
         reopen(urg, ale_port_strerror(status));
         return;
     }
-    urg->read_us = now_us(urg);
-    urg->byte_count = (uint32_t)status;
-    urg->bytes_used = 0;
-    ale_urg_dialogue_overhear(&urg->dialogue, urg->bytes, urg->byte_count);
-}
-
-/* The bytes of one step of the parser: what is tapped ends where a scan does, though it was read in one go.
- */
-static void tap_received(const ale_urg_t *urg, const uint8_t *bytes, uint32_t count)
-{
-    if (urg->config.tap != NULL) {
-        urg->config.tap(urg->config.tap_user, false, bytes, count, urg->read_us);
-    }
+    ale_urg_dialogue_overhear(&urg->dialogue, urg->connection.bytes, urg->connection.count);
 }
 
 /* Time without a scan after which the stream counts as dead. */
@@ -302,7 +191,7 @@ static void take_scan(ale_urg_t *urg, const ale_scip_event_t *event)
     h->scan_period_us = urg->stream.period_us;
     h->silence_ms = silence_ms(urg);
     if (ale_urg_frames_proved(&urg->frames)) {
-        urg->open_failures = 0;
+        ale_connection_proved(&urg->connection);
         ale_urg_dialogue_proved(&urg->dialogue);
     }
     if (ale_urg_dialogue_scan(&urg->dialogue)) {
@@ -354,16 +243,16 @@ static void take_event(ale_urg_t *urg, const ale_scip_event_t *event)
     }
 }
 
-/* Parses until a frame yields something, or all bytes are used. An event may close the port. */
+/* Parses until a frame yields something, or all bytes are used: what is tapped ends where a scan does, though
+ * it was read in one go. An event may close the port. */
 static void parse(ale_urg_t *urg)
 {
-    while (urg->bytes_used < urg->byte_count) {
+    const ale_connection_t *c = &urg->connection;
+    while (c->used < c->count) {
         ale_scip_event_t event;
-        const uint8_t *bytes = urg->bytes + urg->bytes_used;
-        const uint32_t count = (uint32_t)ale_scip_parse(
-            &urg->parser, bytes, urg->byte_count - urg->bytes_used, urg->read_us, &event);
-        urg->bytes_used += count;
-        tap_received(urg, bytes, count);
+        const size_t count =
+            ale_scip_parse(&urg->parser, c->bytes + c->used, c->count - c->used, c->read_us, &event);
+        ale_connection_use(&urg->connection, (uint32_t)count);
         take_event(urg, &event);
         if (event.kind == ALE_SCIP_SCAN || event.kind == ALE_SCIP_LOST) {
             break;
@@ -412,16 +301,17 @@ static ale_scanner_event_t step(ale_scanner_t *scanner, ale_scan_t *scan)
     if (waiting != ALE_SCANNER_IDLE) {
         return waiting;
     }
-    if (urg->port == NULL) {
+    const ale_connection_t *c = &urg->connection;
+    if (c->port == NULL) {
         step_closed(urg);
         return hand_out(urg, scan);
     }
-    if (urg->bytes_used == urg->byte_count) {
+    if (c->used == c->count) {
         receive(urg);
     }
     parse(urg);
-    const bool idle = urg->port != NULL && urg->bytes_used == urg->byte_count;
-    if (idle && now_us(urg) >= urg->deadline_us) {
+    const bool idle = c->port != NULL && c->used == c->count;
+    if (idle && ale_connection_now_us(c) >= urg->deadline_us) {
         perform(urg, ale_urg_dialogue_time_out(&urg->dialogue));
     }
     return hand_out(urg, scan);
@@ -443,17 +333,17 @@ static ale_scanner_t *open_scanner(const ale_scanner_config_t *config)
     ale_scip_parser_init(&urg->parser);
     ale_urg_dialogue_init(&urg->dialogue, &urg->config);
     ale_urg_stream_init(&urg->stream, config->reversed);
-    urg->open_at_us = now_us(urg);
+    ale_connection_init(&urg->connection, &urg->config);
     return &urg->scanner;
 }
 
 static void close_scanner(ale_scanner_t *scanner)
 {
     ale_urg_t *urg = (ale_urg_t *)scanner;
-    if (urg->port != NULL) {
+    if (urg->connection.port != NULL) {
         send_line(urg, "\nQT\n");
     }
-    if (urg->port != NULL) {
+    if (urg->connection.port != NULL) {
         close_port(urg);
     }
     free(urg);

@@ -26,7 +26,7 @@ class FakeLd06 : public ale_test::FakeRotary
     {
         return std::llround(time_us(12 * packet_ + 11)) + 2040 + delay_us;
     }
-    void live() override
+    void go_on() override
     {
         while (next_us() <= now_us) {
             send();

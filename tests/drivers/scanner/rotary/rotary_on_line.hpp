@@ -30,12 +30,16 @@ class RotaryOnLine : public testing::Test
     std::vector<std::string> said; // every status, once
     std::unique_ptr<ale_scanner_t, decltype(&ale_scanner_close)> scanner{nullptr, ale_scanner_close};
 
+    void TearDown() override
+    {
+        scanner.reset(); // while what is on the line is there
+    }
     void put_on_line(FakeRotary &rotary, const char *family)
     {
-        rotary_on_the_line = &rotary;
+        on_the_line = &rotary;
         config.family = family;
         config.path = "fake";
-        config.now_us = rotary_now;
+        config.now_us = time_on_the_line;
         config.tap_user = this;
         config.tap = [](void *user, bool out, const uint8_t *bytes, uint32_t count, int64_t) {
             auto *self = static_cast<RotaryOnLine *>(user);
@@ -57,13 +61,13 @@ class RotaryOnLine : public testing::Test
             scanner.reset(ale_scanner_open(&config));
         }
         auto scan = std::make_unique<ale_scan_t>();
-        const int64_t until_us = rotary_on_the_line->now_us + static_cast<int64_t>(seconds * 1e6);
-        while (rotary_on_the_line->now_us < until_us) {
-            const int64_t before_us = rotary_on_the_line->now_us;
+        const int64_t until_us = on_the_line->now_us + static_cast<int64_t>(seconds * 1e6);
+        while (on_the_line->now_us < until_us) {
+            const int64_t before_us = on_the_line->now_us;
             const ale_scanner_event_t event = ale_scanner_step(scanner.get(), scan.get());
-            ASSERT_LE(rotary_on_the_line->now_us - before_us, 51000) << "a step blocks no longer than 50 ms";
+            ASSERT_LE(on_the_line->now_us - before_us, 51000) << "a step blocks no longer than 50 ms";
             if (event == ALE_SCANNER_SCAN || event == ALE_SCANNER_SCAN_LOST) {
-                answers.push_back({event == ALE_SCANNER_SCAN_LOST, rotary_on_the_line->now_us, *scan});
+                answers.push_back({event == ALE_SCANNER_SCAN_LOST, on_the_line->now_us, *scan});
             }
             if (said.empty() || said.back() != health().status) {
                 said.emplace_back(health().status);
@@ -73,15 +77,15 @@ class RotaryOnLine : public testing::Test
     // Runs until a scan comes; the time that took.
     double seconds_to_scan(double most)
     {
-        const int64_t begin_us = rotary_on_the_line->now_us;
+        const int64_t begin_us = on_the_line->now_us;
         const size_t before = answers.size();
-        while (rotary_on_the_line->now_us < begin_us + static_cast<int64_t>(most * 1e6)) {
+        while (on_the_line->now_us < begin_us + static_cast<int64_t>(most * 1e6)) {
             run_for(0.01);
             if (answers.size() > before && !answers.back().lost) {
                 break;
             }
         }
-        return static_cast<double>(rotary_on_the_line->now_us - begin_us) * 1e-6;
+        return static_cast<double>(on_the_line->now_us - begin_us) * 1e-6;
     }
     int lost() const
     {

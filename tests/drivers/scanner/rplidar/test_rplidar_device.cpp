@@ -30,7 +30,7 @@ class FakeRplidar : public FakeRotary
     }
     void hear(const std::string &bytes) override
     {
-        heard_ += bytes;
+        heard_ += port_baud == sensor_baud ? bytes : "";
         while (heard_.size() >= 2) {
             const bool loaded = (heard_[1] & 0x80) != 0;
             const size_t size = !loaded             ? 2
@@ -50,7 +50,7 @@ class FakeRplidar : public FakeRotary
         const int64_t answer_us = answers_.empty() ? INT64_MAX : answers_.front().first;
         return std::min(answer_us, type_ == 0 ? INT64_MAX : piece_us());
     }
-    void live() override
+    void go_on() override
     {
         while (!answers_.empty() && answers_.front().first <= now_us) {
             say(answers_.front().second);

@@ -1,5 +1,4 @@
-// A URG-04LX as the data sheet and recordings describe it, in virtual time, behind the port functions:
-// whoever includes this file gets ale_port_* from here, so that a minute of faults takes milliseconds.
+// A URG-04LX as the data sheet and recordings describe it, in virtual time.
 // Written on its own, without the project's encoder, so that a misreading of SCIP would have to be made
 // twice.
 #pragma once
@@ -13,9 +12,7 @@
 #include <string>
 #include <vector>
 
-extern "C" {
-#include "serial/port.h"
-}
+#include "drivers/scanner/fake_port.hpp"
 
 namespace ale_test
 {
@@ -54,14 +51,13 @@ inline std::string data_lines(const std::string &data, bool sums)
     return lines;
 }
 
-class FakeSensor
+class FakeSensor : public FakeDevice
 {
   public:
     // How this unit is made and wired.
     bool powers_up_in_1 = true; // classic; the UG01 powers up in 2.0
     bool can_switch = true;     // firmware 3 and later
     bool serves_once_a_turn = false;
-    bool is_rs232 = false;
     int32_t sensor_baud = 19200;
     int32_t turn_us = 100000;
     std::string serial = "H0706400";
@@ -69,22 +65,16 @@ class FakeSensor
     bool has_parameters = true;
     int32_t value_base = 1000;
 
-    // Faults: intervals of virtual time, and a hand on every frame.
-    int64_t silent_from_us = -1, silent_to_us = -1;
-    int64_t absent_from_us = -1, absent_to_us = -1;
+    // Faults: a hand on every frame.
     std::function<std::string(const std::string &, int)> garble; // frame and its number
     std::function<int64_t(int)> delay_us;                        // of a frame
 
     // What happened.
-    int64_t now_us = 5000000;
     int protocol = 1;
     bool laser = false, streaming = false, time_mode = false, mute = false;
     std::vector<int> sent;           // numbers of the frames that left
     std::map<int, int64_t> truth_us; // when the beam passed step 0
     std::vector<std::string> commands;
-    int opened = 0;
-    bool open = false;
-    int32_t port_baud = 0;
 
     void power_cycle(int64_t clock_ms = 0)
     {
@@ -103,20 +93,7 @@ class FakeSensor
         protocol = 2;
         begin_stream(request);
     }
-    bool plugged() const
-    {
-        return now_us < absent_from_us || now_us >= absent_to_us;
-    }
-    // Moves virtual time; true as soon as there is something to read.
-    bool pass(int64_t until_us)
-    {
-        while (now_us < until_us && output_.empty()) {
-            now_us = std::min({until_us, std::max(now_us + 1, next_event_us())});
-            live();
-        }
-        return !output_.empty();
-    }
-    void feed(const std::string &bytes)
+    void hear(const std::string &bytes) override
     {
         live();
         if (is_rs232 && port_baud != sensor_baud) {
@@ -128,23 +105,16 @@ class FakeSensor
             input_.erase(0, end + 1);
         }
     }
-    std::string take(size_t most)
-    {
-        const std::string out = output_.substr(0, most);
-        output_.erase(0, out.size());
-        return out;
-    }
     void say(const std::string &bytes)
     {
-        const bool silent = now_us >= silent_from_us && now_us < silent_to_us;
-        if (!open || silent || !plugged()) {
+        if (!open || silent() || !plugged()) {
             return;
         }
         output_ += is_rs232 && port_baud != sensor_baud ? std::string(bytes.size() / 2, '\x80') : bytes;
     }
-    void clear_line()
+    void clear_line() override
     {
-        output_.clear();
+        FakeDevice::clear_line();
         input_.clear();
     }
 
@@ -158,7 +128,7 @@ class FakeSensor
         std::string bytes;
         int number;
     };
-    std::string input_, output_, request_;
+    std::string input_, request_;
     std::deque<Waiting> waiting_;
     std::deque<Frame> frames_;
     int64_t clock_zero_us_ = 5000000;
@@ -166,7 +136,7 @@ class FakeSensor
     int turns_ = 0, skip_ = 0, skipped_ = 0;
     bool was_plugged_ = true;
 
-    int64_t next_event_us() const
+    int64_t next_us() const override
     {
         int64_t at = next_turn_us_;
         if (!waiting_.empty()) {
@@ -177,7 +147,7 @@ class FakeSensor
         }
         return at;
     }
-    void live()
+    void live() override
     {
         if (was_plugged_ && !plugged()) {
             was_plugged_ = false;
@@ -196,7 +166,7 @@ class FakeSensor
         while (!waiting_.empty() && waiting_.front().at_us <= now_us) {
             const std::string command = waiting_.front().command;
             waiting_.pop_front();
-            if (!mute && !(now_us >= silent_from_us && now_us < silent_to_us)) {
+            if (!mute && !silent()) {
                 obey(command);
             }
         }
@@ -233,8 +203,7 @@ class FakeSensor
     }
     void send_frame(const Frame &frame)
     {
-        const bool silent = now_us >= silent_from_us && now_us < silent_to_us;
-        if (!open || silent || !plugged() || !streaming) {
+        if (!open || silent() || !plugged() || !streaming) {
             return;
         }
         sent.push_back(frame.number % 1000);
@@ -320,93 +289,4 @@ class FakeSensor
     }
 };
 
-inline FakeSensor *sensor_on_the_line = nullptr;
-
 } // namespace ale_test
-
-extern "C" {
-
-struct ale_port {
-    bool gone;
-};
-
-inline ale_port the_port;
-
-int ale_port_open(ale_port_t **out, const char *, int32_t baud)
-{
-    ale_test::FakeSensor *s = ale_test::sensor_on_the_line;
-    *out = nullptr;
-    if (!s->plugged()) {
-        return ALE_PORT_ABSENT;
-    }
-    the_port = {false};
-    *out = &the_port;
-    s->clear_line();
-    s->open = true;
-    s->opened++;
-    s->port_baud = baud;
-    return ALE_PORT_OK;
-}
-
-int ale_port_set_baud(ale_port_t *, int32_t baud)
-{
-    ale_test::sensor_on_the_line->port_baud = baud;
-    return ALE_PORT_OK;
-}
-
-int ale_port_wait(ale_port_t *port, int32_t timeout_ms)
-{
-    ale_test::FakeSensor *s = ale_test::sensor_on_the_line;
-    const int64_t until_us = s->now_us + int64_t{1000} * timeout_ms;
-    if (port == nullptr) {
-        const bool open = s->open;
-        s->open = false; // what is sent to a closed port is lost
-        s->pass(until_us);
-        s->open = open;
-        return 0;
-    }
-    const bool readable = s->pass(until_us);
-    the_port.gone = the_port.gone || !s->plugged();
-    if (the_port.gone) {
-        return ALE_PORT_GONE;
-    }
-    return readable ? 1 : 0;
-}
-
-int ale_port_read(ale_port_t *, uint8_t *bytes, size_t capacity)
-{
-    const std::string taken = ale_test::sensor_on_the_line->take(capacity);
-    std::copy(taken.begin(), taken.end(), bytes);
-    return static_cast<int>(taken.size());
-}
-
-int ale_port_write(ale_port_t *, const uint8_t *bytes, size_t count, int32_t)
-{
-    ale_test::FakeSensor *s = ale_test::sensor_on_the_line;
-    if (the_port.gone || !s->plugged()) {
-        return ALE_PORT_GONE;
-    }
-    s->feed(std::string(bytes, bytes + count));
-    return ALE_PORT_OK;
-}
-
-bool ale_port_has_baud(const ale_port_t *)
-{
-    return ale_test::sensor_on_the_line->is_rs232;
-}
-
-void ale_port_close(ale_port_t *)
-{
-    ale_test::sensor_on_the_line->open = false;
-}
-
-const char *ale_port_strerror(int status)
-{
-    return status == ALE_PORT_ABSENT ? "absent" : "gone";
-}
-
-void ale_port_explain(int status, const char *, char words[ALE_PORT_WORDS])
-{
-    std::snprintf(words, ALE_PORT_WORDS, "%s", ale_port_strerror(status));
-}
-}

@@ -18,11 +18,6 @@ namespace ale_test
 
 constexpr int64_t second_us = 1000000;
 
-inline int64_t virtual_now(void *)
-{
-    return sensor_on_the_line->now_us;
-}
-
 // A driver on a fake sensor, and what came out of it.
 class UrgDevice : public testing::Test
 {
@@ -41,9 +36,9 @@ class UrgDevice : public testing::Test
 
     void SetUp() override
     {
-        sensor_on_the_line = &sensor;
+        on_the_line = &sensor;
         config.path = "fake";
-        config.now_us = virtual_now;
+        config.now_us = time_on_the_line;
         config.tap_user = this;
         config.tap = [](void *user, bool out, const uint8_t *bytes, uint32_t count, int64_t) {
             auto *self = static_cast<UrgDevice *>(user);
