@@ -12,6 +12,13 @@ import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FIRST_DAY = (1980, 1, 1, 0, 0, 0)
+MAIN = """import sys
+
+from {name}.main import main
+
+if __name__ == "__main__":  # and not in a process that it starts
+    sys.exit(main())
+"""
 
 
 def release():
@@ -23,7 +30,7 @@ def contents(folder, packages):
     name = f"ale_{folder.name}"
     files = {f"{name}/{path.name}": path.read_bytes() for path in folder.iterdir() if path.suffix in (".py", ".json")}
     files[f"{name}/version.txt"] = release().encode()
-    files["__main__.py"] = f"import sys\n\nfrom {name}.main import main\n\nsys.exit(main())\n".encode()
+    files["__main__.py"] = MAIN.format(name=name).encode()
     for package in packages:
         files |= {f"{package.name}/{path.relative_to(package)}": path.read_bytes() for path in package.rglob("*.py")}
     return files

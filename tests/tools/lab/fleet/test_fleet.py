@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from at_hand import BINARIES, ROOT, WORLDS
+from at_hand import BINARIES, WORLDS
 
 pytest.importorskip("distributed", reason="python3-distributed is not here")
 
@@ -32,7 +32,7 @@ def drives(tmp_path_factory):
 
 
 def fleet(folder, out, program=BINARIES / "ale-replay", code=1, logs=LOGS):
-    done = subprocess.run([BINARIES / "ale-fleet", "replay", *(f"{folder}/d{k}.log" for k in range(logs)), "--against", f"{folder}/truths",
+    done = subprocess.run([sys.executable, BINARIES / "ale-fleet", "replay", *(f"{folder}/d{k}.log" for k in range(logs)), "--against", f"{folder}/truths",
                            "--set", "sensor.x=0,0.1", "--out", out, "--workers", "2", "--page", f"{out}.page", "--program", program],
                           capture_output=True, text=True, check=False)
     assert done.returncode == code, done.stderr
@@ -57,7 +57,7 @@ def test_a_worker_that_is_killed_on_the_way_changes_no_byte(drives, tmp_path):
 
 
 def test_a_run_goes_on_from_what_is_done(drives, tmp_path):
-    sys.path.insert(0, str(ROOT / "tools/lab/fleet"))
+    sys.path.insert(0, str(BINARIES / "ale-fleet"))
     module = importlib.import_module("ale_fleet.main")
     task = (f"{drives}/d0.log", f"{drives}/truths/d0.tum", (("sensor.x", "0"),))
     row = {**dict.fromkeys(module.one_replay.RESULTS, ""), "scans": "12345"}

@@ -19,6 +19,7 @@ import itertools
 import json
 import logging
 import pathlib
+import pkgutil
 import shutil
 import sys
 
@@ -146,9 +147,13 @@ def setting(word):
     return name, values.split(",")
 
 
-def parsed(version):
+def version():
+    return pkgutil.get_data(__package__, "version.txt").decode().strip()
+
+
+def parsed():
     parser = argparse.ArgumentParser(prog="ale-fleet", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--version", action="version", version=f"ale-fleet {version}")
+    parser.add_argument("--version", action="version", version=f"ale-fleet {version()}")
     commands = parser.add_subparsers(dest="command", required=True)
     replay = commands.add_parser("replay", help="logs through ale-replay")
     replay.add_argument("logs", nargs="+", metavar="LOG")
@@ -185,8 +190,8 @@ def judged(options):
     return 1 if broken else 0
 
 
-def main(version):
-    options = parsed(version)
+def main():
+    options = parsed()
     try:
         return judged(options)
     except KeyboardInterrupt:

@@ -1,5 +1,6 @@
 """Command line of ale-plot."""
 import argparse
+import pkgutil
 import sys
 
 USAGE = """usage: ale-plot RUN... [options]
@@ -123,7 +124,11 @@ def say(text):
     return 0
 
 
-def main(version):
+def version():
+    return pkgutil.get_data(__package__, "version.txt").decode().strip()
+
+
+def main():
     try:
         options = options_of(sys.argv[1:])
     except WrongUse as error:
@@ -132,5 +137,5 @@ def main(version):
     if options.help:
         return say(USAGE)
     if options.version:
-        return say(f"ale-plot {version}\n")
+        return say(f"ale-plot {version()}\n")
     return draw(options)

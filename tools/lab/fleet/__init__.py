@@ -1,0 +1,1 @@
+"""ale-fleet: many drives judged at once."""

@@ -1,1 +1,0 @@
-"""ale-plot: runs as pictures."""
