@@ -27,7 +27,8 @@ static int64_t place_q8(const ale_scan_t *scan, int32_t beam)
         return (int64_t)beam << 8;
     }
     const uint32_t ahead_bam = scan->bearing_bam[beam] - scan->first_bearing_bam;
-    const int64_t here_q8 = ((int64_t)(scan->step_bam < 0 ? 0U - ahead_bam : ahead_bam) << 8) / step_bam;
+    const int64_t here_q8 =
+        ale_round_div((int64_t)(scan->step_bam < 0 ? 0U - ahead_bam : ahead_bam) << 8, step_bam);
     return ale_min64(here_q8, (int64_t)scan->beams << 8);
 }
 

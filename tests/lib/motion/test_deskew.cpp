@@ -94,7 +94,7 @@ TEST(Deskew, MovesTheBeamsOfAWholeTurnByTheirOwnTimes)
                                                             Eigen::Vector2d(std::cos(a), std::sin(a)) *
                                                             range[static_cast<size_t>(k)];
             const double b = convert::radians(bearing[static_cast<size_t>(k)]);
-            const double most = 30e-6 + cut_off(range[static_cast<size_t>(k)], a + moved[2], moved);
+            const double most = 25e-6 + cut_off(range[static_cast<size_t>(k)], a + moved[2], moved);
             EXPECT_NEAR(scan.range_um[k] * 1e-6 * std::cos(b), p[0], most);
             EXPECT_NEAR(scan.range_um[k] * 1e-6 * std::sin(b), p[1], most);
         }
