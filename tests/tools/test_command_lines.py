@@ -15,6 +15,7 @@ MISSING_FILE = {
     "ale-calibrate": (ABSENT, 1),
     "ale-console": (f"--http 127.0.0.1:0 --keys {ABSENT}", 1),
     "ale-explore": (f"--world {ABSENT}", 1),
+    "ale-fleet": (f"replay {ABSENT} --out table.csv --program ale-replay", 1),
     "ale-foxglove": (f"convert {ABSENT} out.mcap", 1),
     "ale-inspect": (f"{ABSENT} 0", 1),
     "ale-keys": (f"--list {ABSENT}", 1),

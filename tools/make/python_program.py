@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""A program of Python in one file: python_program.py OUT FOLDER [PACKAGE]...
+"""A program of Python in one file: python_program.py OUT FOLDER INTERPRETER [PACKAGE]...
 
 The modules of FOLDER as package ale_NAME, whose main.main() is run, what lies beside them (*.json), the release as version.txt,
-and other packages whole. The same bytes whenever it is made. Runs with the python3 that is first in the PATH, so that packages of
-a virtual environment are found.
+and other packages whole. The same bytes whenever it is made. INTERPRETER: /usr/bin/python3 where Debian's packages are enough,
+/usr/bin/env where those of a virtual environment must be found.
 """
 import pathlib
 import re
@@ -37,12 +37,12 @@ def contents(folder, packages):
 
 
 def main():
-    if len(sys.argv) < 3:
+    if len(sys.argv) < 4:
         print(__doc__, file=sys.stderr)
         return 2
-    out, folder, *packages = map(pathlib.Path, sys.argv[1:])
+    out, folder, interpreter, *packages = map(pathlib.Path, sys.argv[1:])
     with out.open("wb") as file:
-        file.write(b"#!/usr/bin/env python3\n")
+        file.write(f"#!{interpreter}{' python3' if interpreter.name == 'env' else ''}\n".encode())
         with zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as archive:
             for name, data in sorted(contents(folder, packages).items()):
                 archive.writestr(zipfile.ZipInfo(name, FIRST_DAY), data)

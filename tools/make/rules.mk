@@ -179,12 +179,13 @@ endef
 $(foreach tool,$(TOOL_FOLDERS),$(eval $(call program,$(tool))))
 
 PACKED_foxglove = $(BUILD)/python/ale
+INTERPRETER_foxglove = /usr/bin/env
 
 define python_program
 $(BUILD)/bin/ale-$(notdir $(1)): $$(wildcard $(1)/*.py $(1)/*.json) lib/base/version.h tools/make/python_program.py $$(if $$(PACKED_$(notdir $(1))),$$(LCM_STAMP))
 	$$(call say,python,$$@)
 	@mkdir -p $$(@D)
-	$$(Q)$$(PYTHON) tools/make/python_program.py $$@ $(1) $$(PACKED_$(notdir $(1)))
+	$$(Q)$$(PYTHON) tools/make/python_program.py $$@ $(1) $$(or $$(INTERPRETER_$(notdir $(1))),/usr/bin/python3) $$(PACKED_$(notdir $(1)))
 endef
 $(foreach tool,$(PYTHON_FOLDERS),$(eval $(call python_program,$(tool))))
 

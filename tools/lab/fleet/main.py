@@ -1,15 +1,4 @@
-"""Many drives judged at once, on all cores of this machine or on many machines.
-
-    ale-fleet replay LOG... --out TABLE [--against FOLDER] [--set section.key=VALUE,VALUE]... [--page FOLDER]
-
-Every log goes through ale-replay with every combination of the settings: a row of the table each, in the order of the words, whatever
-the order in which they were done. Logs and the folder of truths (NAME.tum for NAME.log) may lie wherever fsspec knows the way:
-a path, s3://, ssh://. TABLE is .csv, or .parquet where pyarrow is there. --page draws a page of maps with the table.
-
-Without --scheduler the workers are processes of this machine. What is done is kept in TABLE.part until the table is written: a run that
-was ended goes on from there. A worker that dies costs what it was at; that is done again elsewhere. A log that is broken is a row that
-says so, and the exit code is 1.
-"""
+"""ale-fleet: many drives judged at once, on all cores of this machine or on many machines."""
 import argparse
 import base64
 import contextlib
@@ -25,8 +14,35 @@ import sys
 
 from ale_fleet import one_replay
 
+USAGE = """\
+usage: ale-fleet replay LOG... --out TABLE [--against FOLDER] [--set section.key=VALUE,VALUE]...
+Many drives judged at once, on all cores of this machine or on many machines. Every log goes through ale-replay
+with every combination of the settings: a row of the table each, in the order of the words. Logs and the folder
+of truths may lie wherever fsspec knows the way: a path, s3://, ssh://.
+  --out TABLE           .csv, or .parquet where pyarrow is there
+  --against FOLDER      truths, NAME.tum for NAME.log
+  --set NAME=V,V        settings, section.key, as in --config of ale-replay; may be repeated
+  --page FOLDER         a page of maps and the table
+  --scheduler ADDRESS   of a Dask scheduler, tcp://host:8786; without it the workers are processes of this machine
+  --workers N           how many of those (default: as many as cores)
+  --dashboard ADDR:PORT of the workers of this machine (default 127.0.0.1:0, any free port)
+  --program PATH        ale-replay on the workers (default: as found here)
+  --help, --version
+What is done is kept in TABLE.part until the table is written: a run that was ended goes on from there. A worker
+that dies costs what it was at; that is done again elsewhere. A log that is broken is a row that says so.
+Exit status: 0 fine, 1 failed or a log was broken, 2 wrong use.
+"""
 RETRIES = 3
 BAR = 40
+
+
+class WrongUse(Exception):
+    """The command line asks for what cannot be."""
+
+
+class CommandLine(argparse.ArgumentParser):
+    def error(self, message):
+        raise WrongUse(message)
 
 
 def stem(path):
@@ -143,36 +159,50 @@ def write_page(folder, rows, pictures):
 def setting(word):
     name, equals, values = word.partition("=")
     if not equals or "." not in name or not values:
-        raise argparse.ArgumentTypeError(f"{word}: not section.key=VALUE,VALUE")
+        raise WrongUse(f"--set {word}: not section.key=VALUE,VALUE")
     return name, values.split(",")
 
 
-def version():
-    return pkgutil.get_data(__package__, "version.txt").decode().strip()
-
-
-def parsed():
-    parser = argparse.ArgumentParser(prog="ale-fleet", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--version", action="version", version=f"ale-fleet {version()}")
-    commands = parser.add_subparsers(dest="command", required=True)
-    replay = commands.add_parser("replay", help="logs through ale-replay")
-    replay.add_argument("logs", nargs="+", metavar="LOG")
-    replay.add_argument("--out", required=True, type=pathlib.Path, metavar="TABLE", help=".csv or .parquet")
-    replay.add_argument("--against", default="", metavar="FOLDER", help="truths, NAME.tum for NAME.log")
-    replay.add_argument("--set", action="append", default=[], type=setting, metavar="section.key=VALUE,VALUE", help="as in --config of ale-replay")
-    replay.add_argument("--page", type=pathlib.Path, metavar="FOLDER", help="a page of maps and the table")
-    replay.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask scheduler, tcp://host:8786")
-    replay.add_argument("--workers", type=int, metavar="N", help="processes of this machine (default: as many as cores)")
-    replay.add_argument("--dashboard", default="127.0.0.1:0", metavar="ADDR:PORT", help="of the workers of this machine")
-    replay.add_argument("--program", metavar="PATH", default=shutil.which("ale-replay"), help="ale-replay on the workers (default: as found here)")
-    options = parser.parse_args()
-    if not options.program:
-        parser.error("where is ale-replay? (--program)")
-    if options.out.suffix not in (".csv", ".parquet"):
-        parser.error(f"{options.out}: neither .csv nor .parquet")
-    if not options.out.parent.is_dir():
-        sys.exit(f"ale-fleet: {options.out.parent}: no such folder")
+def options_of(words):
+    parser = CommandLine(prog="ale-fleet", add_help=False, allow_abbrev=False)
+    parser.add_argument("words", nargs="*")
+    parser.add_argument("--out", type=pathlib.Path)
+    parser.add_argument("--against", default="")
+    parser.add_argument("--set", action="append", default=[])
+    parser.add_argument("--page", type=pathlib.Path)
+    parser.add_argument("--scheduler")
+    parser.add_argument("--workers", type=int)
+    parser.add_argument("--dashboard", default="127.0.0.1:0")
+    parser.add_argument("--program", default=shutil.which("ale-replay"))
+    parser.add_argument("--help", action="store_true")
+    parser.add_argument("--version", action="store_true")
+    options, unknown = parser.parse_known_args(words)
+    if unknown:
+        raise WrongUse(f"unknown option {unknown[0]}")
+    if not (options.help or options.version):
+        check(options)
     return options
+
+
+def check(options):
+    command, options.logs = options.words[:1], options.words[1:]
+    if command != ["replay"] or not options.logs:
+        raise WrongUse("give replay LOG... (see --help)")
+    if not options.out:
+        raise WrongUse("--out TABLE is missing")
+    if options.out.suffix not in (".csv", ".parquet"):
+        raise WrongUse(f"--out {options.out}: neither .csv nor .parquet")
+    if not options.program:
+        raise WrongUse("where is ale-replay? (--program)")
+    options.set = [setting(word) for word in options.set]
+
+
+def trouble(options):
+    """What cannot be had, as far as this machine sees; None: nothing."""
+    for log in options.logs:
+        if "://" not in log and not pathlib.Path(log).exists():
+            return f"{log}: No such file or directory"
+    return None if options.out.parent.is_dir() else f"{options.out.parent}: no such folder"
 
 
 def judged(options):
@@ -190,11 +220,43 @@ def judged(options):
     return 1 if broken else 0
 
 
+def say(text):
+    """To the standard output, to the last byte."""
+    try:
+        sys.stdout.write(text)
+        sys.stdout.flush()
+    except OSError as error:
+        print(f"ale-fleet: standard output: {error.strerror}", file=sys.stderr)
+        sys.stdout = None
+        return 1
+    return 0
+
+
+def failed(words):
+    print(f"ale-fleet: {words}", file=sys.stderr)
+    return 1
+
+
+def version():
+    return pkgutil.get_data(__package__, "version.txt").decode().strip()
+
+
 def main():
-    options = parsed()
+    try:
+        options = options_of(sys.argv[1:])
+    except WrongUse as error:
+        failed(error)
+        return 2
+    if options.help:
+        return say(USAGE)
+    if options.version:
+        return say(f"ale-fleet {version()}\n")
+    missing = trouble(options)
+    if missing:
+        return failed(missing)
     try:
         return judged(options)
     except KeyboardInterrupt:
-        sys.exit("ale-fleet: ended; what is done is kept, the same words go on")
-    except ImportError as missing:
-        sys.exit(f"ale-fleet: {missing.name} is not here (python3-distributed, python3-numpy; pyarrow for .parquet)")
+        return failed("ended; what is done is kept, the same words go on")
+    except ImportError as error:
+        return failed(f"{error.name} is not here (python3-distributed, python3-numpy; pyarrow for .parquet)")

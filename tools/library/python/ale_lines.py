@@ -40,8 +40,8 @@ class _Scan(ctypes.Structure):
 
 class _Noise(ctypes.Structure):
     _fields_ = [(name, ctypes.c_int32) for name in
-                ("own_um", "own_ppm", "own_ppm_per_m", "shared_um", "shared_ppm", "shared_beams", "surface_um",
-                 "bearing_nrad")]
+                ("own_um", "own_ppm", "shared_um", "shared_ppm", "shared_beams", "surface_um", "bearing_nrad",
+                 "own_ppm_per_m")]
 
 
 class _Config(ctypes.Structure):

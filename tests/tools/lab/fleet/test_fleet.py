@@ -32,7 +32,7 @@ def drives(tmp_path_factory):
 
 
 def fleet(folder, out, program=BINARIES / "ale-replay", code=1, logs=LOGS):
-    done = subprocess.run([sys.executable, BINARIES / "ale-fleet", "replay", *(f"{folder}/d{k}.log" for k in range(logs)), "--against", f"{folder}/truths",
+    done = subprocess.run([BINARIES / "ale-fleet", "replay", *(f"{folder}/d{k}.log" for k in range(logs)), "--against", f"{folder}/truths",
                            "--set", "sensor.x=0,0.1", "--out", out, "--workers", "2", "--page", f"{out}.page", "--program", program],
                           capture_output=True, text=True, check=False)
     assert done.returncode == code, done.stderr
