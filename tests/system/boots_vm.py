@@ -1,7 +1,8 @@
 """A robot PC day by day: Debian with systemd and the packages, switched on, and off by cutting its power (part of `make hil-vm`).
 
-Each day is the same: the clock stands at 1970, there is no network, the scanner is plugged in after 20 s, the network after 40 s,
-NTP sets the clock after 60 s, and some time after that the power goes. BOOTS says how many days, SEED which instants.
+Each day is the same: the clock stands at 1970, there is no network, the scanner is plugged in as soon as the firmware has said that
+it is missing, the network 20 s later, NTP sets the clock 40 s later, and some time after that the power goes. BOOTS says how many
+days, SEED which instants.
 """
 import os
 import random
@@ -19,8 +20,9 @@ from virtual_robot import LCM_GROUP, LCM_PORT, Lan, Line, network_card, scanner_
 
 BOOTS = int(os.environ.get("BOOTS", "2"))
 SEED = int(os.environ.get("SEED", "1"))
-SCANNER_S, NETWORK_S, NTP_S = 20, 40, 60
-CUT_S = (66, 80)
+BOOT_S = 120
+NETWORK_S, NTP_S = 20, 40  # from the scanner on, as all that follows
+CUT_S = (46, 60)
 IN_TIME_S = 15  # from the scanner to its first pose
 SCAN_S = 0.1
 GOOD = 2
@@ -56,7 +58,6 @@ class Day:
         self.chain.simulator("--world", WORLDS / "home.world")
         self.machine = disk.boot(folder / "machine", *scanner_socket(folder), "-device", "qemu-xhci", *network_card(self.lan),
                                  "-rtc", "base=1970-01-01T00:00:00")
-        self.begin = time.monotonic()
         self.line = Line(self.chain.port, folder / "uart")
         try:
             self._live(cut_s)
@@ -68,14 +69,15 @@ class Day:
 
     def _live(self, cut_s):
         self.machine.rebuild("set_link lan off")
-        self._until(SCANNER_S)
+        self._until_the_scanner_is_missed()
         self.machine.rebuild("device_add usb-serial,chardev=scanner")
+        self.scanner_at = time.monotonic()
         self._until(NETWORK_S)
         self.machine.rebuild("set_link lan on")
         self._until(NTP_S)
         assert self.poses, self.machine.said()
         # Poses have been numbered from the first on, also while there was no network that could carry them.
-        self.first_pose_s = NTP_S - SCANNER_S - SCAN_S * self.poses[-1].scan
+        self.first_pose_s = NTP_S - SCAN_S * self.poses[-1].scan
         self.poses_before_ntp = len(self.poses)
         self.counters_before_ntp = self._counters()
         set_clock(self.machine, "date -s @")
@@ -85,8 +87,13 @@ class Day:
         self._until(cut_s)
         self.counters = self._counters()
 
+    def _until_the_scanner_is_missed(self):
+        self.machine.wait_for("root@robot:~#", BOOT_S)
+        self.machine.order("until journalctl --boot --unit ale-slamd | grep -q 'no such serial device'; do sleep 0.2; done; echo it is 'missed'")
+        self.machine.wait_for("it is missed", BOOT_S)
+
     def _until(self, seconds):
-        while time.monotonic() < self.begin + seconds:
+        while time.monotonic() < self.scanner_at + seconds:
             assert self.machine.running(), self.machine.said()
             time.sleep(0.01)
 

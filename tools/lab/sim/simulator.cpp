@@ -154,8 +154,9 @@ std::string Simulator::at_the_clients_rate(const std::string &bytes) const
     }
     std::string read;
     for (size_t k = 0; k + 1 < bytes.size(); k += 2) {
-        read += static_cast<char>(
-            (static_cast<unsigned char>(bytes[k]) << 1U ^ static_cast<unsigned char>(bytes[k + 1])) | 0x80U);
+        const auto first = static_cast<unsigned char>(bytes[k]);
+        const auto second = static_cast<unsigned char>(bytes[k + 1]);
+        read += static_cast<char>((static_cast<unsigned>(first) << 1U ^ second) | 0x80U);
     }
     return read;
 }
