@@ -136,7 +136,7 @@ static int32_t last_joined(const turned_t *t, int32_t first)
 {
     int32_t last = first;
     while (last + 1 < t->count && last + 1 - first < t->joined &&
-           2 * gap_bam(t, last) <= LOST_HALVES * t->joined * t->step_bam) {
+           2 * gap_bam(t, last) <= LOST_HALVES * t->step_bam * t->joined) {
         last++;
     }
     return last;
