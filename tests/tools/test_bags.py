@@ -161,6 +161,22 @@ def test_a_bag_is_replayed_to_the_poses_and_the_map_of_the_log_it_was_made_of(wr
     assert (tmp_path / "map.png").stat().st_size > 1000
 
 
+def test_of_messages_of_one_time_odometry_counts_before_the_scan(drive, tmp_path):
+    ways = {"before": [], "after": []}
+    sample = None
+    for name, message in drive:
+        if name == "ALE_ODOMETRY":
+            sample = message
+        elif sample:
+            at_once = ale.odometry_t.decode(sample.encode())
+            at_once.utime = message.utime
+            scan = (name, message)
+            ways["before"] += [("ALE_ODOMETRY", at_once), scan]
+            ways["after"] += [scan, ("ALE_ODOMETRY", at_once)]
+    before, after = (poses(write_ros2(tmp_path / name, way), tmp_path) for name, way in ways.items())
+    assert before == after
+
+
 @LONG
 def test_the_mounting_of_the_laser_is_that_of_tf(drive, tmp_path):
     bag = write_ros2(tmp_path / "bag", drive[:6], mounted=MOUNTED)

@@ -100,7 +100,7 @@ venv: $(VENV)/ready
 
 SYSTEM_PROGRAMS ?= programs python-package
 system: $(SYSTEM_PROGRAMS) lcm-types venv ## tests of the real programs over pseudo terminals and LCM (T=word selects)
-	@$(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(if $(T),-rP -k "$(T)")
+	@$(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(if $(T),-rP -k "$(T)") $(if $(DIST),--dist $(DIST))
 
 system-rtai: programs lcm-types venv $(BUILD)/rtai/ale-slamd ## the system tests with the firmware on an emulated RTAI (T=file of tests/system)
 	@ALE_SLAMD=$(BUILD)/rtai/ale-slamd $(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(or $(T),tests/system)
@@ -275,7 +275,7 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	@$(PHASE) "Python's wheel in an empty virtual environment"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=test_python_wheel
 	@$(PHASE) "simulated scanners read by clients that are not ours, a minute each"
-	-@ALE_LONG_TESTS=1 $(SUB) system T=independent_clients
+	-@ALE_LONG_TESTS=1 $(SUB) system T=independent_clients DIST=load
 	@$(PHASE) "the bridges to ROS 2 and Foxglove, all of their tests"
 	-@ALE_LONG_TESTS=1 $(SUB) system T="ros2 or test_foxglove or test_bags"
 	@$(PHASE) "hostile messages, ten thousand of every kind"

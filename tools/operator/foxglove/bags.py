@@ -5,6 +5,7 @@
 Read by PyPI's `rosbags` without ROS; MCAP without a bag's folder about it by `mcap`. LaserScan, MultiEchoLaserScan (first echo),
 Odometry; the mounting of the laser from /tf_static or /tf, as far as it is a turn about the vertical.
 """
+import itertools
 import json
 import math
 import pathlib
@@ -69,6 +70,12 @@ def mcap_messages(path):
                 yield name, channel.topic, message.log_time, decode(message.data, name)
             elif schema and schema.name == "foxglove.LaserScan":
                 yield LASER, channel.topic, message.log_time, foxglove_scan(schema, channel, message)
+
+
+def odometry_first(messages):
+    """Of messages of the same time, whose order a bag does not tell, odometry before the scan that it leads to."""
+    for _, together in itertools.groupby(messages, key=lambda message: message[2]):
+        yield from sorted(together, key=lambda message: message[0] != ODOMETRY)
 
 
 class Fields:
@@ -216,5 +223,5 @@ def events(path):
         if kind == FRAMES:
             frames.take(message)
     converter = Converter(frames)
-    for kind, topic, _, message in messages(path):
+    for kind, topic, _, message in odometry_first(messages(path)):
         yield from converter.events(kind, topic, message)

@@ -24,6 +24,11 @@ def run(*words, **options):
     return done.stdout
 
 
+def alone(folder):
+    """Without the tests' PYTHONPATH, where the messages of LCM are a package `ale`, too."""
+    return {"PATH": os.environ["PATH"], "MPLBACKEND": "Agg", "HOME": str(folder)}
+
+
 def environment(folder, *packages):
     """An empty one with these of PyPI; the test is skipped where they cannot be had."""
     run(sys.executable, "-m", "venv", folder)
@@ -62,10 +67,9 @@ def test_the_notebook_makes_a_map_of_a_bag_in_an_empty_environment(built, tmp_pa
     notebook = json.loads((PYTHON / "bag_to_map.ipynb").read_text(encoding="utf-8"))
     code = "\n".join("".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code")
     assert len([line for line in code.splitlines() if line.strip()]) <= 10
-    settings = {"PATH": os.environ["PATH"], "MPLBACKEND": "Agg", "HOME": str(tmp_path)}
     maps = []
     for bag in ("drive", "drive.bag"):
-        run(python, "-c", code.replace('"drive"', f'"{bag}"'), cwd=tmp_path, env=settings)
+        run(python, "-c", code.replace('"drive"', f'"{bag}"'), cwd=tmp_path, env=alone(tmp_path))
         maps.append((tmp_path / "drive.map").read_bytes())
     assert maps[0] == maps[1] and maps[0].count(b"\nwall ") > 10
     assert (tmp_path / "map.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
@@ -81,7 +85,7 @@ def test_a_bag_that_is_none_is_refused_in_words(built, tmp_path):
             "    try:\n        list(ale.bags.read(path, '/lidar'))\n"
             "    except ValueError as error:\n        assert words in str(error), error\n"
             "    else:\n        sys.exit('taken')\n")
-    run(python, "-c", code, cwd=tmp_path)
+    run(python, "-c", code, cwd=tmp_path, env=alone(tmp_path))
 
 
 def test_type_hints_are_whole(tmp_path):

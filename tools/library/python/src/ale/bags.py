@@ -1,6 +1,7 @@
 """ROS 1 and ROS 2 bags, without ROS (PyPI rosbags): their laser scans and odometry, in the order in which they were taken."""
 from __future__ import annotations
 
+import itertools
 import math
 import os
 import pathlib
@@ -94,12 +95,18 @@ def _seconds(message: Any) -> float:
 
 
 def _events(reader: Any, connections: list[Any]) -> Iterator[Event]:
-    for connection, _, raw in reader.messages(connections=connections):
-        message = reader.deserialize(raw, connection.msgtype)
-        if connection.msgtype.endswith("LaserScan"):
-            yield Scan(_seconds(message), np.asarray(message.ranges, np.float32), scanner_of(message))
-        else:
-            pose = message.pose.pose
-            q = pose.orientation
-            theta = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
-            yield Odometry(_seconds(message), pose.position.x, pose.position.y, theta)
+    """Of messages of the same time, whose order a bag does not tell, odometry before the scan that it leads to."""
+    messages = reader.messages(connections=connections)
+    for _, together in itertools.groupby(messages, key=lambda message: message[1]):
+        yield from sorted((_event(reader, connection, raw) for connection, _, raw in together),
+                          key=lambda event: isinstance(event, Scan))
+
+
+def _event(reader: Any, connection: Any, raw: bytes) -> Event:
+    message = reader.deserialize(raw, connection.msgtype)
+    if connection.msgtype.endswith("LaserScan"):
+        return Scan(_seconds(message), np.asarray(message.ranges, np.float32), scanner_of(message))
+    pose = message.pose.pose
+    q = pose.orientation
+    theta = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
+    return Odometry(_seconds(message), pose.position.x, pose.position.y, theta)
