@@ -49,6 +49,7 @@ struct ale_log {
     ale_log_info_t info;
     ale_log_statistics_t statistics;
     char last_error[256];
+    const char *no_scan; /* why there can be none, as far as the format knows; NULL: nothing is wrong */
     bool stamps_of_use;
     bool use_odometry_of_scans;   /* that their own lines state, */
     bool use_odometry_of_records; /* and that of lines or chunks beside them */

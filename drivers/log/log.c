@@ -126,6 +126,9 @@ static int survey_log(ale_log_t *log, ale_log_error_t *error)
         snprintf(error->message, sizeof error->message, "%s", log->last_error);
         return -1;
     }
+    if (log->statistics.scans == 0 && log->no_scan) {
+        return fail(error, log->path, log->no_scan);
+    }
     log->stamps_of_use = log->format->stamped && survey.forward >= survey.standing;
     choose_odometry(log, &survey);
     rewind_log(log);

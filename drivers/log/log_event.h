@@ -33,6 +33,7 @@ typedef struct {
     ale_pose_t sensor;
     int32_t lag_prior_us; /* odometry younger than the scan on its line: a prior, nothing is corrected */
     bool raw_device;      /* bearings are the device's own: a scanner upside down is not yet accounted for */
+    char scanner[64];     /* model that the scanner told in the recording; empty: not known */
     bool urg_noise;       /* the sensor is a URG-04LX (or simulates one): the default noise model applies */
 } ale_log_info_t;
 

@@ -1,22 +1,25 @@
 /* .scip recordings: the scans come out of the very bytes that came over the line, by the driver's own parser
- * and clock, so that a recording shows what the robot saw. What was sent tells which stream is running; a
- * recording that begins in the middle of one is followed from its first whole scan. */
+ * and clock, so that a recording shows what the robot saw. Which family of scanner it was no chunk says: it
+ * is the one whose reader makes a scan of the bytes. */
+#include <stdio.h>
 #include <string.h>
 
 #include "log/format.h"
-#include "scanner/urg/identity.h"
-#include "scanner/urg/urg_stream.h"
+#include "log/line_reader.h"
 #include "store/recording.h"
 
+static const ale_line_reader_t *const READERS[] = {&ale_line_urg, &ale_line_ldrobot, &ale_line_rplidar};
+
+enum { READER_COUNT = sizeof READERS / sizeof READERS[0], LONGEST_SCAN = 20000 };
+
 typedef struct {
-    bool begun;
+    const ale_line_reader_t *reader; /* NULL: not begun */
     ale_chunk_reader_t chunks;
     const uint8_t *at; /* of the RECEIVED chunk that is being read */
     const uint8_t *end;
     int64_t arrival_us;
-    ale_scip_parser_t parser;
-    ale_urg_identity_t identity;
-    ale_urg_stream_t stream;
+    uint64_t received; /* bytes */
+    ale_line_state_t line;
     char text[ALE_CHUNK_MAX_PAYLOAD + 1];
 } scip_t;
 
@@ -25,84 +28,11 @@ static bool claims_file(const uint8_t *bytes, size_t count)
     return ale_recording_claims(bytes, count);
 }
 
-static void begin(ale_log_t *log, scip_t *scip)
-{
-    scip->begun = true;
-    scip->chunks = ale_chunk_reader(log->bytes.at, log->bytes.count);
-    ale_scip_parser_init(&scip->parser);
-    ale_urg_identity_init(&scip->identity);
-    ale_urg_stream_init(&scip->stream, false);
-    log->info.raw_device = true;
-    log->info.urg_noise = true;
-}
-
-/* Follows the driver: a request for ranges begins a stream, the same single request again goes on with it,
- * and QT ends it, or asks a sensor that fell silent whether it is there. */
-static void take_command(scip_t *scip, ale_span_t command)
-{
-    ale_scip_request_t request;
-    if (ale_text_is(command, "QT")) {
-        ale_urg_stream_interrupt(&scip->stream);
-    } else if (ale_scip_request_parse((const uint8_t *)command.at, (size_t)(command.end - command.at),
-                                      &request) &&
-               (request.stream || !ale_scip_request_same_ranges(&request, &scip->stream.request))) {
-        ale_urg_stream_begin(&scip->stream, &request);
-    }
-}
-
-static void take_sent(scip_t *scip, const ale_chunk_t *chunk)
-{
-    ale_text_t text = ale_text(chunk->payload, chunk->length);
-    ale_span_t line;
-    ale_span_t command;
-    while (ale_text_line(&text, &line)) {
-        if (ale_text_word(&line, &command)) {
-            take_command(scip, command);
-        }
-    }
-}
-
-static void take_reply(scip_t *scip, const ale_scip_event_t *event)
-{
-    if (event->protocol == 1 || strcmp(event->echo, "RS") == 0) {
-        ale_urg_stream_forget_clock(&scip->stream);
-    }
-    if ((strcmp(event->echo, "PP") == 0 || strcmp(event->echo, "V") == 0) &&
-        ale_urg_geometry_valid(&scip->identity.geometry)) {
-        ale_urg_played_t played = scip->identity.played;
-        played.zero_us = ALE_URG_PLAYED_ZERO_UNKNOWN;
-        ale_urg_stream_describe(&scip->stream, &scip->identity.geometry, &played);
-    }
-}
-
-static void take_reply_event(scip_t *scip, const ale_scip_event_t *event)
-{
-    switch (event->kind) {
-    case ALE_SCIP_LINE_READ:
-        ale_urg_identity_line(&scip->identity, event->text, event->sum_right);
-        break;
-    case ALE_SCIP_REPLY:
-        take_reply(scip, event);
-        break;
-    case ALE_SCIP_SCAN:
-    case ALE_SCIP_LOST:
-        if (scip->stream.request.protocol == 0 && event->has_request) {
-            ale_urg_stream_begin(&scip->stream, &event->request);
-        }
-        if (scip->stream.request.protocol != 0) {
-            ale_urg_stream_take(&scip->stream, event);
-        }
-        break;
-    case ALE_SCIP_NONE:
-        break;
-    }
-}
-
-/* A scan or a loss that the stream has ready. */
+/* A scan or a loss that the reader has ready. */
 static bool hand_out(scip_t *scip, ale_log_record_t *record)
 {
     ale_log_event_t *event = &record->event;
-    const ale_scanner_event_t kind = ale_urg_stream_next(&scip->stream, &event->scan);
+    const ale_scanner_event_t kind = scip->reader->next(&scip->line, &event->scan);
     if (kind != ALE_SCANNER_SCAN && kind != ALE_SCANNER_SCAN_LOST) {
         return false;
     }
@@ -118,12 +48,67 @@ static bool take_received(scip_t *scip, ale_log_record_t *record)
         if (scip->at == scip->end) {
             return false;
         }
-        ale_scip_event_t event;
-        scip->at +=
-            ale_scip_parse(&scip->parser, scip->at, (size_t)(scip->end - scip->at), scip->arrival_us, &event);
-        take_reply_event(scip, &event);
+        scip->at += scip->reader->receive(&scip->line, scip->reader->protocol, scip->at,
+                                          (size_t)(scip->end - scip->at), scip->arrival_us);
     }
     return true;
+}
+
+static bool is_in_time(const ale_chunk_t *chunk)
+{
+    return chunk->stamp_us >= -ALE_MAX_STAMP_US && chunk->stamp_us <= ALE_MAX_STAMP_US;
+}
+
+/* What passed on the line. True: *record is filled. */
+static bool take_line(scip_t *scip, const ale_chunk_t *chunk, ale_log_record_t *record)
+{
+    if (chunk->kind == ALE_CHUNK_SENT) {
+        scip->reader->send(&scip->line, scip->reader->protocol, chunk->payload, chunk->length);
+        return false;
+    }
+    scip->received += chunk->length;
+    scip->at = chunk->payload;
+    scip->end = chunk->payload + chunk->length;
+    scip->arrival_us = chunk->stamp_us;
+    return take_received(scip, record);
+}
+
+static void start(ale_log_t *log, scip_t *scip, const ale_line_reader_t *reader)
+{
+    scip->reader = reader;
+    scip->chunks = ale_chunk_reader(log->bytes.at, log->bytes.count);
+    scip->at = scip->end = NULL;
+    scip->received = 0;
+    memset(&scip->line, 0, sizeof scip->line);
+    reader->begin(&scip->line, reader->protocol);
+}
+
+static bool makes_a_scan(scip_t *scip, ale_log_record_t *record)
+{
+    ale_chunk_t chunk;
+    while (ale_chunk_next(&scip->chunks, &chunk)) {
+        const bool of_line = chunk.kind == ALE_CHUNK_RECEIVED || chunk.kind == ALE_CHUNK_SENT;
+        if (of_line && is_in_time(&chunk) && take_line(scip, &chunk, record)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void begin(ale_log_t *log, scip_t *scip, ale_log_record_t *record)
+{
+    const ale_line_reader_t *chosen = NULL;
+    for (unsigned k = 0; k < READER_COUNT && !chosen; k++) {
+        start(log, scip, READERS[k]);
+        chosen = makes_a_scan(scip, record) ? READERS[k] : NULL;
+    }
+    if (!chosen && scip->received > LONGEST_SCAN) {
+        log->no_scan = "no scan can be made of its bytes (one of an RPLIDAR must begin before its scan did)";
+    }
+    chosen = chosen ? chosen : READERS[0];
+    start(log, scip, chosen);
+    log->info.raw_device = true;
+    log->info.urg_noise = chosen == &ale_line_urg;
 }
 
 static bool take_text(scip_t *scip, const ale_chunk_t *chunk, ale_log_kind_t kind, ale_log_event_t *event)
@@ -152,13 +137,8 @@ static bool take_chunk(ale_log_t *log, const ale_chunk_t *chunk, ale_log_record_
     scip_t *scip = log->state;
     switch (chunk->kind) {
     case ALE_CHUNK_RECEIVED:
-        scip->at = chunk->payload;
-        scip->end = chunk->payload + chunk->length;
-        scip->arrival_us = chunk->stamp_us;
-        return take_received(scip, record);
     case ALE_CHUNK_SENT:
-        take_sent(scip, chunk);
-        return false;
+        return take_line(scip, chunk, record);
     case ALE_CHUNK_ODOMETRY:
         return take_odometry(log, chunk, &record->event);
     case ALE_CHUNK_COMMAND:
@@ -186,20 +166,21 @@ static bool next_chunk(ale_log_t *log, ale_chunk_t *chunk)
 static bool next(ale_log_t *log, ale_log_record_t *record)
 {
     scip_t *scip = log->state;
-    if (!scip->begun) {
-        begin(log, scip);
+    if (!scip->reader) {
+        begin(log, scip, record);
     }
     record->with_odometry = false;
     if (take_received(scip, record)) {
         return true;
     }
+    snprintf(log->info.scanner, sizeof log->info.scanner, "%s", scip->reader->model(&scip->line));
     ale_chunk_t chunk;
     bool taken = false;
     while (!taken && next_chunk(log, &chunk)) {
-        if (chunk.stamp_us < -ALE_MAX_STAMP_US || chunk.stamp_us > ALE_MAX_STAMP_US) {
-            ale_log_time_beyond(log); /* the parser reckons with it */
-        } else {
+        if (is_in_time(&chunk)) {
             taken = take_chunk(log, &chunk, record);
+        } else {
+            ale_log_time_beyond(log); /* the parser reckons with it */
         }
     }
     return taken;

@@ -170,3 +170,21 @@ def test_wrong_use_is_told_in_a_line(words):
     done = subprocess.run([BINARIES / "ale-record", *words], capture_output=True, text=True, timeout=180, check=False)
     assert done.returncode == 2
     assert done.stderr.startswith(("ale-record: ", str(BINARIES))) and done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("family, sensor", [("ldrobot", "ld06"), ("rplidar", "rplidar-a1")])
+def test_a_scanner_of_a_whole_turn_is_recorded_and_replays(bench, family, sensor):
+    bench.sensor("--sensor", sensor)
+    recorder = bench.recorder("--no-lcm", "--type", family)
+    wait_until(lambda: bench.out.exists() and bench.out.stat().st_size > 60000, 180, "scans")
+    told = stopped(recorder)
+    poses = bench.poses()
+    assert len(poses) == told["scans"] + told["lost"] > 20
+    assert max(abs(pose["map_x"]) + abs(pose["map_y"]) for pose in poses) < 0.05
+
+
+def test_a_family_that_is_none_is_told_those_that_are(bench):
+    process = bench.recorder("--no-lcm", "--type", "sick")
+    _, err = process.communicate(timeout=180)
+    assert process.returncode == 2
+    assert err.strip() == "ale-record: --type sick: there are urg, ldrobot, rplidar, auto (see --help)"

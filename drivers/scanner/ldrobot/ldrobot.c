@@ -147,23 +147,23 @@ static void facts(const void *state, ale_rotary_facts_t *f)
     f->range_max_um = 12000000;
 }
 
-static const ale_rotary_protocol_t protocol = {.name = "ldrobot",
-                                               .bauds = {230400},
-                                               .clockwise = true,
-                                               .turns_mdeg_s = 3600000,
-                                               .state_bytes = sizeof(ale_ldrobot_t),
-                                               .begin = begin,
-                                               .parse = ale_ldrobot_parse,
-                                               .facts = facts};
+const ale_rotary_protocol_t ale_ldrobot_protocol = {.name = "ldrobot",
+                                                    .bauds = {230400},
+                                                    .clockwise = true,
+                                                    .turns_mdeg_s = 3600000,
+                                                    .state_bytes = sizeof(ale_ldrobot_t),
+                                                    .begin = begin,
+                                                    .parse = ale_ldrobot_parse,
+                                                    .facts = facts};
 
 static bool has_baud(int32_t baud)
 {
-    return baud == protocol.bauds[0];
+    return baud == ale_ldrobot_protocol.bauds[0];
 }
 
 static ale_scanner_t *open_scanner(const ale_scanner_config_t *config)
 {
-    return ale_rotary_open(&ale_scanner_ldrobot, &protocol, config);
+    return ale_rotary_open(&ale_scanner_ldrobot, &ale_ldrobot_protocol, config);
 }
 
 const ale_scanner_family_t ale_scanner_ldrobot = {.name = "ldrobot",

@@ -29,6 +29,7 @@ typedef struct {
     ale_scanner_identity_t identity;
     int32_t range_min_um;
     int32_t range_max_um;
+    int32_t baud; /* usual rate of the model; 0: not known */
     uint64_t hardware_faults;
     char words[ALE_ROTARY_WORDS]; /* what the sensor says of its health; empty: nothing */
 } ale_rotary_facts_t;
@@ -50,6 +51,13 @@ typedef struct {
     /* What stops the sensor before the port is closed. NULL: nothing. */
     ale_rotary_request_t (*stop)(void *state);
     void (*facts)(const void *state, ale_rotary_facts_t *facts);
+
+    /* Of a recording, in place of next: what was sent, or (count 0) the ANSWER that came. True: the stream
+     * ends here, and what was half read is forgotten. NULL: nothing is sent. */
+    bool (*overhear)(void *state, const uint8_t *sent, uint32_t count);
 } ale_rotary_protocol_t;
+
+extern const ale_rotary_protocol_t ale_ldrobot_protocol; /* scanner/ldrobot, of ale_ldrobot_t */
+extern const ale_rotary_protocol_t ale_rplidar_protocol; /* scanner/rplidar, of ale_rplidar_t */
 
 #endif

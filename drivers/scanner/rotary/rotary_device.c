@@ -7,15 +7,11 @@
 #include "base/fixed.h"
 #include "scanner/connection.h"
 #include "scanner/rotary/diagnosis.h"
-#include "scanner/rotary/rotary_clock.h"
-#include "scanner/rotary/turns.h"
+#include "scanner/rotary/rotary_stream.h"
 
 enum {
     FIRST_SCAN_MS = 1000, /* from the beginning of listening to the first whole turn */
-    SILENT_TURNS = 5,
-    LEAST_SILENCE_MS = 400,
-    RESTARTS = 2, /* of the stream without a scan, before the port is opened anew */
-    BITS_A_BYTE = 10
+    RESTARTS = 2          /* of the stream without a scan, before the port is opened anew */
 };
 
 typedef struct {
@@ -36,8 +32,7 @@ typedef struct {
     uint32_t last_bearing_bam;
     bool slow;
     ale_rotary_facts_t facts;
-    ale_rotary_clock_t clock;
-    ale_turns_t turns;
+    ale_rotary_stream_t stream;
     ale_rotary_packet_t packet;
 } ale_rotary_t;
 
@@ -113,7 +108,7 @@ static void learn(ale_rotary_t *r)
 {
     r->protocol->facts(r->state, &r->facts);
     r->health.hardware_faults = r->facts.hardware_faults;
-    ale_turns_range(&r->turns, r->facts.range_min_um, r->facts.range_max_um);
+    ale_turns_range(&r->stream.turns, r->facts.range_min_um, r->facts.range_max_um);
     if (memcmp(&r->health.identity, &r->facts.identity, sizeof r->facts.identity) != 0) {
         r->health.identity = r->facts.identity;
         r->changed = true;
@@ -133,8 +128,7 @@ static void begin(ale_rotary_t *r)
     r->protocol->begin(r->state);
     r->learned = false;
     r->seen = (ale_line_seen_t){0};
-    ale_turns_begin(&r->turns);
-    r->clock = (ale_rotary_clock_t){.jumps = r->clock.jumps};
+    ale_rotary_stream_begin(&r->stream);
     if (r->protocol->next != NULL) {
         ask(r, false);
     } else {
@@ -201,20 +195,6 @@ static void follow_bearing(ale_rotary_t *r)
     }
 }
 
-/* When the last point of the packet was measured: the packet was on the line since then. */
-static int64_t measured_us(ale_rotary_t *r)
-{
-    const uint64_t jumps = r->clock.jumps;
-    const int64_t behind_us = r->packet.behind_us;
-    const int64_t read_us =
-        ale_rotary_clock_take(&r->clock, r->packet.sensor_us + behind_us, r->connection.read_us);
-    if (r->clock.jumps != jumps) {
-        r->health.resets++;
-        ale_turns_begin(&r->turns);
-    }
-    return read_us - behind_us - (int64_t)r->packet.line_bytes * BITS_A_BYTE * 1000000 / baud_of(r);
-}
-
 static void take_points(ale_rotary_t *r)
 {
     follow_bearing(r);
@@ -228,7 +208,9 @@ static void take_points(ale_rotary_t *r)
             return;
         }
     }
-    ale_turns_take(&r->turns, &r->packet, measured_us(r));
+    if (!ale_rotary_stream_take(&r->stream, &r->packet, r->connection.read_us, baud_of(r))) {
+        r->health.resets++;
+    }
 }
 
 static void take_packet(ale_rotary_t *r)
@@ -254,7 +236,7 @@ static void take_packet(ale_rotary_t *r)
 
 static bool yields(const ale_rotary_t *r)
 {
-    return r->turns.scan_waits || r->turns.losses_owed > 0;
+    return r->stream.turns.scan_waits || r->stream.turns.losses_owed > 0;
 }
 
 /* Reads on until a turn is over, or all bytes are used. A packet may close the port. */
@@ -287,21 +269,20 @@ static void receive(ale_rotary_t *r)
 static void say_how_it_runs(ale_rotary_t *r)
 {
     char words[ALE_DIAGNOSIS_WORDS];
-    r->slow = ale_diagnosis_slow(r->protocol, ale_turns_speed_mdeg_s(&r->turns), r->slow, words);
+    r->slow = ale_diagnosis_slow(r->protocol, ale_turns_speed_mdeg_s(&r->stream.turns), r->slow, words);
     say(r, r->slow ? words : r->facts.words);
 }
 
 static void take_scan(ale_rotary_t *r, const ale_scan_t *scan)
 {
     ale_scanner_health_t *h = &r->health;
-    const int64_t silence_us = (int64_t)r->turns.period_us * SILENT_TURNS;
     h->scans++;
     h->last_scan_us = scan->stamp_us;
     h->arrival_us = r->connection.read_us;
-    h->clock_offset_us = r->clock.host_us - r->clock.sensor_us;
-    h->clock_rate_ppb = r->clock.slope_ppm * 1000;
-    h->scan_period_us = r->turns.period_us;
-    h->silence_ms = (int32_t)ale_clamp64(silence_us / 1000, LEAST_SILENCE_MS, INT32_MAX);
+    h->clock_offset_us = r->stream.clock.host_us - r->stream.clock.sensor_us;
+    h->clock_rate_ppb = r->stream.clock.slope_ppm * 1000;
+    h->scan_period_us = r->stream.turns.period_us;
+    h->silence_ms = (int32_t)ale_rotary_stream_silence_ms(&r->stream);
     r->restarts = 0;
     r->seen = (ale_line_seen_t){0};
     ale_connection_proved(&r->connection);
@@ -312,7 +293,7 @@ static void take_scan(ale_rotary_t *r, const ale_scan_t *scan)
 
 static ale_scanner_event_t hand_out(ale_rotary_t *r, ale_scan_t *scan)
 {
-    const ale_scanner_event_t event = ale_turns_next(&r->turns, scan);
+    const ale_scanner_event_t event = ale_turns_next(&r->stream.turns, scan);
     if (event == ALE_SCANNER_SCAN) {
         take_scan(r, scan);
         return event;
@@ -369,7 +350,7 @@ ale_scanner_t *ale_rotary_open(const ale_scanner_family_t *family, const ale_rot
     r->config = *config;
     r->protocol = protocol;
     r->state = state;
-    ale_turns_init(&r->turns, protocol->clockwise, config->reversed);
+    ale_rotary_stream_init(&r->stream, protocol->clockwise, config->reversed);
     ale_connection_init(&r->connection, &r->config);
     return &r->scanner;
 }

@@ -202,6 +202,12 @@ static ale_rplidar_phase_t take_type(ale_rplidar_t *l, const uint8_t *answer)
     return ALE_RPLIDAR_PHASE_SAMPLE;
 }
 
+static ale_rplidar_phase_t take_sample(ale_rplidar_t *l, const uint8_t *answer)
+{
+    l->parser.point_ns = (int32_t)((uint64_t)ale_get_u32(answer + 4) * 1000 / 256 % 10000000);
+    return motor_or_scan(l);
+}
+
 typedef struct {
     ale_rplidar_phase_t phase;
     uint8_t type;
@@ -247,8 +253,7 @@ static ale_rplidar_phase_t take_answer(ale_rplidar_t *l)
     case ALE_RPLIDAR_PHASE_TYPE:
         return take_type(l, answer);
     case ALE_RPLIDAR_PHASE_SAMPLE:
-        l->parser.point_ns = (int32_t)((uint64_t)ale_get_u32(answer + 4) * 1000 / 256 % 10000000);
-        return motor_or_scan(l);
+        return take_sample(l, answer);
     default:
         return l->phase;
     }
@@ -322,6 +327,34 @@ static void begin(void *state)
     l->tries = 0;
 }
 
+static void overhear_answer(ale_rplidar_t *l)
+{
+    const ale_rplidar_parser_t *p = &l->parser;
+    if (p->answer_type == ALE_RPLIDAR_INFO && p->answer_bytes >= 20) {
+        take_info(l, p->answer);
+    } else if (p->answer_type == ALE_RPLIDAR_RATES && p->answer_bytes >= 4) {
+        take_rates(l, p->answer);
+    } else if (p->answer_type == ALE_RPLIDAR_CONF && p->answer_bytes >= 8 &&
+               ale_get_u32(p->answer) == CONF_SAMPLE_US) {
+        take_sample(l, p->answer);
+    }
+}
+
+/* What a stream is, its descriptor says; STOP ends it. */
+static bool overhear(void *state, const uint8_t *sent, uint32_t count)
+{
+    ale_rplidar_t *l = state;
+    if (count == 0) {
+        overhear_answer(l);
+        return false;
+    }
+    const bool ends = count >= 2 && sent[0] == SYNC && (sent[1] == STOP || sent[1] == RESET);
+    if (ends) {
+        ale_rplidar_parser_begin(&l->parser);
+    }
+    return ends;
+}
+
 static uint32_t parse(void *state, const uint8_t *bytes, uint32_t count, ale_rotary_packet_t *packet)
 {
     return ale_rplidar_parse(&((ale_rplidar_t *)state)->parser, bytes, count, packet);
@@ -341,13 +374,15 @@ typedef struct {
     const char *name;
     int32_t range_min_um;
     int32_t range_max_um;
+    int32_t baud;
 } model_t;
 
 /* SLAMTEC's data sheets. */
 static const model_t MODELS[] = {
-    {1, "A1", 150000, 12000000}, {2, "A2", 150000, 16000000}, {3, "A3", 150000, 25000000},
-    {4, "C1", 50000, 12000000},  {6, "S1", 100000, 40000000}, {7, "S2", 50000, 30000000},
-    {8, "S3", 50000, 40000000},
+    {1, "A1", 150000, 12000000, 115200}, {2, "A2", 150000, 16000000, 115200},
+    {3, "A3", 150000, 25000000, 256000}, {4, "C1", 50000, 12000000, 460800},
+    {6, "S1", 100000, 40000000, 256000}, {7, "S2", 50000, 30000000, 1000000},
+    {8, "S3", 50000, 40000000, 1000000},
 };
 
 static const model_t *model_of(const ale_rplidar_t *l)
@@ -366,6 +401,7 @@ static void facts(const void *state, ale_rotary_facts_t *f)
     const model_t *model = model_of(l);
     f->range_min_um = model->range_min_um;
     f->range_max_um = model->range_max_um;
+    f->baud = model->baud;
     f->hardware_faults = l->faults;
     f->words[0] = '\0';
     if (!l->known) {
@@ -383,20 +419,21 @@ static void facts(const void *state, ale_rotary_facts_t *f)
     }
 }
 
-static const ale_rotary_protocol_t protocol = {.name = "rplidar",
-                                               .bauds = {115200, 460800, 256000, 1000000},
-                                               .clockwise = true,
-                                               .state_bytes = sizeof(ale_rplidar_t),
-                                               .begin = begin,
-                                               .parse = parse,
-                                               .next = next,
-                                               .stop = stop,
-                                               .facts = facts};
+const ale_rotary_protocol_t ale_rplidar_protocol = {.name = "rplidar",
+                                                    .bauds = {115200, 460800, 256000, 1000000},
+                                                    .clockwise = true,
+                                                    .state_bytes = sizeof(ale_rplidar_t),
+                                                    .begin = begin,
+                                                    .parse = parse,
+                                                    .next = next,
+                                                    .stop = stop,
+                                                    .facts = facts,
+                                                    .overhear = overhear};
 
 static bool has_baud(int32_t baud)
 {
     for (unsigned k = 0; k < ALE_ROTARY_BAUDS; k++) {
-        if (protocol.bauds[k] == baud) {
+        if (ale_rplidar_protocol.bauds[k] == baud) {
             return true;
         }
     }
@@ -405,7 +442,7 @@ static bool has_baud(int32_t baud)
 
 static ale_scanner_t *open_scanner(const ale_scanner_config_t *config)
 {
-    return ale_rotary_open(&ale_scanner_rplidar, &protocol, config);
+    return ale_rotary_open(&ale_scanner_rplidar, &ale_rplidar_protocol, config);
 }
 
 const ale_scanner_family_t ale_scanner_rplidar = {.name = "rplidar",

@@ -11,14 +11,15 @@ namespace
 {
 
 constexpr char usage[] =
-    "usage: ale-record --port DEV --out FILE [--seconds N] [--lcm-url URL | --no-lcm]\n"
+    "usage: ale-record --port DEV --out FILE [--type NAME] [--seconds N] [--lcm-url URL | --no-lcm]\n"
     "                  [--serial S] [--baud N] [--time-scale X]\n"
     "\n"
-    "Records a Hokuyo URG-04LX: every byte on its serial line, both ways, and the wheel odometry from LCM,\n"
+    "Records a laser scanner: every byte on its line, both ways, and the wheel odometry from LCM,\n"
     "as a .scip recording that ale-replay and ale-sim play.\n"
     "\n"
     "  --port DEV      serial device of the scanner; without it, --serial says which one to look for\n"
     "  --out FILE      the recording\n"
+    "  --type NAME     urg (default), ldrobot, rplidar; auto: whichever answers\n"
     "  --seconds N     ends after N seconds; without it, Ctrl-C or SIGTERM ends it\n"
     "  --lcm-url URL   where ALE_ODOMETRY comes from\n"
     "  --no-lcm        records the scanner only\n"
@@ -29,10 +30,21 @@ constexpr char usage[] =
     "\n"
     "Exit status: 0 fine, 1 no scan came or the recording could not be written, 2 wrong use.\n";
 
+const std::string &family_of(const std::string &word)
+{
+    if (!ale_scanner_has_family(word.c_str())) {
+        char names[ALE_SCANNER_NAMES];
+        ale_scanner_families(names);
+        throw cli::WrongUse("--type " + word + ": there are " + names);
+    }
+    return word;
+}
+
 void bind(cli::CommandLine &line, record::Options &o)
 {
     line.text("port", o.port);
     line.text("out", o.out);
+    line.option("type", [&o](const std::string &word) { o.type = family_of(word); });
     line.number("seconds", o.seconds, int64_t{1}, int64_t{31536000});
     line.text("lcm-url", o.lcm_url);
     line.flag("no-lcm", o.lcm, false);

@@ -74,6 +74,7 @@ void Recorder::join_lcm()
 void Recorder::open_line()
 {
     ale_scanner_config_t config = {};
+    config.family = options_.type.c_str();
     config.path = or_null(options_.port);
     config.serial = or_null(options_.serial);
     config.baud = options_.baud;

@@ -18,8 +18,9 @@ namespace record
 {
 
 struct Options {
-    std::string port;   /* empty: the scanner is looked for */
-    std::string serial; /* empty: any */
+    std::string type = "urg"; /* family, or auto */
+    std::string port;         /* empty: the scanner is looked for */
+    std::string serial;       /* empty: any */
     std::string out;
     std::string lcm_url; /* empty: the environment's, else LCM's default */
     bool lcm = true;

@@ -194,6 +194,27 @@ TEST_F(LdrobotDevice, ASerialNumberThatIsAskedForIsNotMadeUp)
     EXPECT_TRUE(was_said("has the serial number \"\", not H0706400"));
 }
 
+TEST_F(LdrobotDevice, ARecordingReplaysAsTheRobotSawIt)
+{
+    sensor.garble = [](const std::string &packet, int64_t number) {
+        return number % 400 == 0 ? packet.substr(0, 20) : number % 300 == 0 ? "" : packet;
+    };
+    run_for(4);
+    sensor.silent_from_us = sensor.now_us;
+    sensor.silent_to_us = sensor.now_us + 1500000;
+    run_for(6);
+    EXPECT_GT(scans(), 60U);
+    expect_the_recording_replays();
+}
+
+TEST_F(LdrobotDevice, ARecordingFromTheMiddleReplaysFromItsFirstWholeTurn)
+{
+    run_for(4);
+    start_recording_anew();
+    run_for(4);
+    EXPECT_NEAR(scans_in_the_recording(), 39, 2);
+}
+
 TEST_F(LdrobotDevice, AutoFindsIt)
 {
     config.family = "auto";

@@ -10,7 +10,9 @@
 #include "drivers/scanner/rotary/fake_rotary.hpp"
 
 extern "C" {
+#include "log/log.h"
 #include "scanner/scanner.h"
+#include "store/recording.h"
 }
 
 namespace ale_test
@@ -27,7 +29,8 @@ class RotaryOnLine : public testing::Test
     ale_scanner_config_t config{};
     std::vector<Answer> answers;
     std::string received, transmitted;
-    std::vector<std::string> said; // every status, once
+    std::string recording = "ALESCIP1"; // of all that passed
+    std::vector<std::string> said;      // every status, once
     std::unique_ptr<ale_scanner_t, decltype(&ale_scanner_close)> scanner{nullptr, ale_scanner_close};
 
     void TearDown() override
@@ -41,8 +44,9 @@ class RotaryOnLine : public testing::Test
         config.path = "fake";
         config.now_us = time_on_the_line;
         config.tap_user = this;
-        config.tap = [](void *user, bool out, const uint8_t *bytes, uint32_t count, int64_t) {
+        config.tap = [](void *user, bool out, const uint8_t *bytes, uint32_t count, int64_t host_us) {
             auto *self = static_cast<RotaryOnLine *>(user);
+            self->record(out ? ALE_CHUNK_SENT : ALE_CHUNK_RECEIVED, host_us, bytes, count);
             (out ? self->transmitted : self->received).append(bytes, bytes + count);
         };
     }
@@ -86,6 +90,69 @@ class RotaryOnLine : public testing::Test
             }
         }
         return static_cast<double>(on_the_line->now_us - begin_us) * 1e-6;
+    }
+    void record(ale_chunk_kind_t kind, int64_t host_us, const uint8_t *bytes, uint32_t count)
+    {
+        std::string chunk(count + ALE_CHUNK_FRAME_BYTES, '\0');
+        ale_chunk_put(reinterpret_cast<uint8_t *>(chunk.data()), kind, host_us, bytes, count);
+        recording += chunk;
+    }
+    void start_recording_anew()
+    {
+        recording = "ALESCIP1";
+    }
+    std::string why_the_recording_is_refused() const
+    {
+        ale_log_t *log = nullptr;
+        ale_log_error_t error{};
+        if (ale_log_open_memory(&log, reinterpret_cast<const uint8_t *>(recording.data()), recording.size(),
+                                &error) == 0) {
+            ale_log_close(log);
+        }
+        return error.message;
+    }
+    int scans_in_the_recording() const
+    {
+        ale_log_t *log = nullptr;
+        ale_log_error_t error{};
+        EXPECT_EQ(ale_log_open_memory(&log, reinterpret_cast<const uint8_t *>(recording.data()),
+                                      recording.size(), &error),
+                  0)
+            << error.message;
+        auto event = std::make_unique<ale_log_event_t>();
+        int scans = 0;
+        while (log && ale_log_next(log, event.get()) > 0) {
+            scans += event->kind == ALE_LOG_SCAN;
+        }
+        ale_log_close(log);
+        return scans;
+    }
+    // A reader of recordings makes the same scans and losses of what passed.
+    void expect_the_recording_replays()
+    {
+        ale_log_t *log = nullptr;
+        ale_log_error_t error;
+        ASSERT_EQ(ale_log_open_memory(&log, reinterpret_cast<const uint8_t *>(recording.data()),
+                                      recording.size(), &error),
+                  0)
+            << error.message;
+        EXPECT_FALSE(ale_log_info(log)->urg_noise);
+        EXPECT_STREQ(ale_log_info(log)->scanner, health().identity.model);
+        auto event = std::make_unique<ale_log_event_t>();
+        for (const Answer &answer : answers) {
+            ASSERT_EQ(ale_log_next(log, event.get()), 1);
+            ASSERT_EQ(event->kind, answer.lost ? ALE_LOG_SCAN_LOST : ALE_LOG_SCAN);
+            ASSERT_EQ(event->stamp_us, answer.scan.stamp_us);
+            ASSERT_EQ(event->scan.beams, answer.scan.beams);
+            ASSERT_EQ(event->scan.beam_time_ns, answer.scan.beam_time_ns);
+            for (int k = 0; k < answer.scan.beams; k++) {
+                ASSERT_EQ(event->scan.range_um[k], answer.scan.range_um[k]);
+                ASSERT_EQ(event->scan.flag[k], answer.scan.flag[k]);
+                ASSERT_EQ(event->scan.bearing_bam[k], answer.scan.bearing_bam[k]);
+            }
+        }
+        EXPECT_EQ(ale_log_next(log, event.get()), 0);
+        ale_log_close(log);
     }
     int lost() const
     {

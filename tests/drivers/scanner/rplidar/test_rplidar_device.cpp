@@ -317,6 +317,37 @@ TEST_F(RplidarDevice, AnotherSerialNumberIsRefused)
     EXPECT_TRUE(was_said("has the serial number \"1F1F"));
 }
 
+TEST_F(RplidarDevice, ARecordingReplaysAsTheRobotSawIt)
+{
+    run_for(4);
+    sensor.silent_from_us = sensor.now_us;
+    sensor.silent_to_us = sensor.now_us + 1500000;
+    run_for(8);
+    EXPECT_GT(scans(), 60U);
+    expect_the_recording_replays();
+}
+
+TEST_F(RplidarDevice, ARecordingOfADenseScanReplaysAtTheRateOfItsModel)
+{
+    sensor.model = 0x71;
+    sensor.typical_type = 0x85;
+    sensor.sample_us = 31.25;
+    sensor.sensor_baud = config.baud = 1000000;
+    sensor.turns_by_command = true;
+    run_for(6);
+    EXPECT_GT(scans(), 20U);
+    expect_the_recording_replays();
+}
+
+TEST_F(RplidarDevice, ARecordingFromTheMiddleIsRefusedInWords)
+{
+    run_for(4);
+    start_recording_anew();
+    run_for(6);
+    EXPECT_EQ(why_the_recording_is_refused(),
+              "memory: no scan can be made of its bytes (one of an RPLIDAR must begin before its scan did)");
+}
+
 TEST_F(RplidarDevice, AutoFindsIt)
 {
     config.family = "auto";
