@@ -1,15 +1,20 @@
 #include "acquire/acquire.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "config/config_model.h"
 #include "exchange/wake.h"
 #include "recorder/recorder.h"
 #include "scanner/scanner.h"
 
 struct ale_acquire {
+    const ale_config_t *config;
     ale_exchange_t *exchange;
     ale_scanner_t *scanner;
+    char model[64]; /* that the scanner told last, and the noise that goes with it */
+    ale_noise_t noise;
     ale_rt_task_t *task;
     ale_scan_t scan;
 };
@@ -44,6 +49,21 @@ static ale_scanner_config_t scanner_config(const ale_config_t *config, const ale
     };
 }
 
+/* Another scanner is there, or it is known which one: it is as rough as its preset says, but for what [noise]
+ * says. */
+static void follow_identity(ale_acquire_t *acquire)
+{
+    const char *model = ale_scanner_health(acquire->scanner)->identity.model;
+    if (strcmp(model, acquire->model) != 0) {
+        ale_config_t config = *acquire->config;
+        snprintf(acquire->model, sizeof acquire->model, "%s", model);
+        ale_config_preset(&config, model, config.model);
+        ale_config_use_preset(&config, config.model);
+        acquire->noise = config.pipeline.extract.noise;
+        ale_recorder_preset(acquire->exchange->recorder, config.model);
+    }
+}
+
 static void hand_over(ale_acquire_t *acquire, bool lost)
 {
     ale_exchange_t *exchange = acquire->exchange;
@@ -59,6 +79,7 @@ static void hand_over(ale_acquire_t *acquire, bool lost)
     } else {
         record->arrival_us = ale_scanner_health(acquire->scanner)->arrival_us;
         record->scan = acquire->scan;
+        record->noise = acquire->noise;
     }
     ale_ring_commit(exchange->scans);
     ale_recorder_scan(exchange->recorder, ale_ring_committed(exchange->scans) - 1);
@@ -81,6 +102,7 @@ static void run(ale_rt_task_t *self, void *user)
         if (event == ALE_SCANNER_IDLE) {
             continue;
         }
+        follow_identity(acquire);
         if (event != ALE_SCANNER_CHANGED) {
             hand_over(acquire, event == ALE_SCANNER_SCAN_LOST);
         }
@@ -95,6 +117,7 @@ ale_acquire_t *ale_acquire_start(const ale_config_t *config, ale_exchange_t *exc
         return NULL;
     }
     const ale_scanner_config_t scanner = scanner_config(config, exchange);
+    acquire->config = config;
     acquire->exchange = exchange;
     acquire->scanner = ale_scanner_open(&scanner);
     if (acquire->scanner) {

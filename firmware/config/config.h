@@ -15,12 +15,13 @@
 #include <stdio.h>
 
 #include "command/command.h"
+#include "config/presets.h"
 #include "lcm/url.h"
 #include "plan/explorer.h"
 #include "plan/robot_shape.h"
 #include "track/pipeline.h"
 
-enum { ALE_CONFIG_PATH = 160, ALE_CONFIG_MESSAGE = 400 };
+enum { ALE_CONFIG_PATH = 160, ALE_CONFIG_MESSAGE = 440 };
 
 typedef struct {
     ale_pipeline_config_t pipeline; /* extraction with noise, mounting, blind sectors, odometry, limits */
@@ -29,6 +30,8 @@ typedef struct {
     int32_t explore_turn_urad_s;
     int32_t explore_clearance_um; /* of its ways, beyond width and margin */
     char type[16];                /* family of the scanner, or "auto" */
+    char model[ALE_PRESET_NAME];  /* preset of the noise; empty: by what the scanner says, else by type */
+    uint32_t noise_given;         /* keys of [noise] that were set: no preset changes them */
     char port[ALE_CONFIG_PATH];   /* empty: found by serial number */
     char serial[40];              /* empty: any */
     int32_t baud;                 /* 0: detected */

@@ -1,10 +1,13 @@
 #include "config/config_keys.h"
 
+#include <string.h>
+
 #include "config/config.h"
 
 #define FIELD(member) offsetof(ale_config_t, member), sizeof(((ale_config_t *)0)->member)
 #define TEXT(member) ALE_KEY_TEXT, 0, FIELD(member), 0, 0
 #define FAMILY(member) ALE_KEY_FAMILY, 0, FIELD(member), 0, 0
+#define MODEL(member) ALE_KEY_MODEL, 0, FIELD(member), 0, 0
 #define URL(member) ALE_KEY_URL, 0, FIELD(member), 0, 0
 #define PREFIX(member) ALE_KEY_PREFIX, 0, FIELD(member), 0, 0
 #define BOOL(member) ALE_KEY_BOOL, 0, FIELD(member), 0, 0
@@ -18,6 +21,11 @@ const ale_config_key_t ale_config_keys[] = {
     {"sensor", "type", FAMILY(type),
      "Family of the scanner: urg (Hokuyo, SCIP), ldrobot (LD06, LD19, STL-19P), rplidar (SLAMTEC A1"
      " to S3); auto: whichever answers."},
+    {"sensor", "model", MODEL(model),
+     "Preset of [noise]: urg-04lx, utm-30lx, utm-30lx-ew, ust-10lx, ld06, ld19, stl-19p, rplidar-a1, "
+     "rplidar-a2,\n"
+     "rplidar-c1, rplidar-s2, lms-200, lds-01. Empty: by what the scanner says it is, else that of its "
+     "type."},
     {"sensor", "port", TEXT(port),
      "Serial device of the scanner, best a stable name under /dev/serial/by-id.\n"
      "Empty: every serial port is asked for the scanner with the serial number below.\n"
@@ -37,7 +45,9 @@ const ale_config_key_t ale_config_keys[] = {
     {"sensor", "last_step", NUMBER(last_step, 0, 0, 4095), "Both 0: all that the scanner offers."},
 
     {"noise", "own_um", NUMBER(pipeline.extract.noise.own_um, 0, 0, 100000),
-     "Noise of the scanner, one sigma, as ale-calibrate fits it: error of each beam alone, micrometres"},
+     "Noise of the scanner, one sigma, as ale-calibrate fits it; what is not said is the preset's "
+     "(sensor.model).\n"
+     "Error of each beam alone, micrometres"},
     {"noise", "own_ppm", NUMBER(pipeline.extract.noise.own_ppm, 0, 0, 100000),
      "and parts of a million of the range,"},
     {"noise", "own_ppm_per_m", NUMBER(pipeline.extract.noise.own_ppm_per_m, 0, 0, 10000),
@@ -148,3 +158,19 @@ const size_t ale_config_key_count = sizeof ale_config_keys / sizeof ale_config_k
 
 _Static_assert(sizeof ale_config_keys / sizeof ale_config_keys[0] <= ALE_CONFIG_MAX_KEYS,
                "the reader marks the keys it has seen in one table");
+
+const ale_config_key_t *ale_config_key(const char *section, const char *name)
+{
+    for (size_t k = 0; k < ale_config_key_count; k++) {
+        const ale_config_key_t *key = &ale_config_keys[k];
+        if (strcmp(key->section, section) == 0 && strcmp(key->key, name) == 0) {
+            return key;
+        }
+    }
+    return NULL;
+}
+
+uint32_t ale_config_noise_bit(const ale_config_key_t *key)
+{
+    return strcmp(key->section, "noise") == 0 ? UINT32_C(1) << (key - ale_config_key("noise", "own_um")) : 0;
+}

@@ -15,6 +15,7 @@ typedef enum {
     ALE_KEY_ODD,     /* a NUMBER that must be odd */
     ALE_KEY_RATE,    /* a NUMBER that a scanner has as its rate, or 0 */
     ALE_KEY_FAMILY,  /* a TEXT that names a family of scanners */
+    ALE_KEY_MODEL,   /* a TEXT that names a preset, or empty */
     ALE_KEY_URL,     /* a TEXT that LCM is joined by, or empty */
     ALE_KEY_PREFIX   /* a TEXT that names of channels may begin with, or empty */
 } ale_key_kind_t;
@@ -36,5 +37,11 @@ enum { ALE_CONFIG_MAX_KEYS = 64 };
 /* All keys, grouped by section. */
 extern const ale_config_key_t ale_config_keys[];
 extern const size_t ale_config_key_count;
+
+/* NULL: there is none of that name. */
+const ale_config_key_t *ale_config_key(const char *section, const char *name);
+
+/* Bit of a key of [noise] in ale_config_t.noise_given; 0 of all others. */
+uint32_t ale_config_noise_bit(const ale_config_key_t *key);
 
 #endif

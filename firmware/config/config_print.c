@@ -4,6 +4,7 @@
 #include "base/trig.h"
 #include "config/config.h"
 #include "config/config_keys.h"
+#include "config/config_model.h"
 #include "config/decimal.h"
 #include "config/degrees.h"
 
@@ -57,17 +58,12 @@ static void print_sectors(const ale_pipeline_config_t *pipeline, FILE *out)
     }
 }
 
+/* Kinds of text are printed as they are. */
 static void print_value(const ale_config_t *config, const ale_config_key_t *key, FILE *out)
 {
     const char *field = (const char *)config + key->offset;
     char text[ALE_DECIMAL_TEXT];
     switch (key->kind) {
-    case ALE_KEY_TEXT:
-    case ALE_KEY_FAMILY:
-    case ALE_KEY_URL:
-    case ALE_KEY_PREFIX:
-        fputs(field, out);
-        break;
     case ALE_KEY_BOOL:
         fputs(*(const bool *)field ? "yes" : "no", out);
         break;
@@ -84,12 +80,27 @@ static void print_value(const ale_config_t *config, const ale_config_key_t *key,
         ale_decimal_print(load_number(field, key->size), key->digits, text);
         fputs(text, out);
         break;
+    default:
+        fputs(field, out);
+        break;
     }
+}
+
+/* What the preset says is a remark: it follows another model. */
+static bool is_of_preset(const ale_config_t *config, const ale_config_t *preset, const ale_config_key_t *key)
+{
+    const uint32_t bit = ale_config_noise_bit(key);
+    return bit != 0 && (config->noise_given & bit) == 0 &&
+           memcmp((const char *)config + key->offset, (const char *)preset + key->offset, key->size) == 0;
 }
 
 void ale_config_print(const ale_config_t *config, FILE *out)
 {
     const char *section = "";
+    ale_config_t preset = {0};
+    char name[ALE_PRESET_NAME];
+    ale_config_preset(config, "", name);
+    ale_config_use_preset(&preset, name);
     fputs("# ALE-SLAM configuration.  Lines that are left out mean the default.\n", out);
     for (size_t k = 0; k < ale_config_key_count; k++) {
         const ale_config_key_t *key = &ale_config_keys[k];
@@ -98,7 +109,7 @@ void ale_config_print(const ale_config_t *config, FILE *out)
             fprintf(out, "\n[%s]\n", section);
         }
         print_comment(key->comment, out);
-        fprintf(out, "%s = ", key->key);
+        fprintf(out, "%s%s = ", is_of_preset(config, &preset, key) ? "# " : "", key->key);
         print_value(config, key, out);
         fputc('\n', out);
     }

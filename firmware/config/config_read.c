@@ -7,6 +7,7 @@
 #include "base/trig.h"
 #include "config/config.h"
 #include "config/config_keys.h"
+#include "config/config_model.h"
 #include "config/decimal.h"
 #include "config/degrees.h"
 #include "scanner/scanner.h"
@@ -19,7 +20,7 @@ typedef struct {
     bool seen[ALE_CONFIG_MAX_KEYS];
     int line;
     int error_line; /* 0: none yet; later errors are not of interest */
-    char what[ALE_CONFIG_MESSAGE / 2];
+    char what[240];
     ale_config_error_t *error;
 } reading_t;
 
@@ -118,6 +119,17 @@ static int read_family(reading_t *reading, const ale_config_key_t *key, char *fi
                : FAIL(reading, "%s.%s: %.40s is none of %s", key->section, key->key, text, names);
 }
 
+static int read_model(reading_t *reading, const ale_config_key_t *key, char *field, const char *text)
+{
+    ale_noise_t noise;
+    if (text[0] != '\0' && !ale_preset_noise(text, &noise)) {
+        char names[ALE_PRESET_NAMES];
+        ale_preset_names(names);
+        return FAIL(reading, "%s.%s: %.40s is none of %s", key->section, key->key, text, names);
+    }
+    return read_text(reading, key, field, text);
+}
+
 static int read_url(reading_t *reading, const ale_config_key_t *key, char *field, const char *text)
 {
     char error[ALE_LCM_URL_ERROR];
@@ -180,6 +192,8 @@ static int read_value(reading_t *reading, const ale_config_key_t *key, const cha
         return read_rate(reading, key, (int32_t *)(void *)field, text);
     case ALE_KEY_FAMILY:
         return read_family(reading, key, field, text);
+    case ALE_KEY_MODEL:
+        return read_model(reading, key, field, text);
     case ALE_KEY_URL:
         return read_url(reading, key, field, text);
     case ALE_KEY_PREFIX:
@@ -192,29 +206,25 @@ static int read_value(reading_t *reading, const ale_config_key_t *key, const cha
     return read_number(reading, key, field, text);
 }
 
-static int find_key(const char *section, const char *name)
+static bool *seen(reading_t *reading, const ale_config_key_t *key)
 {
-    for (size_t k = 0; k < ale_config_key_count; k++) {
-        if (strcmp(ale_config_keys[k].section, section) == 0 && strcmp(ale_config_keys[k].key, name) == 0) {
-            return (int)k;
-        }
-    }
-    return -1;
+    return &reading->seen[key - ale_config_keys];
 }
 
 /* inih's handler: 1 fine, 0 error. */
 static int take_entry(void *user, const char *section, const char *name, const char *value)
 {
     reading_t *reading = user;
-    const int k = find_key(section, name);
-    if (k < 0) {
+    const ale_config_key_t *key = ale_config_key(section, name);
+    if (!key) {
         return FAIL(reading, "%.60s.%.60s: no such key", section, name) == 0;
     }
-    if (reading->seen[k]) {
+    if (*seen(reading, key)) {
         return FAIL(reading, "%s.%s: given twice", section, name) == 0;
     }
-    reading->seen[k] = true;
-    return read_value(reading, &ale_config_keys[k], value) == 0;
+    *seen(reading, key) = true;
+    reading->config.noise_given |= ale_config_noise_bit(key);
+    return read_value(reading, key, value) == 0;
 }
 
 /* A character of text, or of the space within it. */
@@ -270,6 +280,17 @@ static int check_steps(reading_t *reading)
     return 0;
 }
 
+/* Who says which scanner it is says how rough it is. */
+static void take_preset(reading_t *reading)
+{
+    if (*seen(reading, ale_config_key("sensor", "model")) ||
+        *seen(reading, ale_config_key("sensor", "type"))) {
+        char name[ALE_PRESET_NAME];
+        ale_config_preset(&reading->config, "", name);
+        ale_config_use_preset(&reading->config, name);
+    }
+}
+
 static int read_stream(reading_t *reading, ale_config_t *config)
 {
     reading->config = *config;
@@ -285,6 +306,7 @@ static int read_stream(reading_t *reading, ale_config_t *config)
     if (reading->error_line != 0) {
         return -1;
     }
+    take_preset(reading);
     *config = reading->config;
     return 0;
 }

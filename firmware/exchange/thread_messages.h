@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/noise.h"
 #include "base/scan.h"
 #include "base/stage.h"
 #include "track/pipeline.h"
@@ -15,6 +16,7 @@
 typedef struct {
     bool lost;          /* the device sent it, it cannot be used: scan.stamp_us alone counts */
     int64_t arrival_us; /* last byte */
+    ale_noise_t noise;  /* of the scanner that sent it; shared_beams 0: as configured */
     ale_scan_t scan;
 } ale_scan_record_t;
 

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "config/config_model.h"
+#include "exchange/snapshot.h"
 #include "exchange/wake.h"
 #include "file/little_endian.h"
 #include "recorder/flight_file.h"
@@ -27,6 +29,7 @@ typedef enum { IDLE, ASKED, DONE } turn_t;
 struct ale_recorder {
     const ale_config_t *config;
     char *config_text;
+    ale_snapshot_t *preset; /* of the noise, by its name, as acquire tells it */
     ale_flight_ring_t *flight;
     ale_flight_order_t *order; /* of what comes to the flight ring */
     ale_background_t thread;
@@ -53,6 +56,14 @@ static void tell(ale_recorder_t *recorder, ale_chunk_kind_t kind, int64_t stamp_
     const ale_flight_head_t head = {
         .type = ALE_FLIGHT_CHUNK, .kind = kind, .stamp_us = stamp_us, .length = (uint32_t)length};
     ale_flight_order_told(recorder->order, &head, bytes);
+}
+
+void ale_recorder_preset(ale_recorder_t *recorder, const char name[ALE_PRESET_NAME])
+{
+    if (recorder) {
+        memcpy(ale_snapshot_back(recorder->preset), name, ALE_PRESET_NAME);
+        ale_snapshot_publish(recorder->preset);
+    }
 }
 
 void ale_recorder_bytes(ale_recorder_t *recorder, bool sent, const uint8_t *bytes, uint32_t count,
@@ -197,6 +208,39 @@ static void tell_who_asked(ale_recorder_t *recorder, int error)
     ale_wake_post(recorder->wake);
 }
 
+static char *print_config(const ale_config_t *config)
+{
+    char *text = NULL;
+    size_t count = 0;
+    FILE *out = open_memstream(&text, &count);
+    if (!out) {
+        return NULL;
+    }
+    ale_config_print(config, out);
+    if (fclose(out) != 0) {
+        free(text);
+        return NULL;
+    }
+    return text;
+}
+
+/* The configuration in force: with the preset of the scanner that was found. */
+static void follow_preset(ale_recorder_t *recorder)
+{
+    bool fresh = false;
+    ale_config_t config = *recorder->config;
+    const char *name = ale_snapshot_newest(recorder->preset, &fresh);
+    if (!fresh || !ale_config_use_preset(&config, name)) {
+        return;
+    }
+    snprintf(config.model, sizeof config.model, "%s", name);
+    char *text = print_config(&config);
+    if (text) {
+        free(recorder->config_text);
+        recorder->config_text = text;
+    }
+}
+
 static void write_if_due(ale_recorder_t *recorder, int64_t now_ns)
 {
     if (recorder->write_ns == 0 || now_ns < recorder->write_ns) {
@@ -204,6 +248,7 @@ static void write_if_due(ale_recorder_t *recorder, int64_t now_ns)
     }
     char message[ALE_FLIGHT_MESSAGE];
     recorder->write_ns = 0;
+    follow_preset(recorder);
     const int error = ale_flight_file_write(recorder->config->recorder_folder, &kinds[recorder->reason],
                                             recorder->config_text, recorder->flight, message);
     if (error == 0) {
@@ -229,22 +274,6 @@ static void run(ale_rt_task_t *self, void *user)
     write_if_due(recorder, INT64_MAX);
 }
 
-static char *print_config(const ale_config_t *config)
-{
-    char *text = NULL;
-    size_t count = 0;
-    FILE *out = open_memstream(&text, &count);
-    if (!out) {
-        return NULL;
-    }
-    ale_config_print(config, out);
-    if (fclose(out) != 0) {
-        free(text);
-        return NULL;
-    }
-    return text;
-}
-
 ale_recorder_t *ale_recorder_start(const ale_config_t *config)
 {
     ale_recorder_t *recorder = calloc(1, sizeof *recorder);
@@ -255,7 +284,8 @@ ale_recorder_t *ale_recorder_start(const ale_config_t *config)
     recorder->config_text = print_config(config);
     recorder->flight = ale_flight_ring_create((uint32_t)config->recorder_megabytes * MEGABYTE);
     recorder->order = ale_flight_order_create(recorder->flight);
-    if (!recorder->config_text || !recorder->flight || !recorder->order ||
+    recorder->preset = ale_snapshot_create(ALE_PRESET_NAME);
+    if (!recorder->config_text || !recorder->preset || !recorder->flight || !recorder->order ||
         ale_background_start(&recorder->thread, "ale-recorder", run, recorder, 0) < 0) {
         ale_recorder_stop(recorder);
         return NULL;
@@ -269,6 +299,7 @@ void ale_recorder_stop(ale_recorder_t *recorder)
         ale_background_stop(&recorder->thread);
         ale_flight_order_destroy(recorder->order);
         ale_flight_ring_destroy(recorder->flight);
+        ale_snapshot_destroy(recorder->preset);
         free(recorder->config_text);
         free(recorder);
     }

@@ -48,6 +48,10 @@ bool ale_recorder_ask(ale_recorder_t *recorder, int wake);
 /* Telemetry thread. True once for each that was asked for, when it is written or could not be. */
 bool ale_recorder_done(ale_recorder_t *recorder, ale_record_outcome_t *outcome);
 
+/* Acquire thread: the preset of the noise from the next scan on; recordings tell it in their configuration.
+ */
+void ale_recorder_preset(ale_recorder_t *recorder, const char name[ALE_PRESET_NAME]);
+
 /* Acquire thread. Bytes as they pass; then the scan, lost or not, that they made: `number` counts all that
  * were handed to the estimate task. */
 void ale_recorder_bytes(ale_recorder_t *recorder, bool sent, const uint8_t *bytes, uint32_t count,

@@ -8,6 +8,7 @@
 #include <sys/random.h>
 
 #include "base/fixed.h"
+#include "config/config_model.h"
 #include "exchange/wake.h"
 #include "mapping/map_storage.h"
 #include "mapping/persistence.h"
@@ -57,6 +58,18 @@ static void take_odometry(void *user, const ale_odometry_t *sample, uint64_t sen
     ale_odometry_intake_take(&((ale_telemetry_t *)user)->odometry, sample, sender);
 }
 
+/* Which noise its ranges are taken to have: a preset chosen by mistake shows nowhere else. */
+static void tell_preset(ale_telemetry_t *telemetry)
+{
+    char name[ALE_PRESET_NAME];
+    char line[ALE_LOGGER_LINE];
+    const bool given = telemetry->config->noise_given != 0;
+    ale_config_preset(telemetry->config, telemetry->status.health->identity.model, name);
+    snprintf(line, sizeof line, "noise of %s%s; [sensor] model names another", name,
+             given ? ", but for what [noise] says" : "");
+    ale_logger_log(telemetry->logger, line);
+}
+
 static void watch_scanner(ale_telemetry_t *telemetry)
 {
     bool fresh = false;
@@ -69,6 +82,9 @@ static void watch_scanner(ale_telemetry_t *telemetry)
         ale_logger_log(telemetry->logger, line);
         snprintf(words, sizeof words, "STATUS=%s", line);
         ale_service_tell(&telemetry->service, words);
+        if (telemetry->supervisor.link == ALE_LINK_STREAMING) {
+            tell_preset(telemetry);
+        }
         if (before == ALE_LINK_STREAMING) {
             ale_recorder_trigger(telemetry->exchange->recorder, ALE_RECORD_FAULT);
         }

@@ -329,6 +329,15 @@ __attribute__((noinline)) void ale_extract_scan(ale_extractor_t *e, const ale_sc
     ale_stage_end(&e->hook, ALE_STAGE_EXTRACT);
 }
 
+int ale_extractor_set_noise(ale_extractor_t *e, const ale_noise_t *noise)
+{
+    if (!noise_in_range(noise)) {
+        return -1;
+    }
+    e->config.noise = *noise;
+    return 0;
+}
+
 ale_noise_t ale_extractor_noise(const ale_extractor_t *e)
 {
     const ale_scan_noise_t *measured = &e->runs.scan.noise;

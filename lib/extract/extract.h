@@ -57,4 +57,7 @@ void ale_extract_scan(ale_extractor_t *extractor, const ale_scan_t *scan, const 
  * before the first scan). Constant time, no error. */
 ale_noise_t ale_extractor_noise(const ale_extractor_t *extractor);
 
+/* From the next scan on. 0, or -1 where the model is out of range, and nothing has changed. */
+int ale_extractor_set_noise(ale_extractor_t *extractor, const ale_noise_t *noise);
+
 #endif

@@ -42,6 +42,15 @@ void ale_pipeline_set_hook(ale_pipeline_t *pipeline, const ale_stage_hook_t *hoo
     ale_extractor_set_hook(&pipeline->extractor, hook);
 }
 
+int ale_pipeline_set_noise(ale_pipeline_t *pipeline, const ale_noise_t *noise)
+{
+    if (ale_extractor_set_noise(&pipeline->extractor, noise) < 0) {
+        return -1;
+    }
+    pipeline->config.extract.noise = *noise;
+    return 0;
+}
+
 /* Forgets what wheels, stamps and scans have told of the motion. */
 static void reset_motion(ale_pipeline_t *p)
 {

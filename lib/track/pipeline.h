@@ -33,6 +33,9 @@ uint32_t ale_pipeline_size(void);
 
 /* 0, or -1 when a value of the configuration is out of range (then nothing is changed). */
 int ale_pipeline_init(ale_pipeline_t *pipeline, const ale_pipeline_config_t *config);
+
+/* How rough the scans are from the next one on. 0, or -1 where that is out of range: nothing has changed. */
+int ale_pipeline_set_noise(ale_pipeline_t *pipeline, const ale_noise_t *noise);
 void ale_pipeline_set_hook(ale_pipeline_t *pipeline, const ale_stage_hook_t *hook);
 
 /* Forgets map and pose; keeps the configuration. The next scan is the origin. */

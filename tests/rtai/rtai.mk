@@ -19,7 +19,7 @@ $(EMULATED_PORT): firmware/realtime/rt_rtai.c | $(LCM_STAMP)
 	$(call say,cc,$< (emulated))
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(C_FLAGS) $(call rtai_cflags,$(RTAI_EMULATION_CONFIG)) $(FIRMWARE_INCLUDES) -c $< -o $@
-$(EMULATED_FIRMWARE): $(call objects,$(filter-out firmware/realtime/rt_%.c,$(FIRMWARE_SOURCES))) $(EMULATED_PORT)
+$(EMULATED_FIRMWARE): $(call objects,$(filter-out firmware/realtime/rt_%.c,$(FIRMWARE_SOURCES))) $(SCANNERS_INI).o $(EMULATED_PORT)
 	$(archive)
 $(BUILD)/rtai/ale-slamd: $(OBJ)/firmware/main.c.o $(EMULATED_ARCHIVES)
 	$(call link)

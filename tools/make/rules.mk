@@ -128,7 +128,14 @@ $(BUILD)/libale_graph.a: $(call objects,$(GRAPH_SOURCES))
 	$(archive)
 $(BUILD)/libale_drivers.a: $(call objects,$(DRIVER_SOURCES)) $(LCM_OBJECTS)
 	$(archive)
-$(BUILD)/libale_firmware.a: $(call objects,$(FIRMWARE_SOURCES)) $(BUILD)/realtime-port
+# Presets of scanners, compiled in.
+SCANNERS_INI = $(OBJ)/firmware/config/scanners_ini.c
+$(SCANNERS_INI): firmware/config/scanners.ini tools/make/embed_text.py
+	@mkdir -p $(@D)
+	$(Q)$(PYTHON) tools/make/embed_text.py $@ ale_scanners_ini $<
+$(SCANNERS_INI).o: $(SCANNERS_INI) $(FLAGS_STAMP)
+	$(Q)$(CC) $(C_FLAGS) -c $< -o $@
+$(BUILD)/libale_firmware.a: $(call objects,$(FIRMWARE_SOURCES)) $(SCANNERS_INI).o $(BUILD)/realtime-port
 	$(archive)
 $(BUILD)/libale_tools.a: $(call objects,$(TOOL_SHARED_SOURCES))
 	$(archive)

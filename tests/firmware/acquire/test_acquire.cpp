@@ -11,6 +11,7 @@
 
 extern "C" {
 #include "acquire/acquire.h"
+#include "config/config_keys.h"
 #include "scanner/scanner.h"
 }
 
@@ -30,6 +31,7 @@ struct Script {
     ale_scanner_config_t config{};
     std::atomic<int> destroyed{0};
     std::atomic<bool> refuse{false};
+    const char *model = ""; // that it tells
 } script;
 
 } // namespace
@@ -62,6 +64,7 @@ extern "C" ale_scanner_event_t ale_scanner_step(ale_scanner_t *scanner, ale_scan
         scanner->health.arrival_us = scanner->config.now_us(scanner->config.now_user);
     } else {
         scanner->health.state = ALE_SCANNER_STREAMING;
+        std::strcpy(scanner->health.identity.model, script.model);
     }
     return event;
 }
@@ -89,6 +92,7 @@ class Acquire : public testing::Test
         script.next_stamp_us = 1000;
         script.destroyed = 0;
         script.refuse = false;
+        script.model = "";
         config = ale_config_default();
         ASSERT_EQ(ale_exchange_open(&exchange, ale_clock_start(ALE_CLOCK_REAL)), 0);
     }
@@ -133,6 +137,28 @@ TEST_F(Acquire, EveryScanAndEveryLostScanIsHandedOverInOrder)
     EXPECT_EQ(health->scans, 2u);
     EXPECT_EQ(health->scans_lost, 1u);
     EXPECT_EQ(health->state, ALE_SCANNER_STREAMING);
+}
+
+TEST_F(Acquire, ScansHaveTheNoiseOfTheScannerThatSaysWhoItIs)
+{
+    config.pipeline.extract.noise.surface_um = 4321;
+    config.noise_given = ale_config_noise_bit(ale_config_key("noise", "surface_um"));
+    script.model = "UTM-30LX[Hokuyo Automatic Co.,Ltd.]";
+    ale_acquire_t *acquire = ale_acquire_start(&config, &exchange);
+    play({ALE_SCANNER_CHANGED, ALE_SCANNER_SCAN});
+    ASSERT_TRUE(comes_true([&] { return ale_ring_ready(exchange.scans) == 1; }));
+    ale_acquire_stop(acquire);
+    EXPECT_EQ(record(0).noise.own_um, 10000);
+    EXPECT_EQ(record(0).noise.surface_um, 4321) << "what is configured goes before it";
+}
+
+TEST_F(Acquire, OfAScannerThatSaysNothingTheNoiseIsAsConfigured)
+{
+    ale_acquire_t *acquire = ale_acquire_start(&config, &exchange);
+    play({ALE_SCANNER_SCAN});
+    ASSERT_TRUE(comes_true([&] { return ale_ring_ready(exchange.scans) == 1; }));
+    ale_acquire_stop(acquire);
+    EXPECT_EQ(record(0).noise.shared_beams, 0);
 }
 
 TEST_F(Acquire, AFullRingIsCountedAndTheThreadGoesOn)

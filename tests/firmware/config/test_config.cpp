@@ -13,6 +13,7 @@ extern "C" {
 #include "base/trig.h"
 #include "config/config.h"
 #include "config/config_keys.h"
+#include "config/config_model.h"
 #include "config/decimal.h"
 }
 
@@ -52,8 +53,9 @@ TEST(Config, EveryKeyIsPrintedWithACommentAndReadsBackTheSame)
     const ale_config_t original = ale_config_default();
     const std::string text = print(original);
     for (size_t k = 0; k < ale_config_key_count; k++) {
-        EXPECT_NE(text.find(std::string("\n") + ale_config_keys[k].key + " = "), std::string::npos)
-            << ale_config_keys[k].key;
+        const std::string line = std::string(ale_config_keys[k].key) + " = ";
+        const bool remark = ale_config_noise_bit(&ale_config_keys[k]) != 0; // what the preset says
+        EXPECT_NE(text.find((remark ? "\n# " : "\n") + line), std::string::npos) << ale_config_keys[k].key;
         EXPECT_GT(std::string(ale_config_keys[k].comment).size(), 5u);
     }
     ale_config_t again{};
@@ -134,6 +136,61 @@ TEST(Config, AnglesPrintShortAndReadBackExactly)
     ASSERT_EQ(parse("[sensor]\ntheta = 0.3\nblind = 60:90.5", config), "");
     EXPECT_NE(print(config).find("theta = 0.3\n"), std::string::npos);
     EXPECT_NE(print(config).find("blind = 60:90.5\n"), std::string::npos);
+}
+
+TEST(Config, AModelSaysTheNoiseButForWhatIsSet)
+{
+    for (const char *text : {"[sensor]\nmodel = ld06\n[noise]\nown_um = 8000\n",
+                             "[noise]\nown_um = 8000\n[sensor]\nmodel = ld06\n"}) {
+        ale_config_t config = ale_config_default();
+        ASSERT_EQ(parse(text, config), "");
+        EXPECT_EQ(config.pipeline.extract.noise.own_um, 8000);
+        EXPECT_EQ(config.pipeline.extract.noise.own_ppm, 0);
+        EXPECT_EQ(config.pipeline.extract.noise.surface_um, 15000);
+        EXPECT_TRUE(ale_config_use_preset(&config, "rplidar-a1"));
+        EXPECT_EQ(config.pipeline.extract.noise.own_um, 8000) << "what is set stays";
+        EXPECT_EQ(config.pipeline.extract.noise.own_ppm_per_m, 2200);
+        EXPECT_FALSE(ale_config_use_preset(&config, "ld07"));
+        ale_config_t again = ale_config_default();
+        ASSERT_EQ(parse(print(config), again), "");
+        EXPECT_EQ(print(again), print(config));
+    }
+}
+
+TEST(Config, ATypeWithoutAModelHasTheUsualNoiseOfItsFamily)
+{
+    ale_config_t config = ale_config_default();
+    ASSERT_EQ(parse("[sensor]\ntype = ldrobot\n", config), "");
+    EXPECT_EQ(config.pipeline.extract.noise.own_um, 10000);
+    ASSERT_EQ(parse("[sensor]\ntype = urg\n", config), "");
+    EXPECT_EQ(config.pipeline.extract.noise.own_um, 1500);
+    config.pipeline.extract.noise.own_um = 3;
+    ASSERT_EQ(parse("[sensor]\nport = x\n", config), "");
+    EXPECT_EQ(config.pipeline.extract.noise.own_um, 3) << "nothing is said of the scanner";
+}
+
+TEST(Config, AFileMadeOfWhatIsPrintedFollowsAnotherModel)
+{
+    std::string text = print(ale_config_default());
+    text.replace(text.find("model = "), 8, "model = ld19");
+    ale_config_t config = ale_config_default();
+    ASSERT_EQ(parse(text, config), "");
+    EXPECT_EQ(config.pipeline.extract.noise.own_um, 10000);
+}
+
+TEST(Config, AModelThatIsNoneIsToldThoseThatAre)
+{
+    char names[ALE_PRESET_NAMES];
+    ale_preset_names(names);
+    EXPECT_EQ(refusal("[sensor]\n\nmodel = ld07\n"),
+              std::string("robot.ini:3: sensor.model: ld07 is none of ") + names);
+    for (size_t k = 0; k < ale_config_key_count; k++) {
+        if (std::string(ale_config_keys[k].key) == "model") {
+            std::string comment = ale_config_keys[k].comment;
+            comment.replace(comment.find('\n'), 1, " ");
+            EXPECT_NE(comment.find(names), std::string::npos) << "the remark lists them all";
+        }
+    }
 }
 
 TEST(Config, LinesNotGivenKeepTheirValue)

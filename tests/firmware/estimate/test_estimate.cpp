@@ -82,6 +82,26 @@ class Estimate : public surroundings::WithExchange
     ale_estimator_t *estimator = nullptr;
 };
 
+TEST_F(Estimate, AScanIsAsRoughAsItsScannerIs)
+{
+    auto usual = std::make_unique<ale_result_t>();
+    auto rough = std::make_unique<ale_result_t>();
+    ASSERT_TRUE(push(kPeriod));
+    ale_estimator_step(estimator);
+    ASSERT_TRUE(pop(*usual));
+    auto *record = static_cast<ale_scan_record_t *>(ale_ring_reserve(exchange.scans));
+    record->noise = ale_noise_default();
+    record->noise.bearing_nrad *= 10;
+    record->lost = false;
+    record->arrival_us = ale_clock_now_us(&exchange.clock);
+    room::fill(record->scan, 0, 0, 2 * kPeriod);
+    ale_ring_commit(exchange.scans);
+    ale_estimator_step(estimator);
+    ASSERT_TRUE(pop(*rough));
+    ASSERT_GE(rough->features.line_count, 3);
+    EXPECT_GT(rough->features.line[0].var_alpha_nrad2, 2 * usual->features.line[0].var_alpha_nrad2);
+}
+
 TEST_F(Estimate, EveryScanIsAnsweredOnceInItsOrderWithFeaturesAndTimes)
 {
     auto result = std::make_unique<ale_result_t>();

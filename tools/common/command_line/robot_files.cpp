@@ -37,6 +37,19 @@ void load_config(const std::string &path, ale_config_t &config)
     }
 }
 
+void scanner_model(CommandLine &line, const std::string &name, std::string &model)
+{
+    line.option(name, [name, &model](const std::string &word) {
+        ale_noise_t noise;
+        if (!ale_preset_noise(word.c_str(), &noise)) {
+            char names[ALE_PRESET_NAMES];
+            ale_preset_names(names);
+            throw WrongUse("--" + name + " " + word + ": there are " + names);
+        }
+        model = word;
+    });
+}
+
 void map_image(CommandLine &line, std::string &path)
 {
     line.option("map", [&path](const std::string &word) { path = require_map_image(word); });

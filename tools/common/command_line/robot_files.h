@@ -16,6 +16,9 @@ namespace cli
 /* Takes what the file says over what config holds. Throws WrongUse that names file, line and key. */
 void load_config(const std::string &path, ale_config_t &config);
 
+/* "--NAME MODEL", a preset of scanners.ini; another is WrongUse that lists them. */
+void scanner_model(CommandLine &line, const std::string &name, std::string &model);
+
 /* "--map FILE" of a kind that write_map_image() can write; another is WrongUse. */
 void map_image(CommandLine &line, std::string &path);
 /* The same, as often as wanted. */

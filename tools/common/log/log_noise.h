@@ -10,7 +10,8 @@ extern "C" {
 namespace ale
 {
 
-/* The default noise model for a URG-04LX, else that of large scanners. */
+/* By the preset of the scanner that the log names; else the default for a URG-04LX, and that of large
+ * scanners. */
 ale_noise_t noise_of_log(const ale_log_info_t &info);
 
 } // namespace ale

@@ -3,6 +3,10 @@
 #include "common/command_line/robot_files.h"
 #include "common/log/log_noise.h"
 
+extern "C" {
+#include "config/config_model.h"
+}
+
 namespace ale
 {
 
@@ -33,6 +37,9 @@ ale_config_t robot_config(const RobotOptions &options, const ale_log_info_t &inf
         config.pipeline.odometry_lag_us = info.lag_prior_us;
     }
     load(config, options, recorded);
+    if (!options.model.empty()) {
+        ale_config_use_preset(&config, options.model.c_str());
+    }
     if (options.sensor) {
         config.pipeline.sensor = *options.sensor;
     }

@@ -17,6 +17,7 @@ namespace ale
 /* What the command line says of the robot. */
 struct RobotOptions {
     std::string config; /* file for ale-slamd, or empty */
+    std::string model;  /* preset of the noise, or empty; what the file says under [noise] goes before it */
     std::optional<ale_pose_t> sensor;
     bool use_odometry = true;
 };

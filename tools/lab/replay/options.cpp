@@ -40,6 +40,9 @@ constexpr char usage[] =
     "--config\n"
     "                          says, else what the log says)\n"
     "  --config FILE           configuration, as for ale-slamd\n"
+    "  --model NAME            preset of the scanner's noise, as [sensor] model (ld06, utm-30lx, ...); "
+    "default: what\n"
+    "                          --config or the recording says, else by the log's kind\n"
     "  --load-map F            start with this map, the robot's place in it unknown\n"
     "  --save-map F            write the map at the end\n"
     "  --lines-only            extract only: no poses, no map\n"
@@ -80,6 +83,7 @@ void bind(cli::CommandLine &line, ReplayOptions &o)
     line.choice("loops", o.close_loops, on_off);
     line.option("sensor", [&o](const std::string &word) { o.sensor = sensor_of(word); });
     line.text("config", o.config);
+    cli::scanner_model(line, "model", o.model);
     line.text("load-map", o.load_map);
     line.flag("lines-only", o.lines_only);
 }

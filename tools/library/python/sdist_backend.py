@@ -7,9 +7,9 @@ from scikit_build_core.build import *  # noqa: F401,F403 pylint: disable=wildcar
 
 HERE = pathlib.Path(__file__).resolve().parent
 TREE = HERE.parents[2]
-CARRIED = ("LICENSE", "lib", "drivers/file", "drivers/store", "firmware/config/decimal.c", "firmware/config/decimal.h",
+CARRIED = ("LICENSE", "lib", "drivers/file", "drivers/store", "firmware/config/decimal.c", "firmware/config/decimal.h", "firmware/config/scanners.ini",
            "tools/common/offline", "tools/common/export/text_file.*", "tools/common/export/trajectory.*")
-SUFFIXES = ("", ".c", ".h", ".cpp")
+SUFFIXES = ("", ".c", ".h", ".cpp", ".ini")
 
 
 def carried_files():

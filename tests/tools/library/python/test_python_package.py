@@ -217,16 +217,27 @@ def test_settings_are_those_of_the_robot_s_configuration(ale, tmp_path):
     path.write_text(printed, encoding="utf-8")
     found = ale.settings_from(path)
     described = {name: default for name, default, _, _ in sys.modules["ale_package._core"].DESCRIPTION["settings"]}
-    assert found == pytest.approx(described)
+    assert {**described, **found} == pytest.approx(described), "what is a remark there is the default"
     sections = {"sensor", "noise", "extract", "odometry"}
     keys = {(section, key) for section, key in re.findall(r'^    \{"(\w+)", "(\w+)",', (ROOT / "firmware/config/config_keys.c").read_text(), re.M)
             if section in sections or key in ("max_speed", "max_turn")}
-    not_of_an_array = {("sensor", key) for key in ("type", "port", "serial", "baud", "reversed", "blind", "first_step", "last_step")}
+    not_of_an_array = {("sensor", key) for key in ("type", "model", "port", "serial", "baud", "reversed", "blind", "first_step", "last_step")}
     assert {f"{section}.{key}" for section, key in keys - not_of_an_array} == set(described)
     path.write_text("[sensor]\nx = far\nblind = -120:-100, 90:100\n", encoding="utf-8")
     with pytest.raises(ValueError, match="robot.ini: sensor.x: 'far' is not a number"):
         ale.settings_from(path)
     assert ale.blind_from(path) == [pytest.approx((math.radians(a), math.radians(b))) for a, b in ((-120, -100), (90, 100))]
+
+
+def test_the_presets_are_those_of_the_firmware(ale, tmp_path):
+    described = {name: default for name, default, _, _ in sys.modules["ale_package._core"].DESCRIPTION["settings"]}
+    for name, scanner in ale.SCANNERS.items():
+        path = tmp_path / "robot.ini"
+        path.write_text(f"[sensor]\nmodel = {name}\n", encoding="utf-8")
+        printed = subprocess.run([BINARIES / "ale-slamd", "--config", path, "--print-config"], check=True, capture_output=True, text=True).stdout
+        noise = {f"noise.{key}": float(value) for key, value in re.findall(r"^# (\w+) = (\d+)$", printed, re.M) if f"noise.{key}" in described}
+        assert noise == {**{key: value for key, value in described.items() if key.startswith("noise.")}, **scanner.settings()}, name
+        assert {key: value for key, value in ale.settings_from(path).items() if key.startswith("noise.")} == scanner.settings()
 
 
 def test_presets_are_whole_turns_or_less(ale):

@@ -53,7 +53,7 @@ def built(tmp_path_factory):
 def test_the_sdist_carries_what_it_builds_from(built):
     with tarfile.open(next(built.glob("*.tar.gz"))) as archive:
         names = {name.partition("/")[2] for name in archive.getnames()}
-    assert {"pyproject.toml", "CMakeLists.txt", "src/ale/tracker.py", "src/ale/py.typed", "src/ale/scanners.ini", "binding/binding.cpp",
+    assert {"pyproject.toml", "CMakeLists.txt", "src/ale/tracker.py", "src/ale/py.typed", "sources/firmware/config/scanners.ini", "binding/binding.cpp",
             "sources/lib/ale.h", "sources/lib/graph/mapper.cpp", "sources/drivers/store/map_file.c", "sources/LICENSE"} <= names
     assert not (PYTHON / "sources").exists(), "nothing is left in the tree"
 

@@ -6,15 +6,19 @@ import math
 import os
 
 from . import _core
+from .scanner import scanner
 
 
 def settings_from(path: str | os.PathLike[str]) -> dict[str, float]:
-    """Those settings of ale-slamd's configuration that tracker and extractor have, for their `settings`. What else the
-    file says (ports, keys, LCM) is the robot's own and left out; so are blind sectors (blind_from) and sensor.reversed."""
+    """Those settings of ale-slamd's configuration that tracker and extractor have, for their `settings`; the noise that the
+    file does not say is the preset's that sensor.model names. What else the file says (ports, keys, LCM) is the robot's own
+    and left out; so are blind sectors (blind_from) and sensor.reversed."""
     known = [name for name, *_ in _core.DESCRIPTION["settings"]]
     file = _read(path)
     found = {f"{section}.{key}": text for section in file.sections() for key, text in file[section].items()}
-    return {name: _number(path, name, found[name]) for name in known if name in found}
+    model = found.get("sensor.model", "")
+    preset = scanner(model).settings() if model else {}
+    return {**preset, **{name: _number(path, name, found[name]) for name in known if name in found}}
 
 
 def blind_from(path: str | os.PathLike[str]) -> list[tuple[float, float]]:

@@ -55,19 +55,36 @@ class Scanner:
         return dataclasses.replace(self, first_bearing=-self.first_bearing, step=-self.step)
 
 
+def _presets_file() -> pathlib.Path:
+    """The firmware's own: laid beside the package, or where it lies in the tree."""
+    here = pathlib.Path(__file__).resolve().parent
+    beside = here / "scanners.ini"
+    return beside if beside.exists() else here.parents[4] / "firmware/config/scanners.ini"
+
+
 def _read_presets() -> dict[str, Scanner]:
     file = configparser.ConfigParser(inline_comment_prefixes=("#",))
-    file.read_string((pathlib.Path(__file__).parent / "scanners.ini").read_text(encoding="utf-8"))
+    file.read_string(_presets_file().read_text(encoding="utf-8"))
     return {name: _preset(file[name]) for name in file.sections()}
 
 
+def _every(beams: int) -> int:
+    """Of more beams than fit as many are left out, evenly over the turn: ranges[::every]."""
+    every = -(-beams // _checks.MAX_BEAMS)
+    while beams % every:
+        every += 1
+    return every
+
+
 def _preset(section: configparser.SectionProxy) -> Scanner:
-    numbers = {key: float(text) for key, text in section.items()}
-    beams_a_turn = numbers["beams_a_turn"]
-    noise = {key[len("noise_"):]: value for key, value in numbers.items() if key.startswith("noise_")}
+    numbers = {key: float(text) for key, text in section.items() if key != "identity"}
+    every = _every(int(numbers["beams"]))
+    beams_a_turn = numbers["beams_a_turn"] / every
+    settings = {name for name, *_ in _core.DESCRIPTION["settings"]}
+    noise = {key: value for key, value in numbers.items() if f"noise.{key}" in settings}
     return Scanner(first_bearing=math.radians(numbers["first_degrees"]), step=2 * math.pi / beams_a_turn,
                    range_min=numbers["range_min"], range_max=numbers["range_max"], beam_time=numbers["turn_s"] / beams_a_turn,
-                   stamp_beam=int(numbers.get("stamp_beam", 0)), beams=int(numbers["beams"]), noise=noise)
+                   stamp_beam=int(numbers.get("stamp_beam", 0)) // every, beams=int(numbers["beams"]) // every, noise=noise)
 
 
 SCANNERS: dict[str, Scanner] = _read_presets()
