@@ -22,9 +22,9 @@ void print_sensor(const Description &description, std::ostream &out)
 void print_noise(const ale_noise_t &noise, std::ostream &out)
 {
     out << "[noise]\nown_um = " << noise.own_um << "\nown_ppm = " << noise.own_ppm
-        << "\nshared_um = " << noise.shared_um << "\nshared_ppm = " << noise.shared_ppm
-        << "\nshared_beams = " << noise.shared_beams << "\nsurface_um = " << noise.surface_um
-        << "\nbearing_nrad = " << noise.bearing_nrad << "\n\n";
+        << "\nown_ppm_per_m = " << noise.own_ppm_per_m << "\nshared_um = " << noise.shared_um
+        << "\nshared_ppm = " << noise.shared_ppm << "\nshared_beams = " << noise.shared_beams
+        << "\nsurface_um = " << noise.surface_um << "\nbearing_nrad = " << noise.bearing_nrad << "\n\n";
 }
 
 } // namespace

@@ -199,6 +199,11 @@ Turn LogSource::turn_of(const ale_scan_t &scan, int32_t first_step) const
 
 void LogSource::begin(const ale_scan_t &scan)
 {
+    if (scan.own_bearings) {
+        throw std::runtime_error(path_ +
+                                 ": its points lie on no grid, as those of a scanner of a whole turn do, "
+                                 "and SCIP cannot say that: ale-replay reads it");
+    }
     const Survey survey(path_);
     scanner_ = scanner_of(scan);
     const int32_t first_step = urg_first_step(scan).value_or(scanner_.first_step);

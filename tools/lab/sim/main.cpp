@@ -17,6 +17,7 @@
 #include "lab/sim/units.h"
 #include "lab/sim/world/world_source.h"
 #include "lab/sim/write_log.h"
+#include "lab/sim/write_recording.h"
 
 namespace
 {
@@ -46,7 +47,7 @@ void describe(const sim::Options &options)
         description.has_sensor = info.has_sensor;
         description.sensor = {sim::metres(info.sensor.x_um), sim::metres(info.sensor.y_um),
                               sim::radians(info.sensor.theta_bam)};
-        if (!info.urg_noise) {
+        if (!info.urg_noise || info.scanner[0] != '\0') {
             description.noise = ale::noise_of_log(info);
         }
         description.has_odometry = info.has_odometry && options.odometry;
@@ -57,11 +58,16 @@ void describe(const sim::Options &options)
 
 void write_drive(const sim::Options &options)
 {
-    sim::OutFile log(options.write_log);
     sim::OutFile truth(options.truth);
     sim::WorldSource source(world_of(options), options.world_source);
-    const uint32_t scans = sim::write_log(source, log.get(), truth.get());
-    log.finish();
+    uint32_t scans = 0;
+    if (options.sensor.is_rotary()) {
+        scans = sim::write_recording(source, options.sensor, options.write_log, truth.get());
+    } else {
+        sim::OutFile log(options.write_log);
+        scans = sim::write_log(source, log.get(), truth.get());
+        log.finish();
+    }
     truth.finish();
     std::printf("scans %" PRIu32 "\n", scans);
 }

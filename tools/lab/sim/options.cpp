@@ -19,9 +19,8 @@ const char usage[] =
     "moment "
     "a\n"
     "client first asks for ranges.\n"
-    "  --sensor NAME        urg-04lx (default), utm-30lx, ust-10lx, ld06, ld19, stl-19p, rplidar-a1, "
-    "rplidar-a2,\n"
-    "                       rplidar-c1, rplidar-s2\n"
+    "  --sensor NAME        urg-04lx (default), utm-30lx, utm-30lx-ew, ust-10lx, ld06, ld19, stl-19p,\n"
+    "                       rplidar-a1, rplidar-a2, rplidar-c1, rplidar-s2\n"
     "  --log LOG            play a recording (any format that ale-replay reads)\n"
     "  --world WORLD        drive through a plan of walls: x1 y1 x2 y2, # start x y theta, # via x y\n"
     "  --pty LINK           symbolic link to the pseudo terminal; removed at the end\n"
@@ -51,7 +50,8 @@ const char usage[] =
     "                       metre counted (default: drawn from the seed, 3 % each, no bias)\n"
     "  --max-speed V        m/s (default 0.5)\n"
     "  --max-turn W         rad/s (default 0.9)\n"
-    "  --write-log FILE     write the drive as a CARMEN log instead of playing it\n"
+    "  --write-log FILE     write the drive as a log instead of playing it: CARMEN, of scanners of a whole\n"
+    "                       turn a .scip recording of their line\n"
     "  --help, --version\n"
     "At the end, on stdout: scans, sent, damaged, swallowed (and collisions), one a line.\n"
     "Exit: 0 fine, 1 failed, 2 wrong use.\n";
@@ -156,8 +156,6 @@ void check(const Options &o)
     parse_faults(o.simulator.faults);
     require(!o.sensor.is_rotary() || o.log.empty(),
             "--log is for scanners that speak SCIP: no --sensor of a whole turn");
-    require(!o.sensor.is_rotary() || o.write_log.empty(),
-            "--write-log writes scans of a URG-04LX: no other --sensor");
     noise_model(o.noise.empty() ? o.sensor.noise : o.noise);
     require(!o.drive || o.world_source.odometry_lag_us == 0, "--drive and --odometry-lag do not go together");
 }

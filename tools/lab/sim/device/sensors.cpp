@@ -66,6 +66,8 @@ const std::vector<Sensor> &sensors()
         {"urg-04lx", SensorFamily::urg, "real", {}, {}, {}},
         hokuyo_270("utm-30lx", "utm-30lx", "UTM-30LX[Hokuyo Automatic Co.,Ltd.]",
                    "SOKUIKI Sensor TOP-URG UTM-30LX", 23, 60000),
+        hokuyo_270("utm-30lx-ew", "utm-30lx", "UTM-30LX-EW[Hokuyo Automatic Co.,Ltd.]",
+                   "SOKUIKI Sensor TOP-URG UTM-30LX-EW", 23, 60000),
         hokuyo_270("ust-10lx", "ust-10lx", "UST-10LX", "UST-10LX", 20, 30000),
         ldrobot("ld06", 4500),
         ldrobot("ld19", 4500),
