@@ -10,7 +10,7 @@ namespace
 {
 
 constexpr double depth_edge = 0.05; // neighbouring ranges that differ by more lie at an edge
-constexpr std::uint32_t urg_step_bam = 1u << 22;
+constexpr double bam_per_radian = 4294967296.0 / (2 * pi);
 
 double hit_wall(const Wall &wall, const Point &from, const Point &ray)
 {
@@ -42,21 +42,21 @@ double hit_arc(const Arc &arc, const Point &from, const Point &ray)
     return 0;
 }
 
-std::unique_ptr<ale_scan_t> empty_urg_scan()
+std::unique_ptr<ale_scan_t> empty_scan(const Sensor &sensor)
 {
     auto scan = std::make_unique<ale_scan_t>();
-    scan->first_bearing_bam = 0u - 340u * urg_step_bam;
-    scan->step_bam = static_cast<std::int32_t>(urg_step_bam);
+    scan->first_bearing_bam = static_cast<std::uint32_t>(std::llround(sensor.bearing(0) * bam_per_radian));
+    scan->step_bam = static_cast<std::int32_t>(std::lround(sensor.step * bam_per_radian));
     scan->range_min_um = 20000;
-    scan->range_max_um = static_cast<std::int32_t>(urg_reach * 1e6);
-    scan->beams = urg_beams;
+    scan->range_max_um = static_cast<std::int32_t>(sensor.reach * 1e6);
+    scan->beams = static_cast<std::uint16_t>(sensor.beams);
     return scan;
 }
 
 // The error that neighbouring beams share wanders over the scan: a first-order process of variance 1.
-std::vector<double> wandering(const Noise &noise, Random &random)
+std::vector<double> wandering(const Noise &noise, Random &random, std::size_t beams)
 {
-    std::vector<double> error(urg_beams);
+    std::vector<double> error(beams);
     const double keep = std::exp(-1 / noise.shared_beams);
     double now = random.normal();
     for (double &e : error) {
@@ -73,9 +73,9 @@ bool at_depth_edge(const Hit &a, const Hit &b)
 }
 
 // What lies beyond the reach sends no echo back, whatever the noise of its range would be.
-Hit within_reach(const Hit &hit)
+Hit within_reach(const Hit &hit, double reach)
 {
-    return hit.range < urg_reach ? hit : Hit{};
+    return hit.range < reach ? hit : Hit{};
 }
 
 } // namespace
@@ -144,7 +144,7 @@ const Noise &noise_kind(const std::string &name)
 
 double urg_bearing(int beam)
 {
-    return (beam - 340) * urg_step;
+    return Sensor{}.bearing(beam);
 }
 
 Hit cast(const World &world, double bearing)
@@ -179,12 +179,13 @@ std::vector<double> noisy_ranges(const World &world, const Noise &noise, Random 
     for (double &b : bias) {
         b = noise.surface * random.normal();
     }
-    const std::vector<double> shared = wandering(noise, random);
-    std::vector<double> range(urg_beams);
-    for (std::size_t k = 0; k < urg_beams; k++) {
-        const double bearing = urg_bearing(static_cast<int>(k));
+    const std::vector<double> shared = wandering(noise, random, out.hits.size());
+    std::vector<double> range(out.hits.size());
+    for (std::size_t k = 0; k < range.size(); k++) {
+        const double bearing = out.sensor.bearing(static_cast<int>(k));
         out.hits[k] = cast(world, bearing);
-        const Hit met = within_reach(cast(world, bearing + noise.bearing * random.normal()));
+        const Hit met =
+            within_reach(cast(world, bearing + noise.bearing * random.normal()), out.sensor.reach);
         const double own = noise.own_sigma(met.range) * random.normal();
         const double of_surface = met.surface < 0 ? 0 : bias[static_cast<std::size_t>(met.surface)];
         out.clean[k] = met.surface >= 0 && met.surface == out.hits[k].surface;
@@ -196,7 +197,7 @@ std::vector<double> noisy_ranges(const World &world, const Noise &noise, Random 
 
 void mix_pixels(const Noise &noise, Random &random, std::vector<double> &range, SimulatedScan &out)
 {
-    for (std::size_t k = 0; k + 1 < urg_beams; k++) {
+    for (std::size_t k = 0; k + 1 < range.size(); k++) {
         if (at_depth_edge(out.hits[k], out.hits[k + 1]) && random.chance(noise.mixed)) {
             const std::size_t mixed = k + (random.chance(0.5) ? 1 : 0);
             range[mixed] = random.uniform(out.hits[k].range, out.hits[k + 1].range);
@@ -207,9 +208,9 @@ void mix_pixels(const Noise &noise, Random &random, std::vector<double> &range, 
 
 void spoil_ranges(const Noise &noise, Random &random, std::vector<double> &range, SimulatedScan &out)
 {
-    for (std::size_t k = 0; k < urg_beams; k++) {
+    for (std::size_t k = 0; k < range.size(); k++) {
         if (random.chance(noise.gross)) {
-            range[k] = random.uniform(0.1, urg_reach);
+            range[k] = random.uniform(0.1, out.sensor.reach);
             out.clean[k] = false;
         }
         if (random.chance(noise.dropout)) {
@@ -220,16 +221,42 @@ void spoil_ranges(const Noise &noise, Random &random, std::vector<double> &range
 
 } // namespace
 
-SimulatedScan simulate(const World &world, const Noise &noise, Random &random)
+Sensor whole_turn(const World &world, int beams, double reach)
 {
-    SimulatedScan out{empty_urg_scan(), std::vector<Hit>(urg_beams), std::vector<bool>(urg_beams)};
+    Sensor sensor{beams, beams / 2, 2 * pi / beams, reach};
+    const auto surface = [&](int k) { return within_reach(cast(world, sensor.bearing(k)), reach).surface; };
+    int first = 0;
+    while (first + 1 < beams && surface(first) == surface(first - 1)) {
+        first++;
+    }
+    sensor.front -= first;
+    return sensor;
+}
+
+SimulatedScan simulate(const World &world, const Noise &noise, Random &random, const Sensor &sensor)
+{
+    const auto beams = static_cast<std::size_t>(sensor.beams);
+    SimulatedScan out{sensor, empty_scan(sensor), std::vector<Hit>(beams), std::vector<bool>(beams)};
     std::vector<double> range = noisy_ranges(world, noise, random, out);
     mix_pixels(noise, random, range, out);
     spoil_ranges(noise, random, range, out);
-    for (std::size_t k = 0; k < urg_beams; k++) {
+    for (std::size_t k = 0; k < beams; k++) {
         ale_scan_set_range(out.scan.get(), static_cast<std::uint16_t>(k),
                            static_cast<std::int32_t>(std::lround(range[k] * 1e3)) * 1000);
         out.clean[k] = out.clean[k] && out.scan->flag[k] == ALE_BEAM_VALID;
+    }
+    return out;
+}
+
+std::unique_ptr<ale_scan_t> turned(const ale_scan_t &scan, int seam, bool clockwise)
+{
+    auto out = std::make_unique<ale_scan_t>(scan);
+    out->step_bam = clockwise ? -scan.step_bam : scan.step_bam;
+    out->first_bearing_bam = ale_scan_bearing(&scan, seam);
+    for (int k = 0; k < scan.beams; k++) {
+        const int from = (seam + (clockwise ? scan.beams - k : k)) % scan.beams;
+        out->range_um[k] = scan.range_um[from];
+        out->flag[k] = scan.flag[from];
     }
     return out;
 }

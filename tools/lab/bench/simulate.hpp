@@ -1,4 +1,5 @@
-// A URG-04LX in a world: one scan with its noise, and what each beam really hit.
+// A scanner in a world, a URG-04LX or one of a whole turn: one scan with its noise, and what each beam really
+// hit.
 #pragma once
 
 #include <memory>
@@ -53,12 +54,33 @@ constexpr int urg_beams = 682;
 constexpr double urg_step = 2 * pi / 1024;
 constexpr double urg_reach = 4.094;
 
+// How the beams of a scanner lie, counter-clockwise, and how far they see.
+struct Sensor {
+    int beams = urg_beams;
+    int front = 340; // beam that looks straight ahead
+    double step = urg_step;
+    double reach = urg_reach;
+
+    double bearing(int beam) const
+    {
+        return (beam - front) * step;
+    }
+};
+
+// A whole turn of so many beams, which begins where one surface ends and another begins: no wall lies across
+// its seam.
+Sensor whole_turn(const World &world, int beams, double reach);
+
 struct SimulatedScan {
+    Sensor sensor;
     std::unique_ptr<ale_scan_t> scan;
     std::vector<Hit> hits;   // without noise
     std::vector<bool> clean; // the beam has a value, of the surface it hit
 };
 
-SimulatedScan simulate(const World &world, const Noise &noise, Random &random);
+SimulatedScan simulate(const World &world, const Noise &noise, Random &random, const Sensor &sensor = {});
+
+// The same turn from beam `seam` on, counter-clockwise or not.
+std::unique_ptr<ale_scan_t> turned(const ale_scan_t &scan, int seam, bool clockwise);
 
 } // namespace bench

@@ -4,7 +4,7 @@ namespace bench
 {
 
 void for_each_case(const Noise &noise, int per_kind, std::uint64_t seed,
-                   const std::function<void(const Case &)> &visit)
+                   const std::function<void(const Case &)> &visit, int turn_beams)
 {
     constexpr std::uint64_t worlds_a_seed = 1000000;
     int number = 0;
@@ -14,7 +14,8 @@ void for_each_case(const Noise &noise, int per_kind, std::uint64_t seed,
             Random world_random(own_seed);
             const World world = make_world(kind, world_random);
             Random noise_random(~own_seed);
-            const SimulatedScan simulated = simulate(world, noise, noise_random);
+            const Sensor sensor = turn_beams > 0 ? whole_turn(world, turn_beams, urg_reach) : Sensor{};
+            const SimulatedScan simulated = simulate(world, noise, noise_random, sensor);
             const Truth truth = make_truth(world, noise, simulated);
             visit({number++, simulated, truth});
         }

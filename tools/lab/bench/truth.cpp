@@ -60,11 +60,11 @@ TrueLine make_line(const World &world, const Noise &noise, const SimulatedScan &
         const auto beam = static_cast<std::size_t>(k);
         if (scan.clean[beam]) {
             line.points++;
-            add_information(line, noise, scan.hits[beam], urg_bearing(k));
+            add_information(line, noise, scan.hits[beam], scan.sensor.bearing(k));
         }
     }
     const auto met = [&](int k) {
-        return Point(scan.hits[static_cast<std::size_t>(k)].range * direction(urg_bearing(k)));
+        return Point(scan.hits[static_cast<std::size_t>(k)].range * direction(scan.sensor.bearing(k)));
     };
     line.start = met(first);
     line.end = met(last);
@@ -72,7 +72,7 @@ TrueLine make_line(const World &world, const Noise &noise, const SimulatedScan &
     const double low = std::min(tangent.dot(wall.a), tangent.dot(wall.b));
     const double high = std::max(tangent.dot(wall.a), tangent.dot(wall.b));
     const auto outwards = [&](int beam, double limit) {
-        return std::clamp(crossing(line.form, urg_bearing(beam), limit), low, high);
+        return std::clamp(crossing(line.form, scan.sensor.bearing(beam), limit), low, high);
     };
     line.start_between = {tangent.dot(line.start), outwards(first - 1, low)};
     line.end_between = {tangent.dot(line.end), outwards(last + 1, high)};
@@ -99,11 +99,11 @@ void find_lines(Truth &truth, const World &world, const Noise &noise, const Simu
 {
     const auto wall_of = [&](int k) {
         const Hit &hit = scan.hits[static_cast<std::size_t>(k)];
-        const bool seen = hit.surface < static_cast<int>(world.walls.size()) && hit.range < urg_reach;
+        const bool seen = hit.surface < static_cast<int>(world.walls.size()) && hit.range < scan.sensor.reach;
         return seen ? hit.surface : -1;
     };
-    for (int first = 0, k = 1; k <= urg_beams; k++) {
-        if (k == urg_beams || wall_of(k) != wall_of(first)) {
+    for (int first = 0, k = 1; k <= scan.sensor.beams; k++) {
+        if (k == scan.sensor.beams || wall_of(k) != wall_of(first)) {
             if (wall_of(first) >= 0) {
                 add_run(truth, world, noise, scan, first, k - 1);
             }

@@ -24,6 +24,9 @@ using namespace bench;
 constexpr char usage[] =
     "usage: lines accuracy [--scans N] [--seed S] [--threshold MM,PERCENT] [--noise NAME] [--extractor "
     "NAME]\n"
+    "       lines turn --turn BEAMS [--scans N] [--seed S] [--noise NAME]  a scanner of a whole turn, "
+    "wherever it\n"
+    "                                                  begins and whichever way it turns; libale alone\n"
     "       lines run --extractor NAME [--scans N]     only extracts, over the urg suite: for profilers\n"
     "       lines rest LOG                             repeatability on a recording\n"
     "       lines write DIR [--scans N] [--noise NAME] scans.log and truth.jsonl\n"
@@ -37,6 +40,7 @@ struct Options {
     int scans = 20;        // of each kind of world
     std::uint64_t seed = 1;
     std::optional<Threshold> threshold;
+    int turn_beams = 0;
 };
 
 std::vector<Extractor> chosen_extractors(const Options &options)
@@ -111,6 +115,55 @@ void accuracy(const Options &options)
         for (const Extractor &extractor : chosen_extractors(options)) {
             std::cout << rows_of(noise, options, extractor).dump() << std::endl;
         }
+    }
+}
+
+// Found in a turn that begins at beam `seam`, by the beams of the turn that begins at 0.
+Extraction turned_back(Extraction found, int beams, int seam, bool clockwise)
+{
+    for (Line &line : found.lines) {
+        const int length = (line.last - line.first + beams) % beams;
+        const int first = clockwise ? seam - line.last : seam + line.first;
+        line.first = (first + 2 * beams) % beams;
+        const bool mostly_behind = 2 * (line.first + length - beams) > length; // the true seam, at beam 0
+        line.first -= mostly_behind ? beams : 0;
+        line.last = line.first + length;
+    }
+    return found;
+}
+
+json turn_row(const Noise &noise, const Options &options)
+{
+    Tally all;
+    Tally straight;
+    int scans = 0;
+    Random random(options.seed);
+    const Extractor extractor = chosen_extractors(options).front();
+    for_each_case(
+        noise, options.scans, options.seed,
+        [&](const Case &c) {
+            const int seam = random.integer(0, options.turn_beams - 1);
+            const bool clockwise = random.chance(0.5);
+            const Extraction found = extractor.extract(*turned(*c.simulated.scan, seam, clockwise));
+            const Tally tally = score(c.truth, turned_back(found, options.turn_beams, seam, clockwise));
+            scans++;
+            all.add(tally);
+            if (!is_curved(c.truth.kind)) {
+                straight.add(tally);
+            }
+        },
+        options.turn_beams);
+    json row = figures(all, straight);
+    row["noise"] = noise.name;
+    row["scans"] = scans;
+    row["beams"] = options.turn_beams;
+    return row;
+}
+
+void turn(const Options &options)
+{
+    for (const Noise &noise : chosen_noises(options)) {
+        std::cout << turn_row(noise, options).dump() << std::endl;
     }
 }
 
@@ -237,7 +290,7 @@ int main(int argc, char **argv)
 {
     using Command = void (*)(const Options &);
     const cli::Choices<Command> commands = {
-        {"accuracy", accuracy}, {"run", run}, {"rest", rest}, {"write", write}};
+        {"accuracy", accuracy}, {"turn", turn}, {"run", run}, {"rest", rest}, {"write", write}};
     Options options;
     Command command = nullptr;
     cli::CommandLine line("lines", usage);
@@ -248,10 +301,14 @@ int main(int argc, char **argv)
     line.text("extractor", options.extractor);
     line.number("scans", options.scans, 1, 1000000);
     line.number("seed", options.seed, std::uint64_t{0}, UINT64_MAX);
+    line.number("turn", options.turn_beams, 90, ALE_MAX_BEAMS);
     line.option("threshold", [&](const std::string &word) { options.threshold = threshold_of(word); });
     return line.run(argc, argv, [&] {
         if (options.path.empty() == (command == rest || command == write)) {
             throw cli::WrongUse("rest wants a LOG, write a folder, the others neither");
+        }
+        if ((command == turn) != (options.turn_beams > 0)) {
+            throw cli::WrongUse("turn, and nothing else, wants --turn BEAMS");
         }
         command(options);
     });
