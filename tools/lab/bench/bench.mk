@@ -16,6 +16,21 @@ bench-lines: deps-test
 	@$(MAKE) --no-print-directory -s $(BUILD)/bench/lines
 	@$(PYTHON) tools/lab/bench/lines_table.py --program $(BUILD)/bench/lines --scans $(BENCH_SCANS) --counted $(BENCH_COUNTED_SCANS)
 
+BENCH_TURNS ?= 1024,512,450
+.PHONY: bench-turns
+bench-turns: deps-test ## lines in whole turns of a scanner, wherever it begins, as a table (BENCH_TURNS=1024,512,450: beams)
+	@$(MAKE) --no-print-directory -s $(BUILD)/bench/lines
+	@$(PYTHON) tools/lab/bench/scanners/turns_table.py --program $(BUILD)/bench/lines --scans $(BENCH_SCANS) --beams $(BENCH_TURNS)
+
+# Drives with the models of all scanners, each read with its preset.
+SCANNERS_SEEDS ?= 1
+WORLDS ?=
+.PHONY: bench-scanners
+bench-scanners: ## drives with every scanner's model beside the URG's, as tables: long (SCANNERS_SEEDS=1,2; ONLY=ld06; WORLDS=home,maze; JOBS=2)
+	@tools/make/deps.sh tools/make/packages-build.txt tools/make/packages-test.txt
+	@$(MAKE) --no-print-directory -s $(BUILD)/bin/ale-replay $(BUILD)/bin/ale-sim
+	@$(PYTHON) tools/lab/bench/scanners/scanners_table.py --build $(BUILD) --seeds $(SCANNERS_SEEDS) $(addprefix --only ,$(ONLY)) $(addprefix --worlds ,$(WORLDS)) --jobs $(JOBS)
+
 # Localisation and mapping: drives through the worlds of the tree, and what lies in $(ALE_SHARED).
 BENCH_SLAM_SEEDS ?= 1,2,3
 ONLY ?=
