@@ -38,7 +38,7 @@ install-documents: manuals
 	install -d $(SHARE)/man/man1 $(SHARE)/man/man8 $(SHARE)/doc/libale-dev/examples $(SHARE)/doc/ale-slam-tools/examples
 	install -m 644 $(filter %.1,$(MANUALS)) $(SHARE)/man/man1
 	install -m 644 $(filter %.8,$(MANUALS)) $(SHARE)/man/man8
-	for page in README.md $$(git ls-files '*.md' | grep -E '^(lib|drivers|firmware|tools)/'); do \
+	for page in README.md $$(git ls-files '*.md' firmware/config/scanners.ini | grep -E '^(lib|drivers|firmware|tools)/'); do \
 	    install -D -m 644 $$page $(SHARE)/doc/ale-slam/$$page || exit 1; done
 	install -m 644 $(wildcard tools/library/examples/*.c tools/library/examples/*.txt tools/library/python/*lines.py) $(SHARE)/doc/libale-dev/examples
 	install -m 644 $(filter-out %.md,$(wildcard tools/library/odometry/* tools/library/motors/*)) $(SHARE)/doc/ale-slam-tools/examples

@@ -121,6 +121,16 @@ TEST_F(Recorder, OdometryLiesBeforeTheScanThatKnewItWhenItWasUsed)
     EXPECT_EQ(recorded(), "Cobdsoobds");
 }
 
+TEST_F(Recorder, TheConfigurationTellsThePresetOfTheScannerThatWasFound)
+{
+    EXPECT_EQ(recorded(), "C");
+    EXPECT_NE(files::content(written().at(0)).find("\nmodel = \n"), std::string::npos);
+    fs::remove(written().at(0));
+    ale_recorder_preset(recorder, std::string("utm-30lx").append(ALE_PRESET_NAME, '\0').c_str());
+    EXPECT_EQ(recorded(), "C");
+    EXPECT_NE(files::content(written().at(0)).find("\nmodel = utm-30lx\n"), std::string::npos);
+}
+
 TEST_F(Recorder, OdometryThatCameWhileTwoScansWereAnsweredInOneGoLiesBehindBoth)
 {
     for (uint32_t scan = 0; scan < 3; scan++) {
