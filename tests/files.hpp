@@ -50,6 +50,11 @@ inline std::string content(const std::filesystem::path &path)
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
+inline void write(const std::filesystem::path &path, const std::string &text)
+{
+    std::ofstream(path, std::ios::binary) << text;
+}
+
 } // namespace files
 
 #endif

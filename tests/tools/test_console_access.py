@@ -38,7 +38,7 @@ return [...document.body.querySelectorAll("*")].filter((e) => !e.closest("svg") 
   return [(light + 0.05) / (dark + 0.05), element.id || element.className || element.tagName, element.textContent.trim().slice(0, 30)];
 });
 """
-CONTROLS = "button, input, select, a[href], [tabindex]"
+CONTROLS = "button:not([hidden]), input, select, a[href], [tabindex]"
 # Each control in sight and what a finger on its middle meets; [name, left, top, right, bottom, met].
 IN_SIGHT = f"""
 return [...document.querySelectorAll("{CONTROLS}")].filter((e) => e.checkVisibility() && e.id !== "map").map((e) => {{
@@ -56,8 +56,10 @@ return Object.fromEntries([...document.querySelectorAll("{CONTROLS}")].filter((e
   return [e.id || e.dataset.layer, [r.x, r.y, r.width, r.height].map(Math.round)];
 }}));
 """
-DISABLED = "return [...document.querySelectorAll('#control button, #stop')].filter((e) => e.disabled).map((e) => e.id)"
-ENABLED = "return [...document.querySelectorAll('#control button, #stop')].filter((e) => !e.disabled).map((e) => e.id)"
+DISABLED = "return [...document.querySelectorAll('#control button, #stop, #record')].filter((e) => e.disabled).map((e) => e.id)"
+ENABLED = "return [...document.querySelectorAll('#control button, #stop, #record')].filter((e) => !e.disabled).map((e) => e.id)"
+LISTED = "document.querySelectorAll('#shelf a[href]').length === 4"  # the map of now, recording and map, a saved map
+LINKS = "return [...document.querySelectorAll('#shelf a')].filter((e) => e.href).length"
 
 
 def hold_still(page):
@@ -89,6 +91,12 @@ def test_every_text_can_be_read_in_every_state(cockpit, robot, theme):
         cockpit.click(pressed)
     cockpit.run("document.getElementById('answer').className = 'bad'; document.getElementById('answer').textContent = 'refused'")
     assert_readable(cockpit, "with advice, a hint, an answer")
+    cockpit.wait_for(LISTED)
+    cockpit.click("record")
+    cockpit.wait_for("document.getElementById('recorder-text').textContent !== ''")
+    assert_readable(cockpit, "while it records")
+    cockpit.run("document.getElementById('recordings-note').className = 'bad'")
+    assert_readable(cockpit, "with what the disk says")
 
 
 @pytest.mark.parametrize("theme", THEMES)
@@ -110,7 +118,7 @@ def test_every_control_has_a_name_that_a_screen_reader_says(cockpit):
     try:
         cockpit.tap("layers")
         names = {element: cockpit.spoken_name(element) for element in cockpit.elements(f"{CONTROLS}, canvas, table")}
-        buttons = [names[element] for element in cockpit.elements("button")]
+        buttons = [names[element] for element in cockpit.elements("button:not([hidden])")]
     finally:
         cockpit.be_a_window()
     assert len(names) > 40 and [name for name in names.values() if len(name) < 3] == []
@@ -121,16 +129,17 @@ def test_without_a_link_nothing_can_be_pressed(alice, chromium, robot):
     pulse = Pulse(0.1, robot.step)
     try:
         chromium.open(alice.url)
-        chromium.wait_for("document.body.dataset.control === 'yes'")
+        chromium.wait_for("document.body.dataset.control === 'yes' && document.querySelectorAll('#shelf li').length === 3")
         assert chromium.run(DISABLED) == []
+        assert chromium.run(LINKS) == 4
     finally:
         pulse.stop()
     chromium.wait_for(f"{LINK} === 'lost' && document.body.dataset.control === 'off'")
-    assert chromium.run(ENABLED) == ["stop"], "it may still be heard"
+    assert chromium.run(ENABLED) == ["stop", "record"], "it may still be heard"
     assert "STOP" in chromium.text("control-note")
     alice.process.send_signal(15)
     chromium.wait_for(f"{LINK} === 'gone' && document.getElementById('stop').disabled")
-    assert chromium.run(ENABLED) == []
+    assert chromium.run(ENABLED) == [] and chromium.run(LINKS) == 0
     assert chromium.run("return document.getElementById('stick').ariaDisabled") == "true"
     chromium.open("about:blank")
     chromium.errors()
@@ -139,7 +148,8 @@ def test_without_a_link_nothing_can_be_pressed(alice, chromium, robot):
 def test_before_a_robot_is_heard_nothing_can_be_pressed(alice, chromium):
     chromium.open(alice.url)
     chromium.wait_for("document.getElementById('control-note').textContent === 'no robot heard yet'")
-    assert chromium.run(ENABLED) == []
+    chromium.wait_for("!document.getElementById('record').disabled")
+    assert chromium.run(ENABLED) == ["record"], "the console itself is there"
 
 
 @pytest.fixture(params=[pytest.param(PHONES[0], id="upright"), pytest.param(PHONES[1], id="sideways", marks=LONG)])
@@ -152,10 +162,11 @@ def phone(request, chromium):
 def test_on_a_phone_each_control_is_in_reach_and_none_covers_another(phone, cockpit):
     width, height = phone
     assert cockpit.run("return [innerWidth, innerHeight]") == [width, height]
-    cockpit.wait_for(f"{STATE} === 'good'")
+    cockpit.wait_for(f"{STATE} === 'good' && {LISTED}")
     assert cockpit.run("return document.documentElement.scrollWidth - innerWidth") <= 0
+    assert cockpit.run("return document.documentElement.scrollHeight - innerHeight") <= 0
     in_sight = cockpit.run(IN_SIGHT)
-    assert {"stop", "stick", "explore", "zoom-in", "layers", "theme", "set"} <= {entry[0] for entry in in_sight}
+    assert {"stop", "stick", "explore", "zoom-in", "layers", "theme", "set", "record", "live-map", "map-maps-flat"} <= {entry[0] for entry in in_sight}
     for name, left, top, right, bottom, met in in_sight:
         assert 0 <= left < right <= width + 0.5 and 0 <= top < bottom <= height + 0.5, name
         assert met, f"something lies over {name}"
@@ -185,7 +196,7 @@ def test_a_finger_presses_and_holds(phone, cockpit, commands):
 def test_nothing_moves_under_a_finger(cockpit, robot, size):
     cockpit.be_a_phone(*size)
     try:
-        cockpit.wait_for(f"{STATE} === 'good' && {LINK} === 'up'")
+        cockpit.wait_for(f"{STATE} === 'good' && {LINK} === 'up' && {LISTED}")
         before = cockpit.run(PLACES)
         robot.state, robot.driver, robot.wheels = 0, "asking who is there: hardware fault of the sensor: status 50", "stalled"
         robot.who_drives, robot.exploration = "somebody with quite a long name", "looks for its place: the pose is lost, and so on"
@@ -197,6 +208,9 @@ def test_nothing_moves_under_a_finger(cockpit, robot, size):
         assert cockpit.run(PLACES) == before
         cockpit.click("reset")
         assert cockpit.text("reset") == "sure?"
+        assert cockpit.run(PLACES) == before
+        cockpit.click("record")
+        cockpit.wait_for("document.getElementById('record').ariaPressed === 'true'")
         assert cockpit.run(PLACES) == before
         cockpit.click("measure")
         assert cockpit.run(PLACES) == before
@@ -220,7 +234,8 @@ def test_when_the_link_is_lost_everything_stays_in_its_place(alice, chromium, ro
 def test_every_control_is_reached_by_the_tabulator(cockpit):
     reached = set()
     cockpit.run("document.activeElement.blur()")
-    for _ in range(60):
+    cockpit.wait_for(LISTED)
+    for _ in range(75):
         cockpit.press("Tab")
         reached.add(cockpit.run("const e = document.activeElement; return e.id || e.dataset.layer || ''"))
     wanted = cockpit.run(f"return [...document.querySelectorAll('{CONTROLS}')].filter((e) => e.checkVisibility()).map((e) => e.id || e.dataset.layer)")

@@ -11,6 +11,7 @@ import pytest
 
 from at_hand import BINARIES
 from lcm_url import free_lcm_url
+from recorded import RECORDED, write_map, write_recording
 from robot_double import RobotDouble
 from waiting import Pulse
 
@@ -55,9 +56,11 @@ def console(lcm_url):
 
 @pytest.fixture
 def alice(lcm_url, tmp_path):
-    """A console with the key of an operator."""
+    """A console with the key of an operator, a recording and a saved map."""
     subprocess.run([BINARIES / "ale-keys", "alice"], cwd=tmp_path, check=True, capture_output=True, timeout=180)
-    running = Console(lcm_url, "127.0.0.1:0", "--keys", str(tmp_path / "alice.key"))
+    write_recording(tmp_path / f"recordings/{RECORDED}.lcm")
+    write_map(tmp_path / "maps/flat.map")
+    running = Console(lcm_url, "127.0.0.1:0", "--keys", str(tmp_path / "alice.key"), "--recordings", tmp_path / "recordings", "--maps", tmp_path / "maps")
     yield running
     assert running.end() == 0
 

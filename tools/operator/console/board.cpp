@@ -60,6 +60,18 @@ Pinned Board::newest(Topic topic) const
     return pinned_[static_cast<size_t>(topic)];
 }
 
+void Board::keep_map(std::shared_ptr<const ale_map_t> map)
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    map_ = std::move(map);
+}
+
+std::shared_ptr<const ale_map_t> Board::map() const
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return map_;
+}
+
 void Board::extend_trail(TrailPoint point)
 {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -99,6 +111,7 @@ void Board::clear()
     for (Pinned &pinned : pinned_) {
         pinned.text.reset();
     }
+    map_.reset();
     life_++;
     trail_.clear();
     trail_epoch_++;

@@ -18,6 +18,10 @@
 #include "operator/console/history.h"
 #include "operator/console/topic.h"
 
+extern "C" {
+#include "track/pipeline.h"
+}
+
 namespace console
 {
 
@@ -61,6 +65,10 @@ class Board
     void pin(Topic topic, std::string text);
     Pinned newest(Topic topic) const;
 
+    /* The map that is pinned, for who writes it to a file; nullptr: none yet. */
+    void keep_map(std::shared_ptr<const ale_map_t> map);
+    std::shared_ptr<const ale_map_t> map() const;
+
     void extend_trail(TrailPoint point);
     /* The robot started anew: its trail and what was pinned belong to a former life. */
     void clear();
@@ -89,6 +97,7 @@ class Board
     mutable std::mutex mutex_;
     std::function<void()> wake_;
     std::array<Pinned, topic_count> pinned_;
+    std::shared_ptr<const ale_map_t> map_;
     uint64_t life_ = 1;
     std::vector<TrailPoint> trail_;
     uint64_t trail_epoch_ = 1;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "operator/console/messages.h"
-
 namespace console
 {
 
@@ -35,7 +33,7 @@ std::optional<std::string> Client::choose(Board::Clock::time_point now)
     }
     if (link_due_) {
         link_due_ = false;
-        return link_message(board_.link(now), skipped_, board_.span());
+        return link_message(board_.link(now), skipped_, board_.span(), recordings_.state());
     }
     if (!past_.empty()) {
         std::string message = std::move(past_.front());
@@ -98,6 +96,9 @@ bool Client::heard(const std::string &text)
         return look(message->at_ms);
     case PageMessage::Kind::series:
         return tell_series();
+    case PageMessage::Kind::shelf:
+    case PageMessage::Kind::record:
+        return ask(*message);
     }
     return false;
 }
@@ -128,6 +129,21 @@ bool Client::tell_series()
     answers_.push_back(series_message(board_.sample(Topic::pose, series_points),
                                       board_.sample(Topic::status, series_points)));
     return true;
+}
+
+bool Client::ask(const PageMessage &message)
+{
+    if (answers_.size() + asked_ >= most_answers || !recordings_.ask(message)) {
+        return false;
+    }
+    asked_++;
+    return true;
+}
+
+void Client::answer(std::string message)
+{
+    asked_ -= asked_ > 0 ? 1 : 0;
+    answers_.push_back(std::move(message));
 }
 
 bool Client::got(uint64_t count)

@@ -17,9 +17,18 @@
 
 #include "operator/console/board.h"
 #include "operator/console/commander.h"
+#include "operator/console/messages.h"
+#include "operator/console/recordings/recorder.h"
 
 namespace console
 {
+
+/* What a page sees and asks of the console's recordings. */
+struct Recordings {
+    std::function<RecorderState()> state = [] { return RecorderState(); };
+    /* False: not now. What comes of it is told later, by Client::answer. */
+    std::function<bool(const PageMessage &)> ask = [](const PageMessage &) { return false; };
+};
 
 class Client
 {
@@ -29,8 +38,9 @@ class Client
     using Command = std::function<Sent(const std::vector<std::string> &words)>;
 
     /* operator_name: in whose name it commands; empty: it cannot. */
-    Client(const Board &board, std::string operator_name, Command command)
-        : board_(board), operator_name_(std::move(operator_name)), command_(std::move(command))
+    Client(const Board &board, std::string operator_name, Command command, Recordings recordings = {})
+        : board_(board), operator_name_(std::move(operator_name)), command_(std::move(command)),
+          recordings_(std::move(recordings))
     {
     }
 
@@ -42,6 +52,9 @@ class Client
 
     /* A message from the page. False: not one that a page sends. */
     bool heard(const std::string &text);
+
+    /* What has come of something that the page asked for. */
+    void answer(std::string message);
 
     uint64_t skipped() const
     {
@@ -63,11 +76,14 @@ class Client
     bool look(std::optional<int64_t> at_ms);
     bool tell_series();
     bool command(const std::vector<std::string> &words);
+    bool ask(const PageMessage &message);
 
     const Board &board_;
     std::string operator_name_;
     Command command_;
+    Recordings recordings_;
     std::deque<std::string> answers_;
+    size_t asked_ = 0; /* what the page asked for, and has no answer yet */
     bool looks_back_ = false;
     std::deque<std::string> past_; /* what is still to be sent of where he looks */
     uint64_t life_ = 0;            /* the robot's life that the page was told of */

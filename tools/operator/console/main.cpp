@@ -15,6 +15,9 @@
 #include "operator/console/board.h"
 #include "operator/console/commander.h"
 #include "operator/console/http_address.h"
+#include "operator/console/recordings/archive.h"
+#include "operator/console/recordings/desk.h"
+#include "operator/console/recordings/recorder.h"
 #include "operator/console/robot_watch.h"
 #include "operator/console/token.h"
 #include "operator/console/web_server.h"
@@ -24,6 +27,7 @@ namespace
 
 constexpr char usage[] =
     "usage: ale-console [--lcm-url URL] [--http ADDR:PORT] [--keys FILE] [--robots FILE] [--robot NAME]\n"
+    "                   [--recordings DIR] [--maps DIR]\n"
     "                   [--token-file FILE] [--cert FILE --key FILE] [--origin URL]\n"
     "The operator's console: serves a web page that shows what the robot publishes over LCM and commands "
     "it.\n"
@@ -33,6 +37,9 @@ constexpr char usage[] =
     "  --robots FILE     the robots whose word is believed (default: the file of --keys with .robots "
     "behind)\n"
     "  --robot NAME      which robot is shown and commanded; needed where more than one is heard\n"
+    "  --recordings DIR  where the page's recordings are written (LCM logs); without it none are made\n"
+    "  --maps DIR        saved maps that the page shows: [map] folder of the robot, where the console runs "
+    "on it\n"
     "  --token-file FILE the token: who has it in the address may open the page. Made when it is not there\n"
     "                    (default ~/.local/state/ale-slam/console.token)\n"
     "  --token TEXT      the same on the command line, where others on this machine may see it\n"
@@ -54,6 +61,8 @@ struct Options {
     std::string certificate;
     std::string key;
     std::string proxy;
+    std::string recordings;
+    std::string maps;
 };
 
 /* The token that is asked for: on the loopback, too, because others may be logged in on this machine. */
@@ -89,6 +98,25 @@ void warn(const Options &options, const console::HttpAddress &address)
         std::fputs("ale-console: this page is not encrypted: who listens on the network learns the token "
                    "(--cert and --key, or a tunnel)\n",
                    stderr);
+    }
+}
+
+/* Of the robot that is shown, and its wheels: as the bus has it, before it is looked at. Commands and set
+ * points are left out: who plays a recording on a robot's bus must not move it. */
+void record_from(feed::LcmFeed &feed, console::Recorder &recorder, console::RobotWatch &watch)
+{
+    for (const char *channel : {"ALE_POSE", "ALE_TRACKING", "ALE_FEATURES", "ALE_SCAN", "ALE_MAP",
+                                "ALE_MAP_PIECES", "ALE_PLAN", "ALE_STATUS", "ALE_VOUCHED"}) {
+        feed.on_bytes(channel, [&recorder, &watch, channel](const uint8_t *bytes, size_t count) {
+            if (watch.hears()) {
+                recorder.take(channel, bytes, count);
+            }
+        });
+    }
+    for (const char *channel : {"ALE_ODOMETRY", "ALE_ODOMETRY_EXACT", "ALE_SPEAKER"}) {
+        feed.on_bytes(channel, [&recorder, channel](const uint8_t *bytes, size_t count) {
+            recorder.take(channel, bytes, count);
+        });
     }
 }
 
@@ -139,8 +167,14 @@ void run(const Options &options, const sigset_t &endings)
     feed::LcmFeed feed(options.lcm_url);
     console::Commander commander({options.lcm_url, options.keys, options.robots, options.robot});
     console::RobotWatch watch(board, commander);
+    const console::Shelf recordings(options.recordings, ".lcm");
+    const console::Shelf maps(options.maps, ".map");
+    console::Recorder recorder(recordings);
+    console::Archive archive(board, recordings, maps);
+    record_from(feed, recorder, watch);
     watch.subscribe(feed);
-    console::WebServer server(board, commander,
+    console::Desk desk(archive, recorder);
+    console::WebServer server(board, commander, desk,
                               {address, token_for(options), options.certificate, options.key, options.proxy});
     warn(options, address);
     std::printf("%s\n", server.url().c_str());
@@ -182,6 +216,8 @@ int main(int argc, char **argv)
     line.text("cert", options.certificate);
     line.text("key", options.key);
     line.text("origin", options.proxy);
+    line.text("recordings", options.recordings);
+    line.text("maps", options.maps);
     line.text("keys", options.keys);
     line.text("robots", options.robots);
     line.text("robot", options.robot);

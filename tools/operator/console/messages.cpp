@@ -85,7 +85,7 @@ std::string text_of(const json &message)
 std::string hello_message(const std::string &operator_name)
 {
     return text_of({{"type", "hello"},
-                    {"protocol", 3},
+                    {"protocol", 4},
                     {"operator", operator_name.empty() ? json(nullptr) : json(operator_name)}});
 }
 
@@ -269,7 +269,23 @@ std::string trail_message(const TrailPiece &piece)
     return text_of({{"type", "trail"}, {"anew", piece.first == 0}, {"points", points}});
 }
 
-std::string link_message(const LinkHealth &link, uint64_t skipped, const History::Span &span)
+namespace
+{
+
+json recorder_of(const RecorderState &recorder)
+{
+    return {{"name", recorder.name.empty() ? json(nullptr) : json(recorder.name)},
+            {"begun", recorder.begun_ms},
+            {"messages", recorder.messages},
+            {"bytes", recorder.bytes},
+            {"dropped", recorder.dropped},
+            {"trouble", recorder.trouble.empty() ? json(nullptr) : json(recorder.trouble)}};
+}
+
+} // namespace
+
+std::string link_message(const LinkHealth &link, uint64_t skipped, const History::Span &span,
+                         const RecorderState &recorder)
 {
     return text_of({{"type", "link"},
                     {"pose_age_ms", link.pose_age_ms < 0 ? json(nullptr) : json(link.pose_age_ms)},
@@ -278,7 +294,8 @@ std::string link_message(const LinkHealth &link, uint64_t skipped, const History
                     {"lost_poses", link.lost_poses},
                     {"malformed", link.malformed},
                     {"skipped", skipped},
-                    {"kept", json::array({span.from_ms, span.to_ms})}});
+                    {"kept", json::array({span.from_ms, span.to_ms})},
+                    {"recorder", recorder_of(recorder)}});
 }
 
 std::string past_message(std::optional<int64_t> at_ms, const History::Span &span)
@@ -354,8 +371,11 @@ std::optional<PageMessage> page_message(const std::string &text)
     if (type == "got" && message.contains("count") && message["count"].is_number_unsigned()) {
         return PageMessage{Kind::got, message["count"].get<uint64_t>()};
     }
-    if (type == "series") {
-        return PageMessage{Kind::series};
+    if (type == "series" || type == "shelf") {
+        return PageMessage{type == "series" ? Kind::series : Kind::shelf};
+    }
+    if (type == "record" && message.contains("on") && message["on"].is_boolean()) {
+        return PageMessage{Kind::record, 0, {}, {}, message["on"].get<bool>()};
     }
     if (type == "look" && message.contains("at")) {
         return look_of(message["at"]);

@@ -18,6 +18,7 @@
 #include "common/feed/map_pieces.h"
 #include "operator/console/board.h"
 #include "operator/console/commander.h"
+#include "operator/console/recordings/recorder.h"
 #include "operator/console/window_watch.h"
 
 namespace console
@@ -38,7 +39,8 @@ struct Trust {
 };
 std::string status_message(const ale::status_t &status, const Trust &trust = {});
 std::string trail_message(const TrailPiece &piece);
-std::string link_message(const LinkHealth &link, uint64_t skipped, const History::Span &span = {});
+std::string link_message(const LinkHealth &link, uint64_t skipped, const History::Span &span = {},
+                         const RecorderState &recorder = {});
 
 /* What follows is of the past, as it was at that time; nothing when it is of now again. The span of what is
  * kept. */
@@ -52,12 +54,14 @@ std::string series_message(const std::vector<History::Text> &poses,
 std::string sent_message(const std::string &verb, const Sent &sent);
 
 /* What a page says: {"type":"got","count":n}; {"type":"command","words":["drive","0.2","0"]};
- * {"type":"look","at":ms}, null for now; {"type":"series"}. Nothing when the text is anything else. */
+ * {"type":"look","at":ms}, null for now; {"type":"series"}; {"type":"shelf"}; {"type":"record","on":true}.
+ * Nothing when the text is anything else. */
 struct PageMessage {
-    enum class Kind { got, command, look, series } kind = Kind::got;
+    enum class Kind { got, command, look, series, shelf, record } kind = Kind::got;
     uint64_t drawn = 0;
     std::vector<std::string> words{};
     std::optional<int64_t> at_ms{};
+    bool on = false;
 };
 std::optional<PageMessage> page_message(const std::string &text);
 

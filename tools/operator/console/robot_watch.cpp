@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/feed/checks.h"
+#include "common/feed/core_types.h"
 #include "operator/console/messages.h"
 
 extern "C" {
@@ -29,8 +30,6 @@ constexpr int32_t largest_gap = 100000;
 
 } // namespace
 
-/* Of the robot that is shown. Where a robot vouches for what it says, others are told by that; while some are
- * found to speak in its name, only the socket is heard that its word came from. */
 bool RobotWatch::hears()
 {
     if (!commander_.believes()) {
@@ -158,8 +157,14 @@ void RobotWatch::map(const ale::map_t &part)
 {
     feed::check(part);
     if (map_parts_.add(part)) {
-        board_.pin(Topic::map, map_message(map_parts_.whole(), map_pieces_));
+        show_map();
     }
+}
+
+void RobotWatch::show_map()
+{
+    board_.keep_map(feed::core_map(map_parts_.whole(), map_pieces_));
+    board_.pin(Topic::map, map_message(map_parts_.whole(), map_pieces_));
 }
 
 /* They come before the map that they are of; where they were overtaken, or come again because a part was
@@ -168,7 +173,7 @@ void RobotWatch::map_pieces(const ale::map_pieces_t &part)
 {
     feed::check(part);
     if (map_pieces_.add(part) && part.version == map_parts_.whole().version) {
-        board_.pin(Topic::map, map_message(map_parts_.whole(), map_pieces_));
+        show_map();
     }
 }
 

@@ -36,6 +36,11 @@ class RobotWatch
      * watch's last message. */
     void subscribe(feed::LcmFeed &feed);
 
+    /* Whether what is just handled is of the robot that is shown. Where a robot vouches for what it says,
+     * others are told by that; while some are found to speak in its name, only the socket is heard that its
+     * word came from. */
+    bool hears();
+
     /* Each throws std::runtime_error for a message that makes no sense; it is counted as malformed. */
     void pose(const ale::pose_t &pose);
     void tracking(const ale::tracking_t &tracking);
@@ -55,7 +60,7 @@ class RobotWatch
     template <class Message>
     void follow(feed::LcmFeed &feed, const char *channel, void (RobotWatch::*take)(const Message &));
     uint64_t sender() const;
-    bool hears();
+    void show_map();
     void show(const ale::status_t &status, bool vouched);
     void restarted();
     void extend_trail(const ale::pose_t &pose);

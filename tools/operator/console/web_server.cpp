@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,11 @@ constexpr size_t longest_page_message = 1024;
 constexpr std::string_view security_policy =
     "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' data:; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+std::string_view text_of(const void *data, size_t length)
+{
+    return data == nullptr ? std::string_view() : std::string_view(static_cast<const char *>(data), length);
+}
 
 const char *content_type(std::string_view name)
 {
@@ -96,9 +102,6 @@ constexpr char token_wanted[] =
 
 int serve(lws *connection, std::string_view path, bool has_token)
 {
-    if (lws_hdr_total_length(connection, WSI_TOKEN_GET_URI) <= 0) {
-        return lws_return_http_status(connection, HTTP_STATUS_METHOD_NOT_ALLOWED, nullptr);
-    }
     const ale_page_file_t *file = find_page_file(path);
     if (file == nullptr) {
         return lws_return_http_status(connection, HTTP_STATUS_NOT_FOUND, nullptr);
@@ -122,13 +125,14 @@ struct WebCallbacks {
     static int on_event(lws *connection, lws_callback_reasons reason, void *, void *data, size_t length)
     {
         auto *server = static_cast<WebServer *>(lws_context_user(lws_get_context(connection)));
-        const std::string_view text(static_cast<const char *>(data), data == nullptr ? 0 : length);
+        const std::string_view text = text_of(data, length);
         switch (reason) {
         case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
             server->came(connection);
             return 0;
         case LWS_CALLBACK_WSI_DESTROY:
             server->antechamber_.leave(connection);
+            server->desk_.downloads().left(connection);
             return 0;
         case LWS_CALLBACK_HTTP:
             return answer_request(*server, connection, text);
@@ -136,10 +140,11 @@ struct WebCallbacks {
             return server->accepts(connection) ? 0 : refuse(connection);
         case LWS_CALLBACK_ESTABLISHED:
             server->antechamber_.leave(connection);
-            server->connections_.emplace(
-                connection, WebServer::Connection{server->new_client(), peer_of(connection), {}});
+            server->connections_.emplace(connection, server->new_connection(connection));
             lws_callback_on_writable(connection);
             return 0;
+        case LWS_CALLBACK_HTTP_WRITEABLE:
+            return server->desk_.downloads().send_next(connection);
         case LWS_CALLBACK_SERVER_WRITEABLE:
             return server->send_next(connection);
         case LWS_CALLBACK_RECEIVE:
@@ -148,7 +153,7 @@ struct WebCallbacks {
             server->connections_.erase(connection);
             return 0;
         case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
-            server->offer_all();
+            server->woken();
             return 0;
         default:
             return lws_callback_http_dummy(connection, reason, nullptr, data, length);
@@ -161,7 +166,23 @@ struct WebCallbacks {
         if (has_token) {
             server.antechamber_.renew(connection, Antechamber::Clock::now());
         }
-        return serve(connection, path, has_token);
+        if (lws_hdr_total_length(connection, WSI_TOKEN_GET_URI) <= 0) {
+            return lws_return_http_status(connection, HTTP_STATUS_METHOD_NOT_ALLOWED, nullptr);
+        }
+        const std::optional<Wanted> wanted = wanted_of(path);
+        return wanted ? download(server, connection, *wanted, has_token) : serve(connection, path, has_token);
+    }
+
+    /* Who has the token may take as long as the file is large. */
+    static int download(WebServer &server, lws *connection, const Wanted &wanted, bool has_token)
+    {
+        if (!has_token) {
+            return lws_return_http_status(connection, HTTP_STATUS_FORBIDDEN, token_wanted);
+        }
+        server.antechamber_.leave(connection);
+        return server.desk_.fetch(connection, wanted)
+                   ? 0
+                   : lws_return_http_status(connection, HTTP_STATUS_SERVICE_UNAVAILABLE, nullptr);
     }
 
     static int refuse(lws *connection)
@@ -214,8 +235,8 @@ const lws_retry_bo_t keep_alive = {nullptr, 0, 0, 15, 30, 0};
 
 } // namespace
 
-WebServer::WebServer(Board &board, Commander &commander, Door door)
-    : board_(board), commander_(commander), door_(std::move(door))
+WebServer::WebServer(Board &board, Commander &commander, Desk &desk, Door door)
+    : board_(board), commander_(commander), desk_(desk), door_(std::move(door))
 {
     require_free(door_.address);
     char name[256] = "";
@@ -251,11 +272,13 @@ WebServer::WebServer(Board &board, Commander &commander, Door door)
     }
     door_.address.port = static_cast<uint16_t>(lws_get_vhost_listen_port(host));
     board_.on_change([this] { wake(); });
+    desk_.open([this] { wake(); });
 }
 
 WebServer::~WebServer()
 {
     board_.on_change(nullptr);
+    desk_.close();
     lws_context_destroy(context_);
 }
 
@@ -298,11 +321,28 @@ bool WebServer::has_token(lws *connection) const
     return text.size() == token.size() && sodium_memcmp(text.data(), token.data(), token.size()) == 0;
 }
 
-Client WebServer::new_client()
+WebServer::Connection WebServer::new_connection(lws *connection)
 {
     const uint64_t page = ++pages_;
-    return {board_, commander_.operator_name(),
-            [this, page](const std::vector<std::string> &words) { return commander_.send(page, words); }};
+    const auto tell = [this, page](std::string message) {
+        if (Client *client = client_of(page)) {
+            client->answer(std::move(message));
+        }
+    };
+    Client client(
+        board_, commander_.operator_name(),
+        [this, page](const std::vector<std::string> &words) { return commander_.send(page, words); },
+        {[this] { return desk_.recorder(); },
+         [this, tell](const PageMessage &message) { return desk_.ask(message, tell); }});
+    return {std::move(client), page, peer_of(connection), {}};
+}
+
+/* nullptr: the page has been left. */
+Client *WebServer::client_of(uint64_t page)
+{
+    const auto found = std::find_if(connections_.begin(), connections_.end(),
+                                    [&](const auto &entry) { return entry.second.page == page; });
+    return found == connections_.end() ? nullptr : &found->second.client;
 }
 
 bool WebServer::accepts(lws *connection) const
@@ -352,6 +392,12 @@ int WebServer::send_next(lws *connection)
     }
     lws_callback_on_writable(connection);
     return 0;
+}
+
+void WebServer::woken()
+{
+    desk_.hand_out();
+    offer_all();
 }
 
 void WebServer::offer_all()

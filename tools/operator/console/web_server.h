@@ -19,6 +19,7 @@
 #include "operator/console/client.h"
 #include "operator/console/commander.h"
 #include "operator/console/http_address.h"
+#include "operator/console/recordings/desk.h"
 
 struct lws;
 struct lws_context;
@@ -38,7 +39,7 @@ struct Door {
 class WebServer
 {
   public:
-    WebServer(Board &board, Commander &commander, Door door);
+    WebServer(Board &board, Commander &commander, Desk &desk, Door door);
     ~WebServer();
     WebServer(const WebServer &) = delete;
     WebServer &operator=(const WebServer &) = delete;
@@ -67,23 +68,27 @@ class WebServer
 
     struct Connection {
         Client client;
+        uint64_t page;
         std::string peer;
         std::string heard; /* of a message that has not come whole yet */
     };
 
+    Client *client_of(uint64_t page);
     bool has_token(lws *connection) const;
     bool accepts(lws *connection) const;
     bool has_room_for(lws *connection) const;
     void came(lws *connection);
     void end_overdue();
-    Client new_client();
+    Connection new_connection(lws *connection);
     /* 0, or -1: the connection takes no more, and is to be closed. */
     int send_next(lws *connection);
+    void woken();
     void offer_all();
     void links_due();
 
     Board &board_;
     Commander &commander_;
+    Desk &desk_;
     Door door_;
     Ours ours_;
     uint64_t pages_ = 0;

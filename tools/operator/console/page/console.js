@@ -8,6 +8,7 @@ import { Layers } from "./layers.js";
 import { Pointing } from "./pointing.js";
 import { Control } from "./control.js";
 import { Plots } from "./plots.js";
+import { Recordings } from "./recordings.js";
 import { Timeline } from "./timeline.js";
 
 const canvas = document.getElementById("map");
@@ -23,11 +24,13 @@ const link = new Link((message) => {
   control.take(message, timeline.isPast);
   health.take(message, scene);
   plots.take(message, timeline.isPast);
+  recordings.take(message);
   painter.wanted();
 });
 const control = new Control(link, pointing);
 const timeline = new Timeline(link);
 const plots = new Plots(link);
+const recordings = new Recordings(link);
 
 for (const [id, action] of Object.entries({
   "zoom-in": () => view.zoom(1.4),
@@ -59,6 +62,7 @@ setInterval(() => {
   health.showLink(link, scene);
   control.showLink(link.state);
   timeline.showLink(link.state);
+  recordings.showLink(link.state);
 }, 100);
 
 function frame(now) {

@@ -1,6 +1,8 @@
 // The last ten minutes, as the console keeps them: looked at by a slider, or played. While the past is looked at, what the
 // page shows is of then; the link is still that of now, and STOP still stops.
 
+import { lengthInWords } from "./words.js";
+
 const PLAY_STEP_MS = 200;
 
 const element = (id) => document.getElementById(id);
@@ -99,21 +101,14 @@ export class Timeline {
     document.body.dataset.time = this.isPast ? "past" : "now";
     element("live").setAttribute("aria-pressed", String(!this.isPast));
     element("past").hidden = !this.isPast;
-    const words = this.isPast ? `${clockTime(this.at)}, ${agoInWords(this.kept[1] - this.at)} ago` : "";
+    const words = this.isPast ? `${clockTime(this.at)}, ${lengthInWords(this.kept[1] - this.at)} ago` : "";
     if (element("past-text").textContent !== words) element("past-text").textContent = words;
-    element("when-text").textContent = this.isPast ? `-${agoInWords(this.kept[1] - this.at)}` : agoInWords(this.kept[1] - this.kept[0]);
+    element("when-text").textContent = this.isPast ? `-${lengthInWords(this.kept[1] - this.at)}` : lengthInWords(this.kept[1] - this.kept[0]);
     slider.setAttribute("aria-valuetext", this.isPast ? words : "now");
   }
 }
 
-const two = (n) => String(n).padStart(2, "0");
-
 function clockTime(ms) {
   const time = new Date(ms);
-  return [time.getHours(), time.getMinutes(), time.getSeconds()].map(two).join(":");
-}
-
-function agoInWords(ms) {
-  const seconds = Math.max(0, Math.round(ms / 1000));
-  return `${Math.floor(seconds / 60)}:${two(seconds % 60)}`;
+  return [time.getHours(), time.getMinutes(), time.getSeconds()].map((n) => String(n).padStart(2, "0")).join(":");
 }

@@ -13,6 +13,25 @@ export function duration(us) {
   return `${(us / 1e6).toFixed(1)} s`;
 }
 
+export function bytesInWords(bytes) {
+  return bytes < 1e6 ? `${Math.ceil(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(bytes < 1e7 ? 1 : 0)} MB`;
+}
+
+const two = (n) => String(n).padStart(2, "0");
+
+// Milliseconds as 1:02, or 1:00:02.
+export function lengthInWords(ms) {
+  const seconds = Math.max(0, Math.round(ms / 1000));
+  const [hours, minutes] = [Math.floor(seconds / 3600), Math.floor(seconds / 60) % 60];
+  return hours ? `${hours}:${two(minutes)}:${two(seconds % 60)}` : `${minutes}:${two(seconds % 60)}`;
+}
+
+// Milliseconds since 1970, by the clock on the wall.
+export function dateInWords(ms) {
+  const time = new Date(ms);
+  return `${time.getFullYear()}-${two(time.getMonth() + 1)}-${two(time.getDate())} ${two(time.getHours())}:${two(time.getMinutes())}`;
+}
+
 export const heading = (rad) => {
   const turn = 2 * Math.PI;
   return degrees(((((rad + Math.PI) % turn) + turn) % turn) - Math.PI);

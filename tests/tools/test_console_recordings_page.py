@@ -1,0 +1,96 @@
+"""The panel of recordings and saved maps in headless Chromium: by mouse, by keys and by finger."""
+import pathlib
+
+import pytest
+
+import browser
+from at_hand import LONG
+from console_page import STATE, chromium, cockpit, page, pixels  # noqa: F401 (fixtures)
+from recorded import RECORDED, write_recording
+from waiting import Pulse, wait_until
+from watching import Console, alice, commands, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
+
+pytestmark = pytest.mark.skipif(bool(browser.missing()), reason=f"no browser test: {browser.missing()}")
+
+RECORDING = "document.getElementById('record').ariaPressed === 'true'"
+ROWS = "document.querySelectorAll('#shelf li').length"
+NOTE = "document.getElementById('recordings-note').textContent"
+
+
+@pytest.mark.parametrize("press", ["click", pytest.param("tap", marks=LONG), pytest.param("keys", marks=LONG)])
+def test_a_recording_is_made_by_mouse_finger_and_keys(cockpit, press, tmp_path):
+    def act():
+        if press == "keys":
+            cockpit.run("document.getElementById('record').focus()")
+            cockpit.press("Enter")
+        else:
+            getattr(cockpit, press)("record")
+    cockpit.wait_for(f"{ROWS} === 3")  # the map of now, a recording, a saved map
+    act()
+    cockpit.wait_for(f"{RECORDING} && {NOTE}.startsWith('recording 20')")
+    assert cockpit.text("record") == "stop recording"
+    cockpit.wait_for("document.getElementById('recorder-text').textContent.startsWith('0:01')")
+    act()
+    cockpit.wait_for(f"!({RECORDING}) && {ROWS} === 4 && {NOTE}.endsWith('messages recorded')")
+    newest, = [path.stem for path in (tmp_path / "recordings").iterdir() if path.stem != RECORDED]
+    row = cockpit.run("return document.querySelectorAll('#shelf li')[1].textContent")
+    assert "12 walls" in row and newest[:10] in row
+    drawn = "const box = document.querySelectorAll('#shelf li')[1].querySelector('path').getBoundingClientRect(); return [box.width, box.height]"
+    assert min(cockpit.run(drawn)) > 20, "the map is drawn"
+
+
+def test_links_lead_to_the_files_and_a_press_brings_them(cockpit, tmp_path):
+    cockpit.wait_for(f"{ROWS} === 3 && document.getElementById('live-map').href")
+    cockpit.devtools("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(tmp_path / "got"))
+    cockpit.click(f"log-{RECORDED}")
+    cockpit.run("const kind = document.getElementById('map-ending'); kind.value = 'zip'; kind.dispatchEvent(new Event('change'))")
+    cockpit.click("map-maps-flat")
+    cockpit.run("document.getElementById('live-map').focus()")
+    cockpit.press("Enter")
+    wanted = {f"{RECORDED}.lcm", "flat.zip", "map.zip"}
+    wait_until(lambda: {path.name for path in pathlib.Path(tmp_path / "got").glob("*")} == wanted, 60, "the files")
+    assert (tmp_path / f"got/{RECORDED}.lcm").read_bytes() == (tmp_path / f"recordings/{RECORDED}.lcm").read_bytes()
+
+
+def test_why_nothing_can_be_recorded_is_said_on_the_page(page, pulse):
+    page.wait_for(f"{NOTE}.includes('--recordings DIR')")
+    assert page.run("return document.getElementById('record').disabled")
+    assert page.run("return document.querySelectorAll('#shelf li').length") == 1
+    page.wait_for("document.getElementById('live-map').href.includes('/live/map.png?token=')")
+
+
+def test_what_the_disk_says_is_said_on_the_page(chromium, lcm_url, tmp_path, robot):
+    folder = tmp_path / "rec"
+    folder.mkdir()
+    running = Console(lcm_url, "127.0.0.1:0", "--recordings", folder)
+    try:
+        chromium.open(running.url)
+        chromium.wait_for(f"{NOTE} === 'nothing recorded yet'")
+        folder.rmdir()
+        folder.write_text("")
+        chromium.click("record")
+        chromium.wait_for(f"{NOTE}.endsWith('rec: Not a directory.')")
+        assert chromium.run("return document.getElementById('recordings-note').className") == "bad"
+        assert not chromium.run(f"return {RECORDING}")
+    finally:
+        assert running.end() == 0
+    chromium.open("about:blank")
+    chromium.errors()
+
+
+def test_a_long_list_is_folded(alice, chromium, pulse, tmp_path):
+    for day in range(3, 9):
+        write_recording(tmp_path / f"recordings/2026-01-0{day}-000000.lcm", scans=1)
+    chromium.open(alice.url)
+    chromium.wait_for(f"{ROWS} === 4 && document.getElementById('shelf-more').textContent === '5 more'")
+    chromium.click("shelf-more")
+    chromium.wait_for(f"{ROWS} === 9 && document.getElementById('shelf-more').ariaExpanded === 'true'")
+    chromium.click("shelf-more")
+    chromium.wait_for(f"{ROWS} === 4")
+
+
+def test_a_map_that_the_robot_saves_comes_into_the_list(cockpit, robot, tmp_path):
+    cockpit.wait_for(f"{ROWS} === 3")
+    (tmp_path / "maps/hall.map").write_bytes((tmp_path / "maps/flat.map").read_bytes())
+    robot.answer = ("alice", 1, "saved hall: 12 walls, 0 corners")
+    cockpit.wait_for(f"{ROWS} === 4 && document.getElementById('map-maps-hall') !== null")

@@ -1,0 +1,196 @@
+// Recordings of what the console hears, and saved maps: made, listed with a drawing of their map, and downloaded. The
+// files lie with the console; the page only asks for them.
+
+import { bytesInWords, dateInWords, lengthInWords } from "./words.js";
+
+const FEW = 3; // what is shown of a long list at first
+const DUMB = ["gone", "connecting"]; // links on which nothing can be asked
+const SVG = "http://www.w3.org/2000/svg";
+
+const element = (id) => document.getElementById(id);
+
+function made(tag, properties = {}, ...children) {
+  const node = Object.assign(document.createElement(tag), properties);
+  node.append(...children);
+  return node;
+}
+
+// The walls of a map, [x1, y1, x2, y2, ...], y up.
+function drawing(walls, words) {
+  const svg = document.createElementNS(SVG, "svg");
+  const of = (axis) => walls.filter((_, k) => k % 2 === axis);
+  const least = (values) => values.reduce((a, b) => Math.min(a, b), Infinity);
+  const [left, bottom, width, height] = walls.length ? [least(of(0)), least(of(1)), -least(of(0).map((x) => -x)) - least(of(0)),
+    -least(of(1).map((y) => -y)) - least(of(1))] : [0, 0, 1, 1];
+  svg.setAttribute("viewBox", `0 0 ${width || 1} ${height || 1}`);
+  svg.setAttribute("role", "img");
+  svg.setAttribute("aria-label", words);
+  svg.setAttribute("class", "thumbnail");
+  const path = document.createElementNS(SVG, "path");
+  const strokes = [];
+  for (let k = 0; k < walls.length; k += 4) {
+    const [x1, y1, x2, y2] = walls.slice(k, k + 4);
+    strokes.push(`M${x1 - left} ${bottom + height - y1}L${x2 - left} ${bottom + height - y2}`);
+  }
+  path.setAttribute("d", strokes.join(""));
+  svg.append(path);
+  return svg;
+}
+
+export class Recordings {
+  constructor(link) {
+    this.link = link;
+    this.shelf = null;
+    this.recorder = null;
+    this.hasMap = false;
+    this.all = false; // of a long list
+    this.mute = true;
+    element("record").addEventListener("click", () => this.#record());
+    element("map-ending").addEventListener("change", () => this.#showLinks());
+    element("shelf-more").addEventListener("click", () => {
+      this.all = !this.all;
+      this.#showShelf();
+    });
+    this.#showLinks();
+  }
+
+  take(message) {
+    switch (message.type) {
+      case "hello":
+        this.hasMap = false;
+        this.saved = undefined;
+        this.#ask();
+        this.#showLinks();
+        break;
+      case "map": this.#mapCame(message.lines); break;
+      case "link": this.#recorderTold(message.recorder); break;
+      case "shelf":
+        this.shelf = message;
+        this.#showShelf();
+        this.#showRecorder();
+        break;
+      case "status": this.#lookForSaved(message.command); break;
+    }
+  }
+
+  // The state of the link, as link.js has it.
+  showLink(state) {
+    const mute = DUMB.includes(state);
+    if (mute === this.mute) return;
+    this.mute = mute;
+    this.#showRecorder();
+    this.#showLinks();
+  }
+
+  #ask() {
+    this.link.send({ type: "shelf" });
+  }
+
+  #record() {
+    this.link.send({ type: "record", on: !this.recorder?.name });
+  }
+
+  #mapCame(lines) {
+    const walls = lines.filter((l) => !l.map_id).flatMap((l) => [l.x1, l.y1, l.x2, l.y2]);
+    document.querySelector("#shelf .thumbnail").replaceWith(drawing(walls, "map of now"));
+    if (this.hasMap) return;
+    this.hasMap = true;
+    this.#showLinks();
+  }
+
+  // A map that the robot has saved may lie in the console's folder.
+  #lookForSaved(command) {
+    const saved = /^saved /.test(command.result) ? command.number : null;
+    if (saved !== null && this.saved !== undefined && saved !== this.saved) this.#ask();
+    this.saved = saved;
+  }
+
+  #recorderTold(recorder) {
+    const before = this.recorder;
+    this.recorder = recorder;
+    if (before && (before.name !== recorder.name || before.trouble !== recorder.trouble)) this.#ask();
+    this.#showRecorder();
+  }
+
+  // What is told to a screen reader changes only when something happens; the seconds run beside it.
+  #showRecorder() {
+    const recorder = this.recorder ?? {};
+    const on = Boolean(recorder.name);
+    const button = element("record");
+    button.disabled = this.mute || !this.shelf?.recordings.folder;
+    button.setAttribute("aria-pressed", String(on));
+    button.textContent = on ? "stop recording" : "record";
+    element("recorder-text").textContent = on
+      ? `${lengthInWords(Date.now() - recorder.begun)}, ${bytesInWords(recorder.bytes)}${recorder.dropped ? `, ${recorder.dropped} dropped` : ""}` : "";
+    const note = element("recordings-note");
+    const [words, mood] = this.#words(recorder);
+    if (note.textContent !== words) note.textContent = words;
+    note.className = mood;
+  }
+
+  #words(recorder) {
+    if (!this.shelf) return ["", ""];
+    const { recordings, maps, refusal } = this.shelf;
+    if (recorder.name) return [`recording ${recorder.name}`, ""];
+    const trouble = refusal ?? recorder.trouble ?? recordings.trouble ?? maps.trouble;
+    if (trouble) return [`${trouble[0].toUpperCase()}${trouble.slice(1)}.`, "bad"];
+    if (!recordings.folder) return ["No folder for recordings: start ale-console with --recordings DIR.", ""];
+    if (recorder.messages) return [`${recorder.messages} messages recorded${recorder.dropped ? `, ${recorder.dropped} dropped` : ""}`, ""];
+    return [recordings.pieces.length ? "" : "nothing recorded yet", ""];
+  }
+
+  #showShelf() {
+    const { recordings, maps } = this.shelf;
+    const pieces = [...recordings.pieces.map((piece) => ({ ...piece, kind: "recordings" })),
+                    ...maps.pieces.map((piece) => ({ ...piece, kind: "maps" }))].sort((a, b) => b.at - a.at);
+    const shown = this.all ? pieces : pieces.slice(0, FEW);
+    const list = element("shelf");
+    list.replaceChildren(list.firstElementChild, ...shown.map((piece) => this.#row(piece)));
+    const more = element("shelf-more");
+    const left = pieces.length - FEW;
+    const older = recordings.more + maps.more;
+    more.hidden = left <= 0;
+    more.textContent = this.all ? `fewer${older ? ` (${older} older ones in the folders)` : ""}` : `${left} more`;
+    more.setAttribute("aria-expanded", String(this.all));
+    this.#showLinks();
+  }
+
+  #row({ kind, name, at, length_ms: length, bytes, scans, walls, drawing: lines }) {
+    const recorded = kind === "recordings";
+    const what = recorded ? "recording" : "saved map";
+    const facts = [recorded ? lengthInWords(length) : name, bytesInWords(bytes), recorded && !scans ? "no scans" : "",
+                   walls === null ? "no map" : `${walls} walls`];
+    const buttons = made("span", { className: "buttons" });
+    if (recorded) buttons.append(this.#link(`log-${name}`, "log", `download the recording ${name}`, `/recordings/${name}.lcm`));
+    if (walls !== null) {
+      const link = this.#link(`map-${kind}-${name}`, "map", `download the map of the ${what} ${name}`);
+      link.dataset.path = `/${kind}/${name}`;
+      buttons.append(link);
+    }
+    return made("li", {}, drawing(lines, `map of the ${what} ${name}`),
+                made("span", { className: "piece" }, made("strong", { textContent: recorded ? dateInWords(at) : `map ${dateInWords(at)}` }),
+                     made("span", { textContent: facts.filter(Boolean).join(", ") })), buttons);
+  }
+
+  #link(id, text, name, path) {
+    const link = made("a", { id, className: "button", textContent: text, download: "" });
+    link.setAttribute("aria-label", name);
+    if (path) link.dataset.file = path;
+    return link;
+  }
+
+  // Where the links lead: nowhere without a console, and maps to the chosen kind of file.
+  #showLinks() {
+    const ending = element("map-ending").value;
+    const live = element("live-map");
+    live.dataset.path = this.hasMap ? "/live/map" : "";
+    live.setAttribute("aria-label", "download the map of now");
+    element("live-map-text").textContent = this.hasMap ? "as the robot has it" : "none heard yet";
+    for (const link of document.querySelectorAll("#shelf a")) {
+      const path = link.dataset.file ?? (link.dataset.path && `${link.dataset.path}.${ending}`);
+      if (path && !this.mute) link.href = path + location.search;
+      else link.removeAttribute("href");
+      link.setAttribute("aria-disabled", String(!link.hasAttribute("href")));
+    }
+  }
+}

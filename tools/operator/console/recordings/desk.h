@@ -1,0 +1,62 @@
+/* Where pages ask for what lies in the console's folders: lists, the recorder's button, downloads. What may
+ * wait for a disk is done by another thread. The serving thread only. */
+#ifndef CONSOLE_DESK_H
+#define CONSOLE_DESK_H
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "operator/console/messages.h"
+#include "operator/console/recordings/archive.h"
+#include "operator/console/recordings/downloads.h"
+#include "operator/console/recordings/errands.h"
+#include "operator/console/recordings/recorder.h"
+
+namespace console
+{
+
+class Desk
+{
+  public:
+    using Tell = std::function<void(std::string message)>;
+
+    Desk(Archive &archive, Recorder &recorder) : archive_(archive), recorder_(recorder)
+    {
+    }
+
+    /* wake: makes the serving thread call hand_out(). To be closed before what it wakes is gone. */
+    void open(std::function<void()> wake);
+    void close();
+
+    RecorderState recorder() const
+    {
+        return recorder_.state();
+    }
+
+    /* A `shelf` or `record` message of a page. False: too many wait. */
+    bool ask(const PageMessage &message, Tell tell);
+
+    /* False: too many download already. */
+    bool fetch(lws *connection, const Wanted &wanted);
+
+    void hand_out();
+
+    Downloads &downloads()
+    {
+        return downloads_;
+    }
+
+  private:
+    std::string list(const std::string &refusal);
+    std::string record(bool on);
+
+    Archive &archive_;
+    Recorder &recorder_;
+    Downloads downloads_;
+    std::unique_ptr<Errands> errands_;
+};
+
+} // namespace console
+
+#endif
