@@ -5,6 +5,7 @@ import pytest
 import browser
 from at_hand import LONG
 from console_page import LINK, STATE, chromium, cockpit, let_the_camera_glide, middle, page, pixels  # noqa: F401 (fixtures)
+from recorded import RECORDED
 from waiting import Pulse
 from watching import alice, commands, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
 
@@ -97,6 +98,9 @@ def test_every_text_can_be_read_in_every_state(cockpit, robot, theme):
     assert_readable(cockpit, "while it records")
     cockpit.run("document.getElementById('recordings-note').className = 'bad'")
     assert_readable(cockpit, "with what the disk says")
+    cockpit.click(f"open-{RECORDED}")
+    cockpit.wait_for("document.body.dataset.time === 'recording'")
+    assert_readable(cockpit, "in a recording")
 
 
 @pytest.mark.parametrize("theme", THEMES)
@@ -166,7 +170,7 @@ def test_on_a_phone_each_control_is_in_reach_and_none_covers_another(phone, cock
     assert cockpit.run("return document.documentElement.scrollWidth - innerWidth") <= 0
     assert cockpit.run("return document.documentElement.scrollHeight - innerHeight") <= 0
     in_sight = cockpit.run(IN_SIGHT)
-    assert {"stop", "stick", "explore", "zoom-in", "layers", "theme", "set", "record", "live-map", "map-maps-flat"} <= {entry[0] for entry in in_sight}
+    assert {"stop", "stick", "explore", "zoom-in", "layers", "theme", "set", "record", f"open-{RECORDED}", "live-map", "map-maps-flat"} <= {entry[0] for entry in in_sight}
     for name, left, top, right, bottom, met in in_sight:
         assert 0 <= left < right <= width + 0.5 and 0 <= top < bottom <= height + 0.5, name
         assert met, f"something lies over {name}"

@@ -269,7 +269,31 @@ def test_a_download_that_nobody_takes_holds_up_nobody(alice, robot, folder):
     wait_until(lambda: status_of(f"{alice.address}live/map.png?token={alice.token}") == 200, 60, "room for another one")
 
 
-NONSENSE = ['{"type":"record"}', '{"type":"record","on":1}', '{"type":"record","on":null}', '{"type":["shelf"]}']
+def test_a_recording_is_looked_at_by_one_page_and_others_go_on(library):
+    here, other = WebSocket(library.console.url), WebSocket(library.console.url)
+    here.send(json.dumps({"type": "open", "name": RECORDED}))
+    past = here.wait_for("past")
+    assert past["recording"] == RECORDED and past["kept"][1] - past["kept"][0] == 2900 and past["at"] == past["kept"][0]
+    assert here.wait_for("map")["lines"] and here.wait_for("link")["kept"] == past["kept"]
+    here.send(json.dumps({"type": "look", "at": past["kept"][1]}))
+    assert here.wait_for("pose")["scan"] == 29
+    library.robot.scan += 100
+    library.robot.publish_pose()
+    assert other.wait_for("pose")["scan"] == library.robot.scan
+    here.send(json.dumps({"type": "look", "at": None}))
+    assert here.wait_for("past")["recording"] is None
+    assert here.wait_for("pose")["scan"] == library.robot.scan
+
+
+def test_a_recording_that_is_none_is_refused_in_words(library):
+    page = WebSocket(library.console.url)
+    (library.folder / "none.lcm").write_bytes(b"nothing " * 100)
+    for name, words in (("absent", "no recording of that name"), ("../x", "no recording of that name"), ("none", "no message of a robot")):
+        assert words in ask(page, type="open", name=name)["refusal"]
+    (library.folder / "none.lcm").unlink()
+
+
+NONSENSE = ['{"type":"open"}', '{"type":"open","name":7}', '{"type":"record"}', '{"type":"record","on":1}', '{"type":"record","on":null}', '{"type":["shelf"]}']
 
 
 def test_a_request_that_is_none_ends_the_connection(library):

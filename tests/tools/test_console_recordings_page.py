@@ -94,3 +94,35 @@ def test_a_map_that_the_robot_saves_comes_into_the_list(cockpit, robot, tmp_path
     (tmp_path / "maps/hall.map").write_bytes((tmp_path / "maps/flat.map").read_bytes())
     robot.answer = ("alice", 1, "saved hall: 12 walls, 0 corners")
     cockpit.wait_for(f"{ROWS} === 4 && document.getElementById('map-maps-hall') !== null")
+
+
+def test_a_recording_is_opened_scrubbed_played_and_left(cockpit, commands):
+    """By mouse and keys; marked as what it is, and nothing but STOP is sent meanwhile."""
+    cockpit.wait_for(f"{ROWS} === 3")
+    cockpit.click(f"open-{RECORDED}")
+    cockpit.wait_for("document.body.dataset.time === 'recording' && document.getElementById('scan').textContent === '0'")
+    assert cockpit.text("past-word") == "recording" and cockpit.text("past-text").endswith("0:00 of 0:03")
+    assert cockpit.run(f"return document.getElementById('open-{RECORDED}').ariaPressed") == "true"
+    cockpit.wait_for("document.getElementById('map-lines').textContent === '12' && document.body.dataset.control === 'off'")
+    assert "a recording" in cockpit.text("control-note")
+    cockpit.run("const when = document.getElementById('when'); when.value = Number(when.min) + 1500; when.dispatchEvent(new Event('input'))")
+    cockpit.wait_for("document.getElementById('scan').textContent === '15'")
+    cockpit.press("p")
+    cockpit.wait_for("document.getElementById('scan').textContent === '29' && document.getElementById('play').ariaPressed === 'false'")
+    assert cockpit.run("return document.body.dataset.time") == "recording", "its end is not now"
+    assert pixels(cockpit, "robot")["count"] > 100
+    cockpit.click("stop")
+    assert [c.verb for c in commands(1)] == ["stop"]
+    cockpit.press("n")
+    cockpit.wait_for("document.body.dataset.time === 'now' && document.body.dataset.control === 'yes'")
+    assert cockpit.run(f"return document.getElementById('open-{RECORDED}').ariaPressed") == "false"
+
+
+def test_a_recording_is_looked_at_without_a_robot(alice, chromium):
+    chromium.open(alice.url)
+    chromium.wait_for(f"{ROWS} === 3 && document.body.dataset.link === 'waiting'")
+    chromium.click(f"open-{RECORDED}")
+    chromium.wait_for(f"document.body.dataset.link === 'recording' && {STATE} === 'good'")
+    assert not chromium.run("return document.getElementById('when').disabled")
+    chromium.click("live")
+    chromium.wait_for("document.body.dataset.link === 'waiting' && document.body.dataset.time === 'now'")

@@ -20,7 +20,7 @@ std::optional<std::string> Client::next(Board::Clock::time_point now)
 
 std::optional<std::string> Client::choose(Board::Clock::time_point now)
 {
-    if (life_ != board_.life()) {
+    if (life_ != board_.life() && !recording_) {
         life_ = board_.life();
         looks_back_ = false;
         past_.clear();
@@ -33,7 +33,7 @@ std::optional<std::string> Client::choose(Board::Clock::time_point now)
     }
     if (link_due_) {
         link_due_ = false;
-        return link_message(board_.link(now), skipped_, board_.span(), recordings_.state());
+        return link_message(board_.link(now), skipped_, span(), recordings_.state());
     }
     if (!past_.empty()) {
         std::string message = std::move(past_.front());
@@ -98,9 +98,34 @@ bool Client::heard(const std::string &text)
         return tell_series();
     case PageMessage::Kind::shelf:
     case PageMessage::Kind::record:
+    case PageMessage::Kind::open:
         return ask(*message);
     }
     return false;
+}
+
+/* Of the recording that is shown, or of the robot. */
+Past Client::look_back(int64_t at_ms) const
+{
+    return recording_ ? recording_->look_back(at_ms) : board_.look_back(at_ms);
+}
+
+History::Span Client::span() const
+{
+    return recording_ ? recording_->span() : board_.span();
+}
+
+std::vector<History::Text> Client::sample(Topic topic) const
+{
+    return recording_ ? recording_->sample(topic, series_points) : board_.sample(topic, series_points);
+}
+
+void Client::show(std::shared_ptr<const OpenRecording> recording, const std::string &name)
+{
+    answered();
+    recording_ = std::move(recording);
+    recording_name_ = name;
+    look(recording_->span().from_ms);
 }
 
 /* Where he looks next takes the place of what was still to be sent of where he looked. Now again: all anew.
@@ -109,11 +134,13 @@ bool Client::look(std::optional<int64_t> at_ms)
 {
     looks_back_ = at_ms.has_value();
     if (at_ms) {
-        const Past past = board_.look_back(*at_ms);
-        past_ = {past_message(at_ms, past.span), trail_message({0, 0, past.way})};
+        const Past past = look_back(*at_ms);
+        past_ = {past_message(at_ms, past.span, recording_name_), trail_message({0, 0, past.way})};
         std::transform(past.texts.begin(), past.texts.end(), std::back_inserter(past_),
                        [](const History::Text &text) { return *text; });
     } else {
+        recording_.reset();
+        recording_name_.clear();
         past_ = {past_message(std::nullopt, board_.span())};
         seen_.fill(0);
         trail_epoch_ = 0;
@@ -126,8 +153,7 @@ bool Client::tell_series()
     if (answers_.size() >= most_answers) {
         return false;
     }
-    answers_.push_back(series_message(board_.sample(Topic::pose, series_points),
-                                      board_.sample(Topic::status, series_points)));
+    answers_.push_back(series_message(sample(Topic::pose), sample(Topic::status)));
     return true;
 }
 
@@ -140,9 +166,14 @@ bool Client::ask(const PageMessage &message)
     return true;
 }
 
-void Client::answer(std::string message)
+void Client::answered()
 {
     asked_ -= asked_ > 0 ? 1 : 0;
+}
+
+void Client::answer(std::string message)
+{
+    answered();
     answers_.push_back(std::move(message));
 }
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "operator/console/board.h"
 #include "operator/console/commander.h"
 #include "operator/console/messages.h"
+#include "operator/console/recordings/open_recording.h"
 #include "operator/console/recordings/recorder.h"
 
 namespace console
@@ -53,8 +55,10 @@ class Client
     /* A message from the page. False: not one that a page sends. */
     bool heard(const std::string &text);
 
-    /* What has come of something that the page asked for. */
+    /* What has come of something that the page asked for: a message, or a recording, which is shown from its
+     * beginning on until the page asks for now again. */
     void answer(std::string message);
+    void show(std::shared_ptr<const OpenRecording> recording, const std::string &name);
 
     uint64_t skipped() const
     {
@@ -77,13 +81,19 @@ class Client
     bool tell_series();
     bool command(const std::vector<std::string> &words);
     bool ask(const PageMessage &message);
+    void answered();
+    Past look_back(int64_t at_ms) const;
+    History::Span span() const;
+    std::vector<History::Text> sample(Topic topic) const;
 
     const Board &board_;
     std::string operator_name_;
     Command command_;
     Recordings recordings_;
     std::deque<std::string> answers_;
-    size_t asked_ = 0; /* what the page asked for, and has no answer yet */
+    size_t asked_ = 0;                               /* what the page asked for, and has no answer yet */
+    std::shared_ptr<const OpenRecording> recording_; /* that is shown; nullptr: the robot is */
+    std::string recording_name_;
     bool looks_back_ = false;
     std::deque<std::string> past_; /* what is still to be sent of where he looks */
     uint64_t life_ = 0;            /* the robot's life that the page was told of */

@@ -298,10 +298,12 @@ std::string link_message(const LinkHealth &link, uint64_t skipped, const History
                     {"recorder", recorder_of(recorder)}});
 }
 
-std::string past_message(std::optional<int64_t> at_ms, const History::Span &span)
+std::string past_message(std::optional<int64_t> at_ms, const History::Span &span,
+                         const std::string &recording)
 {
     return text_of({{"type", "past"},
                     {"at", at_ms ? json(*at_ms) : json(nullptr)},
+                    {"recording", recording.empty() ? json(nullptr) : json(recording)},
                     {"kept", json::array({span.from_ms, span.to_ms})}});
 }
 
@@ -358,6 +360,24 @@ std::optional<PageMessage> look_of(const json &at)
                : std::nullopt;
 }
 
+/* What is asked of the console's recordings; nothing when it is anything else. */
+std::optional<PageMessage> recordings_wish(const json &type, const json &message)
+{
+    using Kind = PageMessage::Kind;
+    const json on = message.value("on", json());
+    const json name = message.value("name", json());
+    if (type == "shelf") {
+        return PageMessage{Kind::shelf};
+    }
+    if (type == "record" && on.is_boolean()) {
+        return PageMessage{Kind::record, 0, {}, {}, on.get<bool>()};
+    }
+    if (type == "open" && name.is_string()) {
+        return PageMessage{Kind::open, 0, {}, {}, false, name.get<std::string>()};
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 std::optional<PageMessage> page_message(const std::string &text)
@@ -371,11 +391,11 @@ std::optional<PageMessage> page_message(const std::string &text)
     if (type == "got" && message.contains("count") && message["count"].is_number_unsigned()) {
         return PageMessage{Kind::got, message["count"].get<uint64_t>()};
     }
-    if (type == "series" || type == "shelf") {
-        return PageMessage{type == "series" ? Kind::series : Kind::shelf};
+    if (type == "series") {
+        return PageMessage{Kind::series};
     }
-    if (type == "record" && message.contains("on") && message["on"].is_boolean()) {
-        return PageMessage{Kind::record, 0, {}, {}, message["on"].get<bool>()};
+    if (auto wish = recordings_wish(type, message)) {
+        return wish;
     }
     if (type == "look" && message.contains("at")) {
         return look_of(message["at"]);

@@ -43,8 +43,9 @@ std::string link_message(const LinkHealth &link, uint64_t skipped, const History
                          const RecorderState &recorder = {});
 
 /* What follows is of the past, as it was at that time; nothing when it is of now again. The span of what is
- * kept. */
-std::string past_message(std::optional<int64_t> at_ms, const History::Span &span);
+ * kept; recording: whose past it is, empty: that of the robot that is heard. */
+std::string past_message(std::optional<int64_t> at_ms, const History::Span &span,
+                         const std::string &recording = "");
 
 /* Messages of the past, for charts; each as it was. */
 std::string series_message(const std::vector<History::Text> &poses,
@@ -54,14 +55,16 @@ std::string series_message(const std::vector<History::Text> &poses,
 std::string sent_message(const std::string &verb, const Sent &sent);
 
 /* What a page says: {"type":"got","count":n}; {"type":"command","words":["drive","0.2","0"]};
- * {"type":"look","at":ms}, null for now; {"type":"series"}; {"type":"shelf"}; {"type":"record","on":true}.
+ * {"type":"look","at":ms}, null for now; {"type":"series"}; {"type":"shelf"}; {"type":"record","on":true};
+ * {"type":"open","name":"..."}, a recording without its ending.
  * Nothing when the text is anything else. */
 struct PageMessage {
-    enum class Kind { got, command, look, series, shelf, record } kind = Kind::got;
+    enum class Kind { got, command, look, series, shelf, record, open } kind = Kind::got;
     uint64_t drawn = 0;
     std::vector<std::string> words{};
     std::optional<int64_t> at_ms{};
     bool on = false;
+    std::string name{};
 };
 std::optional<PageMessage> page_message(const std::string &text);
 

@@ -324,11 +324,17 @@ bool WebServer::has_token(lws *connection) const
 WebServer::Connection WebServer::new_connection(lws *connection)
 {
     const uint64_t page = ++pages_;
-    const auto tell = [this, page](std::string message) {
-        if (Client *client = client_of(page)) {
-            client->answer(std::move(message));
-        }
-    };
+    const Desk::Tell tell = {
+        [this, page](std::string message) {
+            if (Client *client = client_of(page)) {
+                client->answer(std::move(message));
+            }
+        },
+        [this, page](std::shared_ptr<const OpenRecording> recording, const std::string &name) {
+            if (Client *client = client_of(page)) {
+                client->show(std::move(recording), name);
+            }
+        }};
     Client client(
         board_, commander_.operator_name(),
         [this, page](const std::vector<std::string> &words) { return commander_.send(page, words); },

@@ -3,8 +3,12 @@
 
 #include <map>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include "files.hpp"
+#include "operator/console/recordings/event_file.h"
 
 using console::Board;
 using console::Client;
@@ -316,4 +320,63 @@ TEST(Client, WhatIsNoTimeEndsTheConnection)
     EXPECT_FALSE(look(client, "yesterday"));
     EXPECT_FALSE(look(client, 1.5));
     EXPECT_FALSE(client.heard(R"({"type":"look"})"));
+}
+
+TEST(Client, AnOpenedRecordingIsShownUntilNowIsAskedForWhateverTheRobotDoes)
+{
+    const files::TemporaryFolder folder;
+    const std::string path = (folder / "a.lcm").string();
+    console::EventWriter writer(console::Descriptor(open(path.c_str(), O_WRONLY | O_CREAT, 0600)));
+    ale::pose_t pose{};
+    std::vector<uint8_t> bytes(static_cast<size_t>(pose.getEncodedSize()));
+    for (; pose.scan < 3; pose.scan++) {
+        pose.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+        writer.put(1000000 * (1 + pose.scan), "ALE_POSE", bytes.data(), bytes.size());
+    }
+    ASSERT_EQ(writer.flush(), 0);
+    Board board;
+    board.pin(Topic::pose, message_of("pose", 1));
+    std::vector<std::string> asked;
+    Client client(board, "", nullptr,
+                  {[] { return console::RecorderState(); },
+                   [&](const auto &message) {
+                       asked.push_back(message.name);
+                       return true;
+                   }});
+    drain(client);
+    ASSERT_TRUE(client.heard(R"({"type":"open","name":"a"})"));
+    EXPECT_EQ(asked, std::vector<std::string>{"a"});
+    client.show(std::make_shared<console::OpenRecording>(console::Descriptor(open(path.c_str(), O_RDONLY))),
+                "a");
+    const auto past = next(client);
+    EXPECT_EQ((*past)["recording"], "a");
+    EXPECT_EQ((*past)["at"], 1000);
+    EXPECT_EQ(types_of(client), (std::vector<std::string>{"trail", "pose"}));
+    board.clear();
+    board.pin(Topic::pose, message_of("pose", 2));
+    client.link_due();
+    EXPECT_EQ((*next(client))["kept"], json({1000, 3000}));
+    EXPECT_TRUE(drain(client).empty()) << "the robot has started anew, which is told later";
+    ASSERT_TRUE(look(client, 3000));
+    drain(client);
+    ASSERT_TRUE(look(client, nullptr));
+    EXPECT_EQ(next(client)->value("type", ""), "hello");
+    EXPECT_EQ(drain(client)["pose"], 1);
+}
+
+TEST(Client, WhoAsksAndTakesNoAnswersEndsHisConnection)
+{
+    const Board board;
+    Client client(board, "", nullptr,
+                  {[] { return console::RecorderState(); }, [](const auto &) { return true; }});
+    size_t taken = 0;
+    while (client.heard(R"({"type":"shelf"})") && taken < 1000) {
+        taken++;
+    }
+    EXPECT_EQ(taken, 64U);
+    client.answer(R"({"type":"shelf"})");
+    EXPECT_FALSE(client.heard(R"({"type":"shelf"})")) << "it has not been fetched";
+    drain(client);
+    EXPECT_TRUE(client.heard(R"({"type":"shelf"})"));
+    EXPECT_FALSE(watcher(board).heard(R"({"type":"record","on":true})")) << "where there is nobody to ask";
 }

@@ -48,6 +48,7 @@ export class Control {
         break;
       case "past":
         this.past = isPast;
+        this.recording = message.recording;
         break;
       case "status":
         if (isPast) return;
@@ -80,7 +81,7 @@ export class Control {
 
   // Why nothing but STOP can be commanded, or an empty text. Who does not see the robot does not drive it.
   get obstacle() {
-    if (this.past) return this.silence || "this is the past: STOP alone is sent";
+    if (this.past) return this.silence || `this is ${this.recording ? "a recording" : "the past"}: STOP alone is sent`;
     return this.silence || (this.linkState === "lost" ? "link lost: STOP alone is sent" : "");
   }
 

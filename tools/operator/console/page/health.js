@@ -7,6 +7,7 @@ import {
 const STAGES = ["deskew", "smooth", "extract", "match", "map", "total"];
 const STAGE_COLOURS = ["#7c8cff", "#38bdf8", "#22d3b6", "#ffb84d", "#f472b6"];
 const HISTORY = 150; // scans in the chart of times
+const MUTE = ["gone", "connecting"]; // links on which a recording cannot be shown, either
 
 export class Health {
   constructor(layers) {
@@ -45,12 +46,12 @@ export class Health {
 
   // State and age, and the alarm when they are bad: called ten times a second.
   showLink(link, scene) {
-    const state = link.state;
+    const state = scene.recording && !MUTE.includes(link.state) ? "recording" : link.state;
     document.body.dataset.link = state;
-    const heard = ["up", "blind", "lost"].includes(state);
+    const heard = ["up", "blind", "lost", "recording"].includes(state);
     document.body.dataset.state = heard ? (scene.pose?.state ?? "none") : "none";
     const age = link.poseAgeMs;
-    show("age", Number.isFinite(age) ? ageInWords(age) : "–", state === "up" ? "fine" : "bad");
+    show("age", Number.isFinite(age) ? ageInWords(age) : "–", link.state === "up" ? "fine" : "bad");
     const [word, text] = stateInWords(state, scene, age);
     show("state-word", word);
     show("state-text", text);
@@ -161,7 +162,7 @@ function stateInWords(link, scene, age) {
 const withMaps = ([word, text], tracking) => [word, [text, mapsInWords(tracking)[0]].filter(Boolean).join(", ")];
 
 function showAlarm(link, scene, word, text) {
-  const trouble = ["gone", "lost", "blind"].includes(link) || (link === "up" && scene.pose && scene.pose.state !== "good");
+  const trouble = ["gone", "lost", "blind"].includes(link) || (["up", "recording"].includes(link) && scene.pose && scene.pose.state !== "good");
   document.getElementById("alarm").hidden = !trouble;
   if (trouble) {
     show("alarm-word", word);

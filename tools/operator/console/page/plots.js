@@ -26,6 +26,7 @@ const OF_STATUS = [["scans a second", "/s", (s) => s.scan_rate_hz], ["latency p9
 export class Plots {
   constructor(link) {
     this.link = link;
+    this.recording = null; // whose signals they are, unless they are the robot's
     this.series = new Map(); // name -> {unit, times, values}
     this.plots = [...document.querySelectorAll("#plots figure")].map((figure) => ({
       choice: figure.querySelector("select"), canvas: figure.querySelector("canvas"), text: figure.querySelector("output"),
@@ -41,11 +42,11 @@ export class Plots {
 
   take(message, isPast) {
     switch (message.type) {
-      case "hello": this.#forget(); this.link.send({ type: "series" }); break;
+      case "hello": this.recording = null; this.#forget(); this.link.send({ type: "series" }); break;
       case "series": this.#takeSeries(message); break;
       case "pose": this.marked = isPast ? message.utime / 1e6 : null; isPast || this.#takePose(message); break;
       case "status": isPast || this.#takeStatus(message); break;
-      case "past": if (message.at === null) this.marked = null; break;
+      case "past": this.#looksElsewhere(message); break;
       default: return;
     }
     this.due = true;
@@ -56,6 +57,15 @@ export class Plots {
     this.due = false;
     this.drawnAt = performance.now();
     for (const plot of this.plots) this.#draw(plot);
+  }
+
+  // Of a recording all is drawn that there is; afterwards the robot's last minutes again.
+  #looksElsewhere({ at, recording }) {
+    if (at === null) this.marked = null;
+    if (recording === this.recording) return;
+    this.recording = recording;
+    this.#forget();
+    this.link.send({ type: "series" });
   }
 
   #forget() {
@@ -90,7 +100,7 @@ export class Plots {
     if (time - (times.at(-1) ?? -Infinity) < LEAST_STEP_S) return;
     times.push(time);
     values.push(value);
-    if (times[0] < time - LONGEST_S) {
+    if (!this.recording && times[0] < time - LONGEST_S) {
       times.shift();
       values.shift();
     }
@@ -98,9 +108,10 @@ export class Plots {
 
   #draw({ choice, canvas, text }) {
     const { unit, times, values } = this.series.get(choice.value);
-    const end = times.at(-1) ?? 0;
-    const begin = end - Number(this.span.value);
-    const shown = times.map((time, k) => [time, values[k]]).filter(([time, value]) => time >= begin && Number.isFinite(value));
+    const span = Number(this.span.value);
+    const end = Math.min(times.at(-1) ?? 0, this.recording ? Math.max((times[0] ?? 0) + span, (this.marked ?? 0) + span / 2) : Infinity);
+    const begin = end - span;
+    const shown = times.map((time, k) => [time, values[k]]).filter(([time, value]) => time >= begin && time <= end && Number.isFinite(value));
     const [low, high] = shown.reduce(([a, b], [, value]) => [Math.min(a, value), Math.max(b, value)], [Infinity, -Infinity]);
     const last = shown.at(-1)?.[1];
     text.textContent = shown.length ? `${inShort(last)} ${unit} (${inShort(low)} to ${inShort(high)})` : "nothing yet";

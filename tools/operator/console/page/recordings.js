@@ -43,6 +43,7 @@ export class Recordings {
     this.shelf = null;
     this.recorder = null;
     this.hasMap = false;
+    this.opened = null; // the recording that is shown
     this.all = false; // of a long list
     this.mute = true;
     element("record").addEventListener("click", () => this.#record());
@@ -57,12 +58,17 @@ export class Recordings {
   take(message) {
     switch (message.type) {
       case "hello":
+        this.opened = null;
         this.hasMap = false;
         this.saved = undefined;
         this.#ask();
         this.#showLinks();
         break;
-      case "map": this.#mapCame(message.lines); break;
+      case "past":
+        this.opened = message.recording;
+        this.#showOpened();
+        break;
+      case "map": if (!this.opened) this.#mapCame(message.lines); break;
       case "link": this.#recorderTold(message.recorder); break;
       case "shelf":
         this.shelf = message;
@@ -100,6 +106,7 @@ export class Recordings {
 
   // A map that the robot has saved may lie in the console's folder.
   #lookForSaved(command) {
+    if (this.opened) return;
     const saved = /^saved /.test(command.result) ? command.number : null;
     if (saved !== null && this.saved !== undefined && saved !== this.saved) this.#ask();
     this.saved = saved;
@@ -167,9 +174,27 @@ export class Recordings {
       link.dataset.path = `/${kind}/${name}`;
       buttons.append(link);
     }
-    return made("li", {}, drawing(lines, `map of the ${what} ${name}`),
-                made("span", { className: "piece" }, made("strong", { textContent: recorded ? dateInWords(at) : `map ${dateInWords(at)}` }),
-                     made("span", { textContent: facts.filter(Boolean).join(", ") })), buttons);
+    const picture = drawing(lines, `map of the ${what} ${name}`);
+    const text = [made("strong", { textContent: recorded ? dateInWords(at) : `map ${dateInWords(at)}` }),
+                  made("span", { textContent: facts.filter(Boolean).join(", ") })];
+    return recorded ? made("li", {}, this.#opener(name, picture, text), buttons)
+      : made("li", {}, picture, made("span", { className: "piece" }, ...text), buttons);
+  }
+
+  // A press on a recording shows it.
+  #opener(name, picture, text) {
+    const opener = made("button", { id: `open-${name}`, type: "button", className: "piece", title: "show this recording" }, picture,
+                        made("span", {}, ...text));
+    opener.setAttribute("aria-label", `show the recording ${name}, ${text.map((part) => part.textContent).join(", ")}`);
+    opener.addEventListener("click", () => this.link.send({ type: "open", name }));
+    return opener;
+  }
+
+  #showOpened() {
+    for (const opener of document.querySelectorAll("#shelf button")) {
+      opener.setAttribute("aria-pressed", String(opener.id === `open-${this.opened}`));
+      opener.disabled = this.mute;
+    }
   }
 
   #link(id, text, name, path) {
@@ -181,6 +206,7 @@ export class Recordings {
 
   // Where the links lead: nowhere without a console, and maps to the chosen kind of file.
   #showLinks() {
+    this.#showOpened();
     const ending = element("map-ending").value;
     const live = element("live-map");
     live.dataset.path = this.hasMap ? "/live/map" : "";

@@ -18,6 +18,7 @@ export class Scene {
   constructor() {
     this.occupancy = new Occupancy();
     this.past = false;
+    this.recording = null; // the name of what is shown, unless it is the robot
     this.#forget();
   }
 
@@ -42,8 +43,8 @@ export class Scene {
 
   take(message) {
     switch (message.type) {
-      case "hello": this.#forget(); this.past = false; this.occupancy.forget(); break;
-      case "past": this.#forget(); this.past = message.at !== null; break;
+      case "hello": this.#forget(); this.past = false; this.recording = null; this.occupancy.forget(); break;
+      case "past": this.#forget(); this.past = message.at !== null; this.recording = message.recording; break;
       case "pose": this.#takePose(message); break;
       case "plan": this.plan = message; break;
       case "tracking": this.tracking = message; break;

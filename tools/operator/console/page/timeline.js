@@ -1,7 +1,7 @@
-// The last ten minutes, as the console keeps them: looked at by a slider, or played. While the past is looked at, what the
-// page shows is of then; the link is still that of now, and STOP still stops.
+// The last ten minutes, as the console keeps them, or a recording: looked at by a slider, or played. While the past is
+// looked at, what the page shows is of then; the link is still that of now, and STOP still stops.
 
-import { lengthInWords } from "./words.js";
+import { dateInWords, lengthInWords } from "./words.js";
 
 const PLAY_STEP_MS = 200;
 
@@ -11,6 +11,7 @@ export class Timeline {
   constructor(link) {
     this.link = link;
     this.at = null; // what is shown is of then, milliseconds since 1970; null: of now
+    this.recording = null; // its name, while one is looked at
     this.wanted = null; // asked for while an answer is on its way
     this.asked = false;
     this.kept = [0, 0];
@@ -28,7 +29,7 @@ export class Timeline {
 
   take(message) {
     switch (message.type) {
-      case "hello": this.at = this.wanted = null; this.asked = false; this.#play(false); break;
+      case "hello": this.at = this.wanted = this.recording = null; this.asked = false; this.#play(false); break;
       case "link": this.kept = message.kept; break;
       case "past": this.#answered(message); break;
       default: return;
@@ -44,6 +45,13 @@ export class Timeline {
   #answered(message) {
     this.asked = false;
     this.at = message.at;
+    if (message.recording !== this.recording) {
+      this.recording = message.recording;
+      this.wanted = null;
+      this.kept = message.kept;
+      this.#play(false);
+      if (this.recording !== null) this.#fitSlider(this.at);
+    }
     if (this.wanted !== null) this.#look(this.wanted);
   }
 
@@ -61,7 +69,7 @@ export class Timeline {
   #scrub() {
     this.#play(false);
     const at = Number(element("when").value);
-    at >= Number(element("when").max) ? this.#now() : this.#look(at);
+    at >= Number(element("when").max) && !this.recording ? this.#now() : this.#look(at);
   }
 
   #now() {
@@ -70,17 +78,30 @@ export class Timeline {
     this.link.send({ type: "look", at: null });
   }
 
-  // From where he looks; from the beginning where he looks at now.
+  // From where he looks; from the beginning where he looks at now, or at the end of a recording.
   #play(playing) {
     this.playing = playing;
-    if (playing && !this.isPast) this.#look(this.kept[0]);
+    if (playing && (!this.isPast || (this.recording && this.at >= this.kept[1]))) this.#look(this.kept[0]);
     element("play").setAttribute("aria-pressed", String(playing));
   }
 
   #step() {
     if (!this.playing || this.asked || !this.isPast) return;
     const next = this.at + PLAY_STEP_MS;
-    next >= this.kept[1] ? this.#now() : this.#look(next);
+    if (next < this.kept[1]) this.#look(next);
+    else if (this.recording) this.#end();
+    else this.#now();
+  }
+
+  #end() {
+    this.#look(this.kept[1]);
+    this.#play(false);
+  }
+
+  #fitSlider(at) {
+    const slider = element("when");
+    [slider.min, slider.max] = this.kept;
+    slider.value = at;
   }
 
   #key(event) {
@@ -92,19 +113,24 @@ export class Timeline {
   // While the past is looked at, the slider's ends stay where they are: nothing moves under a finger.
   #show() {
     const slider = element("when");
-    if (!this.isPast && !this.asked) {
-      [slider.min, slider.max] = this.kept;
-      slider.value = this.kept[1];
-    } else if (this.playing) {
-      slider.value = this.at;
-    }
-    document.body.dataset.time = this.isPast ? "past" : "now";
+    if (!this.isPast && !this.asked) this.#fitSlider(this.kept[1]);
+    else if (this.playing) slider.value = this.at;
+    document.body.dataset.time = this.recording ? "recording" : this.isPast ? "past" : "now";
+    element("past-word").textContent = this.recording ? "recording" : "past";
     element("live").setAttribute("aria-pressed", String(!this.isPast));
     element("past").hidden = !this.isPast;
-    const words = this.isPast ? `${clockTime(this.at)}, ${lengthInWords(this.kept[1] - this.at)} ago` : "";
+    const words = this.#words();
     if (element("past-text").textContent !== words) element("past-text").textContent = words;
-    element("when-text").textContent = this.isPast ? `-${lengthInWords(this.kept[1] - this.at)}` : lengthInWords(this.kept[1] - this.kept[0]);
+    element("when-text").textContent = this.recording ? lengthInWords(this.at - this.kept[0]) : this.isPast ? `-${lengthInWords(this.kept[1] - this.at)}` : lengthInWords(this.kept[1] - this.kept[0]);
     slider.setAttribute("aria-valuetext", this.isPast ? words : "now");
+    element("timeline").setAttribute("aria-label", this.recording ? `The recording ${this.recording}` : "The last ten minutes");
+  }
+
+  #words() {
+    if (!this.isPast) return "";
+    if (!this.recording) return `${clockTime(this.at)}, ${lengthInWords(this.kept[1] - this.at)} ago`;
+    const [at, whole] = [this.at - this.kept[0], this.kept[1] - this.kept[0]].map(lengthInWords);
+    return `${dateInWords(this.at).slice(0, 10)} ${clockTime(this.at)}, ${at} of ${whole}`;
   }
 }
 

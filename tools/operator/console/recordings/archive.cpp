@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include <sys/stat.h>
@@ -64,6 +65,15 @@ ale::Trajectory way_of(const std::vector<TrailPoint> &points)
         return ale::StampedPose{0, feed::core_pose(point.x, point.y, 0)};
     });
     return way;
+}
+
+constexpr size_t most_opened = 8; /* some fifty megabytes of memory each, if they are long */
+
+int64_t change_of(const Descriptor &file)
+{
+    struct stat status;
+    return fstat(file.number(), &status) == 0 ? status.st_mtim.tv_sec * 1000000000 + status.st_mtim.tv_nsec
+                                              : 0;
 }
 
 } // namespace
@@ -203,6 +213,30 @@ std::optional<Content> Archive::map(const Wanted &wanted) const
     }
     scene.map = map.get();
     return text_of(map_copy(scene, wanted.stem, wanted.ending));
+}
+
+std::shared_ptr<const OpenRecording> Archive::open(const std::string &stem)
+{
+    Descriptor file = recordings_.open(stem + ".lcm");
+    if (file.number() < 0) {
+        throw std::runtime_error("there is no recording of that name");
+    }
+    for (auto entry = opened_.begin(); entry != opened_.end();) {
+        entry = entry->second.recording.expired() ? opened_.erase(entry) : std::next(entry);
+    }
+    const int64_t changed_ns = change_of(file);
+    const auto known = opened_.find(stem);
+    auto recording = known != opened_.end() && known->second.changed_ns == changed_ns
+                         ? known->second.recording.lock()
+                         : nullptr;
+    if (!recording) {
+        if (opened_.size() >= most_opened) {
+            throw std::runtime_error("too many recordings are looked at: close one of the others");
+        }
+        recording = std::make_shared<const OpenRecording>(std::move(file));
+        opened_[stem] = {changed_ns, recording};
+    }
+    return recording;
 }
 
 std::optional<Content> Archive::fetch(const Wanted &wanted) const

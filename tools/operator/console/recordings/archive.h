@@ -14,6 +14,7 @@
 
 #include "operator/console/board.h"
 #include "operator/console/recordings/descriptor.h"
+#include "operator/console/recordings/open_recording.h"
 #include "operator/console/recordings/recording_summary.h"
 #include "operator/console/recordings/shelf.h"
 #include "operator/console/recordings/wanted.h"
@@ -71,7 +72,15 @@ class Archive
     /* Nothing: there is no such thing. Throws std::runtime_error in words for people. */
     std::optional<Content> fetch(const Wanted &wanted) const;
 
+    /* For looking at; one for all who look at the same. Throws as fetch(); also where there is none, or eight
+     * are looked at. */
+    std::shared_ptr<const OpenRecording> open(const std::string &stem);
+
   private:
+    struct Opened {
+        int64_t changed_ns;
+        std::weak_ptr<const OpenRecording> recording;
+    };
     struct Known {
         int64_t changed_ms;
         uint64_t bytes;
@@ -87,6 +96,7 @@ class Archive
     const Shelf &recordings_;
     const Shelf &maps_;
     std::map<std::string, Known> known_; /* by folder and name */
+    std::map<std::string, Opened> opened_;
 };
 
 } // namespace console

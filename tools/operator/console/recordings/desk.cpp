@@ -50,10 +50,25 @@ std::string Desk::record(bool on)
 
 bool Desk::ask(const PageMessage &message, Tell tell)
 {
+    if (message.kind == PageMessage::Kind::open) {
+        return open_recording(message.name, std::move(tell));
+    }
     const bool records = message.kind == PageMessage::Kind::record;
     return errands_ && errands_->run([this, records, on = message.on, tell = std::move(tell)] {
         std::string text = list(records ? record(on) : "");
-        return [tell, text = std::move(text)] { tell(text); };
+        return [tell, text = std::move(text)] { tell.text(text); };
+    });
+}
+
+bool Desk::open_recording(const std::string &name, Tell tell)
+{
+    return errands_ && errands_->run([this, name, tell = std::move(tell)]() -> Errands::Done {
+        try {
+            auto recording = archive_.open(name);
+            return [tell, recording = std::move(recording), name] { tell.recording(recording, name); };
+        } catch (const std::runtime_error &error) {
+            return [tell, text = list(error.what())] { tell.text(text); };
+        }
     });
 }
 

@@ -19,7 +19,12 @@ namespace console
 class Desk
 {
   public:
-    using Tell = std::function<void(std::string message)>;
+    /* Where what comes of a request goes: a message, or a recording to look at. */
+    struct Tell {
+        std::function<void(std::string message)> text;
+        std::function<void(std::shared_ptr<const OpenRecording> recording, const std::string &name)>
+            recording;
+    };
 
     Desk(Archive &archive, Recorder &recorder) : archive_(archive), recorder_(recorder)
     {
@@ -34,7 +39,7 @@ class Desk
         return recorder_.state();
     }
 
-    /* A `shelf` or `record` message of a page. False: too many wait. */
+    /* A `shelf`, `record` or `open` message of a page. False: too many wait. */
     bool ask(const PageMessage &message, Tell tell);
 
     /* False: too many download already. */
@@ -48,6 +53,7 @@ class Desk
     }
 
   private:
+    bool open_recording(const std::string &name, Tell tell);
     std::string list(const std::string &refusal);
     std::string record(bool on);
 
