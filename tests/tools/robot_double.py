@@ -65,6 +65,9 @@ class RobotDouble:
         self.map_id, self.maps, self.wheels = 0, 1, "fine"
         self.who_drives = self.exploration = ""
         self.refused = False
+        self.lost_scans = 1
+        self.observability = [0.0] * 6
+        self.blind_beams = 0  # so many from the first on see nothing
         self.answer = ("", 0, "")  # operator, counter and result of the last command
 
     @property
@@ -104,6 +107,7 @@ class RobotDouble:
         pose.x, pose.y, pose.theta = x, y, theta
         pose.map_x, pose.map_y, pose.map_theta = x, y, theta
         pose.cov = [sigma[k // 4] ** 2 if k % 4 == 0 else 0.0 for k in range(9)]
+        pose.observability = self.observability
         pose.vx, pose.omega = RADIUS * OMEGA, OMEGA
         pose.first_beam_utime, pose.arrival_utime, pose.age_us = now - 66000, now - 1400, 70000
         pose.stage_ns = [41000, 180000 + 9000 * (self.scan % 7), 240000, 310000, 60000]
@@ -149,7 +153,7 @@ class RobotDouble:
         scan.scan, scan.stamp_beam, scan.beam_time_us = self.scan, STAMP_BEAM, BEAM_TIME * 1e6
         scan.first_bearing, scan.step, scan.range_max = FIRST_BEARING, STEP, RANGE_MAX
         scan.range_unit_mm = 1
-        ranges = [self.range_of(k) for k in range(BEAMS)]
+        ranges = [None if k < self.blind_beams else self.range_of(k) for k in range(BEAMS)]
         scan.range_mm = [0 if r is None else round(r * 1000) for r in ranges]
         codes = [0x81 if r is None else 0 for r in ranges]
         codes[100] = 7
@@ -225,7 +229,7 @@ class RobotDouble:
         status.device = "URG-04LX H0000001"
         status.scan_rate_hz = 10.0
         status.counter_name = ["bad_checksum", "scans_lost", "odometry", "resets"]
-        status.counter_value = [3, 1, 200, 0]
+        status.counter_value = [3, self.lost_scans, 200, 0]
         status.num_counters = 4
         status.robot, status.takes_commands = self.name, True
         status.who_drives, status.exploration, status.command_obeyed = self.who_drives, self.exploration, not self.refused

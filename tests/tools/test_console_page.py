@@ -60,6 +60,57 @@ def test_weak_and_lost_cannot_be_missed(page, robot, pulse, state, name):
     assert page.run("return getComputedStyle(document.querySelector('main'), '::after').borderTopWidth") != "0px"
 
 
+CAUSE = "document.getElementById('alarm-cause').textContent"
+
+
+def test_why_it_is_weak_or_lost_and_what_to_do_stands_beside_the_state(page, robot, pulse):
+    """A sentence for each cause that the robot reports, and one that mostly helps where it reports none."""
+    page.wait_for(f"{STATE} === 'good' && document.getElementById('device').textContent.startsWith('URG')")
+    assert page.text("alarm-cause") == ""
+    robot.state = 1
+    page.wait_for(f"{ALARM} === 'weak' && {CAUSE}.includes('fits more than one place')")
+    robot.wheels = "stalled"
+    page.wait_for(f"{CAUSE}.includes('wheels contradict the scans')")
+    robot.observability = [900.0, 0.0, 0.0, 1.0, 0.0, 50.0]
+    page.wait_for(f"{CAUSE}.includes('as in a corridor')")
+    robot.blind_beams = 650
+    page.wait_for(f"/Only \\d+ of 682 beams see anything/.test({CAUSE})")
+    robot.lost_scans += 5
+    page.wait_for(f"{CAUSE}.startsWith('Scans get lost on the way from the scanner. Look at its cable')")
+    alarm, advice = (page.run("const b = document.getElementById(arguments[0]).getBoundingClientRect(); return [b.top, b.bottom]", name)
+                     for name in ("alarm", "advice"))
+    assert alarm[1] < advice[0], "neither over the other"
+    robot.state = 2
+    page.wait_for(f"{STATE} === 'good' && {CAUSE} === ''")
+
+
+def test_causes_are_put_in_words(page):
+    words = page.run("""
+        return import("/cause.js").then(({ Cause }) => {
+          const fine = {type: "status", utime: 0, counters: [{name: "overloaded", value: 2}], exploration: ""};
+          const scene = (state, more = {}) => ({pose: {state, observability: [0, 0, 0, 0, 0, 0]}, status: fine, ...more});
+          const cause = new Cause();
+          cause.take(fine);
+          const said = {
+            good: cause.words("up", scene("good"), true), weak: cause.words("up", scene("weak"), true), lost: cause.words("up", scene("lost"), true),
+            apart: cause.words("up", scene("lost", {tracking: {map_id: 3, maps: 2, wheels: "fine"}}), true),
+            looks: cause.words("up", scene("lost", {status: {exploration: "looks for its place: it turns"}}), true),
+            silent: cause.words("lost", scene("good"), false), reports: cause.words("lost", scene("good"), true),
+            gone: cause.words("gone", scene("good"), false), recorded: cause.words("recording", scene("lost"), false),
+            room: cause.words("up", {...scene("weak"), pose: {state: "weak", observability: [900, 0, 0, 300, 0, 50]}}, true),
+          };
+          cause.take({...fine, utime: 5e6, counters: [{name: "overloaded", value: 3}]});
+          said.busy = cause.words("up", scene("weak"), true);
+          cause.take({...fine, utime: 16e6, counters: [{name: "overloaded", value: 3}]});
+          said.later = cause.words("up", scene("weak"), true);
+          return said;
+        });""")
+    assert words["good"] == "" and words["room"] == words["weak"] == words["later"] and "corners are in sight" in words["weak"]
+    assert "was carried" in words["lost"] and words["recorded"] == words["lost"] and "goes on in a new one" in words["apart"]
+    assert "by itself" in words["looks"] and "too busy" in words["busy"]
+    assert "ale-bridge" in words["silent"] and "restart ale-slamd" in words["reports"] and "Start it again" in words["gone"]
+
+
 def test_what_the_scanner_reports_stands_over_the_map_in_plain_words(page, robot, pulse):
     page.wait_for(f"{STATE} === 'good'")
     assert page.run("return document.getElementById('advice').hidden")

@@ -1,4 +1,5 @@
 // The health strip and panel: everything that is not the map.
+import { Cause } from "./cause.js";
 import {
   ADVICE_ON_HEARING, adviceOnPlan, adviceOnScanner, adviceOnTracking, codesInWords, counterInWords, countDrops, degrees, duration, heading, isTrouble, mapsInWords, metres, millimetres, STATES,
   wheelsInWords,
@@ -12,6 +13,7 @@ const MUTE = ["gone", "connecting"]; // links on which a recording cannot be sho
 export class Health {
   constructor(layers) {
     this.layers = layers;
+    this.cause = new Cause();
     this.times = []; // stages_us of the last scans
     this.chart = document.getElementById("times");
     this.chartDue = true;
@@ -20,6 +22,7 @@ export class Health {
   }
 
   take(message, scene) {
+    this.cause.take(message);
     switch (message.type) {
       case "hello": case "past": this.times = []; break;
       case "pose": this.#pose(message); break;
@@ -56,6 +59,7 @@ export class Health {
     show("state-word", word);
     show("state-text", text);
     showAlarm(state, scene, word, text);
+    show("alarm-cause", this.cause.words(state, scene, link.hasStatus));
     const advice = [...(scene.status?.warnings ?? []), adviceOnScanner(scene.status?.driver, scene.scan?.stain), ...adviceOnTracking(scene.tracking), adviceOnPlan(scene.plan)];
     showAdvice(heard ? advice.filter(Boolean) : state === "waiting" ? [ADVICE_ON_HEARING] : []);
   }

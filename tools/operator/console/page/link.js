@@ -60,7 +60,12 @@ export class Link {
     if (now - this.poseAt <= POSE_SILENCE_MS) {
       return "up";
     }
-    return !this.scansCome && now - this.statusAt <= STATUS_SILENCE_MS ? "blind" : "lost";
+    return !this.scansCome && this.hasStatus ? "blind" : "lost";
+  }
+
+  // The robot has reported itself lately.
+  get hasStatus() {
+    return performance.now() - this.statusAt <= STATUS_SILENCE_MS;
   }
 
   get poseAgeMs() {

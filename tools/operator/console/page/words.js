@@ -79,8 +79,8 @@ const USUAL = { maps: 1, odometry_senders: 1 }; // what is no trouble unless the
 
 export const counterInWords = (name) => COUNTERS[name] ?? name.replaceAll("_", " ");
 export const isTrouble = ({ name, value }) => value > (USUAL[name] ?? 0) && !TRAFFIC.includes(name);
-export const countDrops = (counters) =>
-  counters.filter((counter) => DROPS.includes(counter.name)).reduce((sum, counter) => sum + counter.value, 0);
+export const countersThatDrop = (counters) => counters.filter((counter) => DROPS.includes(counter.name));
+export const countDrops = (counters) => countersThatDrop(counters).reduce((sum, counter) => sum + counter.value, 0);
 
 // What an operator can do about the scanner, for what it or its driver says; null when there is nothing.
 const ADVICE = [
