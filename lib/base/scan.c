@@ -67,7 +67,7 @@ void ale_scan_forgive_missing(ale_scan_t *scan)
         if (scan->flag[k] != ALE_BEAM_VALID) {
             continue;
         }
-        for (int32_t i = last + 1; k - last <= ALE_MAX_GAP_BEAMS && i < k; i++) {
+        for (int32_t i = last < 0 ? 0 : last + 1; k - last <= ALE_MAX_GAP_BEAMS && i < k; i++) {
             scan->flag[i] = scan->flag[i] == ALE_BEAM_NO_RETURN ? ALE_BEAM_UNKNOWN : scan->flag[i];
         }
         last = k;

@@ -239,21 +239,36 @@ int32_t ale_cos_q30(uint32_t angle_bam)
     return ale_sin_q30(angle_bam + ALE_BAM_QUARTER_TURN);
 }
 
-/* num / den for |num| < den < 2^43: two digits of 20 bits. */
+/* num / den for |num| <= den / 512, den < 2^43: two digits of 20 bits. */
+/*@ requires 0 < den < 8796093022208 && -(den / 512) <= num <= den / 512;
+  @ assigns \nothing;
+  @ ensures -2148532224 <= \result <= 2148532224; */
 static int64_t ratio_q40(int64_t num, int64_t den)
 {
-    const int64_t scaled = ale_abs64(num) << 20;
+    const int64_t digit = 1 << 20;
+    const int64_t scaled = ale_abs64(num) * digit;
     const int64_t high = scaled / den;
-    const int64_t ratio = (high << 20) + ((scaled - high * den) << 20) / den;
+    //@ assert 0 <= high <= 2048;
+    const int64_t low = scaled % den * digit / den;
+    //@ assert 0 <= low <= 1048576;
+    const int64_t ratio = high * digit + low;
+    //@ assert 0 <= ratio <= 2148532224;
     return num < 0 ? -ratio : ratio;
 }
 
 /* atan(num / den) for 0 <= num <= den, den > 0, both below 2^33: the nearest table entry k/256 and
  * atan(z) - atan(z0) = atan((z - z0) / (1 + z z0)) = atan((256 num - k den) / (256 den + k num)). */
+/*@ requires 0 <= num;
+  @ requires num <= den;
+  @ requires 0 < den;
+  @ requires den < 8589934592; */
 static uint32_t octant_arctan(int64_t num, int64_t den)
 {
     const int64_t k = ale_round_div(num * 256, den);
-    const int64_t u_q40 = ratio_q40(num * 256 - k * den, den * 256 + k * num);
+    //@ assert 0 <= k <= 256;
+    const int64_t rest = num * 256 - k * den;
+    //@ assert -(den / 2) - 1 <= rest <= den / 2 + 1;
+    const int64_t u_q40 = ratio_q40(rest, den * 256 + k * num);
     const int64_t cube_q40 = ale_round_shift(ale_round_shift(u_q40 * u_q40, 40) * u_q40, 40);
     const int64_t angle_q40 = u_q40 - ale_round_div(cube_q40, 3);
     return (uint32_t)(arctan_bam[k] + ale_round_shift(angle_q40 * bam_per_rad, 40));
@@ -263,10 +278,11 @@ uint32_t ale_atan2_bam(int64_t y, int64_t x)
 {
     int64_t ax = ale_abs64(x);
     int64_t ay = ale_abs64(y);
-    if (ale_max64(ax, ay) <= 0) {
+    const int64_t longer = ale_max64(ax, ay);
+    if (longer <= 0) {
         return 0;
     }
-    const unsigned bits = ale_bit_length((uint64_t)(ax | ay));
+    const unsigned bits = ale_bit_length((uint64_t)longer);
     if (bits > 33) {
         ax = ale_round_shift(ax, bits - 32);
         ay = ale_round_shift(ay, bits - 32);

@@ -24,7 +24,11 @@ static inline int32_t ale_bam_diff(uint32_t a_bam, uint32_t b_bam)
 }
 
 /* Q30: -2^30..2^30, within 2 units. */
+/*@ assigns \nothing;
+  @ ensures -1073741840 <= \result <= 1073741840; */
 int32_t ale_cos_q30(uint32_t angle_bam);
+/*@ assigns \nothing;
+  @ ensures -1073741840 <= \result <= 1073741840; */
 int32_t ale_sin_q30(uint32_t angle_bam);
 
 /* A unit vector, or a rotation. */
@@ -34,9 +38,14 @@ typedef struct {
 } ale_direction_t;
 
 /* Both at once, at the cost of one. */
+/*@ assigns \nothing;
+  @ ensures -1073741840 <= \result.cos_q30 <= 1073741840;
+  @ ensures -1073741840 <= \result.sin_q30 <= 1073741840; */
 ale_direction_t ale_direction(uint32_t angle_bam);
 
 /* Angle of the vector (x, y), any unit; |x|, |y| below 2^62; (0, 0) gives 0. */
+/*@ requires -4611686018427387904 < x < 4611686018427387904;
+  @ requires -4611686018427387904 < y < 4611686018427387904; */
 uint32_t ale_atan2_bam(int64_t y, int64_t x);
 
 /* Signed angle in BAM to nanoradians and back; |nrad| up to half a turn (3141592654). */

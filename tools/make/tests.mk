@@ -77,6 +77,7 @@ $(TEST_SHARED): $(call test_objects,$(TEST_SHARED_SOURCES) $(TEST_WORLD_SOURCES)
 
 include tests/rtai/rtai.mk
 include tests/proofs/wcet/wcet.mk
+include tests/proofs/eva/eva.mk
 TEST_ARCHIVES = $(TEST_SHARED) $(FIRMWARE_ARCHIVES)
 $(BUILD)/tests/tools/%: $(TEST_OBJ)/tests/tools/%.cpp.o $(BUILD)/libale_tool_parts.a $(BUILD)/libale_tools.a $(TEST_ARCHIVES)
 	$(call link,-lgtest_main -lgtest)
