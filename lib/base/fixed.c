@@ -61,11 +61,10 @@ uint32_t ale_isqrt(uint64_t v)
 /* Products of 82 bits are made of two halves, each in 64 bits: a b = (a b_high) 2^20 + a b_low. */
 enum { HALF_BITS = 20, MIDDLE_FACTOR_BITS = 42, MIDDLE_BITS = 82 };
 
-static bool is_middle(uint64_t a, uint64_t b, unsigned shift)
+static bool is_middle(uint64_t a, uint64_t b)
 {
     const unsigned bits = ale_bit_length(a);
-    return bits <= MIDDLE_FACTOR_BITS && bits + ale_bit_length(b) <= MIDDLE_BITS && shift > HALF_BITS &&
-           shift <= 62;
+    return bits <= MIDDLE_FACTOR_BITS && bits + ale_bit_length(b) <= MIDDLE_BITS;
 }
 
 static uint64_t middle_mul_shift(uint64_t a, uint64_t b, unsigned shift)
@@ -79,7 +78,7 @@ int64_t ale_wide_mul_shift(int64_t a, int64_t b, unsigned shift)
     const bool negative = (a < 0) != (b < 0);
     const uint64_t size_a = magnitude(a);
     const uint64_t size_b = magnitude(b);
-    if (is_middle(size_a, size_b, shift)) {
+    if (shift > HALF_BITS && shift <= 62 && is_middle(size_a, size_b)) {
         return signed_saturated(middle_mul_shift(size_a, size_b, shift), negative);
     }
     wide_t p = wide_multiply(size_a, size_b);

@@ -22,5 +22,6 @@ int64_t ale_histogram_quantile(const uint16_t bins[ALE_HISTOGRAM_BINS], int32_t 
         return bin_value(b);
     }
     const int64_t width = bin_value(b + 1) - bin_value(b);
-    return bin_value(b) + width * (wanted - (int64_t)100 * below) / ((int64_t)100 * bins[b]);
+    const int64_t in_bin = ale_max64(bins[b], 1); /* the quantile lies in it: there are some */
+    return bin_value(b) + width * (wanted - (int64_t)100 * below) / (100 * in_bin);
 }

@@ -5,6 +5,8 @@
 
 enum { URG_FIRST_RANGE_MM = 20, URG_NOT_A_STEP = 19 };
 
+static const int64_t Q8 = 256; /* multiplied by: a negative number is not to be shifted */
+
 int32_t ale_scan_turn_beams(const ale_scan_t *scan)
 {
     const int64_t step_bam = ale_abs64(scan->step_bam);
@@ -23,19 +25,18 @@ int32_t ale_scan_turn_beams(const ale_scan_t *scan)
 static int64_t place_q8(const ale_scan_t *scan, int32_t beam)
 {
     const int64_t step_bam = ale_abs64(scan->step_bam);
-    if (!scan->own_bearings || (uint32_t)beam >= scan->beams || step_bam == 0) {
-        return (int64_t)beam << 8;
+    if (!scan->own_bearings || beam < 0 || beam >= scan->beams || step_bam == 0) {
+        return beam * Q8;
     }
     const uint32_t ahead_bam = scan->bearing_bam[beam] - scan->first_bearing_bam;
-    const int64_t here_q8 =
-        ale_round_div((int64_t)(scan->step_bam < 0 ? 0U - ahead_bam : ahead_bam) << 8, step_bam);
-    return ale_min64(here_q8, (int64_t)scan->beams << 8);
+    const int64_t here_q8 = ale_round_div((scan->step_bam < 0 ? 0U - ahead_bam : ahead_bam) * Q8, step_bam);
+    return ale_min64(here_q8, scan->beams * Q8);
 }
 
 int32_t ale_scan_beam_offset_us(const ale_scan_t *scan, int32_t beam)
 {
     if (scan->own_bearings) {
-        const int64_t from_stamp_q8 = place_q8(scan, beam) - ((int64_t)scan->stamp_beam << 8);
+        const int64_t from_stamp_q8 = place_q8(scan, beam) - scan->stamp_beam * Q8;
         return (int32_t)ale_round_div(from_stamp_q8 * scan->beam_time_ns, 256000);
     }
     return (int32_t)ale_round_div((int64_t)(beam - scan->stamp_beam) * scan->beam_time_ns, 1000);

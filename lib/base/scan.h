@@ -49,7 +49,7 @@ typedef struct {
 /* Bearing of a beam in the sensor's frame, BAM; outside 0..beams-1 that of the grid. Constant time. */
 static inline uint32_t ale_scan_bearing(const ale_scan_t *scan, int32_t beam)
 {
-    if (scan->own_bearings && (uint32_t)beam < scan->beams) {
+    if (scan->own_bearings && beam >= 0 && beam < scan->beams) {
         return scan->bearing_bam[beam];
     }
     return scan->first_bearing_bam + (uint32_t)beam * (uint32_t)scan->step_bam;
@@ -80,10 +80,14 @@ void ale_scan_mask(ale_scan_t *scan, const ale_sector_t *sectors, uint32_t count
 /* Whether fewer than three in four echoes have an echo next to them. A scanner that leaves out beams, or
  * surfaces that swallow them, give such a scan. O(beams); in the header because the extractor, which asks for
  * every scan, is compiled so that it takes many beams at once. */
+/*@ requires \valid_read(scan) && scan->beams <= ALE_MAX_BEAMS;
+  @ assigns \nothing; */
 static inline bool ale_scan_is_sparse(const ale_scan_t *scan)
 {
     int32_t echoes = 0;
     int32_t with_next = 0;
+    /*@ loop invariant 0 <= k <= ALE_MAX_BEAMS && 0 <= echoes <= k && 0 <= with_next <= k;
+      @ loop assigns k, echoes, with_next; */
     for (int32_t k = 0; k + 1 < scan->beams; k++) {
         echoes += scan->flag[k] == ALE_BEAM_VALID;
         with_next += (scan->flag[k] | scan->flag[k + 1]) == ALE_BEAM_VALID;

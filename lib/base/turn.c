@@ -9,9 +9,11 @@ enum {
     JOINED_BEAMS = ALE_MAX_BEAMS * 3 / 4, /* of joined points, which leaves room for those that do not join */
     SAME_UM = 30000, /* neighbours of one surface differ by less than this and a part of the range, */
     SAME_PER_MILLE = 10,
+    MOST_JOINED = 1 << 28, /* so that three times as many, of any step, fit int64 */
     SAME_SLOPE = 3,  /* and by what a surface of that slope (72 degrees) makes of the bearings between them */
     GAP_HALVES = 5,  /* half mean steps: a wider one says nothing of the step */
     LOST_HALVES = 3, /* from so many half steps on points are missing */
+    MOST_LOST = UINT16_MAX, /* more than a scan holds */
     STEP_ROUNDS = 2,
     BAM_PER_RAD = 683565276
 };
@@ -52,6 +54,7 @@ static uint32_t turned_by(const turned_t *t, uint32_t bearing_bam)
 static bool is_clockwise(const ale_turn_t *turn)
 {
     int32_t steps_back = 0;
+    //@ loop invariant -ALE_MAX_TURN_POINTS <= steps_back <= ALE_MAX_TURN_POINTS;
     for (uint32_t k = 1; k < turn->count; k++) {
         const int32_t step_bam = ale_bam_diff(turn->point[k].bearing_bam, turn->point[k - 1].bearing_bam);
         steps_back += (step_bam < 0) - (step_bam > 0);
@@ -75,9 +78,12 @@ static void merge(const turned_t *t, int32_t from, int32_t middle, int32_t end, 
     int32_t a = from;
     int32_t b = middle;
     for (int32_t k = from; k < end; k++) {
-        const bool first = b == end || (a < middle && turned_by(t, t->point[a].bearing_bam) <=
-                                                          turned_by(t, t->point[b].bearing_bam));
-        out[k] = t->point[first ? a++ : b++];
+        if (a < middle &&
+            (b >= end || turned_by(t, t->point[a].bearing_bam) <= turned_by(t, t->point[b].bearing_bam))) {
+            out[k] = t->point[a++];
+        } else if (b < end) {
+            out[k] = t->point[b++];
+        }
     }
 }
 
@@ -106,6 +112,7 @@ static int64_t step_of(const turned_t *t)
     for (int32_t round = 0; round < STEP_ROUNDS; round++) {
         int64_t sum_bam = 0;
         int32_t steps = 0;
+        //@ loop invariant -17592186044416 <= sum_bam <= 17592186044416 && 0 <= steps <= ALE_MAX_TURN_POINTS;
         for (int32_t k = 0; k + 1 < t->count; k++) {
             const int64_t gap = gap_bam(t, k);
             if (2 * gap <= GAP_HALVES * step_bam) {
@@ -113,7 +120,7 @@ static int64_t step_of(const turned_t *t)
                 steps++;
             }
         }
-        step_bam = steps > 0 && sum_bam >= steps ? sum_bam / steps : step_bam;
+        step_bam = steps > 0 && sum_bam >= steps ? ale_min64(sum_bam / steps, UINT32_MAX) : step_bam;
     }
     return step_bam;
 }
@@ -155,11 +162,15 @@ static int32_t last_of_surface(const turned_t *t, int32_t first, int32_t last)
 static int32_t lost_after(const turned_t *t, int32_t k)
 {
     const int64_t beams = k + 1 < t->count ? ale_round_div(gap_bam(t, k), t->joined * t->step_bam) : 1;
-    return (int32_t)ale_max64(beams - 1, 0);
+    return (int32_t)ale_clamp64(beams - 1, 0, MOST_LOST);
 }
 
+/* The parts were listed so that there is room: the bound stands here for whoever reads this alone. */
 static void add_beam(ale_scan_t *scan, uint32_t bearing_bam, int32_t range_um, uint8_t flag)
 {
+    if (scan->beams >= ALE_MAX_BEAMS) {
+        return;
+    }
     const uint16_t k = scan->beams++;
     scan->bearing_bam[k] = bearing_bam;
     if (flag == ALE_BEAM_VALID) {
@@ -177,11 +188,13 @@ static void add_joined(const turned_t *t, int32_t first, int32_t last, ale_scan_
     const ale_turn_point_t *p = &t->point[first];
     int64_t range_um = 0;
     int64_t ahead_bam = 0;
+    /*@ loop invariant -8796093022208 <= range_um <= 8796093022208;
+      @ loop invariant -8796093022208 <= ahead_bam <= 8796093022208; */
     for (int32_t k = first; k <= last; k++) {
         range_um += t->point[k].range_um;
         ahead_bam += ale_bam_diff(t->point[k].bearing_bam, p->bearing_bam);
     }
-    const int32_t n = last + 1 - first;
+    const int64_t n = ale_max64(last + 1 - first, 1);
     add_beam(scan, p->bearing_bam + (uint32_t)(uint64_t)ale_round_div(ahead_bam, n),
              (int32_t)ale_round_div(range_um, n), p->flag);
 }
@@ -205,21 +218,27 @@ static bool is_nearer(const turned_t *t, int32_t k, int32_t other)
     return a->flag == ALE_BEAM_VALID && (b->flag != ALE_BEAM_VALID || a->range_um < b->range_um);
 }
 
+/* There are as many parts as points at most. */
+static void add_part(ale_turn_t *turn, int32_t first, int32_t last)
+{
+    if (turn->parts < ALE_MAX_TURN_POINTS) {
+        turn->part[turn->parts++] = (ale_turn_part_t){(uint16_t)first, (uint16_t)last, 0};
+    }
+}
+
 /* The group of points first..last: a part for each surface among them, or one for the nearest. */
 static void list_group(const turned_t *t, int32_t first, int32_t last, ale_turn_t *turn)
 {
     int32_t nearest = first;
-    int32_t surfaces = 0;
-    for (int32_t k = first; k <= last; k = last_of_surface(t, k, last) + 1, surfaces++) {
+    for (int32_t k = first; k <= last; k = last_of_surface(t, k, last) + 1) {
         nearest = is_nearer(t, k, nearest) ? k : nearest;
         if (!t->one_each) {
-            turn->part[turn->parts++] =
-                (ale_turn_part_t){(uint16_t)k, (uint16_t)last_of_surface(t, k, last), 0};
+            add_part(turn, k, last_of_surface(t, k, last));
         }
     }
     if (t->one_each) {
         const int32_t end = last_of_surface(t, nearest, last);
-        turn->part[turn->parts++] = (ale_turn_part_t){(uint16_t)nearest, (uint16_t)end, 0};
+        add_part(turn, nearest, end);
         turn->left_out += (uint32_t)(last - first - (end - nearest));
     }
 }
@@ -233,8 +252,8 @@ static int32_t list_parts(const turned_t *t, ale_turn_t *turn)
     for (int32_t first = 0; first < t->count;) {
         const int32_t last = last_joined(t, first);
         list_group(t, first, last, turn);
-        turn->part[turn->parts - 1].lost_after = (uint16_t)lost_after(t, last);
-        lost += lost_after(t, last);
+        turn->part[ale_max64(turn->parts, 1) - 1].lost_after = (uint16_t)lost_after(t, last);
+        lost = (int32_t)ale_min64(lost + lost_after(t, last), MOST_LOST);
         first = last + 1;
     }
     return turn->parts + lost;
@@ -246,10 +265,17 @@ static void join(turned_t *t, ale_turn_t *turn)
     const int64_t places = turned_by(t, t->point[t->count - 1].bearing_bam) / t->step_bam + 1;
     const int64_t most = ale_max64(places, t->count);
     t->joined = most <= ALE_MAX_BEAMS ? 1 : (int32_t)((most + JOINED_BEAMS - 1) / JOINED_BEAMS);
-    for (int32_t beams = list_parts(t, turn); beams > ALE_MAX_BEAMS; beams = list_parts(t, turn)) {
+    for (int32_t beams = list_parts(t, turn); beams > ALE_MAX_BEAMS && t->joined <= MOST_JOINED;
+         beams = list_parts(t, turn)) {
         t->joined *= t->one_each || t->joined == 1 ? 2 : 1;
         t->one_each = true;
     }
+}
+
+/* Parts are made of points that are there. */
+static int32_t point_of(const turned_t *t, uint16_t k)
+{
+    return (int32_t)ale_min64(k, t->count - 1);
 }
 
 static void write_beams(const turned_t *t, const ale_turn_t *turn, ale_scan_t *scan)
@@ -257,9 +283,9 @@ static void write_beams(const turned_t *t, const ale_turn_t *turn, ale_scan_t *s
     scan->beams = 0;
     for (int32_t k = 0; k < turn->parts; k++) {
         const ale_turn_part_t *part = &turn->part[k];
-        add_joined(t, part->first, part->last, scan);
-        if (part->lost_after > 0) {
-            add_lost(t, part->last, part[1].first, part->lost_after, scan);
+        add_joined(t, point_of(t, part->first), point_of(t, part->last), scan);
+        if (k + 1 < turn->parts && part->lost_after > 0) {
+            add_lost(t, point_of(t, part->last), point_of(t, part[1].first), part->lost_after, scan);
         }
     }
 }
@@ -267,21 +293,22 @@ static void write_beams(const turned_t *t, const ale_turn_t *turn, ale_scan_t *s
 static void set_geometry(const turned_t *t, const ale_turn_t *turn, uint32_t last_measured_bam,
                          ale_scan_t *scan)
 {
-    const int64_t last = scan->beams - 1;
+    const int64_t last = ale_max64(scan->beams, 1) - 1;
     const int64_t first_bam = turned_by(t, scan->bearing_bam[0]);
     const int64_t swept_bam = (int64_t)turned_by(t, scan->bearing_bam[last]) - first_bam;
     const int64_t step_bam = ale_round_div(swept_bam, ale_max64(last, 1));
     /* the last point is the farthest, or by the jitter of bearings beyond a whole turn */
     const int64_t measured_bam = turned_by(t, last_measured_bam);
     const int64_t by_time_bam = ale_max64(2 * measured_bam < swept_bam ? swept_bam : measured_bam, 1);
-    const int64_t sweep_us = turn->last_us - turn->first_us;
+    const int64_t sweep_us = ale_clamp64(turn->last_us - turn->first_us, -ALE_TURN_MOST_US, ALE_TURN_MOST_US);
+    const int64_t before_us = ale_mul_div(sweep_us, first_bam, by_time_bam);
     scan->own_bearings = true;
     scan->first_bearing_bam = scan->bearing_bam[0];
     scan->step_bam = (int32_t)(t->clockwise ? -step_bam : step_bam);
     scan->beam_time_ns =
         (int32_t)ale_clamp64(ale_mul_div(sweep_us * 1000, step_bam, by_time_bam), 0, INT32_MAX);
     scan->stamp_beam = 0;
-    scan->stamp_us = turn->first_us + ale_mul_div(sweep_us, first_bam, by_time_bam);
+    scan->stamp_us = turn->first_us + ale_clamp64(before_us, -ALE_TURN_MOST_US, ALE_TURN_MOST_US);
 }
 
 ale_turn_status_t ale_turn_to_scan(ale_turn_t *turn, ale_scan_t *scan)
@@ -299,7 +326,7 @@ ale_turn_status_t ale_turn_to_scan(ale_turn_t *turn, ale_scan_t *scan)
                   .clockwise = is_clockwise(turn)};
     sort(turn, &t);
     t.step_bam = step_of(&t);
-    if (t.step_bam == 0) {
+    if (t.step_bam <= 0) {
         return ALE_TURN_STILL;
     }
     join(&t, turn);

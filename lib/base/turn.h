@@ -38,8 +38,8 @@ typedef struct {
 } ale_turn_part_t;
 
 typedef struct {
-    int64_t first_us; /* set by the caller: when the first and the last point were measured */
-    int64_t last_us;
+    int64_t first_us;  /* set by the caller: when the first and the last point were measured, at most */
+    int64_t last_us;   /* ALE_TURN_MOST_US apart, within half of ALE_MAX_STAMP_US */
     uint32_t count;    /* of all points that were added, also of those beyond ALE_MAX_TURN_POINTS */
     uint32_t left_out; /* of the scan made last: points of joined ones for whose surface there was no room */
     ale_turn_point_t point[ALE_MAX_TURN_POINTS];
@@ -57,6 +57,9 @@ typedef enum {
 } ale_turn_status_t;
 
 enum { ALE_TURN_LEAST = 8 };
+
+/* 35 years: nanoseconds fit int64. */
+#define ALE_TURN_MOST_US (INT64_C(1) << 50)
 
 /* Forgets the points. Constant time. */
 void ale_turn_begin(ale_turn_t *turn);

@@ -223,4 +223,24 @@ TEST(Turn, AnyPointsGiveAScanInOrder)
     }
 }
 
+// Sums over all points that there may be, at their largest: what the proofs of run time leave to this test.
+TEST(Turn, TheSumsOfTheMostPointsFit)
+{
+    for (const int way : {1, -1}) {
+        for (const int32_t range_um : {INT32_MAX, INT32_MIN, 0}) {
+            std::vector<Point> even;
+            std::vector<Point> crowded;
+            for (int k = 0; k < ALE_MAX_TURN_POINTS; k++) {
+                even.push_back({way * static_cast<double>(k) / ALE_MAX_TURN_POINTS, range_um});
+                crowded.push_back({way * std::ldexp(k, k + 1 < ALE_MAX_TURN_POINTS ? -32 : -13), range_um});
+            }
+            for (const auto &points : {even, crowded}) {
+                const auto scan = scan_of(points);
+                ASSERT_GE(scan->beams, 1);
+                ASSERT_LE(scan->beams, ALE_MAX_BEAMS);
+            }
+        }
+    }
+}
+
 } // namespace

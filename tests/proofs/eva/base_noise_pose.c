@@ -30,6 +30,7 @@ static void noise(void)
         .shared_beams = (int32_t)unknown(1, ALE_MAX_BEAMS),
         .surface_um = (int32_t)unknown(0, 100000),
         .bearing_nrad = (int32_t)unknown(0, 100000000),
+        .own_ppm_per_m = (int32_t)unknown(0, 10000),
     };
     const int32_t range_um = (int32_t)unknown(0, ALE_MAX_RANGE_UM);
     const uint32_t bearing_bam = (uint32_t)unknown(0, UINT32_MAX);

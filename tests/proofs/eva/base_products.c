@@ -14,10 +14,8 @@
 static void multiply(int64_t a, int64_t b)
 {
     ale_mul_shift(a, b, (unsigned)unknown(0, 126));
-    const int64_t c = unknown(INT64_MIN, INT64_MAX);
-    if (c != 0) {
-        ale_mul_div(a, b, c);
-    }
+    ale_mul_div(a, b, unknown(1, INT64_MAX));
+    ale_mul_div(a, b, unknown(INT64_MIN, -1));
 }
 
 void main(void)

@@ -1,7 +1,7 @@
 /* Scans of any geometry, ranges, codes and sectors.
  *
  * proves: lib/base/scan.c
- * with: lib/base/fixed.c
+ * with: lib/base/fixed.c lib/base/trig.c
  * options: -eva-auto-loop-unroll 1100 -eva-slevel 20 */
 #include "unknown.h"
 #include "unknown_scan.h"
@@ -11,6 +11,7 @@ void main(void)
     static ale_scan_t scan;
     unknown_scan(&scan);
     ale_scan_bearing(&scan, (int32_t)unknown(INT32_MIN, INT32_MAX));
+    ale_scan_turn_beams(&scan);
     ale_scan_is_sparse(&scan);
     ale_scan_forgive_missing(&scan);
     const uint16_t beam = (uint16_t)unknown(0, ALE_MAX_BEAMS - 1);

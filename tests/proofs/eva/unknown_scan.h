@@ -12,6 +12,7 @@ static inline void unknown_scan(ale_scan_t *scan)
     scan->range_min_um = (int32_t)unknown(0, ALE_MAX_RANGE_UM);
     scan->range_max_um = (int32_t)unknown(0, ALE_MAX_RANGE_UM);
     scan->beams = (uint16_t)unknown(0, ALE_MAX_BEAMS);
+    scan->own_bearings = unknown(0, 1);
 }
 
 #endif
