@@ -28,7 +28,8 @@ typedef struct {
     uint64_t jumps;
 } ale_rotary_clock_t;
 
-/* Host time of sensor_us, whose packet arrived at arrival_us; sensor_us does not step back. */
+/* Host time of sensor_us, whose packet arrived at arrival_us; both from 0 to 2^49 (17 years). A sensor's
+ * clock that steps back is another one. */
 int64_t ale_rotary_clock_take(ale_rotary_clock_t *clock, int64_t sensor_us, int64_t arrival_us);
 
 #endif

@@ -10,6 +10,9 @@ enum {
     MOST_LOSSES = 30    /* more turns without a point are an interruption */
 };
 
+/* A head that never passes straight ahead ends no sum. */
+static const int64_t MOST_SUM = INT64_C(1) << 60;
+
 static const uint32_t half_turn = UINT32_C(1) << 31;
 
 void ale_turns_init(ale_turns_t *turns, bool clockwise, bool reversed)
@@ -43,8 +46,8 @@ void ale_turns_begin(ale_turns_t *turns)
 
 static int32_t follow(int32_t mean, int64_t measured)
 {
-    return mean == 0 ? (int32_t)ale_min64(measured, INT32_MAX)
-                     : mean + (int32_t)ale_round_div(measured - mean, SMOOTHING);
+    const int64_t next = mean == 0 ? measured : mean + ale_round_div(measured - mean, SMOOTHING);
+    return (int32_t)ale_clamp64(next, 0, INT32_MAX);
 }
 
 static uint32_t phase_of(const ale_turns_t *turns, const ale_rotary_point_t *point)
@@ -62,8 +65,8 @@ static void follow_pace(ale_turns_t *turns, const ale_rotary_packet_t *packet)
         const uint32_t turned_bam = phase_of(turns, &packet->points[packet->count - 1]) - turns->phase;
         turns->point_ns = follow(turns->point_ns, measured_ns);
         const bool turns_on = turned_bam > 0 && turned_bam < half_turn;
-        turns->sum_us += turns_on ? passed_us : 0;
-        turns->sum_bam += turns_on ? turned_bam : 0;
+        turns->sum_us = ale_min64(turns->sum_us + (turns_on ? passed_us : 0), MOST_SUM);
+        turns->sum_bam = ale_min64(turns->sum_bam + (turns_on ? turned_bam : 0), MOST_SUM);
     }
     turns->sensor_us = packet->sensor_us;
 }
@@ -164,7 +167,7 @@ void ale_turns_take(ale_turns_t *turns, const ale_rotary_packet_t *packet, int64
 {
     follow_pace(turns, packet);
     for (uint32_t k = 0; k < packet->count; k++) {
-        const int64_t before_us = ale_round_div((int64_t)(packet->count - 1 - k) * turns->point_ns, 1000);
+        const int64_t before_us = ale_round_div(((int64_t)packet->count - 1 - k) * turns->point_ns, 1000);
         take_point(turns, &packet->points[k], last_us - before_us);
     }
     turns->last_us = last_us;

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/fixed.h"
 #include "file/little_endian.h"
 #include "scanner/rotary/rotary_device.h"
 #include "scanner/scanner_family.h"
@@ -33,8 +34,9 @@ enum {
     FIRST_SCAN_MS = 3000, /* a motor that stood comes to speed */
     TRIES = 3,
     EXPRESS_MODE = 1,
-    CONF_FIRMWARE = 0x0118, /* 1.24 has GET_CONF, */
-    RATES_FIRMWARE = 0x0111 /* 1.17 the express scan */
+    MOST_POINT_NS = 10000000, /* a slower scanner there is not: years of points fit int64 */
+    CONF_FIRMWARE = 0x0118,   /* 1.24 has GET_CONF, */
+    RATES_FIRMWARE = 0x0111   /* 1.17 the express scan */
 };
 
 /* Of the upper half of the model's byte. */
@@ -182,7 +184,7 @@ static ale_rplidar_phase_t take_rates(ale_rplidar_t *l, const uint8_t *answer)
 {
     l->scan_type = ALE_RPLIDAR_EXPRESS;
     l->mode = 0;
-    l->parser.point_ns = ale_get_u16(answer + 2) * 1000;
+    l->parser.point_ns = (int32_t)ale_min64(ale_get_u16(answer + 2) * 1000, MOST_POINT_NS);
     return motor_or_scan(l);
 }
 
@@ -204,7 +206,7 @@ static ale_rplidar_phase_t take_type(ale_rplidar_t *l, const uint8_t *answer)
 
 static ale_rplidar_phase_t take_sample(ale_rplidar_t *l, const uint8_t *answer)
 {
-    l->parser.point_ns = (int32_t)((uint64_t)ale_get_u32(answer + 4) * 1000 / 256 % 10000000);
+    l->parser.point_ns = (int32_t)((uint64_t)ale_get_u32(answer + 4) * 1000 / 256 % MOST_POINT_NS);
     return motor_or_scan(l);
 }
 

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/fixed.h"
 #include "file/little_endian.h"
 
 enum {
@@ -117,7 +118,7 @@ static void give(ale_rplidar_parser_t *p, ale_rotary_packet_t *packet, uint32_t 
     const int64_t now_us = time_us(p, p->stream_bytes);
     packet->kind = ALE_PACKET_POINTS;
     packet->count = count;
-    packet->sensor_us = time_us(p, p->stream_bytes - behind_bytes);
+    packet->sensor_us = time_us(p, (uint64_t)ale_max64((int64_t)p->stream_bytes - behind_bytes, 0));
     packet->behind_us = (int32_t)(now_us - packet->sensor_us);
     packet->line_bytes = p->stream == ALE_RPLIDAR_STANDARD ? ALE_RPLIDAR_NODE : ALE_RPLIDAR_CAPSULE;
     packet->speed_mdeg_s = -1;
@@ -228,7 +229,7 @@ static void take_answer(ale_rplidar_parser_t *p, ale_rotary_packet_t *packet)
         shift(p);
         return;
     }
-    if (p->have == ALE_RPLIDAR_DESCRIPTOR + length) {
+    if (p->have >= ALE_RPLIDAR_DESCRIPTOR + length) {
         p->answer_type = type;
         p->answer_bytes = length;
         memcpy(p->answer, p->bytes + ALE_RPLIDAR_DESCRIPTOR, length);

@@ -9,7 +9,8 @@ enum {
     DATA_CHARACTERS = 64,
     STAMP_CHARACTERS = 4,
     CODE_BITS = 6,
-    ECHOED_BAUD = 14 /* "S" bbbbbb rrrrrrr of SCIP 1.1 */
+    MOST_VALUE = (1 << 18) - 1, /* in three characters */
+    ECHOED_BAUD = 14            /* "S" bbbbbb rrrrrrr of SCIP 1.1 */
 };
 
 enum { IDLE, CANDIDATE, BODY };
@@ -31,7 +32,9 @@ static bool keep_candidate(ale_scip_parser_t *p)
     if (count == 0 || count >= ALE_SCIP_ECHO || (found < 0 && !ale_scip_line_clean(&p->line))) {
         return false;
     }
-    memcpy(p->candidate.text, p->line.bytes + start, count);
+    for (uint32_t k = 0, at = start; k < count && at < p->line.count; k++, at++) {
+        p->candidate.text[k] = (char)p->line.bytes[at];
+    }
     p->candidate.text[count] = '\0';
     p->candidate.count = count;
     p->candidate.bytes = count + 1;
@@ -139,10 +142,10 @@ static ale_scip_loss_t read_data_character(ale_scip_parser_t *p, const uint8_t *
     if (bits < 0) {
         return ALE_SCIP_BAD_SHAPE;
     }
-    if (reply->value_count >= p->expected) {
+    if (reply->value_count >= p->expected || reply->value_count >= ALE_MAX_BEAMS) {
         return ALE_SCIP_BAD_COUNT;
     }
-    p->partial = p->partial << CODE_BITS | bits;
+    p->partial = (p->partial << CODE_BITS | bits) & MOST_VALUE;
     if (++p->partial_count == reply->request.characters) {
         p->values[reply->value_count++] = p->partial;
         p->partial = 0;

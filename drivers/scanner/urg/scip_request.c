@@ -102,18 +102,18 @@ bool ale_scip_request_parse(const uint8_t *text, size_t count, ale_scip_request_
 size_t ale_scip_request_format(const ale_scip_request_t *request, char out[ALE_SCIP_REQUEST_TEXT])
 {
     const unsigned cluster = request->cluster % 100U;
+    const char coding = request->characters == 3 ? 'D' : 'S';
     int length;
     if (request->protocol == 1) {
         length = snprintf(out, ALE_SCIP_REQUEST_TEXT, "G%03u%03u%02u", request->first_step % 1000U,
                           request->last_step % 1000U, cluster);
+    } else if (request->stream) {
+        length = snprintf(out, ALE_SCIP_REQUEST_TEXT, "M%c%04u%04u%02u%u%02u", coding,
+                          request->first_step % 10000U, request->last_step % 10000U, cluster,
+                          request->skip % 10U, request->scans % 100U);
     } else {
-        length = snprintf(out, ALE_SCIP_REQUEST_TEXT, "%c%c%04u%04u%02u", request->stream ? 'M' : 'G',
-                          request->characters == 3 ? 'D' : 'S', request->first_step % 10000U,
+        length = snprintf(out, ALE_SCIP_REQUEST_TEXT, "G%c%04u%04u%02u", coding, request->first_step % 10000U,
                           request->last_step % 10000U, cluster);
-        if (request->stream) {
-            length += snprintf(out + length, ALE_SCIP_REQUEST_TEXT - (size_t)length, "%u%02u",
-                               request->skip % 10U, request->scans % 100U);
-        }
     }
     return (size_t)length;
 }
