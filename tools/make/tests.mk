@@ -253,6 +253,8 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	-@$(SUB) --keep-going lint
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, -O0" $(SUB) same-bytes SAME_BYTES_HOW=--quick SAME_BYTES_BUILDS="gcc:-O0 clang:-O0"
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, every recording" $(SUB) same-bytes SAME_BYTES_BUILDS="gcc:-O3 clang:-O3"
+	@$(PHASE) "no run-time error in the arithmetic and the scanners' protocols: Frama-C"
+	-@$(PYTHON) tools/make/run_tests.py command "proofs of run time" $(SUB) prove-share
 	@$(PHASE) "damaged files"
 	-@$(SUB) mutated MUTATED_INPUTS=$(MUTATED_SHARE)
 	@$(PHASE) "the Debian packages"

@@ -4,10 +4,12 @@
 A harness is a C file with a main, or a list of functions for WP; README.md says what its first comment holds. A property is proved
 where no harness leaves it open, or where one has shown it for every argument that the function's contract allows. What is left open
 must stand in the table of README.md, and nothing else may. The last line: N proved, 0 alarms, M argued.
+What was proved before, of the same sources and by the same harness, is not proved again.
 """
 import argparse
 import concurrent.futures
 import csv
+import hashlib
 import os
 import pathlib
 import re
@@ -25,7 +27,7 @@ MODELS = sorted(HERE.glob("model/*.c"))
 # that Eva makes by itself is an error: a function without a body and without a contract.
 KERNEL = ["-machdep", "gcc_x86_64", "-c11", "-kernel-verbose", "0", "-kernel-warn-key", "annot:missing-spec=abort",
           "-kernel-warn-key", "typing:implicit-function-declaration=abort"]
-WP = ["-wp", "-wp-prover", "z3", "-wp-timeout", "10", "-wp-verbose", "0"]
+WP = ["-wp", "-wp-prover", "z3", "-wp-timeout", "60", "-wp-verbose", "0"]
 EVA = ["-eva", "-eva-verbose", "0", "-eva-precision", "1"]
 LEAST_REACHED = 0.98
 MOST_ARGUED = 20
@@ -96,11 +98,15 @@ class Harness:
         """A harness in which nothing is unknown proves one run alone."""
         return not self.wp and not re.search(r"\b(unknown\w*|Frama_C_\w+)\(", self.text)
 
+    @staticmethod
+    def preprocessing(tree):
+        """Options of the preprocessor."""
+        includes = [f"-I{tree / path.relative_to(ROOT)}" for path in INCLUDES]
+        return ["-std=c11", "-D_GNU_SOURCE", *includes, "-include", str(HERE / "unknown.h")]
+
     def command(self, tree, report):
         """The call of Frama-C."""
-        includes = " ".join(f"-I{tree / path.relative_to(ROOT)}" for path in INCLUDES)
-        cpp = f"-std=c11 -D_GNU_SOURCE {includes} -include {HERE / 'unknown.h'}"
-        parse = ["frama-c", *KERNEL, f"-cpp-extra-args={cpp}", *(str(tree / source) for source in self.sources)]
+        parse = ["frama-c", *KERNEL, f"-cpp-extra-args={' '.join(self.preprocessing(tree))}", *(str(tree / source) for source in self.sources)]
         write = ["-then", "-report-csv", str(report)]
         if self.wp:
             return [*parse, *WP, "-wp-fct", ",".join(self.wp), *self.options, *write]
@@ -109,21 +115,18 @@ class Harness:
 
     def run(self, tree, folder):
         """What it shows of the sources in a tree."""
-        environment = {**os.environ, "PWD": str(tree), "WHY3CONFIG": str(folder / "why3.conf")}
-        report = folder / f"{self.name}.csv"
-        report.unlink(missing_ok=True)
-        shutil.copy(HERE / "reached.ml", folder / f"{self.name}_reached.ml")  # Frama-C compiles it where it lies
-        log = folder / f"{self.name}.log"
-        with log.open("w", encoding="utf-8") as out, subprocess.Popen(self.command(tree, report), stdout=out,
-                                                                      stderr=subprocess.STDOUT, cwd=tree,
-                                                                      env=environment) as started:
-            _, status, used = os.wait4(started.pid, 0)
-            started.returncode = os.waitstatus_to_exitcode(status)
-        result = Result(seconds=used.ru_utime)
+        report, log, done = (folder / f"{self.name}.{kind}" for kind in ("csv", "log", "done"))
+        state = self.state_of(tree)
+        if not done.exists() or done.read_text(encoding="utf-8").split()[0] != state:
+            done.unlink(missing_ok=True)
+            report.unlink(missing_ok=True)
+            code, seconds = self._run_frama_c(tree, folder, report, log)
+            if code != 0 or not report.exists():
+                last_words = log.read_text(encoding="utf-8").splitlines()[-12:]
+                return Result(broken=[f"{self.name}: " + "\n".join(last_words)])
+            done.write_text(f"{state} {seconds}\n", encoding="utf-8")
+        result = Result(seconds=float(done.read_text(encoding="utf-8").split()[1]))
         output = log.read_text(encoding="utf-8")
-        if started.returncode != 0 or not report.exists():
-            result.broken.append(f"{self.name}: " + "\n".join(output.splitlines()[-12:]))
-            return result
         self._read_properties(report, result)
         if self.wp:  # nothing is known here of who calls a function: what WP leaves open may be shown elsewhere
             result.left = {p for p in result.open if p.function in self.wp}
@@ -132,6 +135,27 @@ class Harness:
         if self.knows_everything():
             result.broken.append(f"{self.name}: nothing in it is unknown: it proves one run alone")
         return result
+
+    def state_of(self, tree):
+        """Of all that decides what Frama-C finds: the call, and every file that it reads."""
+        sources = [str(tree / source) for source in self.sources] + ([] if self.wp else [str(self.path), *map(str, MODELS)])
+        rules = subprocess.run(["cc", "-MM", "-MG", *self.preprocessing(tree), *sources], check=True, stdout=subprocess.PIPE).stdout.decode()
+        files = sorted({word for word in rules.split() if word.startswith("/")} | {str(HERE / "reached.ml")})
+        state = hashlib.sha256(repr(self.command(pathlib.Path(), pathlib.Path("report"))).encode())
+        for file in files:
+            state.update(pathlib.Path(file).read_bytes())
+        return state.hexdigest()
+
+    def _run_frama_c(self, tree, folder, report, log):
+        """Its exit code, and how long it worked."""
+        environment = {**os.environ, "PWD": str(tree), "WHY3CONFIG": str(folder / "why3.conf")}
+        shutil.copy(HERE / "reached.ml", folder / f"{self.name}_reached.ml")  # Frama-C compiles it where it lies
+        with log.open("w", encoding="utf-8") as out, subprocess.Popen(self.command(tree, report), stdout=out,
+                                                                      stderr=subprocess.STDOUT, cwd=tree,
+                                                                      env=environment) as started:
+            _, status, used = os.wait4(started.pid, 0)
+            started.returncode = os.waitstatus_to_exitcode(status)
+        return started.returncode, used.ru_utime
 
     def _is_ours(self, source):
         return source.startswith(("lib/", "drivers/")) or source.endswith("/" + self.path.name)
