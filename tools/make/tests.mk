@@ -146,7 +146,7 @@ $(FUZZ_BUILD)/bin/%: tests/fuzz/%.cpp $(FUZZ_BUILD)/libale.a
 # Files of every format, damaged, read by the real programs of the sanitized build: all of them in `make mutated`, some 25 minutes;
 # a share in `make test-all`.
 MUTATED_INPUTS ?= 2000
-MUTATED_SHARE = 300
+MUTATED_SHARE = 100
 MUTATED_FORMATS ?= $(shell $(PYTHON) tests/fuzz/mutated_files.py --formats)
 MUTATED = $(PYTHON) tests/fuzz/mutated_files.py --programs $(BUILD)/asan/bin --keep $(BUILD)/mutated
 export ALE_TYPES = $(ALE_BUILD)/python
@@ -251,8 +251,8 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	$(if $(AFTER_TEST),,@$(SUB) test)
 	@$(PHASE) "lint"
 	-@$(SUB) --keep-going lint
-	-@$(PYTHON) tools/make/run_tests.py command "same bytes, -O0" $(SUB) same-bytes SAME_BYTES_HOW=--quick SAME_BYTES_BUILDS="gcc:-O0 clang:-O0"
-	-@$(PYTHON) tools/make/run_tests.py command "same bytes, every recording" $(SUB) same-bytes SAME_BYTES_BUILDS="gcc:-O3 clang:-O3"
+	-@$(PYTHON) tools/make/run_tests.py command "same bytes, -O0" $(SUB) same-bytes SAME_BYTES_HOW=--quick SAME_BYTES_BUILDS=gcc:-O0
+	-@$(PYTHON) tools/make/run_tests.py command "same bytes, every recording" $(SUB) same-bytes SAME_BYTES_BUILDS=clang:-O3
 	@$(PHASE) "no run-time error in the arithmetic and the scanners' protocols: Frama-C"
 	-@$(PYTHON) tools/make/run_tests.py command "proofs of run time" $(SUB) prove-share
 	@$(PHASE) "damaged files"
