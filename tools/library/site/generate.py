@@ -70,15 +70,15 @@ def configuration(build):
     yield "# Configuration\n\nThe keys of the file that `ale-slamd --config` reads, with their defaults, as `ale-slamd --print-config` writes them.\n"
     comment, sections = [], {}
     for line in told(build / "bin/ale-slamd", "--print-config").splitlines():
-        section, pair = re.fullmatch(r"\[(\w+)\]", line), re.fullmatch(r"(\w+) *=(.*)", line)
+        section, pair = re.fullmatch(r"\[(\w+)\]", line), re.fullmatch(r"(?:# )?(\w+) =(.*)", line)
         if section:
             rows = sections.setdefault(section[1], [])
             comment.clear()
-        elif line.startswith("#"):
-            comment.append(line.removeprefix("#").strip())
-        elif pair:
+        elif pair:  # a remark, where it follows something else
             rows.append((pair[1], pair[2].strip(), " ".join(comment)))
             comment.clear()
+        elif line.startswith("#"):
+            comment.append(line.removeprefix("#").strip())
         else:
             comment.clear()
     for name, rows in sections.items():
