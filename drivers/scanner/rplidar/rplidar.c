@@ -184,7 +184,7 @@ static ale_rplidar_phase_t take_rates(ale_rplidar_t *l, const uint8_t *answer)
 {
     l->scan_type = ALE_RPLIDAR_EXPRESS;
     l->mode = 0;
-    l->parser.point_ns = (int32_t)ale_min64(ale_get_u16(answer + 2) * 1000, MOST_POINT_NS);
+    l->parser.point_ns = (int32_t)ale_min64((int64_t)ale_get_u16(answer + 2) * 1000, MOST_POINT_NS);
     return motor_or_scan(l);
 }
 
@@ -372,8 +372,8 @@ static ale_rotary_request_t stop(void *state)
 }
 
 typedef struct {
-    uint8_t series;
     const char *name;
+    int32_t series;
     int32_t range_min_um;
     int32_t range_max_um;
     int32_t baud;
@@ -381,10 +381,10 @@ typedef struct {
 
 /* SLAMTEC's data sheets. */
 static const model_t MODELS[] = {
-    {1, "A1", 150000, 12000000, 115200}, {2, "A2", 150000, 16000000, 115200},
-    {3, "A3", 150000, 25000000, 256000}, {4, "C1", 50000, 12000000, 460800},
-    {6, "S1", 100000, 40000000, 256000}, {7, "S2", 50000, 30000000, 1000000},
-    {8, "S3", 50000, 40000000, 1000000},
+    {"A1", 1, 150000, 12000000, 115200}, {"A2", 2, 150000, 16000000, 115200},
+    {"A3", 3, 150000, 25000000, 256000}, {"C1", 4, 50000, 12000000, 460800},
+    {"S1", 6, 100000, 40000000, 256000}, {"S2", 7, 50000, 30000000, 1000000},
+    {"S3", 8, 50000, 40000000, 1000000},
 };
 
 static const model_t *model_of(const ale_rplidar_t *l)
