@@ -141,7 +141,9 @@ $(FUZZ_BUILD)/libale.a: $(patsubst %,$(FUZZ_BUILD)/obj/%.o,$(FUZZ_C)) $(LCM_OBJE
 $(FUZZ_BUILD)/bin/%: tests/fuzz/%.cpp $(FUZZ_BUILD)/libale.a
 	$(call say,fuzzer,$@)
 	@mkdir -p $(@D)
-	$(Q)clang++ -std=c++17 $(FUZZ_FLAGS) -fsanitize=fuzzer $(DRIVER_INCLUDES) -Itests $^ $(filter-out -lwebsockets -lpng,$(LIBRARIES)) -o $@
+	$(Q)clang++ -std=c++17 $(FUZZ_FLAGS) -fsanitize=fuzzer -MMD -MP -MT $@ -MF $(FUZZ_BUILD)/$*.d $(DRIVER_INCLUDES) -Itests \
+	    $< $(FUZZ_BUILD)/libale.a $(filter-out -lwebsockets -lpng,$(LIBRARIES)) -o $@
+-include $(shell find $(FUZZ_BUILD) -name '*.d' 2>/dev/null)
 
 # Files of every format, damaged, read by the real programs of the sanitized build: all of them in `make mutated`, some 25 minutes;
 # a share in `make test-all`.
