@@ -106,13 +106,28 @@ Pose JoinDecision::shift_of(const Loop &loop) const
     return compose(compose(at(poses_, loop.from), loop.measured), inverse(at(poses_, loop.to)));
 }
 
-bool JoinDecision::puts_alike(const Hypothesis &hypothesis, const Pose &shift, int node) const
+// How the map moves at this node. Drives are long, and either may be bent: as the nearest node that is
+// matched says.
+Pose JoinDecision::shift_at(const Hypothesis &hypothesis, int node) const
 {
-    return is_near(compose(hypothesis.shift, at(poses_, node)), compose(shift, at(poses_, node)), alike_m,
-                   alike_rad);
+    if (kind_ == MapKind::pieces || hypothesis.loops.empty()) {
+        return hypothesis.shift;
+    }
+    const auto distance_to = [&](const Loop &loop) {
+        return distance(at(poses_, loop.to), at(poses_, node));
+    };
+    return shift_of(
+        *std::min_element(hypothesis.loops.begin(), hypothesis.loops.end(),
+                          [&](const Loop &a, const Loop &b) { return distance_to(a) < distance_to(b); }));
 }
 
-// Takes the matches that agree with the seed out of those left.
+bool JoinDecision::puts_alike(const Hypothesis &hypothesis, const Pose &shift, int node) const
+{
+    return is_near(compose(shift_at(hypothesis, node), at(poses_, node)), compose(shift, at(poses_, node)),
+                   alike_m, alike_rad);
+}
+
+// Takes the matches that agree with the seed out of those left, from node to node.
 JoinDecision::Hypothesis JoinDecision::hypothesis_of(const Loop &seed, std::vector<Loop> *left) const
 {
     Hypothesis hypothesis{map_of(seed.to), map_of(seed.from), shift_of(seed), {}, 0};
@@ -120,14 +135,20 @@ JoinDecision::Hypothesis JoinDecision::hypothesis_of(const Loop &seed, std::vect
         return map_of(loop.to) == hypothesis.map_id && map_of(loop.from) == hypothesis.into_map_id &&
                puts_alike(hypothesis, shift_of(loop), loop.to);
     };
-    for (const Loop &loop : *left) {
-        const bool is_new = std::none_of(hypothesis.loops.begin(), hypothesis.loops.end(),
-                                         [&loop](const Loop &other) { return other.to == loop.to; });
-        if (agrees(loop) && is_new) {
-            hypothesis.loops.push_back(loop);
-            hypothesis.strength += loop.overlap;
+    const auto is_known = [&](const Loop &loop) {
+        return std::any_of(hypothesis.loops.begin(), hypothesis.loops.end(),
+                           [&loop](const Loop &other) { return other.to == loop.to; });
+    };
+    size_t before = 0;
+    do {
+        before = hypothesis.loops.size();
+        for (const Loop &loop : *left) {
+            if (!is_known(loop) && agrees(loop)) {
+                hypothesis.loops.push_back(loop);
+                hypothesis.strength += loop.overlap;
+            }
         }
-    }
+    } while (hypothesis.loops.size() > before);
     left->erase(std::remove_if(left->begin(), left->end(), agrees), left->end());
     return hypothesis;
 }
@@ -171,10 +192,10 @@ JoinDecision::Account JoinDecision::account(Hypothesis &hypothesis, int node)
 
 JoinDecision::Account JoinDecision::compared(const Hypothesis &hypothesis, int node)
 {
-    const Pose there = compose(hypothesis.shift, at(poses_, node));
+    const Pose there = compose(shift_at(hypothesis, node), at(poses_, node));
     const std::optional<int> anchor = place_near(there, hypothesis.into_map_id);
     if (!anchor) {
-        return {false, 0};
+        return {false, 0, 0};
     }
     if (!place_ || place_->anchor() != *anchor) {
         place_.emplace(nodes_, poses_, *anchor);
@@ -185,10 +206,11 @@ JoinDecision::Account JoinDecision::compared(const Hypothesis &hypothesis, int n
     const bool stays = is_near(match.pose, guess, alike_m, alike_rad);
     const Explanation seen = place_->explain(view, stays ? match.pose : guess);
     if (seen.in_view < least_in_view) {
-        return {false, 0};
+        return {false, 0, 0};
     }
     const bool fits = stays && match.overlap >= least_overlap * seen.in_view;
-    return {true, fits ? seen.agreed : 0};
+    const double agreed = fits ? seen.agreed : 0;
+    return {true, agreed, kind_ == MapKind::drives ? seen.agreed : agreed};
 }
 
 bool JoinDecision::is_far_enough(const Hypothesis &hypothesis, double least_m) const
@@ -198,12 +220,17 @@ bool JoinDecision::is_far_enough(const Hypothesis &hypothesis, double least_m) c
                        [&](const Loop &loop) { return distance(at(poses_, loop.to), first) > least_m; });
 }
 
-// Nodes enough, apart, and held in every direction.
-bool JoinDecision::is_held(const Hypothesis &hypothesis) const
+bool JoinDecision::is_as_predicted(const Hypothesis &hypothesis) const
 {
     const Pose &first = at(poses_, hypothesis.loops.front().to);
-    const bool predicted = is_near(compose(hypothesis.shift, first), first, predicted_m, predicted_rad);
-    const Support &least = predicted ? as_predicted : elsewhere;
+    return is_near(compose(hypothesis.shift, first), first, predicted_m, predicted_rad);
+}
+
+// Nodes enough, apart, and held in every direction. Of a drive some were searched for alone.
+bool JoinDecision::is_held(const Hypothesis &hypothesis) const
+{
+    const bool few = kind_ == MapKind::drives || is_as_predicted(hypothesis);
+    const Support &least = few ? as_predicted : elsewhere;
     const auto holds = [](const Loop &loop) { return largest_deviation_m(loop.information) < held_m; };
     return hypothesis.loops.size() >= least.nodes &&
            (kind_ == MapKind::drives || is_far_enough(hypothesis, least.apart_m)) &&
@@ -242,17 +269,18 @@ bool JoinDecision::is_sound(Hypothesis &hypothesis)
                    return distance(at(poses_, query), at(poses_, loop.to)) < compared_m;
                });
     };
+    const bool few = kind_ == MapKind::pieces || is_as_predicted(hypothesis);
+    const Support &least = few ? as_predicted : elsewhere;
     size_t known = 0;
     size_t agreed = 0;
     size_t denied = 0;
     for (const int query : queries_) {
-        const Account made = is_near_it(query) ? account(hypothesis, query) : Account{false, 0};
+        const Account made = is_near_it(query) ? account(hypothesis, query) : Account{false, 0, 0};
         known += made.known;
         agreed += made.known && made.agreed >= agrees_at_least;
-        denied += made.known && made.agreed < denies;
+        denied += made.known && made.undenied < denies;
     }
-    return agreed >= as_predicted.nodes &&
-           static_cast<double>(denied) <= most_denied * static_cast<double>(known);
+    return agreed >= least.nodes && static_cast<double>(denied) <= most_denied * static_cast<double>(known);
 }
 
 // Whether the other explains enough of the same nodes, or puts other nodes to another place of the same map.

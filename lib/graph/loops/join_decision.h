@@ -1,6 +1,7 @@
 // Decides which map joins which, by matches of nodes of the one with places of the other.
 //
-// Matches that put a map to the same place of another are a hypothesis. One is accepted if
+// Matches that put a map to the same place of another are a hypothesis; of drives, which may be bent, from
+// each node to the nearest that is matched. One is accepted if
 // - at least three nodes, a metre apart, lie on what the other map saw, held in every direction; twelve, over
 //   eight metres, if that is not where the wheels have put them. Of a map that is a drive of its own, and
 //   smaller, twelve over most of it, if nearly all of it lies there;
@@ -34,7 +35,8 @@ class JoinDecision
 {
   public:
     // Nodes and poses stay the caller's and must outlive this. matches: from a place of one map to a node of
-    // another, each with its overlap; queries: all nodes that were searched for.
+    // another, each with its overlap; queries: the nodes to compare: those that were searched for,
+    // of drives all.
     JoinDecision(const std::vector<Node> &nodes, const std::vector<Pose> &poses, std::vector<Loop> matches,
                  std::vector<int> queries, MapKind kind);
 
@@ -45,13 +47,14 @@ class JoinDecision
   private:
     // What a hypothesis makes of one node.
     struct Account {
-        bool known;    // the place could show enough of the view
-        double agreed; // see Explanation; 0 if nothing fits
+        bool known;      // the place could show enough of the view
+        double agreed;   // see Explanation; 0 if nothing fits
+        double undenied; // of drives also where nothing fits, but neither looks through what the other saw
     };
     struct Hypothesis {
         uint32_t map_id;
         uint32_t into_map_id;
-        Pose shift;                        // of the first, into the frame of the second
+        Pose shift;                        // of the first, into the frame of the second, at the best match
         std::vector<Loop> loops;           // the best of each node
         double strength;                   // sum of overlaps
         std::map<int, Account> accounts{}; // by node
@@ -59,8 +62,10 @@ class JoinDecision
 
     Hypothesis hypothesis_of(const Loop &seed, std::vector<Loop> *left) const;
     std::vector<Hypothesis> hypotheses() const;
+    Pose shift_at(const Hypothesis &hypothesis, int node) const;
     bool puts_alike(const Hypothesis &hypothesis, const Pose &shift, int node) const;
     bool is_far_enough(const Hypothesis &hypothesis, double least_m) const;
+    bool is_as_predicted(const Hypothesis &hypothesis) const;
     bool is_held(const Hypothesis &hypothesis) const;
     bool holds_all_of_it(Hypothesis &hypothesis);
     bool is_sound(Hypothesis &hypothesis);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -174,7 +175,12 @@ void JoinSearch::keep(const std::vector<Node> &nodes, const std::vector<Pose> &p
 std::optional<FoundJoin> JoinSearch::decide(const std::vector<Node> &nodes, const std::vector<Pose> &poses,
                                             MapKind kind) const
 {
-    return JoinDecision(nodes, poses, matches_, queries_, kind).find();
+    std::vector<int> compared = queries_;
+    if (kind == MapKind::drives) {
+        compared.resize(nodes.size());
+        std::iota(compared.begin(), compared.end(), 0);
+    }
+    return JoinDecision(nodes, poses, matches_, std::move(compared), kind).find();
 }
 
 void JoinSearch::remove_node(int k)

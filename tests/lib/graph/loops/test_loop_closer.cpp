@@ -175,4 +175,37 @@ TEST(LoopCloser, APlaceThatLooksLikeAnotherIsNoLoop)
     EXPECT_EQ(closer.statistics().loops, 0U);
 }
 
+// How many maps are left of two drives around the block, each bent its own way and in a frame of its own.
+size_t maps_of_two_drives(double bend_rad_m, unsigned seed)
+{
+    ale::LoopCloser closer(plenty);
+    for (uint32_t drive = 0; drive < 2; drive++) {
+        const double bend = drive == 0 ? bend_rad_m : -bend_rad_m;
+        for (ale::Node &node : ring_corridor::drifting(ring_corridor::truth(0.3), bend, seed + drive)) {
+            const bool is_first = closer.nodes().empty();
+            const ale::Node *before = is_first ? nullptr : &closer.nodes().back();
+            node.scan += 1000 * drive;
+            node.map_id = drive;
+            node.broken = node.path_m == 0;
+            node.path_m += 1000 * drive;
+            node.smooth.x += 10000 * drive;
+            node.tracked = node.smooth;
+            const ale::Pose motion = is_first ? node.tracked : ale::between(before->tracked, node.tracked);
+            closer.append(node, motion);
+        }
+    }
+    while (closer.join_maps()) {
+    }
+    std::set<uint32_t> maps;
+    for (const ale::Node &node : closer.nodes()) {
+        maps.insert(node.map_id);
+    }
+    return maps.size();
+}
+
+TEST(LoopCloser, DrivesThatAreBentJoin)
+{
+    EXPECT_EQ(maps_of_two_drives(0.003, 1), 1U);
+}
+
 } // namespace
