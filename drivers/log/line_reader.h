@@ -18,6 +18,7 @@ typedef struct {
 } ale_urg_line_t;
 
 typedef struct {
+    const ale_rotary_protocol_t *protocol;
     ale_rotary_stream_t stream;
     ale_rotary_packet_t packet;
     ale_rotary_facts_t facts;
@@ -39,12 +40,10 @@ typedef struct {
     const ale_rotary_protocol_t *protocol; /* of a rotary one */
     void (*begin)(ale_line_state_t *line, const ale_rotary_protocol_t *protocol);
     /* What the driver sent. */
-    void (*send)(ale_line_state_t *line, const ale_rotary_protocol_t *protocol, const uint8_t *bytes,
-                 uint32_t count);
+    void (*send)(ale_line_state_t *line, const uint8_t *bytes, uint32_t count);
     /* Reads on in what came in at arrival_us. The number of bytes used, at least 1 of count > 0; it stops
      * where next may have something. */
-    size_t (*receive)(ale_line_state_t *line, const ale_rotary_protocol_t *protocol, const uint8_t *bytes,
-                      size_t count, int64_t arrival_us);
+    size_t (*receive)(ale_line_state_t *line, const uint8_t *bytes, size_t count, int64_t arrival_us);
     ale_scanner_event_t (*next)(ale_line_state_t *line, ale_scan_t *scan);
     const char *(*model)(const ale_line_state_t *line); /* that it told; empty: nothing yet */
 } ale_line_reader_t;

@@ -27,10 +27,8 @@ static void take_command(ale_urg_line_t *urg, ale_span_t command)
     }
 }
 
-static void send(ale_line_state_t *line, const ale_rotary_protocol_t *protocol, const uint8_t *bytes,
-                 uint32_t count)
+static void send(ale_line_state_t *line, const uint8_t *bytes, uint32_t count)
 {
-    (void)protocol;
     ale_text_t text = ale_text(bytes, count);
     ale_span_t row;
     ale_span_t command;
@@ -77,10 +75,8 @@ static void take_event(ale_urg_line_t *urg, const ale_scip_event_t *event)
     }
 }
 
-static size_t receive(ale_line_state_t *line, const ale_rotary_protocol_t *protocol, const uint8_t *bytes,
-                      size_t count, int64_t arrival_us)
+static size_t receive(ale_line_state_t *line, const uint8_t *bytes, size_t count, int64_t arrival_us)
 {
-    (void)protocol;
     ale_scip_event_t event;
     const size_t used = ale_scip_parse(&line->urg.parser, bytes, count, arrival_us, &event);
     take_event(&line->urg, &event);

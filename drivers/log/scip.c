@@ -48,8 +48,8 @@ static bool take_received(scip_t *scip, ale_log_record_t *record)
         if (scip->at == scip->end) {
             return false;
         }
-        scip->at += scip->reader->receive(&scip->line, scip->reader->protocol, scip->at,
-                                          (size_t)(scip->end - scip->at), scip->arrival_us);
+        scip->at +=
+            scip->reader->receive(&scip->line, scip->at, (size_t)(scip->end - scip->at), scip->arrival_us);
     }
     return true;
 }
@@ -63,7 +63,7 @@ static bool is_in_time(const ale_chunk_t *chunk)
 static bool take_line(scip_t *scip, const ale_chunk_t *chunk, ale_log_record_t *record)
 {
     if (chunk->kind == ALE_CHUNK_SENT) {
-        scip->reader->send(&scip->line, scip->reader->protocol, chunk->payload, chunk->length);
+        scip->reader->send(&scip->line, chunk->payload, chunk->length);
         return false;
     }
     scip->received += chunk->length;

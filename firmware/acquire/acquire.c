@@ -118,6 +118,7 @@ ale_acquire_t *ale_acquire_start(const ale_config_t *config, ale_exchange_t *exc
     }
     const ale_scanner_config_t scanner = scanner_config(config, exchange);
     acquire->config = config;
+    acquire->noise = config->pipeline.extract.noise;
     acquire->exchange = exchange;
     acquire->scanner = ale_scanner_open(&scanner);
     if (acquire->scanner) {

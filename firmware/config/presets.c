@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "config/config.h"
+#include "config/config_keys.h"
 #include "config/decimal.h"
 
 /* Made of scanners.ini. */
@@ -22,31 +24,15 @@ typedef struct {
     char *names;
 } search_t;
 
-typedef struct {
-    const char *key;
-    size_t offset; /* in ale_noise_t, of an int32_t */
-} field_t;
-
-static const field_t FIELDS[] = {
-    {"own_um", offsetof(ale_noise_t, own_um)},
-    {"own_ppm", offsetof(ale_noise_t, own_ppm)},
-    {"own_ppm_per_m", offsetof(ale_noise_t, own_ppm_per_m)},
-    {"shared_um", offsetof(ale_noise_t, shared_um)},
-    {"shared_ppm", offsetof(ale_noise_t, shared_ppm)},
-    {"shared_beams", offsetof(ale_noise_t, shared_beams)},
-    {"surface_um", offsetof(ale_noise_t, surface_um)},
-    {"bearing_nrad", offsetof(ale_noise_t, bearing_nrad)},
-};
-
-/* Other keys are the geometry's. */
-static void take_noise(search_t *search, const char *key, const char *value)
+/* Keys are those of [noise]; others are the geometry's. */
+static void take_noise(search_t *search, const char *name, const char *value)
 {
-    for (size_t k = 0; k < sizeof FIELDS / sizeof FIELDS[0]; k++) {
-        int64_t number = 0;
-        if (strcmp(FIELDS[k].key, key) == 0 && ale_decimal_parse(value, 0, &number) == 0) {
-            const int32_t field = (int32_t)number;
-            memcpy((char *)&search->noise + FIELDS[k].offset, &field, sizeof field);
-        }
+    const ale_config_key_t *key = ale_config_key("noise", name);
+    int64_t number = 0;
+    if (key && ale_decimal_parse(value, key->digits, &number) == 0) {
+        const int32_t field = (int32_t)number;
+        memcpy((char *)&search->noise + key->offset - offsetof(ale_config_t, pipeline.extract.noise), &field,
+               sizeof field);
     }
 }
 

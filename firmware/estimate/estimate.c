@@ -185,9 +185,7 @@ static void offer_observation(ale_estimator_t *estimator, const ale_estimate_t *
 static void use_scan(ale_estimator_t *estimator, const ale_scan_record_t *record, ale_result_t *result)
 {
     const ale_scan_t *scan = &record->scan;
-    if (record->noise.shared_beams > 0) {
-        ale_pipeline_set_noise(estimator->pipeline, &record->noise);
-    }
+    ale_pipeline_set_noise(estimator->pipeline, &record->noise);
     ale_pipeline_scan(estimator->pipeline, scan, &result->estimate);
     result->features = *ale_pipeline_features(estimator->pipeline);
     result->has_scan = true;

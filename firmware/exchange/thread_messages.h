@@ -16,7 +16,7 @@
 typedef struct {
     bool lost;          /* the device sent it, it cannot be used: scan.stamp_us alone counts */
     int64_t arrival_us; /* last byte */
-    ale_noise_t noise;  /* of the scanner that sent it; shared_beams 0: as configured */
+    ale_noise_t noise;  /* of the scanner that sent it; out of range: no other than before */
     ale_scan_t scan;
 } ale_scan_record_t;
 

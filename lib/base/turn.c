@@ -9,11 +9,11 @@ enum {
     JOINED_BEAMS = ALE_MAX_BEAMS * 3 / 4, /* of joined points, which leaves room for those that do not join */
     SAME_UM = 30000, /* neighbours of one surface differ by less than this and a part of the range, */
     SAME_PER_MILLE = 10,
-    MOST_JOINED = 1 << 28, /* so that three times as many, of any step, fit int64 */
     SAME_SLOPE = 3,  /* and by what a surface of that slope (72 degrees) makes of the bearings between them */
     GAP_HALVES = 5,  /* half mean steps: a wider one says nothing of the step */
     LOST_HALVES = 3, /* from so many half steps on points are missing */
     MOST_LOST = UINT16_MAX, /* more than a scan holds */
+    MOST_JOINED = 1 << 28,  /* so that three times as many, of any step, fit int64 */
     STEP_ROUNDS = 2,
     BAM_PER_RAD = 683565276
 };

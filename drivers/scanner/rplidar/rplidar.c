@@ -206,7 +206,7 @@ static ale_rplidar_phase_t take_type(ale_rplidar_t *l, const uint8_t *answer)
 
 static ale_rplidar_phase_t take_sample(ale_rplidar_t *l, const uint8_t *answer)
 {
-    l->parser.point_ns = (int32_t)((uint64_t)ale_get_u32(answer + 4) * 1000 / 256 % MOST_POINT_NS);
+    l->parser.point_ns = (int32_t)ale_min64((int64_t)ale_get_u32(answer + 4) * 1000 / 256, MOST_POINT_NS);
     return motor_or_scan(l);
 }
 

@@ -154,11 +154,13 @@ TEST_F(Acquire, ScansHaveTheNoiseOfTheScannerThatSaysWhoItIs)
 
 TEST_F(Acquire, OfAScannerThatSaysNothingTheNoiseIsAsConfigured)
 {
+    config.pipeline.extract.noise.own_um = 777;
     ale_acquire_t *acquire = ale_acquire_start(&config, &exchange);
     play({ALE_SCANNER_SCAN});
     ASSERT_TRUE(comes_true([&] { return ale_ring_ready(exchange.scans) == 1; }));
     ale_acquire_stop(acquire);
-    EXPECT_EQ(record(0).noise.shared_beams, 0);
+    EXPECT_EQ(record(0).noise.own_um, 777);
+    EXPECT_EQ(record(0).noise.shared_beams, config.pipeline.extract.noise.shared_beams);
 }
 
 TEST_F(Acquire, AFullRingIsCountedAndTheThreadGoesOn)

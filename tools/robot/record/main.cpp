@@ -15,7 +15,7 @@ constexpr char usage[] =
     "                  [--serial S] [--baud N] [--time-scale X]\n"
     "\n"
     "Records a laser scanner: every byte on its line, both ways, and the wheel odometry from LCM,\n"
-    "as a .scip recording that ale-replay and ale-sim play.\n"
+    "as a .scip recording that ale-replay reads, and ale-sim plays if it is a URG's.\n"
     "\n"
     "  --port DEV      serial device of the scanner; without it, --serial says which one to look for\n"
     "  --out FILE      the recording\n"
