@@ -1,8 +1,5 @@
 /* LCM event logs (lcm-logger): ALE_SCAN and ALE_ODOMETRY, by the time in the message.
  *
- *   event: u32 sync 0xEDA1DA01 | i64 number | i64 received_us | i32 channel length | i32 data length |
- *          channel | data, all big endian
- *
  * The container is read here and not by liblcm, which reads plain files by path only: a log may be gzip or
  * lie in memory, and is cut or damaged when a robot has lost power. A reader finds its feet at the next sync
  * word. */
@@ -14,19 +11,15 @@
 
 #include "base/fixed.h"
 #include "lcm/convert.h"
+#include "lcm/event.h"
 #include "log/format.h"
 #include "log/geometry.h"
 
 enum {
-    HEADER_BYTES = 28,
-    CHANNEL_LENGTH_AT = 20,
-    DATA_LENGTH_AT = 24,
-    MOST_CHANNEL = 1000, /* liblcm's own limit is 63 */
-    SCAN_COUNT_AT = 56,  /* num_ranges in an encoded ale.scan_t */
+    SCAN_COUNT_AT = 56, /* num_ranges in an encoded ale.scan_t */
     SCAN_FIXED_BYTES = 66,
     MOST_CODE = 19 /* of the URG; above, values are ranges */
 };
-static const uint8_t SYNC[4] = {0xED, 0xA1, 0xDA, 0x01};
 
 typedef struct {
     ale_span_t channel;
@@ -43,33 +36,31 @@ static int32_t big_endian(const char *at)
 
 static bool claims_file(const uint8_t *bytes, size_t count)
 {
-    return count >= HEADER_BYTES && memcmp(bytes, SYNC, sizeof SYNC) == 0;
+    return count >= ALE_LCM_EVENT_HEAD && memcmp(bytes, ale_lcm_event_sync, ALE_LCM_EVENT_SYNC) == 0;
 }
 
 /* The event that begins at text->at, or false. */
 static bool take_event(ale_text_t *text, message_t *message)
 {
     const size_t left = (size_t)(text->end - text->at);
-    if (left < HEADER_BYTES || memcmp(text->at, SYNC, sizeof SYNC) != 0) {
+    ale_lcm_event_t event;
+    if (left < ALE_LCM_EVENT_HEAD || !ale_lcm_event_read((const uint8_t *)text->at, &event) ||
+        (uint64_t)ALE_LCM_EVENT_HEAD + event.channel_bytes + event.data_bytes > left) {
         return false;
     }
-    const int32_t channel = big_endian(text->at + CHANNEL_LENGTH_AT);
-    const int32_t data = big_endian(text->at + DATA_LENGTH_AT);
-    if (channel < 1 || channel > MOST_CHANNEL || data < 0 ||
-        (uint64_t)HEADER_BYTES + (uint32_t)channel + (uint32_t)data > left) {
-        return false;
-    }
-    message->channel = (ale_span_t){text->at + HEADER_BYTES, text->at + HEADER_BYTES + channel};
+    const char *channel = text->at + ALE_LCM_EVENT_HEAD;
+    message->channel = (ale_span_t){channel, channel + event.channel_bytes};
     message->data = message->channel.end;
-    message->length = (uint32_t)data;
-    text->at = message->data + data;
+    message->length = event.data_bytes;
+    text->at = message->data + event.data_bytes;
     return true;
 }
 
 static void skip_damage(ale_log_t *log)
 {
     ale_text_t *text = &log->text;
-    const char *found = memmem(text->at + 1, (size_t)(text->end - text->at - 1), SYNC, sizeof SYNC);
+    const char *found =
+        memmem(text->at + 1, (size_t)(text->end - text->at - 1), ale_lcm_event_sync, ALE_LCM_EVENT_SYNC);
     text->at = found ? found : text->end;
     ale_log_bad_chunk(log, "damaged or cut event");
 }

@@ -15,13 +15,12 @@
 #include <stdio.h>
 
 #include "command/command.h"
-#include "config/presets.h"
 #include "lcm/url.h"
 #include "plan/explorer.h"
 #include "plan/robot_shape.h"
 #include "track/pipeline.h"
 
-enum { ALE_CONFIG_PATH = 160, ALE_CONFIG_MESSAGE = 440 };
+enum { ALE_CONFIG_PATH = 160, ALE_PRESET_NAME = 24, ALE_CONFIG_MESSAGE = 440 };
 
 typedef struct {
     ale_pipeline_config_t pipeline; /* extraction with noise, mounting, blind sectors, odometry, limits */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "config/config_keys.h"
+#include "config/presets.h"
 
 /* Of scanners that do not say which one they are. */
 static const char *usual_model(const char *type)

@@ -10,6 +10,7 @@
 #include "config/config_model.h"
 #include "config/decimal.h"
 #include "config/degrees.h"
+#include "config/presets.h"
 #include "scanner/scanner.h"
 
 /* One reading: inih calls the handler without the line's number, so the reader counts lines itself. */

@@ -4,9 +4,9 @@
 
 #include <stdbool.h>
 
-#include "base/noise.h"
+#include "config/config.h"
 
-enum { ALE_PRESET_NAME = 24, ALE_PRESET_NAMES = 160 };
+enum { ALE_PRESET_NAMES = 160 };
 
 /* How rough the ranges of the scanner of that name are. False: no preset is called so, and *noise is as it
  * was. */

@@ -237,23 +237,32 @@ bool JoinDecision::is_held(const Hypothesis &hypothesis) const
            std::any_of(hypothesis.loops.begin(), hypothesis.loops.end(), holds);
 }
 
+// What the hypothesis makes of those of its nodes that are chosen.
+template <class Chosen> JoinDecision::Tally JoinDecision::tally(Hypothesis &hypothesis, Chosen is_chosen)
+{
+    Tally sum;
+    for (const int query : queries_) {
+        if (map_of(query) == hypothesis.map_id && is_chosen(query)) {
+            const Account made = account(hypothesis, query);
+            sum.known += made.known;
+            sum.agreed += made.known && made.agreed >= agrees_at_least;
+            sum.denied += made.known && made.undenied < denies;
+        }
+    }
+    return sum;
+}
+
 // Of a drive that is too small for nodes so far apart: nearly all of it lies there, and most of its extent.
 bool JoinDecision::holds_all_of_it(Hypothesis &hypothesis)
 {
     const Pose &first = at(poses_, hypothesis.loops.front().to);
     double extent_m = least_drive_m;
-    size_t known = 0;
-    size_t agreed = 0;
-    for (const int query : queries_) {
-        if (map_of(query) == hypothesis.map_id) {
-            const Account made = account(hypothesis, query);
-            extent_m = std::max(extent_m, distance(at(poses_, query), first));
-            known += made.known;
-            agreed += made.known && made.agreed >= agrees_at_least;
-        }
-    }
+    const Tally all = tally(hypothesis, [&](int query) {
+        extent_m = std::max(extent_m, distance(at(poses_, query), first));
+        return true;
+    });
     return is_far_enough(hypothesis, least_extent * extent_m) &&
-           static_cast<double>(agreed) >= least_of_drive * static_cast<double>(known);
+           static_cast<double>(all.agreed) >= least_of_drive * static_cast<double>(all.known);
 }
 
 // Whether the two maps agree wherever they overlap near these nodes.
@@ -263,24 +272,15 @@ bool JoinDecision::is_sound(Hypothesis &hypothesis)
                                  !holds_all_of_it(hypothesis))) {
         return false;
     }
-    const auto is_near_it = [&](int query) {
-        return map_of(query) == hypothesis.map_id &&
-               std::any_of(hypothesis.loops.begin(), hypothesis.loops.end(), [&](const Loop &loop) {
-                   return distance(at(poses_, query), at(poses_, loop.to)) < compared_m;
-               });
-    };
+    const Tally near = tally(hypothesis, [&](int query) {
+        return std::any_of(hypothesis.loops.begin(), hypothesis.loops.end(), [&](const Loop &loop) {
+            return distance(at(poses_, query), at(poses_, loop.to)) < compared_m;
+        });
+    });
     const bool few = kind_ == MapKind::pieces || is_as_predicted(hypothesis);
     const Support &least = few ? as_predicted : elsewhere;
-    size_t known = 0;
-    size_t agreed = 0;
-    size_t denied = 0;
-    for (const int query : queries_) {
-        const Account made = is_near_it(query) ? account(hypothesis, query) : Account{false, 0, 0};
-        known += made.known;
-        agreed += made.known && made.agreed >= agrees_at_least;
-        denied += made.known && made.undenied < denies;
-    }
-    return agreed >= least.nodes && static_cast<double>(denied) <= most_denied * static_cast<double>(known);
+    return near.agreed >= least.nodes &&
+           static_cast<double>(near.denied) <= most_denied * static_cast<double>(near.known);
 }
 
 // Whether the other explains enough of the same nodes, or puts other nodes to another place of the same map.

@@ -60,6 +60,12 @@ class JoinDecision
         std::map<int, Account> accounts{}; // by node
     };
 
+    struct Tally {
+        size_t known = 0;
+        size_t agreed = 0;
+        size_t denied = 0;
+    };
+
     Hypothesis hypothesis_of(const Loop &seed, std::vector<Loop> *left) const;
     std::vector<Hypothesis> hypotheses() const;
     Pose shift_at(const Hypothesis &hypothesis, int node) const;
@@ -67,6 +73,7 @@ class JoinDecision
     bool is_far_enough(const Hypothesis &hypothesis, double least_m) const;
     bool is_as_predicted(const Hypothesis &hypothesis) const;
     bool is_held(const Hypothesis &hypothesis) const;
+    template <class Chosen> Tally tally(Hypothesis &hypothesis, Chosen is_chosen);
     bool holds_all_of_it(Hypothesis &hypothesis);
     bool is_sound(Hypothesis &hypothesis);
     bool is_rival(const Hypothesis &hypothesis, const Hypothesis &other) const;

@@ -15,6 +15,7 @@ extern "C" {
 #include "config/config_keys.h"
 #include "config/config_model.h"
 #include "config/decimal.h"
+#include "config/presets.h"
 }
 
 namespace

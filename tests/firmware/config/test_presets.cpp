@@ -11,6 +11,7 @@ extern "C" {
 #include "config/config.h"
 #include "config/config_keys.h"
 #include "config/config_model.h"
+#include "config/presets.h"
 #include "extract/extract.h"
 }
 

@@ -4,6 +4,10 @@
 
 #include "common/export/map_image.h"
 
+extern "C" {
+#include "config/presets.h"
+}
+
 namespace cli
 {
 

@@ -14,6 +14,7 @@
 #include "ale/plan_t.hpp"
 #include "ale/pose_t.hpp"
 #include "ale/scan_t.hpp"
+#include "ale/status_t.hpp"
 #include "ale/tracking_t.hpp"
 #include "base/limits.h"
 #include "map/line_map.h"
@@ -104,6 +105,12 @@ inline void check(const ale::plan_t &plan)
         require(sane({plan.x[k], plan.y[k]}), "path out of this world");
     }
     require(plan.words.size() <= 200, "a reason of a whole page");
+}
+
+/* A status has texts and counts only. */
+inline void check(const ale::status_t &status)
+{
+    require(status.counter_name.size() == status.counter_value.size(), "counters without values");
 }
 
 } // namespace feed

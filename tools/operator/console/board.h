@@ -38,6 +38,9 @@ struct TrailPiece {
     std::vector<TrailPoint> points;
 };
 
+/* A longer step on the map is no way: the trail begins anew. */
+constexpr float trail_jump_m = 0.5F;
+
 /* A moment of the past: the span of what is kept, the way up to there, the newest of each topic. */
 struct Past {
     History::Span span;

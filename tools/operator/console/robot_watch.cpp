@@ -20,7 +20,6 @@ namespace
 {
 
 /* A pose that moves farther between two scans was relocated, not driven. */
-constexpr float jump_m = 0.5F;
 
 /* A scan number this far back is a new start; one less far was overtaken on its way. */
 constexpr int32_t overtaken_scans = 10;
@@ -121,8 +120,8 @@ void RobotWatch::pose(const ale::pose_t &pose)
 
 void RobotWatch::extend_trail(const ale::pose_t &pose)
 {
-    const bool jumped =
-        last_pose_ && std::hypot(pose.map_x - last_pose_->map_x, pose.map_y - last_pose_->map_y) > jump_m;
+    const bool jumped = last_pose_ && std::hypot(pose.map_x - last_pose_->map_x,
+                                                 pose.map_y - last_pose_->map_y) > trail_jump_m;
     board_.extend_trail({pose.map_x, pose.map_y, jumped || !last_pose_});
 }
 

@@ -17,15 +17,11 @@
 #include "operator/console/recordings/open_recording.h"
 #include "operator/console/recordings/recording_summary.h"
 #include "operator/console/recordings/shelf.h"
+#include "operator/console/recordings/thumbnail.h"
 #include "operator/console/recordings/wanted.h"
 
 namespace console
 {
-
-/* A line drawing of a map for a list: ends of its longest walls, x and y from 0 to 1000 on the longer side.
- */
-using Thumbnail = std::vector<int>;
-Thumbnail thumbnail_of(const ale_map_t &map);
 
 /* A recording or a saved map in the list. */
 struct Piece {

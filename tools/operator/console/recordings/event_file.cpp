@@ -4,10 +4,14 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <stdexcept>
 
-#include <endian.h>
 #include <sys/stat.h>
+
+extern "C" {
+#include "lcm/event.h"
+}
 
 namespace console
 {
@@ -15,41 +19,9 @@ namespace console
 namespace
 {
 
-constexpr std::array<uint8_t, 4> sync_word = {0xED, 0xA1, 0xDA, 0x01};
-constexpr size_t header_bytes = 28;
-constexpr size_t stamp_at = 12;
-constexpr size_t channel_length_at = 20;
-constexpr size_t data_length_at = 24;
 constexpr size_t longest_channel = 255; /* LCM's own limit is 63 */
 constexpr uint32_t largest_message = 1U << 24;
 constexpr size_t window_bytes = size_t{1} << 17;
-
-void put_be32(std::vector<uint8_t> &out, uint32_t value)
-{
-    for (int shift = 24; shift >= 0; shift -= 8) {
-        out.push_back(static_cast<uint8_t>(value >> shift));
-    }
-}
-
-void put_be64(std::vector<uint8_t> &out, uint64_t value)
-{
-    put_be32(out, static_cast<uint32_t>(value >> 32));
-    put_be32(out, static_cast<uint32_t>(value));
-}
-
-uint32_t be32_at(const uint8_t *bytes)
-{
-    uint32_t value;
-    std::memcpy(&value, bytes, sizeof value);
-    return be32toh(value);
-}
-
-int64_t be64_at(const uint8_t *bytes)
-{
-    uint64_t value;
-    std::memcpy(&value, bytes, sizeof value);
-    return static_cast<int64_t>(be64toh(value));
-}
 
 /* So many bytes from there, or as many as there are. */
 size_t read_at(int file, uint64_t at, uint8_t *into, size_t count)
@@ -69,11 +41,11 @@ size_t read_at(int file, uint64_t at, uint8_t *into, size_t count)
 
 void EventWriter::put(int64_t received_us, const std::string &channel, const uint8_t *bytes, size_t count)
 {
-    waiting_.insert(waiting_.end(), sync_word.begin(), sync_word.end());
-    put_be64(waiting_, number_++);
-    put_be64(waiting_, static_cast<uint64_t>(received_us));
-    put_be32(waiting_, static_cast<uint32_t>(channel.size()));
-    put_be32(waiting_, static_cast<uint32_t>(count));
+    std::array<uint8_t, ALE_LCM_EVENT_HEAD> head{};
+    const ale_lcm_event_t event = {number_++, received_us, static_cast<uint32_t>(channel.size()),
+                                   static_cast<uint32_t>(count)};
+    ale_lcm_event_write(&event, head.data());
+    waiting_.insert(waiting_.end(), head.begin(), head.end());
     waiting_.insert(waiting_.end(), channel.begin(), channel.end());
     waiting_.insert(waiting_.end(), bytes, bytes + count);
     ends_.push_back(waiting_.size());
@@ -133,23 +105,23 @@ const uint8_t *EventReader::look(uint64_t at, size_t count)
 /* The event that begins where we are. */
 bool EventReader::take(EventPlace &event)
 {
-    const uint8_t *header = look(at_, header_bytes);
-    if (header == nullptr || std::memcmp(header, sync_word.data(), sync_word.size()) != 0) {
+    const uint8_t *bytes = look(at_, ALE_LCM_EVENT_HEAD);
+    ale_lcm_event_t head;
+    if (bytes == nullptr || !ale_lcm_event_read(bytes, &head)) {
         return false;
     }
-    event.received_us = be64_at(header + stamp_at);
-    const uint32_t channel_bytes = be32_at(header + channel_length_at);
-    event.data_bytes = be32_at(header + data_length_at);
-    event.data_at = at_ + header_bytes + channel_bytes;
-    if (channel_bytes < 1 || channel_bytes > longest_channel || event.data_bytes > largest_message ||
+    event.received_us = head.received_us;
+    event.data_bytes = head.data_bytes;
+    event.data_at = at_ + ALE_LCM_EVENT_HEAD + head.channel_bytes;
+    if (head.channel_bytes > longest_channel || event.data_bytes > largest_message ||
         event.data_at + event.data_bytes > size_) {
         return false;
     }
-    const uint8_t *channel = look(at_ + header_bytes, channel_bytes);
+    const uint8_t *channel = look(at_ + ALE_LCM_EVENT_HEAD, head.channel_bytes);
     if (channel == nullptr) {
         return false;
     }
-    event.channel.assign(channel, channel + channel_bytes);
+    event.channel.assign(channel, channel + head.channel_bytes);
     at_ = event.data_at + event.data_bytes;
     return true;
 }
@@ -158,24 +130,25 @@ bool EventReader::take(EventPlace &event)
 void EventReader::skip_damage()
 {
     at_++;
-    while (at_ + header_bytes <= size_) {
-        if (look(at_, header_bytes) == nullptr) {
+    while (at_ + ALE_LCM_EVENT_HEAD <= size_) {
+        if (look(at_, ALE_LCM_EVENT_HEAD) == nullptr) {
             break;
         }
         const auto begin = window_.begin() + static_cast<std::ptrdiff_t>(at_ - window_at_);
-        const auto found = std::search(begin, window_.end(), sync_word.begin(), sync_word.end());
+        const auto found =
+            std::search(begin, window_.end(), std::begin(ale_lcm_event_sync), std::end(ale_lcm_event_sync));
         if (found != window_.end()) {
             at_ += static_cast<uint64_t>(found - begin);
             return;
         }
-        at_ = window_at_ + window_.size() - (sync_word.size() - 1);
+        at_ = window_at_ + window_.size() - (ALE_LCM_EVENT_SYNC - 1);
     }
     at_ = size_;
 }
 
 bool EventReader::next(EventPlace &event)
 {
-    while (at_ + header_bytes <= size_) {
+    while (at_ + ALE_LCM_EVENT_HEAD <= size_) {
         if (take(event)) {
             return true;
         }

@@ -1,7 +1,4 @@
-/* LCM event logs, as lcm-logger writes them and ale-replay and lcm-logplayer read them:
- *
- *   event: u32 sync 0xEDA1DA01 | i64 number | i64 received_us | i32 channel length | i32 data length |
- *          channel | data, all big endian
+/* LCM event logs (lcm/event.h), as lcm-logger writes them and ale-replay and lcm-logplayer read them.
  *
  * Written and read here and not by liblcm: of a full disk it leaves half an event and no word, and a file may
  * have been written by anybody. */
@@ -48,7 +45,7 @@ class EventWriter
     Descriptor file_;
     std::vector<uint8_t> waiting_;
     std::vector<size_t> ends_; /* of the events that wait */
-    uint64_t number_ = 0;
+    int64_t number_ = 0;
     uint64_t events_ = 0;
     uint64_t bytes_ = 0;
 };

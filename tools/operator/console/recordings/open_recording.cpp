@@ -2,25 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <stdexcept>
 #include <utility>
 
-#include "common/feed/checks.h"
 #include "common/feed/map_parts.h"
 #include "common/feed/map_pieces.h"
 #include "operator/console/messages.h"
-
-namespace feed
-{
-
-/* A status has texts and counts only. */
-inline void check(const ale::status_t &status)
-{
-    require(status.counter_name.size() == status.counter_value.size(), "counters without values");
-}
-
-} // namespace feed
+#include "operator/console/recordings/recorded_message.h"
 
 namespace console
 {
@@ -28,7 +16,6 @@ namespace console
 namespace
 {
 
-constexpr float jump_m = 0.5F; /* as RobotWatch has it */
 constexpr int64_t trail_ms = int64_t{2} * 60 * 1000;
 constexpr int64_t scan_ms = 200; /* what belongs to the newest pose has come by then */
 
@@ -97,24 +84,9 @@ void OpenRecording::take(const EventPlace &event, int64_t at_ms)
     to_ms_ = at_ms;
 }
 
-std::vector<uint8_t> OpenRecording::bytes_of(const Place &place) const
-{
-    return data_of(file_, {0, {}, place.data_at, place.data_bytes});
-}
-
 template <class Message> std::optional<Message> OpenRecording::message_of(const Place &place) const
 {
-    try {
-        const std::vector<uint8_t> bytes = bytes_of(place);
-        Message message;
-        if (message.decode(bytes.data(), 0, static_cast<int>(bytes.size())) >= 0) {
-            feed::check(message);
-            return message;
-        }
-    } catch (const std::exception &) {
-        /* of another type, or out of this world */
-    }
-    return std::nullopt;
+    return recorded_message<Message>(data_of(file_, {0, {}, place.data_at, place.data_bytes}));
 }
 
 template <class Message>
@@ -130,8 +102,9 @@ void OpenRecording::take_pose(const Place &place)
     if (!pose) {
         return;
     }
-    const bool first = !last_pose_ || pose->scan <= last_pose_->scan ||
-                       std::hypot(pose->map_x - last_pose_->map_x, pose->map_y - last_pose_->map_y) > jump_m;
+    const bool first =
+        !last_pose_ || pose->scan <= last_pose_->scan ||
+        std::hypot(pose->map_x - last_pose_->map_x, pose->map_y - last_pose_->map_y) > trail_jump_m;
     places_[static_cast<size_t>(Topic::pose)].push_back(place);
     way_.push_back({place.at_ms, {pose->map_x, pose->map_y, first}});
     last_pose_ = pose;

@@ -72,7 +72,6 @@ class OpenRecording
     int64_t end_of_scan(int64_t at_ms) const;
     History::Text text_of(Topic topic, const Place &place) const;
     History::Text map_text(int64_t at_ms) const;
-    std::vector<uint8_t> bytes_of(const Place &place) const;
     template <class Message> std::optional<Message> message_of(const Place &place) const;
     template <class Message>
     std::string json_of(const Place &place, std::string (*words)(const Message &)) const;

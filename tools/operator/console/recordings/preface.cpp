@@ -1,42 +1,34 @@
 #include "operator/console/recordings/preface.h"
 
+#include <utility>
+
+#include "operator/console/recordings/recorded_message.h"
+
 namespace console
 {
 
 namespace
 {
 
-/* Both types: fingerprint, utime, version, part, parts; big endian. */
-constexpr size_t version_at = 16;
-constexpr size_t part_at = 20;
-constexpr size_t parts_at = 22;
-constexpr size_t head_bytes = 24;
 constexpr int most_parts = 256; /* of the largest map there are some hundred */
-
-int32_t number_at(const uint8_t *bytes, size_t size)
-{
-    uint32_t value = 0;
-    for (size_t k = 0; k < size; k++) {
-        value = value << 8 | bytes[k];
-    }
-    return static_cast<int32_t>(value);
-}
 
 } // namespace
 
+template <class Map> void Preface::keep(Kept &kept, std::vector<uint8_t> bytes)
+{
+    const auto part = recorded_message<Map>(bytes);
+    if (part && part->parts <= most_parts &&
+        kept.coming.add({part->version, part->part, part->parts, std::move(bytes)})) {
+        kept.whole = kept.coming.take();
+    }
+}
+
 void Preface::take(const std::string &channel, const uint8_t *bytes, size_t count)
 {
-    const bool map = channel == "ALE_MAP";
-    if ((!map && channel != "ALE_MAP_PIECES") || count < head_bytes ||
-        number_at(bytes + parts_at, 2) > most_parts) {
-        return;
-    }
-    Kept &kept = map ? map_ : pieces_;
-    if (kept.coming.add({number_at(bytes + version_at, 4),
-                         static_cast<int16_t>(number_at(bytes + part_at, 2)),
-                         static_cast<int16_t>(number_at(bytes + parts_at, 2)),
-                         {bytes, bytes + count}})) {
-        kept.whole = kept.coming.take();
+    if (channel == "ALE_MAP") {
+        keep<ale::map_t>(map_, {bytes, bytes + count});
+    } else if (channel == "ALE_MAP_PIECES") {
+        keep<ale::map_pieces_t>(pieces_, {bytes, bytes + count});
     }
 }
 

@@ -39,6 +39,8 @@ class Preface
         std::vector<Part> whole;
     };
 
+    template <class Map> void keep(Kept &kept, std::vector<uint8_t> bytes);
+
     Kept pieces_;
     Kept map_;
 };

@@ -84,7 +84,7 @@ void Recorder::start()
         state_.name = name;
         state_.begun_ms = now_us() / 1000;
         for (Preface::Message &message : preface_.messages()) {
-            waiting_bytes_ += message.bytes.size();
+            waiting_bytes_ += message.bytes.size() + sizeof(Heard);
             waiting_.push_back({now_us(), std::move(message.channel), std::move(message.bytes)});
         }
     }
@@ -114,11 +114,12 @@ void Recorder::take(const char *channel, const uint8_t *bytes, size_t count)
         if (!records_) {
             return;
         }
-        if (waiting_bytes_ + count > most_waiting_bytes) {
+        const size_t cost = count + sizeof(Heard);
+        if (waiting_bytes_ + cost > most_waiting_bytes) {
             state_.dropped++;
             return;
         }
-        waiting_bytes_ += count + sizeof(Heard);
+        waiting_bytes_ += cost;
         waiting_.push_back({now_us(), channel, {bytes, bytes + count}});
     }
     something_.notify_one();

@@ -1,13 +1,10 @@
 #include "operator/console/recordings/recording_summary.h"
 
-#include <exception>
-#include <limits>
-
-#include "common/feed/checks.h"
 #include "common/feed/core_types.h"
 #include "common/feed/map_parts.h"
 #include "common/feed/map_pieces.h"
 #include "operator/console/recordings/event_file.h"
+#include "operator/console/recordings/recorded_message.h"
 
 namespace console
 {
@@ -17,30 +14,19 @@ namespace
 
 constexpr uint64_t tail_bytes = uint64_t{16} << 20;
 
-/* Throws for what makes no sense. */
-template <class Message> Message message_of(const Descriptor &file, const EventPlace &event)
-{
-    const std::vector<uint8_t> bytes = data_of(file, event);
-    Message message;
-    feed::require(message.decode(bytes.data(), 0, static_cast<int>(bytes.size())) >= 0, "of another type");
-    feed::check(message);
-    return message;
-}
-
 /* The last map whose parts are all there. */
 class LastMap
 {
   public:
     void take(const Descriptor &file, const EventPlace &event)
     {
-        try {
-            if (event.channel == "ALE_MAP") {
-                found_ = parts_.add(message_of<ale::map_t>(file, event)) || found_;
-            } else if (event.channel == "ALE_MAP_PIECES") {
-                pieces_.add(message_of<ale::map_pieces_t>(file, event));
+        if (event.channel == "ALE_MAP") {
+            const auto part = recorded_message<ale::map_t>(data_of(file, event));
+            found_ = (part && parts_.add(*part)) || found_;
+        } else if (event.channel == "ALE_MAP_PIECES") {
+            if (const auto part = recorded_message<ale::map_pieces_t>(data_of(file, event))) {
+                pieces_.add(*part);
             }
-        } catch (const std::exception &) {
-            /* what makes no sense is no part of a map */
         }
     }
 
