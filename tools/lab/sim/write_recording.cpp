@@ -1,7 +1,6 @@
 #include "lab/sim/write_recording.h"
 
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <memory>
 #include <stdexcept>
@@ -10,9 +9,11 @@
 #include "lab/sim/device/ldrobot_device.h"
 #include "lab/sim/progress.h"
 #include "lab/sim/tum.h"
+#include "lab/sim/units.h"
 
 extern "C" {
-#include "base/trig.h"
+#include "scanner/rotary/protocol.h"
+#include "scanner/rplidar/rplidar.h"
 #include "store/recording.h"
 }
 
@@ -23,36 +24,6 @@ namespace
 {
 
 constexpr int64_t begin_us = 1000000; /* the robot's clock when the play begins */
-
-/* What a client sends to an RPLIDAR until it scans in its usual way. */
-std::vector<std::string> requests_to(const RplidarModel &model)
-{
-    std::vector<std::string> requests = {{"\xa5\x25", 2}, {"\xa5\x50", 2}};
-    if (model.has_configuration) {
-        const bool standard = model.typical == RplidarScan::standard;
-        const std::string mode = standard ? std::string("\0\0", 2) : std::string("\1\0", 2);
-        const std::string entry = std::string("\xa5\x84\x06\x71\0\0\0", 7) + mode;
-        requests.push_back(entry);
-    } else {
-        requests.emplace_back("\xa5\x59", 2);
-    }
-    if (model.motor_by_command) {
-        requests.emplace_back("\xa5\xf0\x02\x94\x02", 5);
-    }
-    if (model.typical == RplidarScan::standard) {
-        requests.emplace_back("\xa5\x20", 2);
-    } else {
-        requests.emplace_back("\xa5\x82\x05\1\0\0\0\0", 8);
-    }
-    for (std::string &request : requests) {
-        char sum = 0;
-        for (const char c : request) {
-            sum = static_cast<char>(sum ^ c);
-        }
-        request += request.size() > 2 ? std::string(1, sum) : "";
-    }
-    return requests;
-}
 
 class Recording
 {
@@ -68,11 +39,7 @@ class Recording
     }
     void write(const OdometryReport &report)
     {
-        const ale_odometry_t sample = {
-            begin_us + report.stamp_us,
-            {static_cast<int32_t>(std::lround(report.pose.x * 1e6)),
-             static_cast<int32_t>(std::lround(report.pose.y * 1e6)),
-             static_cast<uint32_t>(ale_nrad_to_bam(std::llround(wrapped(report.pose.theta) * 1e9)))}};
+        const ale_odometry_t sample = {begin_us + report.stamp_us, core_pose(report.pose)};
         check(ale_recording_odometry(&recording_, begin_us + report.stamp_us, &sample));
     }
     void close()
@@ -107,16 +74,50 @@ void receive(Recording &recording, const std::vector<Reply> &replies, int64_t pl
     }
 }
 
+/* Whether the client takes one of these for the answer to what it asked. */
+bool is_answered(ale_rplidar_t &client, const std::vector<Reply> &replies)
+{
+    ale_rotary_packet_t packet;
+    bool answered = false;
+    for (const Reply &reply : replies) {
+        const auto *bytes = reinterpret_cast<const uint8_t *>(reply.bytes.data());
+        const auto count = static_cast<uint32_t>(reply.bytes.size());
+        for (uint32_t used = 0; used < count && !answered;) {
+            used += ale_rplidar_protocol.parse(&client, bytes + used, count - used, &packet);
+            answered = packet.kind == ALE_PACKET_ANSWER;
+        }
+    }
+    return answered;
+}
+
+/* The driver and the device, until the scan begins. */
+void start_rplidar(Device &device, Recording &recording)
+{
+    const auto client = std::make_unique<ale_rplidar_t>();
+    ale_rplidar_protocol.begin(client.get());
+    ale_rotary_request_t request;
+    bool answered = true;
+    do {
+        request = ale_rplidar_protocol.next(client.get(), !answered);
+        if (request.gives_up) {
+            throw std::logic_error("the simulated scanner does not answer the driver");
+        }
+        const std::string bytes(reinterpret_cast<const char *>(request.bytes), request.count);
+        if (!bytes.empty()) {
+            recording.write(ALE_CHUNK_SENT, 0, bytes);
+            device.receive(bytes, 0);
+        }
+        const std::vector<Reply> replies = device.answer(0);
+        receive(recording, replies, 0);
+        answered = is_answered(*client, replies);
+    } while (!request.streams);
+}
+
 void start(Device &device, const Sensor &sensor, Recording &recording)
 {
     device.power_up(0);
-    if (sensor.family != SensorFamily::rplidar) {
-        return;
-    }
-    for (const std::string &request : requests_to(sensor.rplidar)) {
-        recording.write(ALE_CHUNK_SENT, 0, request);
-        device.receive(request, 0);
-        receive(recording, device.answer(0), 0);
+    if (sensor.family == SensorFamily::rplidar) {
+        start_rplidar(device, recording);
     }
 }
 
