@@ -78,6 +78,16 @@ static void converse(void)
     protocol_of_family->facts(&state, &facts);
 }
 
+/* A recording: any bytes that were sent, or the answer that came. */
+static void overhear(void)
+{
+    uint8_t sent[ALE_REQUEST_BYTES];
+    Frama_C_make_unknown((char *)sent, sizeof sent);
+    unknown_state();
+    protocol_of_family->overhear(&state, sent, (uint32_t)unknown(0, sizeof sent));
+    //@ assert 0 <= state.parser.point_ns <= MOST_POINT_NS;
+}
+
 void main(void)
 {
     ale_scanner_config_t config = {0};
@@ -88,4 +98,5 @@ void main(void)
     take_stream(ALE_RPLIDAR_EXPRESS);
     take_stream(ALE_RPLIDAR_DENSE);
     converse();
+    overhear();
 }
