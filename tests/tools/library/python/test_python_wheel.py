@@ -80,8 +80,9 @@ def test_the_notebook_makes_a_map_of_a_bag_in_an_empty_environment(built, tmp_pa
 def test_a_bag_that_is_none_is_refused_in_words(built, tmp_path):
     python = environment(tmp_path / "venv", f"{next(built.glob('*.whl'))}[bags]")
     run(python, WRITER, LOG, tmp_path / "drive")
+    (tmp_path / "letter.bag").write_text("no bag\n")
     code = ("import ale.bags, sys\n"
-            "for path, words in (('absent', 'absent'), ('drive', 'no topic /lidar')):\n"
+            "for path, words in (('absent', 'absent: no bag'), ('letter.bag', 'letter.bag: no bag'), ('drive', 'no topic /lidar')):\n"
             "    try:\n        list(ale.bags.read(path, '/lidar'))\n"
             "    except ValueError as error:\n        assert words in str(error), error\n"
             "    else:\n        sys.exit('taken')\n")

@@ -51,7 +51,7 @@ def read(path: str | os.PathLike[str], scan_topic: str | None = None, odometry_t
             scans = _topic(reader, "sensor_msgs/msg/LaserScan", scan_topic, path)
             wheels = _topic(reader, "nav_msgs/msg/Odometry", odometry_topic, path, needed=odometry_topic is not None)
             yield from _events(reader, [*scans, *wheels])
-    except AnyReaderError as error:
+    except (AnyReaderError, OSError) as error:
         raise ValueError(f"{os.fspath(path)}: no bag that can be read: {error}") from error
 
 
