@@ -36,7 +36,8 @@ def start_programs(chain, arguments, url):
     """The chain with the robot standing; simulator, watcher, and the operator's key."""
     folder, port = chain.folder, chain.folder / "urg"
     secret, listed = make_keys(chain)
-    console = chain.start("ale-console", "--lcm-url", url, "--http", "127.0.0.1:0", "--keys", secret)
+    console = chain.start("ale-console", "--lcm-url", url, "--http", "127.0.0.1:0", "--keys", secret,
+                          "--recordings", folder / "recordings")
     watch = chain.start("ale-watch", "--lcm-url", url, "--map", folder / "map.png", "--map", folder / "map.svg",
                         "--trajectory", folder / "trajectory.tum", on_line=say)
     chain.wait_until(lambda: console.lines and "listening" in watch.said(), "start of console and watch", START_SECONDS)

@@ -5,7 +5,7 @@ ale-console and ale-watch.
     run.py [--build build] [--log LOG | --world WORLD] [--speed X]
 
 Needs neither screen nor root. Leaves map.png, map.svg, trajectory.tum and the programs' messages in
-BUILD/run. In the end the drive is compared with ale-replay's of the same recording. A computer that is too slow for the speed loses
+BUILD/run, and in BUILD/run/recordings what was recorded from the page. In the end the drive is compared with ale-replay's of the same recording. A computer that is too slow for the speed loses
 scans or closes loops later: then they end apart, and that is said. Exit 0 only when every program ended well, every scan that was sent
 has its pose, and the computer was fast enough for a speed above 1.
 """
@@ -98,7 +98,7 @@ def play(chain, recording, speed):
     port = folder / "urg"
     config = write_config(recording, folder, chain.binaries)
 
-    console = chain.start("ale-console", "--lcm-url", url, "--http", "127.0.0.1:0")
+    console = chain.start("ale-console", "--lcm-url", url, "--http", "127.0.0.1:0", "--recordings", folder / "recordings")
     watch = chain.start("ale-watch", "--lcm-url", url, "--map", folder / "map.png", "--map", folder / "map.svg",
                         "--trajectory", folder / "trajectory.tum", on_line=say)
     chain.wait_until(lambda: console.lines and "listening" in watch.said(), "start of console and watch", START_SECONDS)
