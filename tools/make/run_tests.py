@@ -2,7 +2,7 @@
 """Runs tests of one kind and adds up what they say.
 
     run_tests.py unit PROGRAM...          GoogleTest programs, two at a time
-    run_tests.py system PYTHON [ARG...]   pytest over tests/, two a processor: they mostly wait
+    run_tests.py system PYTHON [ARG...]   pytest over tests/, three a processor: they mostly wait
     run_tests.py fuzz --seconds N [--inputs N] PROGRAM...   one a processor
     run_tests.py command NAME CMD...      one command that passes or fails
     run_tests.py part CMD...              a command whose tests count themselves; one more failure where it ends before the last of them
@@ -109,7 +109,7 @@ def system(python, arguments):
     where = [] if any(word.startswith("tests/") for word in arguments) else ["tests"]
     path = os.pathsep.join([str(BUILD / "python"), os.environ.get("PYTHONPATH", "")]).rstrip(os.pathsep)
     code, _ = run_limited([python, "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--junitxml={report}",
-                           "-n", str(2 * (os.cpu_count() or 1)), "--dist", "loadfile", "--reruns", "1", "-rR", *arguments, *where],
+                           "-n", str(3 * (os.cpu_count() or 1)), "--dist", "loadfile", "--reruns", "1", "-rR", *arguments, *where],
                           env={**os.environ, "PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1"})
     passed, failed, skipped = counts(report) if report.exists() else (0, [], 0)
     if code not in (0, 5) and not failed:

@@ -2,7 +2,6 @@
 map there by the notebook. Long: with ALE_LONG_TESTS alone, and where PyPI can be had."""
 import json
 import os
-import subprocess
 import sys
 import tarfile
 import time
@@ -10,33 +9,12 @@ import time
 import pytest
 
 from at_hand import ROOT
+from empty_environment import alone, environment, run
 
 PYTHON = ROOT / "tools/library/python"
 LOG = ROOT / "tests/digest/apartment.log.gz"
 WRITER = ROOT / "tests/tools/library/python/bag_of_log.py"
 MOST_S = 60  # of CPU and waiting, once the wheel is there
-
-
-def run(*words, **options):
-    done = subprocess.run([str(word) for word in words], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False, timeout=900,
-                          **options)
-    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
-    return done.stdout
-
-
-def alone(folder):
-    """Without the tests' PYTHONPATH, where the messages of LCM are a package `ale`, too."""
-    return {"PATH": os.environ["PATH"], "MPLBACKEND": "Agg", "HOME": str(folder)}
-
-
-def environment(folder, *packages):
-    """An empty one with these of PyPI; the test is skipped where they cannot be had."""
-    run(sys.executable, "-m", "venv", folder)
-    done = subprocess.run([folder / "bin/pip", "install", "-q", "--disable-pip-version-check", *packages], capture_output=True, text=True,
-                          check=False)
-    if done.returncode:
-        pytest.skip(f"PyPI cannot be had here: {done.stderr.strip().splitlines()[-1]}")
-    return folder / "bin/python"
 
 
 @pytest.fixture(scope="module")
@@ -87,15 +65,3 @@ def test_a_bag_that_is_none_is_refused_in_words(built, tmp_path):
             "    except ValueError as error:\n        assert words in str(error), error\n"
             "    else:\n        sys.exit('taken')\n")
     run(python, "-c", code, cwd=tmp_path, env=alone(tmp_path))
-
-
-def test_type_hints_are_whole(tmp_path):
-    if not os.environ.get("ALE_LONG_TESTS"):
-        pytest.skip("installs mypy: ALE_LONG_TESTS=1")
-    python = environment(tmp_path / "venv", "mypy", "numpy", "matplotlib", "rosbags")
-    assert "no issues" in run(python, "-m", "mypy", "--strict", "--cache-dir", tmp_path / "cache", PYTHON / "src/ale")
-    use = tmp_path / "use.py"
-    use.write_text("import ale\nfeatures = ale.Extractor(ale.scanner('urg-04lx')).extract([1.0] * 682)\ncount: str = features.outliers\n")
-    done = subprocess.run([python, "-m", "mypy", "--strict", "--cache-dir", tmp_path / "cache", use], capture_output=True, text=True,
-                          check=False, env={**os.environ, "MYPYPATH": str(PYTHON / "src")})
-    assert 'expression has type "int", variable has type "str"' in done.stdout
