@@ -62,7 +62,28 @@ const char *glyph(char c)
     if (c >= '0' && c <= '9') {
         return digits[c - '0'];
     }
-    return c == '.' ? "1010" : (c == 'm' ? "0004 03142320 23344340" : "");
+    switch (c) {
+    case '.':
+        return "1010";
+    case 'd':
+        return "3630 3324140301102031";
+    case 'e':
+        return "02323324140301102030";
+    case 'g':
+        return "34312010 3324140302112132";
+    case 'm':
+        return "0004 03142320 23344340";
+    case 'n':
+        return "0004 0314243330";
+    case 'o':
+        return "100103142433312010";
+    case 'v':
+        return "041034";
+    case 'w':
+        return "0410233044";
+    default:
+        return "";
+    }
 }
 
 constexpr int32_t glyph_height = 6;

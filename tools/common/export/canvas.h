@@ -36,7 +36,8 @@ class Layer
     {
         stroke(centre, centre, radius);
     }
-    /* Digits, ".", "m" and blanks; baseline starts at `at`; height of a digit. Returns the width. */
+    /* Digits, ".", blanks and the letters of "new", "moved", "gone"; baseline starts at `at`; height of a
+     * digit. Returns the width. */
     int32_t text(Spot at, std::string_view text, int32_t height, int32_t radius);
 
   private:

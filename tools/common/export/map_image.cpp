@@ -56,6 +56,10 @@ Extent extent_without_points(const MapScene &scene)
         include(extent, scene.map->line[i].start);
         include(extent, scene.map->line[i].end);
     }
+    for (const ChangedWall &change : scene.changes) {
+        include(extent, change.start);
+        include(extent, change.end);
+    }
     for (const StampedPose &stamped : scene.trajectory) {
         include(extent, {stamped.pose.x_um, stamped.pose.y_um});
     }
@@ -177,6 +181,27 @@ std::string length_label(int32_t length_um)
     char text[ALE_DECIMAL_TEXT];
     ale_decimal_print(length_um, 6, text);
     return std::string(text) + " m";
+}
+
+int64_t changed_um(const std::vector<ChangedWall> &changes, WallChange what)
+{
+    int64_t sum_um = 0;
+    for (const ChangedWall &change : changes) {
+        const int64_t dx = int64_t{change.end.x_um} - change.start.x_um;
+        const int64_t dy = int64_t{change.end.y_um} - change.start.y_um;
+        const auto length_um = static_cast<int64_t>(ale_isqrt(static_cast<uint64_t>(dx * dx + dy * dy)));
+        sum_um += change.what == what ? ale_round_div(length_um, 1000) * 1000 : 0;
+    }
+    return sum_um;
+}
+
+std::string change_label(const MapScene &scene, WallChange what)
+{
+    constexpr std::array<const char *, 3> words = {"new ", "moved ", "gone "};
+    constexpr int64_t tenth_um = 100000;
+    const int64_t um = ale_round_div(changed_um(scene.changes, what), tenth_um) * tenth_um;
+    return words[static_cast<size_t>(what)] +
+           length_label(static_cast<int32_t>(std::min<int64_t>(um, INT32_MAX)));
 }
 
 } // namespace ale

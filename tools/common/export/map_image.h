@@ -10,13 +10,17 @@
  *   MapScene scene;  scene.map = &map;  scene.trajectory = ...;
  *   write_map_image("map.png", scene);       throws std::runtime_error with one line for people
  *
- * Walls of maps that are not joined with the first are violet (.png, .svg) or magenta (.dxf).
+ * Walls of maps that are not joined with the first are violet (.png, .svg) or magenta (.dxf). Where a map is
+ * compared with an earlier one (.png, .svg): new walls green, moved ones amber, gone ones red and thin, with
+ * the metres of each.
  *
  * The same scene gives the same bytes on every machine: all drawing is in integers. */
 #ifndef ALE_COMMON_EXPORT_MAP_IMAGE_H
 #define ALE_COMMON_EXPORT_MAP_IMAGE_H
 
+#include <array>
 #include <string>
+#include <vector>
 
 #include "common/export/scan_cloud.h"
 #include "common/export/trajectory.h"
@@ -28,12 +32,24 @@ extern "C" {
 namespace ale
 {
 
+/* Part of a wall that is not as it was in an earlier map; a moved one where it stands now. */
+enum class WallChange { added, moved, gone };
+struct ChangedWall {
+    WallChange what;
+    ale_point_t start;
+    ale_point_t end;
+};
+
+/* Length of all that changed so, rounded to whole millimetres one by one. */
+int64_t changed_um(const std::vector<ChangedWall> &changes, WallChange what);
+
 /* What there is to draw. Pointers are borrowed; all but `map` may be left out. */
 struct MapScene {
     const ale_map_t *map = nullptr;
     Trajectory trajectory; /* of the robot, in the map */
     const ScanCloud *cloud = nullptr;
     bool draw_points = false; /* the cloud's points faintly behind the walls (.png, .svg) */
+    std::vector<ChangedWall> changes = {};
 };
 
 /* The wall is in a map that is not joined with the first: where it is drawn says nothing. */
@@ -74,6 +90,10 @@ Scale scale_of(const Extent &extent);
 
 /* "5 m", "0.5 m". */
 std::string length_label(int32_t length_um);
+
+/* The legend of changes, in the order in which it is drawn: "new 3.2 m". */
+std::string change_label(const MapScene &scene, WallChange what);
+constexpr std::array<WallChange, 3> all_changes = {WallChange::added, WallChange::moved, WallChange::gone};
 
 /* The kinds one by one. */
 void write_png(const std::string &path, const MapScene &scene);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "common/export/canvas.h"
 #include "common/export/map_image.h"
@@ -28,6 +29,7 @@ constexpr Colour wall_colour = {24, 31, 46};
 constexpr Colour apart_colour = {134, 84, 205};
 constexpr Colour path_colour = {222, 82, 48};
 constexpr Colour start_colour = {38, 150, 84};
+constexpr std::array<Colour, 3> change_colours = {{{38, 150, 84}, {240, 146, 20}, {214, 48, 49}}};
 constexpr Colour white = {255, 255, 255};
 constexpr Colour ink = {90, 98, 112};
 
@@ -127,6 +129,39 @@ void draw_walls(Canvas &canvas, const Sheet &sheet, const ale_map_t &map)
     canvas.paint(layer, wall_colour);
 }
 
+/* What is gone is thin, so that what stands there now shows. */
+void draw_changes(Canvas &canvas, const Sheet &sheet, const MapScene &scene)
+{
+    for (const WallChange what : all_changes) {
+        Layer layer = canvas.layer();
+        for (const ChangedWall &change : scene.changes) {
+            if (change.what == what) {
+                layer.stroke(sheet.spot(change.start), sheet.spot(change.end),
+                             what == WallChange::gone ? 18 : 44);
+            }
+        }
+        canvas.paint(layer, change_colours[static_cast<size_t>(what)]);
+    }
+}
+
+/* From the right end of the scale bar's row. */
+void draw_change_legend(Canvas &canvas, const MapScene &scene)
+{
+    constexpr int32_t height = 15 * sub_pixels;
+    constexpr int32_t apart = 2 * height;
+    int32_t width = 0;
+    for (const WallChange what : all_changes) {
+        width += canvas.layer().text({0, 0}, change_label(scene, what), height, 16) + apart;
+    }
+    Spot at = {(canvas.width() - margin) * sub_pixels - width + apart,
+               (canvas.height() - margin + 7) * sub_pixels};
+    for (const WallChange what : all_changes) {
+        Layer layer = canvas.layer();
+        at.x += layer.text(at, change_label(scene, what), height, 16) + apart;
+        canvas.paint(layer, change_colours[static_cast<size_t>(what)]);
+    }
+}
+
 void draw_path(Canvas &canvas, const Sheet &sheet, const Trajectory &trajectory)
 {
     Layer layer = canvas.layer();
@@ -183,11 +218,15 @@ void write_png(const std::string &path, const MapScene &scene)
     }
     draw_path(canvas, sheet, scene.trajectory);
     draw_walls(canvas, sheet, *scene.map);
+    draw_changes(canvas, sheet, scene);
     if (!scene.trajectory.empty()) {
         draw_robot(canvas, sheet, scene.trajectory.front().pose, start_colour, start_radius);
         draw_robot(canvas, sheet, scene.trajectory.back().pose, path_colour, end_radius);
     }
     draw_scale_bar(canvas, sheet, scale.bar_um);
+    if (!scene.changes.empty()) {
+        draw_change_legend(canvas, scene);
+    }
     canvas.write_png(path);
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "common/export/map_image.h"
 
@@ -154,6 +155,25 @@ void put_walls(SvgFile &svg, const ale_map_t &map, const Style &style)
     svg.put("</g>\n");
 }
 
+constexpr std::array<const char *, 3> change_ids = {"added", "moved", "gone"};
+constexpr std::array<const char *, 3> change_colours = {"#269654", "#f09214", "#d63031"};
+
+/* What is gone is thin, so that what stands there now shows. */
+void put_changes(SvgFile &svg, const MapScene &scene, const Style &style)
+{
+    for (const WallChange what : all_changes) {
+        const auto k = static_cast<size_t>(what);
+        begin_strokes(svg, change_ids[k], change_colours[k],
+                      what == WallChange::gone ? style.stroke_um : 3 * style.stroke_um);
+        for (const ChangedWall &change : scene.changes) {
+            if (change.what == what) {
+                svg.put_point("<path d=\"M", change.start).put_point("L", change.end).put("\"/>\n");
+            }
+        }
+        svg.put("</g>\n");
+    }
+}
+
 void put_robot(SvgFile &svg, const char *id, const char *colour, const ale_pose_t &pose, int64_t radius_um,
                const Style &style)
 {
@@ -197,6 +217,18 @@ void put_legend(SvgFile &svg, const Extent &e, const Style &style)
     svg.put_length(style.margin_um * 3 / 4).put("\">not joined</text>\n");
 }
 
+void put_change_legend(SvgFile &svg, const Extent &e, const Style &style, const MapScene &scene)
+{
+    const int64_t y_um = -int64_t{e.bottom_um} + 2 * style.margin_um + style.margin_um / 4;
+    svg.put("<text text-anchor=\"end\" x=\"").put_length(e.right_um).put("\" y=\"").put_length(y_um);
+    svg.put("\" font-family=\"sans-serif\" font-size=\"").put_length(style.margin_um * 3 / 4).put("\">");
+    for (const WallChange what : all_changes) {
+        svg.put(" <tspan fill=\"").put(change_colours[static_cast<size_t>(what)]).put("\">");
+        svg.put(change_label(scene, what)).put("</tspan>");
+    }
+    svg.put("</text>\n");
+}
+
 } // namespace
 
 void write_svg(const std::string &path, const MapScene &scene)
@@ -211,6 +243,9 @@ void write_svg(const std::string &path, const MapScene &scene)
     }
     put_path(svg, scene.trajectory, style);
     put_walls(svg, *scene.map, style);
+    if (!scene.changes.empty()) {
+        put_changes(svg, scene, style);
+    }
     if (!scene.trajectory.empty()) {
         put_robot(svg, "start", "#269654", scene.trajectory.front().pose, 7 * style.stroke_um, style);
         put_robot(svg, "end", "#de5230", scene.trajectory.back().pose, 5 * style.stroke_um, style);
@@ -218,6 +253,9 @@ void write_svg(const std::string &path, const MapScene &scene)
     put_scale_bar(svg, extent, style);
     if (has_walls_apart(*scene.map)) {
         put_legend(svg, extent, style);
+    }
+    if (!scene.changes.empty()) {
+        put_change_legend(svg, extent, style, scene);
     }
     svg.put("</svg>\n").close();
 }

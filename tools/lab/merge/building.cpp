@@ -7,6 +7,13 @@
 namespace merge
 {
 
+namespace
+{
+
+constexpr uint32_t earlier_epoch = 1; /* any that is some */
+
+} // namespace
+
 uint32_t largest_frame(const std::vector<Drive> &drives)
 {
     std::vector<size_t> scans(frames_of(drives));
@@ -18,9 +25,13 @@ uint32_t largest_frame(const std::vector<Drive> &drives)
     return static_cast<uint32_t>(std::max_element(scans.begin(), scans.end()) - scans.begin());
 }
 
-Building::Building(std::vector<Drive> *drives, uint32_t frame)
+Building::Building(std::vector<Drive> *drives, uint32_t frame, const ale_map_t *earlier)
 {
+    if (earlier) {
+        record_.set_prior_map(earlier_epoch, *earlier);
+    }
     for (Drive &drive : *drives) {
+        first_scan_.push_back(poses_.size());
         record_.append(std::move(drive.record), static_cast<uint32_t>(poses_.size()));
         for (const DriveScan &scan : drive.scans) {
             const bool is_here = scan.frame == frame;
@@ -38,6 +49,14 @@ void Building::draw(ale_map_t *out) const
 {
     ale::rebuild_map(
         record_, [this](const ale::RecordedScan &scan) { return pose_of(scan); }, out);
+}
+
+void Building::draw_first(size_t drives, ale_map_t *out) const
+{
+    const size_t last = drives < first_scan_.size() ? first_scan_[drives] : poses_.size();
+    ale::rebuild_map(
+        record_,
+        [&](const ale::RecordedScan &scan) { return scan.scan < last ? pose_of(scan) : std::nullopt; }, out);
 }
 
 ale::ScanCloud Building::cloud() const

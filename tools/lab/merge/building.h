@@ -20,11 +20,15 @@ uint32_t largest_frame(const std::vector<Drive> &drives);
 class Building
 {
   public:
-    /* Of what is in this frame; takes the observations out of the drives, which are by date. */
-    Building(std::vector<Drive> *drives, uint32_t frame);
+    /* Of what is in this frame; takes the observations out of the drives, which are by date. `earlier`: what
+     * drives before them have shown, or nullptr. */
+    Building(std::vector<Drive> *drives, uint32_t frame, const ale_map_t *earlier = nullptr);
 
     /* Fills *out with ids from 0. See rebuild_map. */
     void draw(ale_map_t *out) const;
+
+    /* The same of the first so many drives alone, and what was before them. */
+    void draw_first(size_t drives, ale_map_t *out) const;
 
     /* What the scans saw that are kept with all their beams. */
     ale::ScanCloud cloud() const;
@@ -34,6 +38,7 @@ class Building
 
     ale::ObservationRecord record_;
     std::vector<std::optional<ale_pose_t>> poses_; /* by scan of the record; none: in another frame */
+    std::vector<size_t> first_scan_;               /* by drive */
 };
 
 } // namespace merge

@@ -21,6 +21,12 @@ struct DriveScan {
         points; /* robot's frame; none: nothing was seen, or from nobody knows where */
 };
 
+/* Where a scan was when its drive was merged before. */
+struct ScanPlace {
+    ale_pose_t pose;
+    uint32_t frame;
+};
+
 struct Drive {
     std::string name;  /* of the log, without its folder */
     int64_t date_s;    /* when it began, seconds since 1970 */
@@ -34,8 +40,15 @@ struct Drive {
 /* Ids of frames are below this. */
 uint32_t frames_of(const std::vector<Drive> &drives);
 
-/* Where each drive has numbered its frames from 0: makes the ids unique, those of earlier drives first. */
-void number_frames(std::vector<Drive> *drives);
+/* Where each drive has numbered its frames from 0: makes the ids unique, those of earlier drives first. The
+ * first `placed` drives share theirs already. */
+void number_frames(std::vector<Drive> *drives, size_t placed = 0);
+
+/* Exchanges the ids of this frame and the first. */
+void make_first(uint32_t frame, std::vector<Drive> *drives);
+
+/* By date: what a later one shows decides. */
+bool is_earlier(const Drive &a, const Drive &b);
 
 } // namespace merge
 

@@ -47,9 +47,11 @@ ale::LoopCloser closer_of(const std::vector<Drive> &drives)
             if (!closer.nodes().empty()) {
                 const ale::Node &before = closer.nodes().back();
                 motion = ale::between(before.tracked, node.tracked);
-                const bool follows = k > 0 && before.map_id == node.map_id;
+                const bool is_beside = before.map_id == node.map_id; /* known to be where they are */
+                const bool follows = k > 0 && is_beside;
                 node.path_m = before.path_m + (follows ? ale::length(motion.x, motion.y) : path_between_m);
-                node.broken = node.broken || k == 0;
+                node.broken = node.broken || (k == 0 && !is_beside);
+                node.weak = node.weak || k == 0;
             }
             closer.append(std::move(node), motion);
         }

@@ -11,7 +11,9 @@ namespace merge
 {
 
 /* Frames that meet become one, that of the larger piece or of the first frame, and all poses move with it.
- * Frames that are only alike stay apart. Drives by date, ids of frames unique among them. Time and memory
+ * Frames that are only alike stay apart. Ids of frames unique among drives, but for drives that have been
+ * joined before: these begin with the first frame, stand one after the other, and are where they were to a
+ * few centimetres. Time and memory
  * grow with the number of keyframes, that of the search for places with its square. */
 void join_drives(std::vector<Drive> *drives);
 

@@ -11,8 +11,18 @@ namespace
 
 constexpr char usage[] =
     "usage: ale-merge LOG... [options]\n"
-    "Makes one map of several drives: of days, of robots.\n"
+    "       ale-merge --into FILE LOG... [options]\n"
+    "       ale-merge --versions FILE\n"
+    "Makes one map of several drives: of days, of robots; or keeps a building's map, which every drive makes "
+    "better.\n"
     "LOG: as for ale-replay.\n"
+    "  --into FILE           the map that is kept; what it is made of is in the folder FILE.d: logs of "
+    "drives,\n"
+    "                        and of every version the map and a picture (new walls green, moved amber, gone "
+    "red)\n"
+    "  --keep N              drives whose logs are kept there, the latest (default 20, 1 to 1000); of others "
+    "the walls\n"
+    "  --versions            lists the versions of a kept map\n"
     "  --out F               the map, as ale-slamd and ale-replay --load-map load it\n"
     "  --map F               the same drawn: .svg, .png, .dxf, or .pgm with .yaml; may be repeated\n"
     "  --points              draw the points of the scans faintly behind the map (.svg, .png)\n"
@@ -26,6 +36,9 @@ constexpr char usage[] =
 void bind(cli::CommandLine &line, Options &o)
 {
     line.text("out", o.out);
+    line.text("into", o.into);
+    line.number<size_t>("keep", o.keep, 1, 1000);
+    line.flag("versions", o.versions);
     cli::map_images(line, o.maps);
     line.flag("points", o.points);
     line.text("trajectories", o.trajectories);
@@ -37,8 +50,14 @@ void bind(cli::CommandLine &line, Options &o)
 
 void check(const Options &o)
 {
-    if (o.out == "-") {
+    if (o.out == "-" || o.into == "-") {
         throw cli::WrongUse("a saved map is a file");
+    }
+    if (!o.into.empty() && !o.out.empty()) {
+        throw cli::WrongUse("--out and --into: the map is in one of them");
+    }
+    if (o.versions && (o.drives.size() != 1 || !o.into.empty() || !o.out.empty())) {
+        throw cli::WrongUse("--versions: one kept map, and nothing else");
     }
     cli::Files files;
     for (const std::string &path : o.drives) {
@@ -46,6 +65,7 @@ void check(const Options &o)
     }
     files.reads("--config", o.config);
     files.writes("--out", o.out);
+    files.writes("--into", o.into);
     for (const std::string &path : o.maps) {
         files.writes("--map", path);
     }

@@ -14,6 +14,9 @@ namespace merge
 struct Options : ale::RobotOptions {
     std::vector<std::string> drives;
     std::string out;
+    std::string into;
+    bool versions = false; /* of the one file that `drives` names */
+    size_t keep = 20;
     std::vector<std::string> maps;
     std::string trajectories;
     bool laser_frame = false;

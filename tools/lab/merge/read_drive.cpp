@@ -30,10 +30,11 @@ constexpr int64_t year_2000_s = 946684800; /* earlier stamps count from some sta
 class DriveReader
 {
   public:
-    DriveReader(const std::string &path, const ale::RobotOptions &robot) : robot_(robot), log_(path)
+    DriveReader(const std::string &path, const ale::RobotOptions &robot)
+        : robot_(robot), path_(path), log_(path)
     {
     }
-    Drive read();
+    Drive read(const std::vector<ScanPlace> *places);
 
   private:
     void begin(const char *recorded_config);
@@ -42,9 +43,11 @@ class DriveReader
     void lose(int64_t stamp_us);
     void put(const ale_estimate_t &estimate);
     void put_node(const ale_keyframe_t &keyframe);
-    void place();
+    std::vector<ScanPlace> own_places();
+    void place(const std::vector<ScanPlace> &places);
 
     const ale::RobotOptions &robot_;
+    std::string path_;
     ale::LogReader log_;
     ale_config_t config_{};
     ale::CoreObject<ale_pipeline_t> pipeline_;
@@ -133,16 +136,24 @@ void DriveReader::put_node(const ale_keyframe_t &keyframe)
     }
 }
 
-/* Every scan and node where the mapper has put it; its maps become frames, in the order of the drive. */
-void DriveReader::place()
+/* Where the mapper puts every scan; its maps become frames, in the order of the drive. */
+std::vector<ScanPlace> DriveReader::own_places()
 {
     loops_.finish(pipeline_.get());
     std::map<uint32_t, uint32_t> frames;
-    for (size_t k = 0; k < drive_.scans.size(); k++) {
-        const auto number = static_cast<uint32_t>(k);
+    std::vector<ScanPlace> places;
+    for (uint32_t k = 0; k < drive_.scans.size(); k++) {
         const auto next = static_cast<uint32_t>(frames.size());
-        drive_.scans[k].pose = ale::from_core(loops_.corrected(number));
-        drive_.scans[k].frame = frames.emplace(loops_.map_of(number), next).first->second;
+        places.push_back({loops_.corrected(k), frames.emplace(loops_.map_of(k), next).first->second});
+    }
+    return places;
+}
+
+void DriveReader::place(const std::vector<ScanPlace> &places)
+{
+    for (size_t k = 0; k < drive_.scans.size(); k++) {
+        drive_.scans[k].pose = ale::from_core(places[k].pose);
+        drive_.scans[k].frame = places[k].frame;
     }
     for (ale::Node &node : drive_.nodes) {
         node.tracked = drive_.scans[node.scan].pose;
@@ -150,7 +161,7 @@ void DriveReader::place()
     }
 }
 
-Drive DriveReader::read()
+Drive DriveReader::read(const std::vector<ScanPlace> *places)
 {
     auto event = std::make_unique<ale_log_event_t>();
     ale::Progress progress;
@@ -158,23 +169,15 @@ Drive DriveReader::read()
         take(*event);
         progress.show(log_);
     }
-    if (!drive_.scans.empty()) {
-        place();
+    if (!places && !drive_.scans.empty()) {
+        place(own_places());
+    } else if (places && places->size() == drive_.scans.size()) {
+        place(*places);
+    } else if (places) {
+        throw std::runtime_error(path_ + ": its poses are those of another drive");
     }
     drive_.sensor = config_.pipeline.sensor;
     return std::move(drive_);
-}
-
-uint32_t checksum_of(const std::string &path)
-{
-    ale_bytes_t bytes{};
-    const char *error = ale_bytes_read_file(&bytes, path.c_str());
-    if (error) {
-        throw std::runtime_error(path + ": " + error);
-    }
-    const uLong sum = crc32_z(0, bytes.at, bytes.count);
-    ale_bytes_free(&bytes);
-    return static_cast<uint32_t>(sum);
 }
 
 int64_t date_of(const std::string &path, int64_t stamp_us)
@@ -189,15 +192,28 @@ int64_t date_of(const std::string &path, int64_t stamp_us)
 
 } // namespace
 
-Drive read_drive(const std::string &path, const ale::RobotOptions &robot)
+uint32_t log_checksum(const std::string &path)
 {
-    Drive drive = DriveReader(path, robot).read();
+    ale_bytes_t bytes{};
+    const char *error = ale_bytes_read_file(&bytes, path.c_str());
+    if (error) {
+        throw std::runtime_error(path + ": " + error);
+    }
+    const uLong sum = crc32_z(0, bytes.at, bytes.count);
+    ale_bytes_free(&bytes);
+    return static_cast<uint32_t>(sum);
+}
+
+Drive read_drive(const std::string &path, const ale::RobotOptions &robot,
+                 const std::vector<ScanPlace> *places)
+{
+    Drive drive = DriveReader(path, robot).read(places);
     if (drive.nodes.empty()) {
         throw std::runtime_error(path + ": no scan that a map could begin with");
     }
     drive.name = std::filesystem::path(path).filename();
     drive.date_s = date_of(path, drive.scans.front().stamp_us);
-    drive.checksum = checksum_of(path);
+    drive.checksum = log_checksum(path);
     return drive;
 }
 

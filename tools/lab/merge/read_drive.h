@@ -11,8 +11,14 @@ namespace merge
 {
 
 /* Frames are numbered from 0. Its date is the stamp of the first scan where that is a time of day, else the
- * time of the file. Throws std::runtime_error with one line: not readable, no scan. */
-Drive read_drive(const std::string &path, const ale::RobotOptions &robot);
+ * time of the file. `places`: where its scans have been put before, one for each; then its own mapper need
+ * not put them anywhere. Throws std::runtime_error with one line: not readable, no scan, other scans than
+ * places. */
+Drive read_drive(const std::string &path, const ale::RobotOptions &robot,
+                 const std::vector<ScanPlace> *places = nullptr);
+
+/* CRC-32 of what is in the file, unpacked. Throws std::runtime_error with one line. */
+uint32_t log_checksum(const std::string &path);
 
 } // namespace merge
 

@@ -28,27 +28,29 @@ std::map<uint32_t, Piece> pieces_of(const Drive &drive)
 
 } // namespace
 
+bool report_drive(const Drive &drive, uint32_t frame)
+{
+    std::map<uint32_t, Piece> pieces = pieces_of(drive);
+    if (2 * pieces[frame].scans <= drive.scans.size()) {
+        std::fprintf(stderr,
+                     "ale-merge: %s is not joined: it shows no place of the others, or only what is alike\n",
+                     drive.name.c_str());
+        return false;
+    }
+    pieces.erase(frame);
+    for (const auto &[other, piece] : pieces) {
+        std::fprintf(stderr, "ale-merge: %s: a piece of %zu scans, from %.1f s on, is not joined\n",
+                     drive.name.c_str(), piece.scans,
+                     static_cast<double>(piece.first_us - drive.scans.front().stamp_us) * 1e-6);
+    }
+    return true;
+}
+
 bool report(const std::vector<Drive> &drives, uint32_t frame)
 {
     size_t joined = 0;
     for (const Drive &drive : drives) {
-        std::map<uint32_t, Piece> pieces = pieces_of(drive);
-        const bool is_joined = 2 * pieces[frame].scans > drive.scans.size();
-        joined += is_joined;
-        if (!is_joined) {
-            std::fprintf(
-                stderr,
-                "ale-merge: %s is not joined: it shows no place of the others, or only what is alike\n",
-                drive.name.c_str());
-        }
-        pieces.erase(frame);
-        for (const auto &[other, piece] : pieces) {
-            if (is_joined) {
-                std::fprintf(stderr, "ale-merge: %s: a piece of %zu scans, from %.1f s on, is not joined\n",
-                             drive.name.c_str(), piece.scans,
-                             static_cast<double>(piece.first_us - drive.scans.front().stamp_us) * 1e-6);
-            }
-        }
+        joined += report_drive(drive, frame);
     }
     std::fprintf(stderr, "ale-merge: %zu of %zu drives are one map\n", joined, drives.size());
     return joined == drives.size();

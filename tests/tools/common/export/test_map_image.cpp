@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -218,6 +219,40 @@ TEST_F(MapImage, WallsOfAMapThatIsNotJoinedHaveAnotherColour)
     EXPECT_EQ(apart.find("M-1 1L3 1"), std::string::npos) << apart;
     EXPECT_NE(svg.find(">not joined</text>"), std::string::npos);
     EXPECT_NE(content(write("apart.dxf")).find("LINE\n8\nWALLS\n62\n6\n10\n"), std::string::npos);
+}
+
+/* The right wall is new, half of the upper one moved, and a wall across the room is gone. */
+TEST_F(MapImage, WhatHasChangedIsColouredAndItsMetresAreSaid)
+{
+    EXPECT_EQ(content(write("same.svg")).find("added"), std::string::npos);
+    scene_.trajectory.clear();
+    scene_.changes = {{WallChange::added, map_->line[1].start, map_->line[1].end},
+                      {WallChange::moved, {metre, metre}, {-metre, metre}},
+                      {WallChange::gone, {metre / 2, -metre}, {metre / 2, metre / 2}}};
+    const std::string svg = content(write("changed.svg"));
+    EXPECT_NE(svg.find("<g id=\"added\""), std::string::npos);
+    EXPECT_NE(svg.find("M0.5 1L0.5 -0.5"), std::string::npos);
+    for (const char *words : {">new 2 m<", ">moved 2 m<", ">gone 1.5 m<"}) {
+        EXPECT_NE(svg.find(words), std::string::npos) << words;
+    }
+    const Picture picture = read_png(write("changed.png"));
+    const auto colour = [&](size_t x, size_t y) {
+        const uint8_t *at = &picture.rgb[3 * (y * picture.width + x)];
+        return std::array<int, 3>{at[0], at[1], at[2]};
+    };
+    EXPECT_EQ(colour(1550, 425), (std::array<int, 3>{38, 150, 84})) << "new: green";
+    EXPECT_EQ(colour(425, 50), (std::array<int, 3>{240, 146, 20})) << "moved: amber";
+    EXPECT_EQ(colour(612, 600), (std::array<int, 3>{214, 48, 49})) << "gone: red";
+    const auto red_in_footer = [&] {
+        size_t count = 0;
+        for (size_t x = 0; x < picture.width; x++) {
+            for (size_t y = picture.height - 80; y < picture.height; y++) {
+                count += colour(x, y) == std::array<int, 3>{214, 48, 49} ? 1 : 0;
+            }
+        }
+        return count;
+    };
+    EXPECT_GT(red_in_footer(), 50U) << "the legend";
 }
 
 struct Grid {

@@ -1,0 +1,53 @@
+#include "lab/merge/results.h"
+
+#include <filesystem>
+#include <set>
+
+#include "common/export/map_image.h"
+#include "common/export/text_file.h"
+
+namespace merge
+{
+
+void write_trajectories(const Options &options, const std::vector<Drive> &drives, uint32_t frame)
+{
+    if (options.trajectories.empty()) {
+        return;
+    }
+    const std::filesystem::path folder = options.trajectories;
+    std::filesystem::create_directories(folder);
+    std::multiset<std::string> names;
+    for (const Drive &drive : drives) {
+        std::string name = std::filesystem::path(drive.name).stem();
+        names.insert(name);
+        const size_t count = names.count(name);
+        name += count > 1 ? "-" + std::to_string(count) : "";
+        ale::TextFile file(folder / (name + ".tum"));
+        for (const DriveScan &scan : drive.scans) {
+            const ale_pose_t robot = ale::to_core(scan.pose);
+            if (scan.frame == frame) {
+                ale::put_tum_line(
+                    file,
+                    {scan.stamp_us, options.laser_frame ? ale_pose_compose(robot, drive.sensor) : robot});
+            }
+        }
+        file.close();
+    }
+}
+
+void draw_maps(const Options &options, const ale_map_t &map, const Building &building)
+{
+    if (options.maps.empty()) {
+        return;
+    }
+    const ale::ScanCloud cloud = building.cloud();
+    ale::MapScene scene;
+    scene.map = &map;
+    scene.cloud = &cloud;
+    scene.draw_points = options.points;
+    for (const std::string &path : options.maps) {
+        ale::write_map_image(path, scene);
+    }
+}
+
+} // namespace merge

@@ -1,0 +1,21 @@
+/* What is asked for beside the map: trajectories and pictures. Throws std::runtime_error with one line. */
+#ifndef ALE_LAB_MERGE_RESULTS_H
+#define ALE_LAB_MERGE_RESULTS_H
+
+#include <vector>
+
+#include "lab/merge/building.h"
+#include "lab/merge/options.h"
+
+namespace merge
+{
+
+/* NAME.tum of what is in this frame, and where several logs are called that, NAME-2.tum ... in the order of
+ * their dates. */
+void write_trajectories(const Options &options, const std::vector<Drive> &drives, uint32_t frame);
+
+void draw_maps(const Options &options, const ale_map_t &map, const Building &building);
+
+} // namespace merge
+
+#endif
