@@ -104,6 +104,14 @@ TEST_F(KeptFiles, WhatIsPackedComesBackWhateverItsLength)
     EXPECT_THROW(read_whole(path_), std::runtime_error);
 }
 
+/* Drives are moved, not copied. */
+template <class... Of> std::vector<Drive> list_of(Of... drives)
+{
+    std::vector<Drive> list;
+    (list.push_back(std::move(drives)), ...);
+    return list;
+}
+
 Drive drive_of(uint32_t checksum, const std::vector<std::pair<ale::Pose, uint32_t>> &poses)
 {
     Drive drive{};
@@ -116,8 +124,8 @@ Drive drive_of(uint32_t checksum, const std::vector<std::pair<ale::Pose, uint32_
 
 TEST(ScanPlacesText, ComeBackWithFramesWithoutGaps)
 {
-    const std::vector<Drive> drives = {drive_of(7, {{{9, 9, 0}, 0}}),
-                                       drive_of(8, {{{1.5, -2, 0.5}, 0}, {{3, 4, -1}, 5}, {{0, 0, 0}, 3}})};
+    const auto drives = list_of(drive_of(7, {{{9, 9, 0}, 0}}),
+                                drive_of(8, {{{1.5, -2, 0.5}, 0}, {{3, 4, -1}, 5}, {{0, 0, 0}, 3}}));
     const ScanPlaces places = places_from(text_of(places_of(drives, 1)));
     ASSERT_EQ(places.size(), 1U);
     const std::vector<ScanPlace> &scans = places.at(8);
@@ -142,12 +150,11 @@ TEST(ScanPlacesText, WhatIsNoneIsRefused)
 /* All of the building has been turned and moved; a new drive with it. What is in another frame stays. */
 TEST(HoldFrame, PutsAllBackWhereTheBuildingWas)
 {
-    const std::vector<Drive> before = {drive_of(7, {{{0, 0, 0}, 0}, {{4, 1, 1}, 0}, {{8, 8, 8}, 1}})};
+    const auto before = list_of(drive_of(7, {{{0, 0, 0}, 0}, {{4, 1, 1}, 0}, {{8, 8, 8}, 1}}));
     const ale::Pose off{0.3, -0.2, 0.1};
-    std::vector<Drive> now = {drive_of(7, {{compose(off, ale::Pose{0, 0, 0}), 0},
-                                           {compose(off, ale::Pose{4, 1, 1}), 0},
-                                           {{8, 8, 8}, 1}}),
-                              drive_of(9, {{compose(off, ale::Pose{2, 2, 2}), 0}})};
+    const auto moved = [&off](const ale::Pose &pose) { return compose(off, pose); };
+    auto now = list_of(drive_of(7, {{moved({0, 0, 0}), 0}, {moved({4, 1, 1}), 0}, {{8, 8, 8}, 1}}),
+                       drive_of(9, {{moved({2, 2, 2}), 0}}));
     hold_frame(places_of(before, 0), &now);
     EXPECT_NEAR(now[0].scans[1].pose.x, 4, 1e-5);
     EXPECT_NEAR(now[0].scans[1].pose.theta, 1, 1e-5);
