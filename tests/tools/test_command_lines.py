@@ -105,7 +105,7 @@ def test_a_file_that_is_not_there_is_named_in_one_line(name, tmp_path):
 
 @pytest.mark.parametrize("words", ["ale-replay LOG --map FILE.svg", "ale-replay LOG --save-map FILE", "ale-replay LOG --features FILE",
                                    "ale-replay LOG --timing FILE", "ale-calibrate LOG --plot FILE", "ale-calibrate LOG --out FILE",
-                                   "ale-mounting LOG --out FILE", "ale-inspect LOG 0 --out FILE", "ale-merge LOG --out FILE", "ale-watch --csv FILE",
+                                   "ale-mounting LOG --out FILE", "ale-inspect LOG 0 --out FILE", "ale-merge LOG --out FILE", "ale-merge LOG --into FILE", "ale-watch --csv FILE",
                                    "ale-watch --trajectory FILE", "ale-explore --world WORLD --map FILE.svg",
                                    "ale-sim --world WORLD --write-log FILE", "ale-sim --world WORLD --pty urg --truth FILE"])
 def test_a_result_that_cannot_be_written_is_told_before_the_work(words, tmp_path):
