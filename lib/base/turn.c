@@ -301,13 +301,14 @@ static void set_geometry(const turned_t *t, const ale_turn_t *turn, uint32_t las
     const int64_t measured_bam = turned_by(t, last_measured_bam);
     const int64_t by_time_bam = ale_max64(2 * measured_bam < swept_bam ? swept_bam : measured_bam, 1);
     const int64_t sweep_us = ale_clamp64(turn->last_us - turn->first_us, -ALE_TURN_MOST_US, ALE_TURN_MOST_US);
-    const int64_t before_us = ale_mul_div(sweep_us, first_bam, by_time_bam);
+    const int64_t middle = last / 2;
+    const int64_t before_us = ale_mul_div(sweep_us, first_bam + middle * step_bam, by_time_bam);
     scan->own_bearings = true;
     scan->first_bearing_bam = scan->bearing_bam[0];
     scan->step_bam = (int32_t)(t->clockwise ? -step_bam : step_bam);
     scan->beam_time_ns =
         (int32_t)ale_clamp64(ale_mul_div(sweep_us * 1000, step_bam, by_time_bam), 0, INT32_MAX);
-    scan->stamp_beam = 0;
+    scan->stamp_beam = (int32_t)middle;
     scan->stamp_us = turn->first_us + ale_clamp64(before_us, -ALE_TURN_MOST_US, ALE_TURN_MOST_US);
 }
 

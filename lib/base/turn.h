@@ -15,6 +15,10 @@
  * clutter, only the nearest is kept and the others counted (left_out). The number of beams may differ from
  * turn to turn.
  *
+ * The stamp is that of the middle of the turn: whoever straightens the scan takes the motion for even, and an
+ * acceleration a then leaves a t^2 / 2 of a beam at t, which is a T^2 / 8 at most from the middle of a turn
+ * that takes T, and four times as much from its beginning.
+ *
  * The memory is the caller's; no function allocates or keeps a pointer. O(points log points). */
 #ifndef ALE_BASE_TURN_H
 #define ALE_BASE_TURN_H
@@ -68,8 +72,9 @@ void ale_turn_begin(ale_turn_t *turn);
 void ale_turn_add(ale_turn_t *turn, uint32_t bearing_bam, int32_t range_um, ale_beam_flag_t flag);
 
 /* Writes all of the scan but range_min_um and range_max_um, which are read: they must be set. Its stamp is
- * the time of its first beam. The way the mirror turns is that of most steps from point to point. Anything
- * but ALE_TURN_FINE: the scan is as it was. The turn's points are left sorted. */
+ * the time at which the mirror looked at the middle of its beams (stamp_beam). The way the mirror turns is
+ * that of most steps from point to point. Anything but ALE_TURN_FINE: the scan is as it was. The turn's
+ * points are left sorted. */
 ale_turn_status_t ale_turn_to_scan(ale_turn_t *turn, ale_scan_t *scan);
 
 /* What to tell a person: "fewer than 8 points a turn", ... A static string. */

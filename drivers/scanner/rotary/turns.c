@@ -121,7 +121,7 @@ static void close_turn(ale_turns_t *turns, int64_t now_us)
     if (turns->whole && passed <= MOST_LOSSES) {
         const bool usable = is_usable(turns, turn_us) && fill(turns);
         turns->losses_owed = (uint32_t)(passed - (usable ? 1 : 0));
-        turns->loss_us = turns->begun_us + (usable ? turn_us : 0);
+        turns->loss_us = turns->begun_us + turn_us / 2 + (usable ? turn_us : 0);
         turns->scan_waits = usable;
     }
     follow_speed(turns);

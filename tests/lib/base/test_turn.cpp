@@ -83,11 +83,24 @@ TEST(Turn, TheTimeOfABeamFollowsFromTheAngleTurned)
     for (const int way : {1, -1}) {
         const auto points = room(450, way);
         const auto scan = scan_of(points);
-        EXPECT_EQ(scan->stamp_us, 1000000);
         const double swept = std::fabs(points.back().bearing - points[0].bearing);
         for (int k = 0; k < 450; k++) {
             const double turned = std::fabs(points[k].bearing - points[0].bearing);
-            ASSERT_NEAR(ale_scan_beam_offset_us(scan.get(), k), 1e5 * turned / swept, 2) << k;
+            const double at_us = static_cast<double>(scan->stamp_us) + ale_scan_beam_offset_us(scan.get(), k);
+            ASSERT_NEAR(at_us, 1e6 + 1e5 * turned / swept, 2) << k;
+        }
+    }
+}
+
+TEST(Turn, TheStampIsThatOfTheMiddle)
+{
+    for (const int way : {1, -1}) {
+        for (const int count : {9, 90, 450, 4000}) {
+            const auto scan = scan_of(room(count, way));
+            const int32_t first_us = ale_scan_beam_offset_us(scan.get(), 0);
+            const int32_t last_us = ale_scan_beam_offset_us(scan.get(), scan->beams - 1);
+            EXPECT_EQ(scan->stamp_beam, (scan->beams - 1) / 2);
+            EXPECT_NEAR(first_us, -last_us, 2 * scan->beam_time_ns / 1000.0);
         }
     }
 }

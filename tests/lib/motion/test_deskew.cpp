@@ -1,4 +1,5 @@
 // lib/motion/deskew.c against the exact motion in double.
+#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 #include "room.h"
 
 extern "C" {
+#include "base/turn.h"
 #include "motion/deskew.h"
 }
 
@@ -98,6 +100,41 @@ TEST(Deskew, MovesTheBeamsOfAWholeTurnByTheirOwnTimes)
             EXPECT_NEAR(scan.range_um[k] * 1e-6 * std::cos(b), p[0], most);
             EXPECT_NEAR(scan.range_um[k] * 1e-6 * std::sin(b), p[1], most);
         }
+    }
+}
+
+// A robot that begins to turn, straightened by its velocity at the stamp: what is left is the acceleration's
+// part, a quarter of what it would be from the turn's beginning.
+TEST(Deskew, AnAccelerationBendsAWholeTurnByAnEighthOfItsSquareAtMost)
+{
+    const double begun = 0.5, acceleration = 3, turn_s = 0.1, points = 450; // rad/s, rad/s^2
+    const double eighth = acceleration * turn_s * turn_s / 8;
+    for (const double way : {1.0, -1.0}) {
+        const auto turn = std::make_unique<ale_turn_t>();
+        const auto scan = std::make_unique<ale_scan_t>();
+        ale_turn_begin(turn.get());
+        for (int k = 0; k < points; k++) {
+            const auto bearing = static_cast<int64_t>(way * k / points * 0x1p32);
+            ale_turn_add(turn.get(), static_cast<uint32_t>(bearing), 2000000, ALE_BEAM_VALID);
+        }
+        turn->last_us = std::llround(turn_s * 1e6 * (points - 1) / points);
+        scan->range_min_um = 20000;
+        scan->range_max_um = 12000000;
+        ASSERT_EQ(ale_turn_to_scan(turn.get(), scan.get()), ALE_TURN_FINE);
+        const double stamp_s = static_cast<double>(scan->stamp_us) * 1e-6;
+        const int32_t velocity[3] = {0, 0, convert::um((begun + acceleration * stamp_s) * tick_s)};
+        std::vector<uint32_t> bearing(scan->beams);
+        ASSERT_TRUE(ale_deskew(scan.get(), velocity, bearing.data()));
+        double most = 0;
+        for (int k = 0; k < scan->beams; k++) {
+            const double at_s = ale_scan_beam_offset_us(scan.get(), k) * 1e-6;
+            const double turned =
+                convert::radians(bearing[static_cast<size_t>(k)] - ale_scan_bearing(scan.get(), k));
+            const double true_turned =
+                (begun + acceleration * stamp_s) * at_s + acceleration * at_s * at_s / 2;
+            most = std::max(most, std::fabs(turned - true_turned));
+        }
+        EXPECT_NEAR(most, eighth, 0.02 * eighth);
     }
 }
 

@@ -91,7 +91,7 @@ TEST_F(LdrobotDevice, TheTimeOfABeamIsThatAtWhichTheHeadLookedThere)
     run_for(20);
     for (size_t k = 20; k < answers.size(); k++) {
         const ale_scan_t &scan = answers[k].scan;
-        const double ahead_us = static_cast<double>(scan.stamp_us) +
+        const double ahead_us = static_cast<double>(scan.stamp_us + ale_scan_beam_offset_us(&scan, 0)) +
                                 static_cast<double>(0U - scan.first_bearing_bam) / 4294967296.0 * -100000;
         EXPECT_LT(std::fabs(std::remainder(ahead_us, 100000)), 1300) << "stamps count in whole milliseconds";
     }

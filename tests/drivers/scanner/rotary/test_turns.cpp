@@ -97,7 +97,8 @@ class Turns : public testing::Test
     static double passed_ahead_us(const Out &o)
     {
         const double turned = static_cast<double>(0U - o.scan.first_bearing_bam) / turn;
-        return static_cast<double>(o.scan.stamp_us) - (o.lost ? 0 : turned * 100000);
+        const double first_us = o.lost ? -50000 : ale_scan_beam_offset_us(&o.scan, 0) - turned * 100000;
+        return static_cast<double>(o.scan.stamp_us) + first_us;
     }
     // Each valid beam has the range of its bearing, and the time at which the head looked there.
     void expect_right(const ale_scan_t &scan) const
