@@ -147,7 +147,7 @@ TEST(Config, AModelSaysTheNoiseButForWhatIsSet)
         ASSERT_EQ(parse(text, config), "");
         EXPECT_EQ(config.pipeline.extract.noise.own_um, 8000);
         EXPECT_EQ(config.pipeline.extract.noise.own_ppm, 0);
-        EXPECT_EQ(config.pipeline.extract.noise.surface_um, 15000);
+        EXPECT_EQ(config.pipeline.extract.noise.bearing_nrad, 1745329);
         EXPECT_TRUE(ale_config_use_preset(&config, "rplidar-a1"));
         EXPECT_EQ(config.pipeline.extract.noise.own_um, 8000) << "what is set stays";
         EXPECT_EQ(config.pipeline.extract.noise.own_ppm_per_m, 2200);
