@@ -171,19 +171,26 @@ fuzz: deps-test ## long run of the fuzzers (FUZZ_SECONDS=600 each)
 
 # The same bytes from every compiler and level: ale-replay built again, and its results compared with one another
 # and with the digests in tests/digest.
-.PHONY: same-bytes digest lint lint-format lint-cppcheck lint-tidy
+.PHONY: same-bytes digest lint lint-format lint-cppcheck lint-misra lint-tidy misra
 SAME_BYTES_BUILDS ?= gcc:-O0 clang:-O3
 same-bytes: programs
 	@$(PYTHON) tools/make/digest.py --build $(BUILD) check $(SAME_BYTES_HOW) $(SAME_BYTES_BUILDS)
 digest: programs ## after a wanted change of features or trajectories: their new digests into tests/digest
 	@$(PYTHON) tools/make/digest.py --build $(BUILD) update
 
+MISRA = $(PYTHON) tests/proofs/misra.py --build $(BUILD)
+misra: ## MISRA C:2012 over the core, by cppcheck's addon: what tests/proofs/misra.md says of it is so
+	@tools/make/deps.sh tools/make/packages-test.txt
+	@$(MISRA)
+
 C_FAMILY = $(shell git ls-files --cached --others --exclude-standard '*.c' '*.h' '*.cpp' '*.hpp')
-lint: lint-format lint-cppcheck lint-tidy ## clang-format and cppcheck of everything, clang-tidy of what runs on the robot
+lint: lint-format lint-cppcheck lint-misra lint-tidy ## clang-format and cppcheck of everything, clang-tidy of what runs on the robot
 lint-format:
 	@$(PYTHON) tools/make/run_tests.py command clang-format clang-format --dry-run -Werror $(C_FAMILY)
 lint-cppcheck:
 	@$(PYTHON) tools/make/run_tests.py command cppcheck tools/make/cppcheck.sh $(BUILD)
+lint-misra:
+	@$(PYTHON) tools/make/run_tests.py command misra $(MISRA)
 lint-tidy: $(LCM_STAMP)
 	@$(PYTHON) tools/make/run_tests.py command clang-tidy tools/make/tidy.sh $(BUILD) $(LIB_SOURCES) $(DRIVER_SOURCES) $(FIRMWARE_SOURCES) $(wildcard firmware/main.c)
 
