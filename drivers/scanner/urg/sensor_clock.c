@@ -10,7 +10,11 @@ enum {
     JUMP_US = 500000,
     LATE_US = 2000000,
     OLD_REPLY_MS = 2000,
-    PPB = 1000000000
+    PPB = 1000000000,
+    /* Of a window of the estimate, so that 16 blocks of it squared fit 64 bits: stamps that follow one
+     * another are 2.3 hours apart at most, and quartz clocks 67 seconds after 37 hours of it. */
+    MOST_WINDOW_MS = 1 << 27,
+    MOST_DRIFT_US = 1 << 26
 };
 
 int32_t ale_stamp_difference_ms(uint32_t later_ms, uint32_t earlier_ms)
@@ -48,9 +52,15 @@ static ale_clock_block_t *block_at(ale_sensor_clock_t *clock, uint64_t number)
     return &clock->block[number % ALE_CLOCK_BLOCKS];
 }
 
-static uint64_t oldest_block(const ale_sensor_clock_t *clock)
+static int64_t blocks_held(const ale_sensor_clock_t *clock)
 {
-    return clock->blocks_seen > ALE_CLOCK_BLOCKS ? clock->blocks_seen - ALE_CLOCK_BLOCKS : 0;
+    return clock->blocks_seen < ALE_CLOCK_BLOCKS ? (int64_t)clock->blocks_seen : ALE_CLOCK_BLOCKS;
+}
+
+/* The oldest of those held is 0. */
+static ale_clock_block_t *held_block(ale_sensor_clock_t *clock, int64_t rank)
+{
+    return block_at(clock, clock->blocks_seen - (uint64_t)(blocks_held(clock) - rank));
 }
 
 static void add_sample(ale_sensor_clock_t *clock, int64_t sample_us)
@@ -68,24 +78,24 @@ static void add_sample(ale_sensor_clock_t *clock, int64_t sample_us)
 }
 
 /* Slope of the full blocks' least samples by least squares; the block that has just begun holds one sample
- * that nothing speaks for. Times in milliseconds so that 16 blocks of 4 s squared stay far below 2^63. */
+ * that nothing speaks for. What is farther off than clocks can be, as in a recording whose time runs
+ * backwards, counts as that far off. */
 static void estimate_rate(ale_sensor_clock_t *clock)
 {
-    const uint64_t begin = oldest_block(clock);
-    const uint64_t end = clock->blocks_seen - 1;
-    const int64_t n = (int64_t)(end - begin);
+    const int64_t n = blocks_held(clock) - 1;
     if (n < ALE_CLOCK_RATE_BLOCKS) {
         return;
     }
-    const ale_clock_block_t origin = *block_at(clock, begin);
+    const ale_clock_block_t origin = *held_block(clock, 0);
     int64_t st = 0;
     int64_t so = 0;
     int64_t stt = 0;
     int64_t sto = 0;
-    for (uint64_t k = begin; k < end; k++) {
-        const ale_clock_block_t *b = block_at(clock, k);
-        const int64_t t_ms = (b->time_us - origin.time_us) / 1000;
-        const int64_t o_us = b->offset_us - origin.offset_us;
+    for (int64_t k = 0; k < n; k++) {
+        const ale_clock_block_t *b = held_block(clock, k);
+        const int64_t t_ms =
+            ale_clamp64((b->time_us - origin.time_us) / 1000, -MOST_WINDOW_MS, MOST_WINDOW_MS);
+        const int64_t o_us = ale_clamp64(b->offset_us - origin.offset_us, -MOST_DRIFT_US, MOST_DRIFT_US);
         st += t_ms;
         so += o_us;
         stt += t_ms * t_ms;
@@ -102,8 +112,8 @@ static void estimate_rate(ale_sensor_clock_t *clock)
 static int64_t lower_line(ale_sensor_clock_t *clock)
 {
     int64_t least = INT64_MAX;
-    for (uint64_t k = oldest_block(clock); k < clock->blocks_seen; k++) {
-        const ale_clock_block_t *b = block_at(clock, k);
+    for (int64_t k = 0; k < blocks_held(clock); k++) {
+        const ale_clock_block_t *b = held_block(clock, k);
         const int64_t drift_us = ale_mul_div(clock->sensor_us - b->time_us, clock->rate_ppb, PPB);
         least = ale_min64(least, b->offset_us + drift_us);
     }

@@ -33,8 +33,8 @@ typedef struct {
     bool identified;    /* the dialogue's identity is news */
     int32_t wait_ms;    /* new deadline, from now; 0: as it was */
     ale_urg_deed_t deed;
-    char line[ALE_URG_LINE]; /* SEND */
     int32_t baud;            /* SET_BAUD */
+    char line[ALE_URG_LINE]; /* SEND */
 } ale_urg_action_t;
 
 #endif

@@ -85,7 +85,7 @@ static void tell_stream(ale_urg_t *urg, uint32_t what)
     if ((what & ALE_URG_STREAM_DESCRIBE) != 0) {
         ale_urg_played_t played = urg->dialogue.identity.played;
         played.zero_us -= urg->config.utime_offset_us;
-        ale_urg_stream_describe(&urg->stream, &urg->dialogue.identity.geometry, &played);
+        ale_urg_stream_describe(&urg->stream, &urg->dialogue.geometry, &played);
     }
     if ((what & ALE_URG_STREAM_FORGET_CLOCK) != 0) {
         ale_urg_stream_forget_clock(&urg->stream);
@@ -213,7 +213,7 @@ static void take_frame(ale_urg_t *urg, const ale_scip_event_t *event)
         take_scan(urg, event);
     }
     if (ale_urg_dialogue_polled(&urg->dialogue)) {
-        urg->deadline_us = event->first_us + ale_urg_period_us(&urg->dialogue.identity.geometry);
+        urg->deadline_us = event->first_us + ale_urg_period_us(&urg->dialogue.geometry);
     }
 }
 

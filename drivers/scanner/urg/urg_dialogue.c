@@ -23,6 +23,7 @@ void ale_urg_dialogue_init(ale_urg_dialogue_t *d, const ale_scanner_config_t *co
     memset(d, 0, sizeof *d);
     d->config = config;
     ale_urg_identity_init(&d->identity);
+    d->geometry = d->identity.geometry;
 }
 
 /* The rate that has worked, else the configured one; 0: none. */
@@ -93,7 +94,7 @@ static ale_urg_action_t enter(ale_urg_dialogue_t *d, ale_urg_phase_t phase, cons
 {
     d->phase = phase;
     d->tries = 1;
-    snprintf(d->command, sizeof d->command, "%s", command);
+    strncpy(d->command, command, sizeof d->command - 1);
     return ask(d);
 }
 
@@ -131,7 +132,7 @@ ale_urg_action_t ale_urg_dialogue_open(ale_urg_dialogue_t *d, int32_t baud, bool
 /* The configured window, within what the sensor measures. */
 static void set_window(const ale_urg_dialogue_t *d, ale_scip_request_t *request)
 {
-    const ale_urg_geometry_t *g = &d->identity.geometry;
+    const ale_urg_geometry_t *g = &d->geometry;
     const ale_scanner_config_t *c = d->config;
     const bool window = c->first_step != 0 || c->last_step != 0;
     request->first_step = (uint16_t)(window ? c->first_step : g->first_step);
@@ -156,7 +157,7 @@ static void set_request(ale_urg_dialogue_t *d, uint8_t protocol)
     set_window(d, request);
     set_cluster(d, request);
     if (request->stream && d->has_baud) {
-        ale_baud_fit(request, d->baud, ale_urg_period_us(&d->identity.geometry));
+        ale_baud_fit(request, d->baud, ale_urg_period_us(&d->geometry));
     }
     request->cluster = request->cluster < 1 ? 1 : request->cluster;
 }
@@ -188,7 +189,7 @@ static bool speed_due(const ale_urg_dialogue_t *d)
 
 static ale_urg_action_t ask_for_speed(ale_urg_dialogue_t *d)
 {
-    char text[ALE_URG_COMMAND];
+    char text[sizeof "SS-2147483648"];
     snprintf(text, sizeof text, "SS%06d", (int)wished_baud(d));
     d->speed_attempts++;
     return enter(d, ALE_PHASE_SPEED, text);
@@ -290,9 +291,16 @@ ale_urg_action_t ale_urg_dialogue_baud_set(ale_urg_dialogue_t *d, int32_t baud, 
     return (ale_urg_action_t){.wait_ms = BAUD_SETTLES_MS};
 }
 
-/* What was read of the identity is complete. */
+/* What was read of the identity is complete. Numbers may come with any answer, and none that make no sense
+ * are kept. */
 static void adopt_identity(ale_urg_dialogue_t *d)
 {
+    if (ale_urg_geometry_valid(&d->identity.geometry)) {
+        d->geometry = d->identity.geometry;
+    } else {
+        d->identity.geometry = d->geometry;
+        d->identity_warnings++;
+    }
     d->known = d->identity.device;
     d->identity_warnings += d->identity.warnings;
     d->identity.warnings = 0;

@@ -64,9 +64,10 @@ typedef struct {
     int32_t good_baud;       /* the last rate that worked */
     uint32_t speed_attempts; /* SS sent since the last series of good scans */
 
+    ale_urg_geometry_t geometry;  /* the last one that was complete, and valid */
+    int32_t protocol;             /* 0 unknown, 1, 2 */
     ale_urg_identity_t identity;  /* as it is read */
     ale_scanner_identity_t known; /* the last one that was complete */
-    int32_t protocol;             /* 0 unknown, 1, 2 */
     uint64_t identity_warnings;
     uint64_t hardware_faults;
     uint64_t resets;

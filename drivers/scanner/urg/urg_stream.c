@@ -12,7 +12,8 @@ enum {
     MOST_GAPS = 30,     /* more than that is an interruption */
     LOST_AT_ONCE = 32, /* damaged frames that may come in one go, as after a line that was held up; then one a
                         * turn, because a scanner sends no more */
-    PERIOD_SMOOTHING = 32 /* scans over which the period is averaged: the stamps count in whole ms */
+    PERIOD_SMOOTHING = 32,       /* scans over which the period is averaged: the stamps count in whole ms */
+    LONGEST_PERIOD_US = 60000000 /* one turn a minute, the slowest that a sensor may say of itself */
 };
 
 void ale_urg_stream_init(ale_urg_stream_t *stream, bool reversed)
@@ -73,7 +74,8 @@ static int64_t whole_turns(const ale_urg_stream_t *stream, int64_t interval_us)
 static void follow_period(ale_urg_stream_t *stream, int64_t interval_us, int64_t turns)
 {
     const int64_t measured_us = ale_round_div(interval_us, turns * (stream->request.skip + 1));
-    stream->period_us += (int32_t)ale_round_div(measured_us - stream->period_us, PERIOD_SMOOTHING);
+    const int64_t change_us = ale_round_div(measured_us - stream->period_us, PERIOD_SMOOTHING);
+    stream->period_us = (int32_t)ale_clamp64(stream->period_us + change_us, 1, LONGEST_PERIOD_US);
 }
 
 /* Counts the scans that are missing between the last one and this one. */
@@ -88,8 +90,9 @@ static void account_for_gap(ale_urg_stream_t *stream, int64_t interval_us)
     const int64_t missing = turns - 1 - stream->losses;
     if (stream->regular >= REGULAR_ENOUGH && missing > 0 && missing <= MOST_GAPS) {
         stream->gaps_owed = (uint32_t)missing;
-        stream->turn_us = interval_us / turns;
-        stream->gap_us = stream->last_stamp_us + stream->turn_us * (1 + stream->losses);
+        const int64_t whole_us = interval_us - interval_us % turns;
+        stream->turn_us = whole_us / turns;
+        stream->gap_us = stream->last_stamp_us + whole_us - missing * stream->turn_us;
     }
     stream->regular += stream->regular < REGULAR_ENOUGH;
     follow_period(stream, interval_us, turns);

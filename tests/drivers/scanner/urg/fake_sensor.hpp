@@ -61,7 +61,7 @@ class FakeSensor : public FakeDevice
     int32_t sensor_baud = 19200;
     int32_t turn_us = 100000;
     std::string serial = "H0706400";
-    std::string wrong_lines; // extra lines of VV
+    std::string wrong_lines; // extra lines of VV and V
     bool has_parameters = true;
     int32_t value_base = 1000;
 
@@ -239,7 +239,7 @@ class FakeSensor : public FakeDevice
                    "VEND:Hokuyo Automatic Co.,Ltd.\nPROD:SOKUIKI Sensor "
                    "URG-04LX\nFIRM:2.2.02(20-4095[mm],240[deg],"
                    "44-725[step],600[rpm])\nPROT:SCIP 1.1\nSERI:" +
-                       serial + "\n");
+                       serial + "\n" + wrong_lines);
         } else if (command.size() == 9 && command[0] == 'G') {
             const std::string as_2 =
                 "GS0" + command.substr(1, 3) + "0" + command.substr(4, 3) + command.substr(7, 2);

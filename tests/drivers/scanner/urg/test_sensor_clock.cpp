@@ -124,6 +124,24 @@ TEST_F(SensorClock, repeated_and_older_stamps_are_told_from_a_counter_that_was_s
         << "a minute of silence";
 }
 
+TEST_F(SensorClock, a_recording_whose_time_runs_backwards_is_no_overflow)
+{
+    constexpr int64_t step_ms = (1 << 23) - 1; /* 2.3 hours, the most that one stamp can be after another */
+    constexpr int steps = 400;
+    int64_t now_ms = 0;
+    for (int k = 0; k < 2 * steps + 8; k++) {
+        const int64_t late_us = k < steps ? 0 : 1000;
+        now_ms += k < steps ? -step_ms : step_ms;
+        const uint32_t stamp = static_cast<uint32_t>(now_ms & 0xffffff);
+        const int64_t at_us = now_ms * 1000 + latency_us + late_us;
+        ASSERT_EQ(ale_sensor_clock_judge(&clock, stamp, at_us), ALE_STAMP_NEW) << k;
+        ASSERT_NEAR(static_cast<double>(ale_sensor_clock_update(&clock, stamp, at_us) - now_ms * 1000), 0,
+                    2000)
+            << k;
+    }
+    EXPECT_GT(clock.blocks_seen, static_cast<uint64_t>(ALE_CLOCK_RATE_BLOCKS));
+}
+
 TEST_F(SensorClock, samples_give_the_same_times_in_every_run)
 {
     int64_t sum[2] = {0, 0};

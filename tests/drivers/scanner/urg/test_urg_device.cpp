@@ -77,6 +77,26 @@ TEST_F(UrgDevice, wrong_lines_of_identity_are_tolerated_and_counted)
     EXPECT_EQ(health().identity_warnings, 2U);
 }
 
+TEST_F(UrgDevice, numbers_that_make_no_sense_are_not_measured_by_whatever_answer_they_come_with)
+{
+    sensor.is_rs232 = true;
+    sensor.wrong_lines = ale_test::info("SCAN:0") + ale_test::info("ARES:0");
+    run_for(4);
+    EXPECT_EQ(health().state, ALE_SCANNER_STREAMING);
+    EXPECT_EQ(answers.back().scan.beams, 341) << "pairs, at the rate of this line";
+    EXPECT_GT(health().identity_warnings, 0U);
+}
+
+TEST_F(UrgDevice, numbers_that_make_no_sense_of_a_firmware_without_scip_2_neither)
+{
+    sensor.can_switch = false;
+    sensor.wrong_lines = "SCAN:0\n";
+    run_for(4);
+    EXPECT_EQ(health().state, ALE_SCANNER_POLLING);
+    EXPECT_EQ(answers.back().scan.beams, 682);
+    EXPECT_EQ(answers.back().scan.range_max_um, 4095000);
+}
+
 TEST_F(UrgDevice, sensor_without_parameters_gets_those_of_the_data_sheet)
 {
     sensor.has_parameters = false;

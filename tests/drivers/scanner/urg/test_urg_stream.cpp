@@ -41,6 +41,27 @@ class Stream : public testing::Test
     int64_t now_us = 5000000;
 };
 
+TEST_F(Stream, NoStampsMakeATurnLongerThanASensorMaySay)
+{
+    ale_urg_identity_t identity;
+    ale_urg_identity_init(&identity);
+    identity.geometry.rpm = 1;
+    ale_urg_stream_describe(&stream, &identity.geometry, &identity.played);
+    for (int k = 0; k < 100; k++) {
+        now_us += 60003000;
+        ale_scip_event_t event{};
+        event.kind = ALE_SCIP_SCAN;
+        event.stamp_known = true;
+        event.stamp_ms = static_cast<uint32_t>(now_us / 1000 & 0xffffff);
+        event.first_us = now_us;
+        ASSERT_EQ(ale_urg_stream_take(&stream, &event), ALE_FRAME_SCAN);
+        while (ale_urg_stream_next(&stream, &scan) != ALE_SCANNER_IDLE) {
+        }
+    }
+    EXPECT_EQ(stream.regular, 3);
+    EXPECT_EQ(stream.period_us, 60000000);
+}
+
 TEST_F(Stream, DamagedFramesOfAScannerAreAllLostScans)
 {
     EXPECT_EQ(lost_of(1000, 100000), 1000);
