@@ -264,7 +264,6 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	$(if $(AFTER_TEST),,@$(SUB) test)
 	@$(PHASE) "lint"
 	-@$(SUB) --keep-going lint
-	-@$(PYTHON) tools/make/run_tests.py command "same bytes, -O0" $(SUB) same-bytes SAME_BYTES_HOW=--quick SAME_BYTES_BUILDS=gcc:-O0
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, every recording" $(SUB) same-bytes SAME_BYTES_BUILDS=clang:-O3
 	@$(PHASE) "no run-time error in the arithmetic and the scanners' protocols: Frama-C"
 	-@$(PYTHON) tools/make/run_tests.py command "proofs of run time" $(SUB) prove-share
@@ -280,7 +279,7 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	@$(PHASE) "the firmware as an RTAI program, on an emulated RTAI"
 	@rm -rf $(BUILD)/rtai-build && mkdir -p $(BUILD)/rtai-build && cp -a $(BUILD)/obj $(BUILD)/lcmtypes $(BUILD)/rtai-build
 	-@$(PYTHON) tools/make/run_tests.py command "make RT=rtai" $(SUB) $(RTAI_BUILD) -j2 programs
-	-@$(SUB) system-rtai
+	-@$(SUB) T="$(filter-out $(RTAI_SYSTEM_TESTS),$(wildcard tests/system/test_*.py))" system-rtai
 	@$(PHASE) "hostile datagrams, messages and requests on every socket, with sanitizers"
 	@$(CHECKED) -j2 $(HOSTILE_PROGRAMS) lcm-types
 	-@ALE_LONG_TESTS=1 $(CHECKED) VENV=$(abspath $(VENV)) SYSTEM_PROGRAMS= T="$(HOSTILE_TESTS)" system
