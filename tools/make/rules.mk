@@ -30,7 +30,7 @@ SYSTEM_INCLUDES = -isystem $(BUILD)/lcmtypes $(LCM_INCLUDES) $(EIGEN)
 CCACHE = $(if $(findstring ccache,$(CC)),ccache )
 # The extractor is short loops over all beams and short functions: unrolled and inlined it takes 6 % fewer instructions.
 EXTRACT_OPT = -O3 -funroll-loops
-# -O2 leaves Eigen's products of two by two as chains of calls: ale-merge takes 9 % longer.
+# -O2 leaves Eigen's products of two by two as chains of calls.
 GRAPH_OPT = -O3
 # The same bytes on every machine: sums in the order written, no fused or vector arithmetic. Python's module takes these
 # objects, too (tools/library/python).

@@ -4,10 +4,10 @@ ale-console and ale-watch.
 
     run.py [--build build] [--log LOG | --world WORLD] [--speed X]
 
-Needs neither screen nor root. Leaves map.png, map.svg, trajectory.tum and the programs' messages in
-BUILD/run, and in BUILD/run/recordings what was recorded from the page. In the end the drive is compared with ale-replay's of the same recording. A computer that is too slow for the speed loses
-scans or closes loops later: then they end apart, and that is said. Exit 0 only when every program ended well, every scan that was sent
-has its pose, and the computer was fast enough for a speed above 1.
+Needs neither screen nor root. Leaves map.png, map.svg, trajectory.tum and the programs' messages in BUILD/run, and in
+BUILD/run/recordings what was recorded from the page. In the end the drive is compared with ale-replay's of the same recording. A
+computer that is too slow for the speed loses scans or closes loops later: then they end apart, and that is said. Exit 0 only when every
+program ended well, every scan that was sent has its pose, and the computer was fast enough for a speed above 1.
 """
 import argparse
 import math

@@ -6,6 +6,7 @@
  * options: -eva-split-return full -eva-slevel 20 -eva-auto-loop-unroll 20 */
 #include "unknown.h"
 #include "unknown_scan.h"
+#include "unknown_urg.h"
 
 #include "scanner/urg/baud.h"
 #include "scanner/urg/identity.h"
@@ -13,20 +14,6 @@
 #include "scanner/urg/scan_fill.h"
 #include "scanner/urg/stranger.h"
 #include "scanner/urg/urg_frames.h"
-
-static ale_scip_request_t unknown_request(void)
-{
-    return (ale_scip_request_t){
-        .first_step = (uint16_t)unknown(0, 9999),
-        .last_step = (uint16_t)unknown(0, 9999),
-        .cluster = (uint8_t)unknown(0, 99),
-        .skip = (uint8_t)unknown(0, 9),
-        .scans = (uint8_t)unknown(0, 99),
-        .characters = (uint8_t)unknown(2, 3),
-        .stream = unknown(0, 1),
-        .protocol = (uint8_t)unknown(1, 2),
-    };
-}
 
 static ale_urg_identity_t told(void)
 {
@@ -51,15 +38,7 @@ static void scans(void)
     }
     ale_scip_event_t event = {.values = values, .value_count = (uint32_t)unknown(0, ALE_MAX_BEAMS)};
     event.request = unknown_request();
-    ale_urg_geometry_t geometry = {
-        .range_min_mm = (int32_t)unknown(0, 999999),
-        .range_max_mm = (int32_t)unknown(0, 999999),
-        .steps_per_turn = (int32_t)unknown(200, 9999),
-        .first_step = (int32_t)unknown(0, 9999),
-        .last_step = (int32_t)unknown(0, 9999),
-        .front_step = (int32_t)unknown(0, 9999),
-        .rpm = (int32_t)unknown(1, 60000),
-    };
+    const ale_urg_geometry_t geometry = unknown_geometry();
     const int64_t stamp_us = unknown(-ALE_MAX_STAMP_US, ALE_MAX_STAMP_US);
     const int32_t period_us = ale_urg_period_us(&geometry);
     ale_urg_fill_scan(&geometry, &event, stamp_us, period_us, unknown(0, 1), &scan);

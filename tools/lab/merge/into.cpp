@@ -15,6 +15,7 @@
 #include "lab/merge/read_drive.h"
 #include "lab/merge/report.h"
 #include "lab/merge/results.h"
+#include "lab/merge/whole_text.h"
 
 namespace merge
 {
@@ -28,7 +29,7 @@ std::vector<NewDrive> new_drives(const Options &options, const History &history)
     std::vector<NewDrive> drives;
     for (const std::string &path : options.drives) {
         const std::string name = std::filesystem::path(path).filename();
-        const uint32_t checksum = log_checksum(path);
+        const uint32_t checksum = checksum_of_file(path);
         for (const NewDrive &other : drives) {
             if (other.known.checksum == checksum) {
                 throw std::runtime_error(other.known.name + " and " + name + " are the same drive");
@@ -123,16 +124,6 @@ void make_version(const Options &options, std::vector<Drive> drives, const std::
     kept->commit(next);
 }
 
-void report_version(const Options &options, const KeptBuilding &kept)
-{
-    const Version &version = kept.history().versions.back();
-    const auto metres = [](int64_t mm) { return static_cast<double>(mm) * 1e-3; };
-    std::fprintf(stderr,
-                 "ale-merge: %s: version %u: new %.1f m, moved %.1f m, gone %.1f m of %.1f m of walls: %s\n",
-                 options.into.c_str(), version.number, metres(version.added_mm), metres(version.moved_mm),
-                 metres(version.gone_mm), metres(version.walls_mm), kept.picture().c_str());
-}
-
 } // namespace
 
 int merge_into(const Options &options)
@@ -155,7 +146,8 @@ int merge_into(const Options &options)
     const bool is_better = take_joined(placed, &drives, &added);
     if (is_better) {
         make_version(options, std::move(drives), added, *map_before, &kept);
-        report_version(options, kept);
+        std::fprintf(stderr, "ale-merge: %s: %s: %s\n", options.into.c_str(),
+                     words_of(kept.history().versions.back()).c_str(), kept.picture().c_str());
     } else {
         std::fprintf(stderr, "ale-merge: %s stays as it is\n", options.into.c_str());
     }

@@ -13,10 +13,10 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include "common/export/formatted.h"
 #include "lab/merge/read_drive.h"
+#include "lab/merge/results.h"
 #include "lab/merge/whole_text.h"
 
 extern "C" {
@@ -61,14 +61,6 @@ std::unique_ptr<ale_map_t> loaded(const std::string &path)
         throw std::runtime_error(error);
     }
     return map;
-}
-
-void save_map(const std::string &path, const ale_map_t &map)
-{
-    char error[ALE_MAP_FILE_ERROR];
-    if (ale_map_file_save(path.c_str(), &map, error) < 0) {
-        throw std::runtime_error(error);
-    }
 }
 
 /* Of the files that are called so. */
@@ -120,7 +112,7 @@ void KeptBuilding::check_map() const
         }
         return;
     }
-    const uint32_t checksum = is_there ? log_checksum(path_) : 0;
+    const uint32_t checksum = is_there ? checksum_of_file(path_) : 0;
     const auto is_version = [&](size_t back) {
         const size_t count = history_.versions.size();
         return back < count && history_.versions[count - 1 - back].map_checksum == checksum;
@@ -226,7 +218,7 @@ void KeptBuilding::commit(const NextVersion &next)
     Version &version = history.versions.back();
     version.number = number;
     version.made_s = std::time(nullptr);
-    version.map_checksum = log_checksum(file(number, ".map"));
+    version.map_checksum = checksum_of_file(file(number, ".map"));
     for (const NewDrive &drive : next.drives) {
         history.drives.push_back(drive.known);
         history.drives.back().version = number;

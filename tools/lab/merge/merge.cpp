@@ -10,10 +10,6 @@
 #include "lab/merge/report.h"
 #include "lab/merge/results.h"
 
-extern "C" {
-#include "store/map_file.h"
-}
-
 namespace merge
 {
 
@@ -37,14 +33,6 @@ std::vector<Drive> read_drives(const Options &options)
     return drives;
 }
 
-void save(const std::string &path, const ale_map_t &map)
-{
-    char error[ALE_MAP_FILE_ERROR];
-    if (!path.empty() && ale_map_file_save(path.c_str(), &map, error) < 0) {
-        throw std::runtime_error(error);
-    }
-}
-
 } // namespace
 
 int merge(const Options &options)
@@ -57,7 +45,9 @@ int merge(const Options &options)
     const Building building(&drives, frame);
     auto map = std::make_unique<ale_map_t>();
     building.draw(map.get());
-    save(options.out, *map);
+    if (!options.out.empty()) {
+        save_map(options.out, *map);
+    }
     draw_maps(options, *map, building);
     return all ? 0 : 1;
 }

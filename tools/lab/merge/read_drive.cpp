@@ -6,17 +6,13 @@
 #include <stdexcept>
 
 #include <sys/stat.h>
-#include <zlib.h>
 
 #include "common/command_line/wrong_use.h"
 #include "common/offline/core_object.h"
 #include "common/offline/loops.h"
 #include "graph/optimise/scan_node.h"
+#include "lab/merge/whole_text.h"
 #include "lab/replay/summary.h"
-
-extern "C" {
-#include "file/bytes.h"
-}
 
 namespace merge
 {
@@ -192,18 +188,6 @@ int64_t date_of(const std::string &path, int64_t stamp_us)
 
 } // namespace
 
-uint32_t log_checksum(const std::string &path)
-{
-    ale_bytes_t bytes{};
-    const char *error = ale_bytes_read_file(&bytes, path.c_str());
-    if (error) {
-        throw std::runtime_error(path + ": " + error);
-    }
-    const uLong sum = crc32_z(0, bytes.at, bytes.count);
-    ale_bytes_free(&bytes);
-    return static_cast<uint32_t>(sum);
-}
-
 Drive read_drive(const std::string &path, const ale::RobotOptions &robot,
                  const std::vector<ScanPlace> *places)
 {
@@ -213,7 +197,7 @@ Drive read_drive(const std::string &path, const ale::RobotOptions &robot,
     }
     drive.name = std::filesystem::path(path).filename();
     drive.date_s = date_of(path, drive.scans.front().stamp_us);
-    drive.checksum = log_checksum(path);
+    drive.checksum = checksum_of_file(path);
     return drive;
 }
 

@@ -17,9 +17,6 @@ namespace merge
 Drive read_drive(const std::string &path, const ale::RobotOptions &robot,
                  const std::vector<ScanPlace> *places = nullptr);
 
-/* CRC-32 of what is in the file, unpacked. Throws std::runtime_error with one line. */
-uint32_t log_checksum(const std::string &path);
-
 } // namespace merge
 
 #endif

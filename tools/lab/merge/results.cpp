@@ -2,12 +2,25 @@
 
 #include <filesystem>
 #include <set>
+#include <stdexcept>
 
 #include "common/export/map_image.h"
 #include "common/export/text_file.h"
 
+extern "C" {
+#include "store/map_file.h"
+}
+
 namespace merge
 {
+
+void save_map(const std::string &path, const ale_map_t &map)
+{
+    char error[ALE_MAP_FILE_ERROR];
+    if (ale_map_file_save(path.c_str(), &map, error) < 0) {
+        throw std::runtime_error(error);
+    }
+}
 
 void write_trajectories(const Options &options, const std::vector<Drive> &drives, uint32_t frame)
 {

@@ -1,4 +1,4 @@
-/* What is asked for beside the map: trajectories and pictures. Throws std::runtime_error with one line. */
+/* What a merge writes: maps, trajectories, pictures. Throws std::runtime_error with one line. */
 #ifndef ALE_LAB_MERGE_RESULTS_H
 #define ALE_LAB_MERGE_RESULTS_H
 
@@ -10,10 +10,13 @@
 namespace merge
 {
 
-/* NAME.tum of what is in this frame, and where several logs are called that, NAME-2.tum ... in the order of
- * their dates. */
+void save_map(const std::string &path, const ale_map_t &map);
+
+/* Where they are asked for: NAME.tum of what is in this frame, and where several logs are called that,
+ * NAME-2.tum ... in the order of their dates. */
 void write_trajectories(const Options &options, const std::vector<Drive> &drives, uint32_t frame);
 
+/* Where they are asked for. */
 void draw_maps(const Options &options, const ale_map_t &map, const Building &building);
 
 } // namespace merge

@@ -7,8 +7,6 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include <zlib.h>
-
 #include "common/export/formatted.h"
 #include "lab/merge/whole_text.h"
 
@@ -23,11 +21,6 @@ namespace
 {
 
 constexpr char head[] = "ALE-SLAM building 1";
-
-uint32_t checksum_of(std::string_view text)
-{
-    return static_cast<uint32_t>(crc32_z(0, reinterpret_cast<const Bytef *>(text.data()), text.size()));
-}
 
 std::string shown_name(std::string name)
 {
@@ -197,6 +190,13 @@ History read_history(const std::string &path)
 void write_history(const std::string &path, const History &history)
 {
     write_whole(path, text_of(history));
+}
+
+std::string words_of(const Version &v)
+{
+    return ale::formatted("version %" PRIu32 ": new %.1f m, moved %.1f m, gone %.1f m of %.1f m of walls",
+                          v.number, metres(v.added_mm), metres(v.moved_mm), metres(v.gone_mm),
+                          metres(v.walls_mm));
 }
 
 std::string table_of(const History &history)

@@ -57,7 +57,8 @@ History read_history(const std::string &path);
 /* Whole or not at all. Throws std::runtime_error. */
 void write_history(const std::string &path, const History &history);
 
-/* For people: a line a version. */
+/* For people: one version, "version 2: new 0.1 m, ...", and a table with a line for each. */
+std::string words_of(const Version &version);
 std::string table_of(const History &history);
 
 } // namespace merge

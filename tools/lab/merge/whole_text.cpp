@@ -45,6 +45,16 @@ std::string read_whole(const std::string &path, Damage damage)
     return content;
 }
 
+uint32_t checksum_of(std::string_view content)
+{
+    return static_cast<uint32_t>(crc32_z(0, reinterpret_cast<const Bytef *>(content.data()), content.size()));
+}
+
+uint32_t checksum_of_file(const std::string &path)
+{
+    return checksum_of(read_whole(path, Damage::cut_off));
+}
+
 void write_whole(const std::string &path, const std::string &content)
 {
     ale_whole_file_t file;

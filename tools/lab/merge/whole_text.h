@@ -3,7 +3,9 @@
 #ifndef ALE_LAB_MERGE_WHOLE_TEXT_H
 #define ALE_LAB_MERGE_WHOLE_TEXT_H
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace merge
 {
@@ -12,6 +14,10 @@ namespace merge
  * to there. */
 enum class Damage { refused, cut_off };
 std::string read_whole(const std::string &path, Damage damage = Damage::refused);
+
+/* CRC-32 (zlib's). Of a file: of all that can be read of it, unpacked. */
+uint32_t checksum_of(std::string_view content);
+uint32_t checksum_of_file(const std::string &path);
 
 /* Rights 0640. Whatever happens, the path holds what it held or the new content: drivers/file/whole_file.h.
  */

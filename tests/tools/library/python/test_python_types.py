@@ -2,17 +2,14 @@
 import os
 import subprocess
 
-import pytest
-
-from at_hand import ROOT
+from at_hand import LONG, ROOT
 from empty_environment import environment, run
 
 PYTHON = ROOT / "tools/library/python"
 
 
+@LONG
 def test_type_hints_are_whole(tmp_path):
-    if not os.environ.get("ALE_LONG_TESTS"):
-        pytest.skip("installs mypy: ALE_LONG_TESTS=1")
     python = environment(tmp_path / "venv", "mypy", "numpy", "matplotlib", "rosbags")
     assert "no issues" in run(python, "-m", "mypy", "--strict", "--cache-dir", tmp_path / "cache", PYTHON / "src/ale")
     use = tmp_path / "use.py"
