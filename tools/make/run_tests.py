@@ -103,15 +103,14 @@ def unit(programs):
 
 
 def system(python, arguments):
-    BUILD.mkdir(parents=True, exist_ok=True)
-    report = BUILD / "pytest.xml"
-    report.unlink(missing_ok=True)
     where = [] if any(word.startswith("tests/") for word in arguments) else ["tests"]
     path = os.pathsep.join([str(BUILD / "python"), os.environ.get("PYTHONPATH", "")]).rstrip(os.pathsep)
-    code, _ = run_limited([python, "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--junitxml={report}",
-                           "-n", str(3 * (os.cpu_count() or 1)), "--dist", "loadfile", "--reruns", "1", "-rR", *arguments, *where],
-                          env={**os.environ, "PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1"})
-    passed, failed, skipped = counts(report) if report.exists() else (0, [], 0)
+    with tempfile.TemporaryDirectory() as folder:
+        report = pathlib.Path(folder) / "pytest.xml"
+        code, _ = run_limited([python, "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--junitxml={report}",
+                               "-n", str(3 * (os.cpu_count() or 1)), "--dist", "loadfile", "--reruns", "1", "-rR", *arguments, *where],
+                              env={**os.environ, "PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1"})
+        passed, failed, skipped = counts(report) if report.exists() else (0, [], 0)
     if code not in (0, 5) and not failed:
         failed = [f"pytest ended with {code}"]
     return record("system", passed, len(failed), skipped, failed)

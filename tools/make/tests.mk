@@ -110,11 +110,14 @@ system: $(SYSTEM_PROGRAMS) lcm-types venv ## tests of the real programs over pse
 system-rtai: programs lcm-types venv $(BUILD)/rtai/ale-slamd ## the system tests with the firmware on an emulated RTAI (T=file of tests/system)
 	@ALE_SLAMD=$(BUILD)/rtai/ale-slamd $(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(or $(T),tests/system)
 
+# Their tests are in tests/system/NAME_vm.py.
+MACHINES ?= hil boots power
+VM_TEST = $(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python --reruns 0 -rP
 .PHONY: hil-vm
 hil-vm: programs lcm-types venv deb ## virtual robot PCs in qemu: a drive under PREEMPT_RT, days from boot to power cut, cuts while files are written (BOOTS=10 CUTS=50)
 	@tools/make/deps.sh tools/make/packages-vm.txt
-	@for machine in hil boots power; do \
-	    $(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python --reruns 0 -rP tests/system/$${machine}_vm.py || failed=1; done; [ -z "$$failed" ]
+	@for machine in $(MACHINES); do \
+	    $(VM_TEST) tests/system/$${machine}_vm.py || failed=1; done; [ -z "$$failed" ]
 
 .PHONY: endurance
 endurance: programs lcm-types venv ## 20,000 scans at ten times the speed, and latency under load: minutes, on an idle machine
@@ -152,6 +155,8 @@ $(FUZZ_BUILD)/bin/%: tests/fuzz/%.cpp $(FUZZ_BUILD)/libale.a
 # Files of every format, damaged, read by the real programs of the sanitized build: all of them in `make mutated`, some 25 minutes;
 # a share in `make test-all`.
 MUTATED_INPUTS ?= 2000
+MUTATED_FIRST ?= 0
+MUTATED_SHORT = 25
 MUTATED_SHARE = 100
 MUTATED_FORMATS ?= $(shell $(PYTHON) tests/fuzz/mutated_files.py --formats)
 MUTATED = $(PYTHON) tests/fuzz/mutated_files.py --programs $(BUILD)/asan/bin --keep $(BUILD)/mutated
@@ -160,7 +165,7 @@ export ALE_TYPES = $(ALE_BUILD)/python
 mutated: programs lcm-types ## damaged files of every format, 2,000 of each (MUTATED_INPUTS=100; MUTATED_FORMATS="map scip")
 	@$(CHECKED) -j2 $(MUTATED_PROGRAMS) $(addprefix $(BUILD)/asan/bin/ale-,$(MUTATED_LONG_PROGRAMS))
 	@for format in $(MUTATED_FORMATS); do \
-	    $(PYTHON) tools/make/run_tests.py command "mutated $$format" $(MUTATED) --inputs $(MUTATED_INPUTS) --only $$format || failed=1; done; \
+	    $(PYTHON) tools/make/run_tests.py command "mutated $$format" $(MUTATED) --seed $(MUTATED_FIRST) --inputs $(MUTATED_INPUTS) --only $$format || failed=1; done; \
 	    test -z "$$failed"
 
 .PHONY: fuzz-programs fuzz
@@ -217,9 +222,12 @@ ROBOT_TESTS = tests/lib tests/drivers tests/firmware
 THREADED = $(SUB) BUILD=$(BUILD)/tsan TEST_BUILD=$(BUILD) SANITIZE=thread OPT=-O1 T=tests/firmware
 RTAI_SYSTEM_TESTS = tests/system/test_daemon.py tests/system/test_latency.py
 RTAI_BUILD = BUILD=$(BUILD)/rtai-build RT=rtai RTAI_CONFIG=$(RTAI_EMULATION_CONFIG)
+# Of these each leaves the processors idle for most of its time: two at a time. The virtual machines in which a scanner's time counts
+# are not among them.
+WAITING = waiting-rtai waiting-clients waiting-power
 # What waits for programs in real time does not run beside what computes, not even with a low priority for that: the kernel's
 # worker that hands on what a pseudo terminal received may then get no processor for seconds, and the firmware is blind.
-.PHONY: test test-waiting test-computing test-all
+.PHONY: test test-waiting test-computing test-all $(WAITING)
 test: deps-test ## all tests on this machine; the last line counts them
 	@$(PYTHON) tools/make/run_tests.py begin
 	@$(PHASE) "build"
@@ -255,7 +263,14 @@ test-computing:
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes" $(SUB) same-bytes SAME_BYTES_HOW=--quick SAME_BYTES_BUILDS=$(BUILD)/asan/bin/ale-replay
 	@$(PHASE) "damaged files, a share of them"
 	@$(CHECKED) -j2 $(MUTATED_PROGRAMS)
-	-@$(PYTHON) tools/make/run_tests.py command "mutated files" $(MUTATED) --inputs 25 --without $(MUTATED_LONG_FORMATS)
+	-@$(PYTHON) tools/make/run_tests.py command "mutated files" $(MUTATED) --inputs $(MUTATED_SHORT) --without $(MUTATED_LONG_FORMATS)
+
+waiting-rtai:
+	@$(SUB) T="$(filter-out $(RTAI_SYSTEM_TESTS),$(wildcard tests/system/test_*.py))" system-rtai
+waiting-clients:
+	@ALE_LONG_TESTS=1 $(SUB) system T=independent_clients DIST=load
+waiting-power:
+	@$(VM_TEST) tests/system/power_vm.py
 
 # A build with RTAI begins with the objects of the ordinary one: only the port is another, and what is linked with it.
 #
@@ -268,25 +283,26 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	@$(PHASE) "no run-time error in the arithmetic and the scanners' protocols: Frama-C"
 	-@$(PYTHON) tools/make/run_tests.py command "proofs of run time" $(SUB) prove-share
 	@$(PHASE) "damaged files"
-	-@$(SUB) mutated MUTATED_INPUTS=$(MUTATED_SHARE)
+	-@$(SUB) mutated MUTATED_FIRST=$(MUTATED_SHORT) MUTATED_INPUTS=$$(($(MUTATED_SHARE) - $(MUTATED_SHORT))) \
+	    MUTATED_FORMATS="$(filter-out $(MUTATED_LONG_FORMATS),$(MUTATED_FORMATS))"
+	-@$(SUB) mutated MUTATED_INPUTS=$(MUTATED_SHARE) MUTATED_FORMATS="$(MUTATED_LONG_FORMATS)"
 	@$(PHASE) "the Debian packages"
 	-@$(PYTHON) tools/make/run_tests.py command "install, remove, purge" $(SUB) test-deb
 	-@$(PYTHON) tools/make/run_tests.py command "packages of the same bytes" $(SUB) same-packages
 	@$(PHASE) "the same bytes on other machines, emulated"
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, aarch64 armhf s390x" $(SUB) cross
 	@$(PHASE) "the firmware on a virtual robot PC"
-	-@$(SUB) hil-vm
-	@$(PHASE) "the firmware as an RTAI program, on an emulated RTAI"
+	-@$(SUB) hil-vm MACHINES="$(filter-out power,$(MACHINES))"
+	@$(PHASE) "the build for RTAI"
 	@rm -rf $(BUILD)/rtai-build && mkdir -p $(BUILD)/rtai-build && cp -a $(BUILD)/obj $(BUILD)/lcmtypes $(BUILD)/rtai-build
 	-@$(PYTHON) tools/make/run_tests.py command "make RT=rtai" $(SUB) $(RTAI_BUILD) -j2 programs
-	-@$(SUB) T="$(filter-out $(RTAI_SYSTEM_TESTS),$(wildcard tests/system/test_*.py))" system-rtai
+	@$(PHASE) "the firmware on an emulated RTAI; simulated scanners read by clients that are not ours, a minute each; power cuts"
+	-@$(SUB) --keep-going -j2 --output-sync=target $(WAITING)
 	@$(PHASE) "hostile datagrams, messages and requests on every socket, with sanitizers"
 	@$(CHECKED) -j2 $(HOSTILE_PROGRAMS) lcm-types
 	-@ALE_LONG_TESTS=1 $(CHECKED) VENV=$(abspath $(VENV)) SYSTEM_PROGRAMS= T="$(HOSTILE_TESTS)" system
 	@$(PHASE) "the robot explores at a click in the browser; the console's page in every size, theme and layer; all tests of the bridges"
 	-@ALE_LONG_TESTS=1 $(SUB) system T="console_explores or test_console_access or ros2 or test_foxglove or test_bags"
-	@$(PHASE) "simulated scanners read by clients that are not ours, a minute each"
-	-@ALE_LONG_TESTS=1 $(SUB) system T=independent_clients DIST=load
 	@$(PHASE) "Python's wheel in an empty virtual environment"
 	-@ALE_LONG_TESTS=1 $(SUB) system T="test_python_wheel or test_python_types"
 	@$(PHASE) "explorations in a closed loop with the simulator, more of them"
