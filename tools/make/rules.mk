@@ -33,8 +33,8 @@ EXTRACT_OPT = -O3 -funroll-loops
 # -O2 leaves Eigen's products of two by two as chains of calls.
 GRAPH_OPT = -O3
 # The same bytes on every machine: sums in the order written, no fused or vector arithmetic. Python's module takes these
-# objects, too (tools/library/python).
-GRAPH_FLAGS = -ffp-contract=off -fno-tree-vectorize -fPIC
+# objects, too (tools/library/python). CHECKED_GRAPH is another level for the mapper alone.
+GRAPH_FLAGS = -ffp-contract=off -fno-tree-vectorize -fPIC $(CHECKED_GRAPH)
 
 OBJ = $(BUILD)/obj
 objects = $(patsubst %,$(OBJ)/%.o,$(1))
