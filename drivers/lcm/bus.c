@@ -34,6 +34,7 @@ struct ale_bus {
     ale_map_buffer_t map;
     ale_pieces_buffer_t pieces;
     ale_plan_buffer_t plan;
+    ale_graph_buffer_t graph;
     ale_status_buffer_t status;
     float bot_ranges[ALE_MAX_BEAMS];
     uint8_t bytes[MESSAGE_BYTES];
@@ -41,6 +42,8 @@ struct ale_bus {
 
 _Static_assert(ALE_MAX_BEAMS * 4 + 64 <= MESSAGE_BYTES, "a scan fits the message");
 _Static_assert(ALE_MAX_LINES * 48 + ALE_MAX_CORNERS * 29 + 64 <= MESSAGE_BYTES, "features fit the message");
+_Static_assert(ALE_GRAPH_KEYFRAMES * 21 + ALE_GRAPH_LOOPS * 5 + 64 <= MESSAGE_BYTES,
+               "a graph fits the message");
 
 static ale_bus_t *open_by(ale_wire_t *(*open_wire)(const char *, char *), const char *url,
                           char error[ALE_BUS_ERROR])
@@ -162,6 +165,14 @@ int ale_bus_send_plan(ale_bus_t *bus, const ale_plan_report_t *report)
     ale_convert_plan(report, &bus->plan, &message);
     return send_bytes(bus, ALE_CHANNEL_PLAN,
                       lcmtypes_ale_plan_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
+}
+
+int ale_bus_send_graph(ale_bus_t *bus, const ale_mapper_graph_t *graph, int64_t utime, uint32_t version)
+{
+    lcmtypes_ale_graph_t message;
+    ale_convert_graph(graph, utime, version, &bus->graph, &message);
+    return send_bytes(bus, ALE_CHANNEL_GRAPH,
+                      lcmtypes_ale_graph_t_encode(bus->bytes, 0, MESSAGE_BYTES, &message));
 }
 
 int ale_bus_send_status(ale_bus_t *bus, const ale_status_report_t *report)

@@ -26,6 +26,7 @@
 #define ALE_CHANNEL_MAP "ALE_MAP"
 #define ALE_CHANNEL_MAP_PIECES "ALE_MAP_PIECES"
 #define ALE_CHANNEL_PLAN "ALE_PLAN"
+#define ALE_CHANNEL_GRAPH "ALE_GRAPH"
 #define ALE_CHANNEL_STATUS "ALE_STATUS"
 #define ALE_CHANNEL_SPEAKER "ALE_SPEAKER"
 #define ALE_CHANNEL_VOUCHED "ALE_VOUCHED"
@@ -72,6 +73,7 @@ int ale_bus_send_scan(ale_bus_t *bus, const ale_scan_t *scan, int64_t utime, uin
 int ale_bus_send_map_part(ale_bus_t *bus, const ale_map_t *map, int64_t utime, int16_t part);
 int ale_bus_send_map_pieces(ale_bus_t *bus, const ale_map_t *map, int64_t utime, int16_t part);
 int ale_bus_send_plan(ale_bus_t *bus, const ale_plan_report_t *report);
+int ale_bus_send_graph(ale_bus_t *bus, const ale_mapper_graph_t *graph, int64_t utime, uint32_t version);
 int ale_bus_send_status(ale_bus_t *bus, const ale_status_report_t *report);
 int ale_bus_send_speaker(ale_bus_t *bus, const ale_speaker_t *speaker);
 int ale_bus_send_odometry(ale_bus_t *bus, const ale_odometry_t *sample);

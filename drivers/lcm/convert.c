@@ -333,6 +333,46 @@ void ale_convert_plan(const ale_plan_report_t *report, ale_plan_buffer_t *buffer
     }
 }
 
+static void convert_keyframe(const ale_graph_keyframe_t *keyframe, uint32_t k, ale_graph_buffer_t *buffer)
+{
+    buffer->scan[k] = (int32_t)keyframe->scan;
+    buffer->x[k] = ale_to_metres(keyframe->pose.x_um);
+    buffer->y[k] = ale_to_metres(keyframe->pose.y_um);
+    buffer->theta[k] = ale_to_radians(keyframe->pose.theta_bam);
+    buffer->map_id[k] = (int32_t)keyframe->map_id;
+    buffer->tied[k] = keyframe->tied ? 1 : 0;
+}
+
+void ale_convert_graph(const ale_mapper_graph_t *graph, int64_t utime, uint32_t version,
+                       ale_graph_buffer_t *buffer, lcmtypes_ale_graph_t *message)
+{
+    *message = (lcmtypes_ale_graph_t){
+        .utime = utime,
+        .version = (int32_t)version,
+        .keyframes_left_out = (int32_t)graph->keyframes_left_out,
+        .loops_left_out = (int32_t)graph->loops_left_out,
+        .num_keyframes = (int32_t)graph->keyframes,
+        .scan = buffer->scan,
+        .x = buffer->x,
+        .y = buffer->y,
+        .theta = buffer->theta,
+        .map_id = buffer->map_id,
+        .tied = buffer->tied,
+        .num_loops = (int32_t)graph->loops,
+        .loop_from = buffer->loop_from,
+        .loop_to = buffer->loop_to,
+        .loop_kind = buffer->loop_kind,
+    };
+    for (uint32_t k = 0; k < graph->keyframes; k++) {
+        convert_keyframe(&graph->keyframe[k], k, buffer);
+    }
+    for (uint32_t k = 0; k < graph->loops; k++) {
+        buffer->loop_from[k] = (int16_t)graph->loop[k].from;
+        buffer->loop_to[k] = (int16_t)graph->loop[k].to;
+        buffer->loop_kind[k] = (int8_t)graph->loop[k].kind;
+    }
+}
+
 void ale_convert_status(const ale_status_report_t *report, ale_status_buffer_t *buffer,
                         lcmtypes_ale_status_t *message)
 {

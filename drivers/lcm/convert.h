@@ -5,6 +5,7 @@
 #define ALE_LCM_CONVERT_H
 
 #include <lcmtypes_ale_features_t.h>
+#include <lcmtypes_ale_graph_t.h>
 #include <lcmtypes_ale_map_pieces_t.h>
 #include <lcmtypes_ale_map_t.h>
 #include <lcmtypes_ale_odometry_t.h>
@@ -46,6 +47,18 @@ typedef struct {
 } ale_plan_buffer_t;
 
 typedef struct {
+    int32_t scan[ALE_GRAPH_KEYFRAMES];
+    float x[ALE_GRAPH_KEYFRAMES];
+    float y[ALE_GRAPH_KEYFRAMES];
+    float theta[ALE_GRAPH_KEYFRAMES];
+    int32_t map_id[ALE_GRAPH_KEYFRAMES];
+    int8_t tied[ALE_GRAPH_KEYFRAMES];
+    int16_t loop_from[ALE_GRAPH_LOOPS];
+    int16_t loop_to[ALE_GRAPH_LOOPS];
+    int8_t loop_kind[ALE_GRAPH_LOOPS];
+} ale_graph_buffer_t;
+
+typedef struct {
     char *name[ALE_STATUS_COUNTERS];
     int64_t value[ALE_STATUS_COUNTERS];
 } ale_status_buffer_t;
@@ -80,6 +93,10 @@ void ale_convert_map_pieces(const ale_map_t *map, int64_t utime, int16_t part, a
 /* The message points into the report, too. */
 void ale_convert_plan(const ale_plan_report_t *report, ale_plan_buffer_t *buffer,
                       lcmtypes_ale_plan_t *message);
+
+/* Keyframes and loops in their order. */
+void ale_convert_graph(const ale_mapper_graph_t *graph, int64_t utime, uint32_t version,
+                       ale_graph_buffer_t *buffer, lcmtypes_ale_graph_t *message);
 
 /* The message points into the report. */
 void ale_convert_status(const ale_status_report_t *report, ale_status_buffer_t *buffer,

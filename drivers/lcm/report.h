@@ -8,6 +8,7 @@
 
 #include "base/stage.h"
 #include "command/command.h"
+#include "graph/mapper_graph.h"
 #include "track/pipeline.h"
 
 /* ALE_POSE: the estimate (its stamp_us already a utime) and how long its scan was under way. */

@@ -38,17 +38,12 @@ static const channel_t rings[] = {
 };
 
 static const channel_t snapshots[] = {
-    SNAPSHOT(health, ale_scanner_health_t),
-    SNAPSHOT(map, ale_tracked_map_t),
-    SNAPSHOT(keyframe_poses, ale_mapper_poses_t),
-    SNAPSHOT(drawn_map, ale_drawn_map_t),
-    SNAPSHOT(loaded_map, ale_loaded_map_t),
-    SNAPSHOT(known_to_mapper, ale_loaded_map_t),
-    SNAPSHOT(known_to_drawer, ale_loaded_map_t),
-    SNAPSHOT(drive_orders, ale_drive_orders_t),
-    SNAPSHOT(drive_scan, ale_scan_t),
-    SNAPSHOT(exploration, ale_velocity_request_t),
-    SNAPSHOT(motor_line, int),
+    SNAPSHOT(health, ale_scanner_health_t),        SNAPSHOT(map, ale_tracked_map_t),
+    SNAPSHOT(keyframe_poses, ale_mapper_poses_t),  SNAPSHOT(graph, ale_mapper_graph_t),
+    SNAPSHOT(drawn_map, ale_drawn_map_t),          SNAPSHOT(loaded_map, ale_loaded_map_t),
+    SNAPSHOT(known_to_mapper, ale_loaded_map_t),   SNAPSHOT(known_to_drawer, ale_loaded_map_t),
+    SNAPSHOT(drive_orders, ale_drive_orders_t),    SNAPSHOT(drive_scan, ale_scan_t),
+    SNAPSHOT(exploration, ale_velocity_request_t), SNAPSHOT(motor_line, int),
 };
 
 enum { RINGS = sizeof rings / sizeof rings[0], SNAPSHOTS = sizeof snapshots / sizeof snapshots[0] };

@@ -12,7 +12,7 @@
  *      └── loaded map ── map storage ── the same map ──► mapper, drawer
  *   estimate ── keyframes ──► mapper ── corrections ──► estimate, exploration
  *      └── scan observations ──► drawer ◄── keyframe poses (newest) ──┘
- *                                  └── drawn map (newest) ──► telemetry
+ *                                  └── drawn map (newest) ──► telemetry ◄── pose graph (newest) ── mapper
  *
  * Rings and snapshots have one writer and one reader each. Times are of the clock inside (clock.h). */
 #ifndef ALE_FIRMWARE_EXCHANGE_EXCHANGE_H
@@ -63,6 +63,7 @@ typedef struct {
     ale_ring_t *grid_corrections;    /* the same: mapper to exploration, when there is one */
     ale_ring_t *observations;        /* ale_scan_observation_t: estimate to drawer */
     ale_snapshot_t *keyframe_poses;  /* ale_mapper_poses_t: mapper to drawer */
+    ale_snapshot_t *graph;           /* ale_mapper_graph_t: mapper to telemetry */
     ale_snapshot_t *drawn_map;       /* ale_drawn_map_t: drawer to telemetry */
     ale_snapshot_t *loaded_map;      /* ale_loaded_map_t: map storage to estimate */
     ale_snapshot_t *known_to_mapper; /* ale_loaded_map_t, the one that is or will be driven in: */

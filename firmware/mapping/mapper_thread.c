@@ -50,6 +50,14 @@ static void show_poses(ale_mapper_thread_t *thread)
     ale_snapshot_publish(thread->exchange->keyframe_poses);
 }
 
+/* And what ties them, for everybody outside. Without memory for it they go on seeing the graph of before. */
+static void show_graph(ale_mapper_thread_t *thread)
+{
+    if (ale_mapper_graph(thread->mapper, ale_snapshot_back(thread->exchange->graph))) {
+        ale_snapshot_publish(thread->exchange->graph);
+    }
+}
+
 /* Whether the map that the keyframe was taken in, if it was loaded, is known. */
 static bool knows_map_of(ale_mapper_thread_t *thread, const ale_keyframe_t *keyframe)
 {
@@ -84,6 +92,7 @@ static void work_off(ale_mapper_thread_t *thread)
         ale_ring_release(keyframes);
         hand_out(thread);
         show_poses(thread);
+        show_graph(thread);
         tell(thread, ale_rt_now_ns() - start_ns);
     }
 }

@@ -17,6 +17,7 @@
 #include "system/async_logger.h"
 #include "system/log_line.h"
 #include "system/service.h"
+#include "telemetry/graph_publisher.h"
 #include "telemetry/map_publisher.h"
 #include "telemetry/odometry_intake.h"
 #include "telemetry/other_speakers.h"
@@ -48,6 +49,7 @@ struct ale_telemetry {
     ale_realtime_watch_t realtime;
     ale_map_publisher_t map;
     ale_plan_publisher_t plan;
+    ale_graph_publisher_t graph;
     int64_t next_keep_ns;
     ale_service_t service;
     ale_logger_t *logger; /* what a terminal or a disk does must not hold up poses */
@@ -219,6 +221,7 @@ static void work(ale_telemetry_t *telemetry)
     ale_map_publisher_work(&telemetry->map, telemetry->results.epoch, now_ns);
     ale_commands_work(telemetry->commands);
     ale_plan_publisher_work(&telemetry->plan, now_ns);
+    ale_graph_publisher_work(&telemetry->graph, now_ns);
     ale_status_publisher_work(&telemetry->status, now_ns);
     if (now_ns >= telemetry->next_keep_ns && keep_map(telemetry)) {
         telemetry->next_keep_ns = now_ns + (int64_t)telemetry->config->keep_seconds * NS_PER_S;
@@ -254,6 +257,7 @@ static void run(ale_rt_task_t *self, void *user)
     }
     work(telemetry);
     ale_map_publisher_finish(&telemetry->map, telemetry->results.epoch);
+    ale_graph_publisher_finish(&telemetry->graph);
     (void)keep_map(telemetry); /* or what was kept before stays */
     ale_status_publisher_send(&telemetry->status);
 }
@@ -289,6 +293,7 @@ static void init_publishers(ale_telemetry_t *telemetry, const ale_rt_report_t *r
     ale_odometry_intake_init(&telemetry->odometry, telemetry->exchange);
     ale_map_publisher_init(&telemetry->map, telemetry->exchange, telemetry->bus);
     telemetry->plan = (ale_plan_publisher_t){.exchange = telemetry->exchange, .bus = telemetry->bus};
+    telemetry->graph = (ale_graph_publisher_t){.exchange = telemetry->exchange, .bus = telemetry->bus};
     telemetry->status = (ale_status_publisher_t){
         .exchange = telemetry->exchange,
         .bus = telemetry->bus,

@@ -7,6 +7,7 @@ extern "C" {
 #include <deque>
 #include <new>
 
+#include "graph/graph_selection.h"
 #include "graph/loops/loop_closer.h"
 #include "graph/optimise/scan_node.h"
 
@@ -303,5 +304,17 @@ void ale_mapper_poses(const ale_mapper_t *mapper, ale_mapper_poses_t *out)
     out->count = static_cast<uint32_t>(mapper->closer.nodes().size());
     for (uint32_t k = 0; k < out->count; k++) {
         out->pose[k] = ale_mapper_pose(mapper, k);
+    }
+}
+
+bool ale_mapper_graph(const ale_mapper_t *mapper, ale_mapper_graph_t *out)
+{
+    try {
+        const ale::LoopCloser &closer = mapper->closer;
+        ale::select_graph(closer.nodes(), closer.poses(), closer.edges(), out);
+        out->epoch = mapper->epoch;
+        return true;
+    } catch (const std::bad_alloc &) {
+        return false;
     }
 }

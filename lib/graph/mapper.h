@@ -14,6 +14,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "graph/mapper_graph.h"
 #include "track/correction.h"
 #include "track/keyframe.h"
 
@@ -101,5 +102,9 @@ ale_mapper_statistics_t ale_mapper_statistics(const ale_mapper_t *mapper);
 ale_mapper_pose_t ale_mapper_pose(const ale_mapper_t *mapper, uint32_t k);
 /* Fills *out with all of them. O(keyframes). */
 void ale_mapper_poses(const ale_mapper_t *mapper, ale_mapper_poses_t *out);
+
+/* Fills *out with the graph as others are told it: where not all of it fits, a part that says so. False: out
+ * of memory; *out may then hold anything. O(keyframes + loops log loops). */
+bool ale_mapper_graph(const ale_mapper_t *mapper, ale_mapper_graph_t *out);
 
 #endif

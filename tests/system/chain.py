@@ -17,7 +17,7 @@ FIRMWARE = pathlib.Path(os.environ.get("ALE_SLAMD", BINARIES / "ale-slamd")).res
 IN_TIME_S = 0.015
 TYPES = {"ALE_POSE": ale.pose_t, "ALE_FEATURES": ale.features_t, "ALE_SCAN": ale.scan_t, "ALE_MAP": ale.map_t,
          "ALE_STATUS": ale.status_t, "ALE_TRACKING": ale.tracking_t, "ALE_MAP_PIECES": ale.map_pieces_t,
-         "ALE_PLAN": ale.plan_t}
+         "ALE_PLAN": ale.plan_t, "ALE_GRAPH": ale.graph_t}
 
 
 def program_path(name):

@@ -92,6 +92,24 @@ def test_the_map_comes_whole(drive):
     assert sum(part.num_corners for part in newest) >= 10
 
 
+def test_the_graph_has_keyframes_along_the_drive_and_the_loops_that_it_closed(drive):
+    graphs = drive.listener.messages["ALE_GRAPH"]
+    versions = [graph.version for graph in graphs]
+    assert versions == sorted(versions) and versions[0] == 1
+    assert all(later.utime - graph.utime > 0.9e6 for graph, later in zip(graphs[:-2], graphs[1:]))
+    last = graphs[-1]
+    assert last.num_keyframes > 20 and (last.keyframes_left_out, last.loops_left_out) == (0, 0)
+    assert list(last.scan) == sorted(set(last.scan)) and set(last.scan) <= {pose.scan for pose in drive.listener.poses}
+    assert set(last.map_id) == {0} and list(last.tied) == [0] + [1] * (last.num_keyframes - 1)
+    poses = {pose.scan: pose for pose in drive.listener.poses}
+    for scan, x, y in zip(last.scan, last.x, last.y):
+        assert math.hypot(x - poses[scan].map_x, y - poses[scan].map_y) < 3 * ATE_M, "as published, but for what loops have moved"
+    print(f"{last.num_keyframes} keyframes, {last.num_loops} loops")
+    assert last.num_loops >= 1
+    for a, b in zip(last.loop_from, last.loop_to):
+        assert a < b and math.hypot(last.x[a] - last.x[b], last.y[a] - last.y[b]) < 4
+
+
 def test_nothing_was_dropped_and_the_status_says_so(drive):
     statuses = drive.listener.statuses
     assert len(statuses) >= 10

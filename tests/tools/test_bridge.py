@@ -184,7 +184,7 @@ def test_poses_cross_whole_and_in_order_and_scans_thinned(sides, ends):
 
 def test_every_pose_has_its_tracking_and_every_map_its_pieces_with_it(sides, ends):
     robot, operator = sides
-    for channel in ("ALE_TRACKING", "ALE_MAP_PIECES"):
+    for channel in ("ALE_TRACKING", "ALE_MAP_PIECES", "ALE_GRAPH"):
         for k in range(20):  # at once: nothing of it is thinned
             robot.bus.publish(channel, bytes([k]) * 40)
         wait_until(lambda: operator.on(channel) == [bytes([k]) * 40 for k in range(20)], 180, channel)

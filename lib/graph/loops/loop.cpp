@@ -33,6 +33,13 @@ GraphEdge edge_of(const Loop &loop)
     return {loop.from, loop.to, loop.measured, loop.information, true};
 }
 
+GraphEdge joining_edge_of(const Loop &loop)
+{
+    GraphEdge edge = edge_of(loop);
+    edge.joins = true;
+    return edge;
+}
+
 bool is_near(const Pose &tracked, const Pose &matched)
 {
     const Pose off = between(tracked, matched);

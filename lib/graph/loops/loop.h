@@ -31,6 +31,9 @@ Loop loop_from_match(const LoopMatch &match, int from, int to);
 // The loop as a robust edge of the graph.
 GraphEdge edge_of(const Loop &loop);
 
+// The same of a loop that ties two maps.
+GraphEdge joining_edge_of(const Loop &loop);
+
 // Whether a match lies so near to the tracked pose that the tracker has recognised the place, more accurately
 // than the match. O(1).
 bool is_near(const Pose &tracked, const Pose &matched);

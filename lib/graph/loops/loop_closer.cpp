@@ -340,7 +340,7 @@ void LoopCloser::make_found_join()
     joiner_.forget_found();
     unite(found.join);
     for (const Loop &loop : found.loops) {
-        graph_.add_edge(edge_of(loop));
+        graph_.add_edge(joining_edge_of(loop));
     }
     optimise_map(found.join.into_map_id);
 }
@@ -396,7 +396,7 @@ bool LoopCloser::tie_joined_map()
     if (!is_matched) {
         loop = {there, here, guess, information_from_deviations(join_m, join_rad), 0};
     }
-    graph_.add_edge(edge_of(loop));
+    graph_.add_edge(joining_edge_of(loop));
     return outcome == VisitMatch::displaced && is_matched && optimise();
 }
 

@@ -123,6 +123,11 @@ class LoopCloser
     {
         return graph_.poses();
     }
+    // Of the path and of loops.
+    const std::vector<GraphEdge> &edges() const
+    {
+        return graph_.edges();
+    }
     // The tracker was handed all poses as they are now. O(nodes); never throws.
     void mark_handed_out();
     // As after the constructor; allocates nothing, never throws.

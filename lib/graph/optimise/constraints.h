@@ -21,6 +21,7 @@ struct GraphEdge {
     bool robust;                 // may be wrong: weighted by the robust kernel
     bool recognised = false;     // not measured: the tracker already lies on what was seen then
     bool guessed = false;        // between two maps: holds them somewhere, and says nothing
+    bool joins = false;          // a loop between two maps that nothing tied before
 };
 
 // The heading of a pose against the direction of the building, which all priors share.

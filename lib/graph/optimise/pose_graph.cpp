@@ -178,6 +178,7 @@ void PoseGraph::remove_pose(int k, int max_robust)
     for (const GraphEdge &edge : removed) {
         GraphEdge moved = edge.to == k ? composed(edge, after, true) : composed(before, edge, true);
         moved.recognised = edge.recognised;
+        moved.joins = edge.joins;
         if (edge.robust && !moved.guessed && has_room(moved, max_robust)) {
             edges_.push_back(moved);
         }

@@ -10,6 +10,7 @@
 
 #include "ale/drive_t.hpp"
 #include "ale/features_t.hpp"
+#include "ale/graph_t.hpp"
 #include "ale/map_pieces_t.hpp"
 #include "ale/map_t.hpp"
 #include "ale/plan_t.hpp"
@@ -203,7 +204,14 @@ TEST_F(Wire, EveryMessageIsReadByAnotherLanguageBinding)
     plan.point[1] = plan.place;
     std::snprintf(plan.words, sizeof plan.words, "drives to 1.50 -0.25: 2 m to go");
 
+    const auto graph = std::make_unique<ale_mapper_graph_t>();
+    graph->keyframes = ALE_GRAPH_KEYFRAMES; // more than one datagram
+    graph->keyframe[511].pose.x_um = 4500000;
+    graph->loops = 1;
+    graph->loop[0] = {3, 511, ALE_LOOP_JOINS};
+
     const ale_pose_t mounting = {145000, 0, 0};
+    EXPECT_EQ(ale_bus_send_graph(bus, graph.get(), 12, 8), 0);
     EXPECT_EQ(ale_bus_send_pose(bus, &pose), 0);
     EXPECT_EQ(ale_bus_send_plan(bus, &plan), 0);
     EXPECT_EQ(ale_bus_send_tracking(bus, &pose.estimate), 0);
@@ -215,8 +223,13 @@ TEST_F(Wire, EveryMessageIsReadByAnotherLanguageBinding)
     EXPECT_EQ(ale_bus_send_bot_lidar(bus, scan.get(), 12), 0);
     EXPECT_EQ(ale_bus_send_bot_pose(bus, &pose), 0);
     EXPECT_EQ(ale_bus_send_drive(bus, 12, 250000, -1500000), 0);
-    receive(11);
+    receive(12);
 
+    const auto told = received.only<ale::graph_t>("ALE_GRAPH");
+    EXPECT_EQ(told.version, 8);
+    EXPECT_FLOAT_EQ(told.x.at(511), 4.5f);
+    EXPECT_EQ(told.loop_to, std::vector<int16_t>{511});
+    EXPECT_EQ(told.loop_kind, std::vector<int8_t>{2});
     EXPECT_FLOAT_EQ(received.only<ale::pose_t>("ALE_POSE").map_y, 2);
     EXPECT_FLOAT_EQ(received.only<ale::features_t>("ALE_FEATURES").lines.at(1).rho, 3);
     EXPECT_EQ(received.only<ale::scan_t>("ALE_SCAN").range_mm.at(681), 4000);

@@ -269,6 +269,44 @@ TEST(Convert, ThePiecesOfAMapAreToldWhole)
     }
 }
 
+TEST(Convert, AFullGraphIsToldInOneMessageThatFits)
+{
+    const auto graph = std::make_unique<ale_mapper_graph_t>();
+    const auto buffer = std::make_unique<ale_graph_buffer_t>();
+    graph->keyframes = ALE_GRAPH_KEYFRAMES;
+    graph->loops = ALE_GRAPH_LOOPS;
+    graph->keyframes_left_out = 1536;
+    graph->loops_left_out = 7;
+    for (uint32_t k = 0; k < ALE_GRAPH_KEYFRAMES; k++) {
+        graph->keyframe[k] = {10 * k, k / 300, pose(0.1 * k, -1, 0.5), k != 0 && k != 300};
+    }
+    for (uint16_t k = 0; k < ALE_GRAPH_LOOPS; k++) {
+        graph->loop[k] = {k, 511, static_cast<uint8_t>(k % 3)};
+    }
+    lcmtypes_ale_graph_t message;
+    ale_convert_graph(graph.get(), 12, 34, buffer.get(), &message);
+    EXPECT_EQ(message.utime, 12);
+    EXPECT_EQ(message.version, 34);
+    EXPECT_EQ(message.keyframes_left_out, 1536);
+    EXPECT_EQ(message.loops_left_out, 7);
+    ASSERT_EQ(message.num_keyframes, ALE_GRAPH_KEYFRAMES);
+    ASSERT_EQ(message.num_loops, ALE_GRAPH_LOOPS);
+    for (int k = 0; k < ALE_GRAPH_KEYFRAMES; k++) {
+        EXPECT_EQ(message.scan[k], 10 * k);
+        EXPECT_FLOAT_EQ(message.x[k], 0.1f * static_cast<float>(k));
+        EXPECT_FLOAT_EQ(message.y[k], -1);
+        EXPECT_FLOAT_EQ(message.theta[k], 0.5f);
+        EXPECT_EQ(message.map_id[k], k / 300);
+        EXPECT_EQ(message.tied[k], k == 0 || k == 300 ? 0 : 1);
+    }
+    for (int k = 0; k < ALE_GRAPH_LOOPS; k++) {
+        EXPECT_EQ(message.loop_from[k], k);
+        EXPECT_EQ(message.loop_to[k], 511);
+        EXPECT_EQ(message.loop_kind[k], k % 3);
+    }
+    EXPECT_LE(lcmtypes_ale_graph_t_encoded_size(&message), 13400);
+}
+
 TEST(Convert, AFullStatusFitsItsMessage)
 {
     ale_status_report_t report{};

@@ -9,6 +9,7 @@
 #include "scarce_memory.hpp"
 
 extern "C" {
+#include "graph/mapper_graph.h"
 #include "mapping/mapper_thread.h"
 }
 
@@ -52,6 +53,14 @@ TEST_F(MapperThread, ALoopComesBackAsACorrection)
     EXPECT_EQ(correction->number, 1U);
     EXPECT_GT(correction->count, 100U);
     EXPECT_EQ(correction->shift[0].scan, 0U);
+    const ale_mapper_graph_t *graph = nullptr;
+    ASSERT_TRUE(comes_true([&] {
+        bool fresh = false;
+        graph = static_cast<const ale_mapper_graph_t *>(ale_snapshot_newest(exchange.graph, &fresh));
+        return graph->keyframes == keyframes.size();
+    })) << "and everybody outside is told the whole graph";
+    EXPECT_GT(graph->loops, 0U);
+    EXPECT_EQ(graph->epoch, 1U);
 }
 
 TEST_F(MapperThread, ExplorationHearsOfTheSameCorrection)

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "ale/features_t.hpp"
+#include "ale/graph_t.hpp"
 #include "ale/map_pieces_t.hpp"
 #include "ale/map_t.hpp"
 #include "ale/odometry_t.hpp"
@@ -79,6 +80,7 @@ class Telemetry : public surroundings::WithExchange
         states.subscribe(lcm, "ALE_STATUS");
         tracking.subscribe(lcm, "ALE_TRACKING");
         pieces.subscribe(lcm, "ALE_MAP_PIECES");
+        graphs.subscribe(lcm, "ALE_GRAPH");
         lidars.subscribe(lcm, "LASER");
         bot_poses.subscribe(lcm, "POSE");
         config = ale_config_default();
@@ -169,6 +171,7 @@ class Telemetry : public surroundings::WithExchange
     Channel<ale::status_t> states;
     Channel<ale::tracking_t> tracking;
     Channel<ale::map_pieces_t> pieces;
+    Channel<ale::graph_t> graphs;
     Channel<bot_core::planar_lidar_t> lidars;
     Channel<bot_core::pose_t> bot_poses;
 };
@@ -302,6 +305,25 @@ TEST_F(Telemetry, TheStatusComesOnceASecondAndCountsWhatWasLostAndWhy)
             << name;
     }
     expect_a_status_a_second(start_utime);
+}
+
+TEST_F(Telemetry, TheGraphGoesOutWhenItHasChanged)
+{
+    start();
+    for (uint32_t count = 1; count <= 2; count++) {
+        static_cast<ale_mapper_graph_t *>(ale_snapshot_back(exchange.graph))->keyframes = count;
+        ale_snapshot_publish(exchange.graph);
+        eventfd_write(exchange.under_way, 1);
+        receive_until([&] { return graphs.messages.size() == count; });
+        EXPECT_EQ(graphs.messages.back().num_keyframes, static_cast<int32_t>(count));
+        EXPECT_EQ(graphs.messages.back().version, static_cast<int32_t>(count));
+    }
+    EXPECT_GE(graphs.messages[1].utime - graphs.messages[0].utime, 1000000);
+    static_cast<ale_mapper_graph_t *>(ale_snapshot_back(exchange.graph))->keyframes = 3;
+    ale_snapshot_publish(exchange.graph);
+    stop();
+    receive_until([&] { return graphs.messages.size() == 3; });
+    EXPECT_EQ(graphs.messages[2].num_keyframes, 3) << "as it stood in the end";
 }
 
 TEST_F(Telemetry, AMapGoesOutWholeInPartsOfOneVersion)

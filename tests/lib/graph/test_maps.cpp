@@ -1,44 +1,26 @@
 // lib/graph/mapper: a tracker that begins new maps and joins them.
 #include <gtest/gtest.h>
 
-#include "maps_drive.hpp"
+#include "joined_drive.hpp"
 
 namespace
 {
 
 using namespace maps_drive;
 
-constexpr size_t begun = 90;   // keyframe with which the second map begins: beyond half a lap
-constexpr size_t joined = 150; // and that with which it joins: at the beginning of the second lap
-constexpr double laps = 1.15;
+using joined_drive::begun;
+using joined_drive::joined;
+using joined_drive::lap;
+using joined_drive::laps;
 
 Mapper mapper_of(uint32_t keyframes = ALE_MAPPER_KEYFRAMES)
 {
     return Mapper(ale_mapper_create(keyframes));
 }
 
-constexpr size_t lap = 144;
-
-// The second map is off by `elsewhere` until the tracker recognises what it saw a lap before.
-Keyframes joined_drive(double bend_rad_m)
-{
-    const std::vector<ale::Pose> truth = ring_corridor::truth(laps);
-    Keyframes keyframes = drifting_keyframes::walk(laps, bend_rad_m, 3);
-    const ale::Pose earlier = ale::from_core(keyframes[joined - lap]->map);
-    const ale_pose_t recognised =
-        ale::to_core(ale::compose(earlier, ale::between(truth[joined - lap], truth[joined])));
-    const ale_pose_t shift = ale_pose_compose(recognised, undo(keyframes[joined]->map));
-    begin_map(keyframes, begun, joined, 1, elsewhere());
-    for (size_t k = joined; k < keyframes.size(); k++) {
-        keyframes[k]->map = ale_pose_compose(shift, keyframes[k]->map);
-    }
-    tell_join(keyframes, joined, {1, 1, 0, ale_pose_compose(shift, undo(elsewhere()))});
-    return keyframes;
-}
-
 TEST(Maps, AMapThatJoinsMovesAsOne)
 {
-    const Keyframes keyframes = joined_drive(0);
+    const Keyframes keyframes = joined_drive::keyframes(0);
     const std::vector<ale::Pose> truth = ring_corridor::truth(laps);
     const Mapper mapper = mapper_of();
     add(mapper.get(), keyframes, 0, joined);
@@ -58,7 +40,7 @@ TEST(Maps, AMapThatJoinsMovesAsOne)
 // What has joined is tied: it is drawn tight together with the other map.
 TEST(Maps, AfterTheDriveAJoinedMapLiesOnTheOther)
 {
-    const Keyframes keyframes = joined_drive(0.0003);
+    const Keyframes keyframes = joined_drive::keyframes(0.0003);
     const std::vector<ale::Pose> truth = ring_corridor::truth(laps);
     const Mapper mapper = mapper_of();
     add(mapper.get(), keyframes, 0, keyframes.size());

@@ -181,6 +181,25 @@ TEST(PoseGraph, AGapIsSharedByTheEdgesOfTheLoop)
     }
 }
 
+TEST(PoseGraph, ALoopStaysOfItsKindWhenThePoseThatItEndsAtGoes)
+{
+    for (const bool joins : {false, true}) {
+        ale::PoseGraph graph;
+        for (int k = 0; k <= 6; k++) {
+            graph.add_pose({1.0 * k, 0, 0});
+        }
+        for (int k = 0; k < 6; k++) {
+            graph.add_edge({k, k + 1, {1, 0, 0}, unit_information, false});
+        }
+        graph.add_edge({1, 4, {3, 0, 0}, unit_information, true, !joins, false, joins});
+        graph.remove_pose(4, 3);
+        const ale::GraphEdge &loop = graph.edges().back();
+        ASSERT_TRUE(loop.robust);
+        EXPECT_EQ(loop.joins, joins);
+        EXPECT_EQ(loop.recognised, !joins);
+    }
+}
+
 TEST(PoseGraph, ALoopThatContradictsAllOthersLosesItsWeight)
 {
     const std::vector<ale::Pose> truth = circle(40);
