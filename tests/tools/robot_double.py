@@ -25,6 +25,7 @@ BEAM_TIME = 97.656e-6
 STAMP_BEAM = -44
 RADIUS, OMEGA, SCANS_A_SECOND = 0.7, 0.3, 10  # of its circle
 MAP_LINES_A_PART = 7
+GRAPH = [(0.5 + r * math.sin(a), 0.1 - r * math.cos(a), a) for a, r in ((k * 0.3, 0.9 + 0.03 * k) for k in range(22))]  # keyframes: a spiral
 WHEELS = ["fine", "contradict", "stalled", "reversed", "late", "scale"]
 
 
@@ -189,6 +190,19 @@ class RobotDouble:
         pieces.line_id, pieces.map_id = list(walls), [map_id] * len(walls)
         pieces.num_lines = len(walls)
         self.bus.publish("ALE_MAP_PIECES", pieces.encode())
+
+    def publish_graph(self, apart=0, loops=((0, 20, 1), (1, 18, 0)), left_out=0):
+        """Keyframes around its circle, the last `apart` of them in another map; loops as (from, to, kind)."""
+        graph = ale.graph_t()
+        graph.version, graph.keyframes_left_out = 1, left_out
+        graph.num_keyframes = len(GRAPH)
+        graph.scan = [10 * k for k in range(len(GRAPH))]
+        graph.x, graph.y, graph.theta = ([place[k] for place in GRAPH] for k in range(3))
+        graph.map_id = [0] * (len(GRAPH) - apart) + [1] * apart
+        graph.tied = [int(k > 0 and k != len(GRAPH) - apart) for k in range(len(GRAPH))]
+        graph.num_loops = len(loops)
+        graph.loop_from, graph.loop_to, graph.loop_kind = ([loop[k] for loop in loops] for k in range(3))
+        self.bus.publish("ALE_GRAPH", graph.encode())
 
     def publish_plan(self, state, words="", place=None, path=()):
         """state: 3 drives to a place, 4 is there, 5 has given it up."""

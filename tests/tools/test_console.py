@@ -16,7 +16,7 @@ import ale
 import lcm
 import pytest
 
-from robot_double import WALLS, RobotDouble
+from robot_double import GRAPH, WALLS, RobotDouble
 from at_hand import BINARIES
 from waiting import Pulse, wait_until
 from watching import Console, alice, commands, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
@@ -292,6 +292,18 @@ def test_which_walls_are_in_another_map_is_told_before_or_after_them(console, ro
     assert apart(watching.wait_for("map", lambda m: m["version"] == 2)) == [2]
 
 
+def test_keyframes_and_loops_arrive_as_they_were_sent(console, robot):
+    watching = WebSocket(console.url)
+    robot.step()
+    robot.publish_graph(apart=4, left_out=7)
+    graph = watching.wait_for("graph")
+    assert [each["at"] for each in graph["keyframes"]] == [pytest.approx(place, abs=1e-3) for place in GRAPH]
+    assert [each["map_id"] for each in graph["keyframes"]] == [0] * 18 + [1] * 4
+    assert [k for k, each in enumerate(graph["keyframes"]) if not each["tied"]] == [0, 18]
+    assert graph["loops"] == [{"from": 0, "to": 20, "kind": "closed"}, {"from": 1, "to": 18, "kind": "recognised"}]
+    assert graph["left_out"] == [7, 0]
+
+
 def test_the_map_and_the_wheels_of_every_pose_arrive(console, robot):
     watching = WebSocket(console.url)
     watching.wait_for("hello")
@@ -463,13 +475,14 @@ def hostile_messages():
     """Bytes that no honest robot sends: cut, with counts beyond reason, with numbers that are none."""
     whole = {"ALE_POSE": ale.pose_t(), "ALE_FEATURES": ale.features_t(), "ALE_SCAN": empty_scan(),
              "ALE_MAP": ale.map_t(), "ALE_STATUS": ale.status_t(), "ALE_TRACKING": ale.tracking_t(),
-             "ALE_MAP_PIECES": ale.map_pieces_t()}
+             "ALE_MAP_PIECES": ale.map_pieces_t(), "ALE_GRAPH": ale.graph_t()}
     for channel, message in whole.items():
         data = message.encode()
         yield channel, b""
         yield channel, data[:-1]
         yield channel, b"\0" * len(data)
-    counts = {"ALE_FEATURES": 8 + 8 + 4 + 12, "ALE_SCAN": 8 + 8 + 4 * 10, "ALE_MAP": 8 + 8 + 4 + 4, "ALE_MAP_PIECES": 8 + 8 + 4 + 4}
+    counts = {"ALE_FEATURES": 8 + 8 + 4 + 12, "ALE_SCAN": 8 + 8 + 4 * 10, "ALE_MAP": 8 + 8 + 4 + 4, "ALE_MAP_PIECES": 8 + 8 + 4 + 4,
+              "ALE_GRAPH": 8 + 8 + 4 * 3}
     for channel, offset in counts.items():
         for count in (-1, 1 << 20, 0x7FFFFFFF):
             data = bytearray(whole[channel].encode())

@@ -187,6 +187,8 @@ def test_on_a_phone_the_layers_open_at_a_button(phone, cockpit):
     cockpit.tap("apart")
     assert cockpit.run("return document.getElementById('apart').ariaPressed") == "false"
     cockpit.tap("apart")
+    cockpit.tap("graph")
+    assert cockpit.run("return document.getElementById('graph').ariaPressed") == "true"
     cockpit.press("Escape")
     cockpit.wait_for("!document.getElementById('legend').checkVisibility()")
 

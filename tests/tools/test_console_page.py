@@ -519,3 +519,42 @@ def test_the_occupancy_of_what_was_scanned_is_a_layer(page, robot, pulse):
     assert found[0] > 6 and found[1] < 0 and found[2] > 6 and found[3] == 0
     assert found[4] == 1 and found[5] == 0, "a pose that jumps begins anew"
     page.run("document.querySelector('[data-layer=occupancy]').click()")
+
+
+def test_keyframes_and_loops_are_a_layer_off_at_first(page, robot, pulse):
+    entry = "document.getElementById('graph')"
+    page.wait_for("document.getElementById('map-lines').textContent === '12'")
+    assert page.run(f"return [{entry}.ariaPressed, {entry}.hasAttribute('data-empty')]") == ["false", True]
+    robot.publish_graph(left_out=7)
+    page.wait_for(f"!{entry}.hasAttribute('data-empty') && document.getElementById('keyframes').textContent === '22'")
+    assert page.text("loops") == "2" and page.text("graph-left-out") == "7"
+    let_the_camera_glide(page)
+    assert pixels(page, "keyframe")["count"] < 10 and pixels(page, "loop")["count"] < 10, "off at first"
+    page.click("graph")
+    page.wait_for(f"{entry}.ariaPressed === 'true'")
+    let_the_camera_glide(page)
+    shown, apart = pixels(page, "keyframe", 25)["count"], pixels(page, "apart")["count"]
+    assert shown > 500 and pixels(page, "loop", 40)["count"] > 50
+    robot.publish_graph(apart=11, loops=((0, 10, 2),))
+    page.wait_for("document.getElementById('loops').textContent === '1'")
+    let_the_camera_glide(page)
+    assert pixels(page, "apart")["count"] > apart + 150, "in the colour of another map"
+    assert pixels(page, "keyframe", 25)["count"] < 0.7 * shown
+    page.run(f"{entry}.focus()")
+    page.press("Enter")
+    page.wait_for(f"{entry}.ariaPressed === 'false'")
+    let_the_camera_glide(page)
+    assert pixels(page, "keyframe")["count"] < 10
+
+
+def test_keyframes_of_then_are_shown_then(page, robot):
+    robot.drive(10)
+    robot.publish_graph(loops=((0, 20, 1),))
+    robot.drive(30)
+    robot.publish_graph()
+    robot.drive(2)
+    page.wait_for("document.getElementById('scan').textContent === '41' && document.getElementById('loops').textContent === '2'")
+    page.wait_for("Number(document.getElementById('when').max) - Number(document.getElementById('when').min) > 300")
+    page.run("const when = document.getElementById('when'); when.value = (Number(when.min) + Number(when.max)) / 2;"
+             "when.dispatchEvent(new Event('input'))")
+    page.wait_for("document.body.dataset.time === 'past' && document.getElementById('loops').textContent === '1'")

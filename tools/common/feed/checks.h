@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "ale/features_t.hpp"
+#include "ale/graph_t.hpp"
 #include "ale/map_pieces_t.hpp"
 #include "ale/map_t.hpp"
 #include "ale/plan_t.hpp"
@@ -105,6 +106,23 @@ inline void check(const ale::plan_t &plan)
         require(sane({plan.x[k], plan.y[k]}), "path out of this world");
     }
     require(plan.words.size() <= 200, "a reason of a whole page");
+}
+
+/* Each loop ends at keyframes that are there. */
+inline void check(const ale::graph_t &graph)
+{
+    require(graph.num_keyframes <= ALE_GRAPH_KEYFRAMES && graph.num_loops <= ALE_GRAPH_LOOPS,
+            "more keyframes or loops than a graph has");
+    require(graph.keyframes_left_out >= 0 && graph.loops_left_out >= 0, "negative count");
+    for (size_t k = 0; k < graph.x.size(); k++) {
+        require(sane({graph.x[k], graph.y[k], graph.theta[k]}), "keyframe out of this world");
+    }
+    for (size_t k = 0; k < graph.loop_from.size(); k++) {
+        require(graph.loop_from[k] >= 0 && graph.loop_from[k] < graph.loop_to[k] &&
+                    graph.loop_to[k] < graph.num_keyframes,
+                "a loop between no two keyframes");
+        require(graph.loop_kind[k] >= 0 && graph.loop_kind[k] <= ALE_LOOP_JOINS, "unknown kind of a loop");
+    }
 }
 
 /* A status has texts and counts only. */

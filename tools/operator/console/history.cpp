@@ -23,8 +23,9 @@ void History::keep(Topic topic, int64_t at_ms, Text text)
 {
     std::deque<Kept> &kept = kept_[static_cast<size_t>(topic)];
     bytes_ += text->size();
-    const bool replaces = topic == Topic::map && kept.size() > 1 &&
-                          kept.back().at_ms - kept[kept.size() - 2].at_ms < map_period_ms;
+    const bool is_large = topic == Topic::map || topic == Topic::graph;
+    const bool replaces =
+        is_large && kept.size() > 1 && kept.back().at_ms - kept[kept.size() - 2].at_ms < map_period_ms;
     if (replaces) {
         bytes_ -= kept.back().text->size();
         kept.back() = {at_ms, std::move(text)};

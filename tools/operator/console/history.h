@@ -28,7 +28,8 @@ class History
 
     static constexpr int64_t longest_ms = int64_t{10} * 60 * 1000;
     static constexpr size_t most_bytes = size_t{64} * 1024 * 1024;
-    static constexpr int64_t map_period_ms = 5000; /* maps are large; older ones are kept this far apart */
+    /* Maps and graphs are large; older ones are kept this far apart. */
+    static constexpr int64_t map_period_ms = 5000;
 
     struct Span {
         int64_t from_ms = 0;

@@ -106,7 +106,7 @@ void warn(const Options &options, const console::HttpAddress &address)
 void record_from(feed::LcmFeed &feed, console::Recorder &recorder, console::RobotWatch &watch)
 {
     for (const char *channel : {"ALE_POSE", "ALE_TRACKING", "ALE_FEATURES", "ALE_SCAN", "ALE_MAP",
-                                "ALE_MAP_PIECES", "ALE_PLAN", "ALE_STATUS", "ALE_VOUCHED"}) {
+                                "ALE_MAP_PIECES", "ALE_GRAPH", "ALE_PLAN", "ALE_STATUS", "ALE_VOUCHED"}) {
         feed.on_bytes(channel, [&recorder, &watch, channel](const uint8_t *bytes, size_t count) {
             if (watch.hears()) {
                 recorder.take(channel, bytes, count);

@@ -142,6 +142,29 @@ std::string plan_message(const ale::plan_t &plan)
          {"path", path}});
 }
 
+std::string graph_message(const ale::graph_t &graph)
+{
+    static const char *const kinds[] = {"recognised", "closed", "joins"};
+    json keyframes = json::array();
+    for (size_t k = 0; k < graph.x.size(); k++) {
+        keyframes.push_back({{"at", json::array({number(graph.x[k], 1e3), number(graph.y[k], 1e3),
+                                                 number(graph.theta[k], 1e3)})},
+                             {"map_id", graph.map_id[k]},
+                             {"tied", k > 0 && graph.tied[k] != 0}});
+    }
+    json loops = json::array();
+    for (size_t k = 0; k < graph.loop_from.size(); k++) {
+        loops.push_back(
+            {{"from", graph.loop_from[k]}, {"to", graph.loop_to[k]}, {"kind", kinds[graph.loop_kind[k]]}});
+    }
+    return text_of({{"type", "graph"},
+                    {"utime", graph.utime},
+                    {"version", graph.version},
+                    {"keyframes", keyframes},
+                    {"loops", loops},
+                    {"left_out", json::array({graph.keyframes_left_out, graph.loops_left_out})}});
+}
+
 std::string features_message(const ale::features_t &features)
 {
     json lines = json::array();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ale/features_t.hpp"
+#include "ale/graph_t.hpp"
 #include "ale/map_t.hpp"
 #include "ale/plan_t.hpp"
 #include "ale/pose_t.hpp"
@@ -29,6 +30,7 @@ std::string hello_message(const std::string &operator_name);
 std::string pose_message(const ale::pose_t &pose);
 std::string tracking_message(const ale::tracking_t &tracking);
 std::string plan_message(const ale::plan_t &plan);
+std::string graph_message(const ale::graph_t &graph);
 std::string features_message(const ale::features_t &features);
 std::string scan_message(const ale::scan_t &scan, const std::optional<Stain> &stain = {});
 std::string map_message(const ale::map_t &map, const feed::MapPieces &pieces = {});

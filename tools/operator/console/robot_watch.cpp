@@ -63,6 +63,7 @@ void RobotWatch::subscribe(feed::LcmFeed &feed)
     feed.on_bytes("ALE_VOUCHED", [this](const uint8_t *bytes, size_t count) { vouched_bytes(bytes, count); });
     follow(feed, "ALE_TRACKING", &RobotWatch::tracking);
     follow(feed, "ALE_PLAN", &RobotWatch::plan);
+    follow(feed, "ALE_GRAPH", &RobotWatch::graph);
     follow(feed, "ALE_FEATURES", &RobotWatch::features);
     follow(feed, "ALE_SCAN", &RobotWatch::scan);
     follow(feed, "ALE_MAP", &RobotWatch::map);
@@ -135,6 +136,12 @@ void RobotWatch::plan(const ale::plan_t &plan)
 {
     feed::check(plan);
     board_.pin(Topic::plan, plan_message(plan));
+}
+
+void RobotWatch::graph(const ale::graph_t &graph)
+{
+    feed::check(graph);
+    board_.pin(Topic::graph, graph_message(graph));
 }
 
 void RobotWatch::features(const ale::features_t &features)

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "ale/features_t.hpp"
+#include "ale/graph_t.hpp"
 #include "ale/map_t.hpp"
 #include "ale/plan_t.hpp"
 #include "ale/pose_t.hpp"
@@ -45,6 +46,7 @@ class RobotWatch
     void pose(const ale::pose_t &pose);
     void tracking(const ale::tracking_t &tracking);
     void plan(const ale::plan_t &plan);
+    void graph(const ale::graph_t &graph);
     void features(const ale::features_t &features);
     void scan(const ale::scan_t &scan);
     void map(const ale::map_t &part);

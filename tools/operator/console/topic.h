@@ -7,8 +7,8 @@
 namespace console
 {
 
-enum class Topic { pose, tracking, features, scan, map, plan, status };
-constexpr size_t topic_count = 7;
+enum class Topic { pose, tracking, features, scan, map, graph, plan, status };
+constexpr size_t topic_count = 8;
 
 struct TrailPoint {
     float x;

@@ -93,6 +93,18 @@ TEST(History, MapsAreKeptFarApartButForTheNewest)
     EXPECT_EQ(words(history.at(32000)).back(), "30000");
 }
 
+TEST(History, OfGraphsAsOfMapsOneInFiveSecondsIsKept)
+{
+    for (const Topic topic : {Topic::map, Topic::graph, Topic::plan}) {
+        History history;
+        for (int second = 0; second <= 20; second++) {
+            history.keep(topic, 1000 * second, text(std::to_string(second)));
+        }
+        EXPECT_EQ(history.sample(topic, 100).size(), topic == Topic::plan ? 21U : 5U);
+        EXPECT_EQ(words(history.at(99999)), std::vector<std::string>{"20"}) << "and the newest";
+    }
+}
+
 TEST(History, ASampleIsEvenAndHasTheFirst)
 {
     History history;

@@ -184,6 +184,55 @@ TEST_F(RobotWatched, WhereTheRobotDrivesByItselfIsPinned)
     EXPECT_THROW(watch.plan(plan), std::runtime_error);
 }
 
+ale::graph_t graph_of_three()
+{
+    ale::graph_t graph{};
+    graph.version = 4;
+    graph.keyframes_left_out = 5;
+    graph.num_keyframes = 3;
+    graph.scan = {0, 10, 20};
+    graph.x = {0, 0.5F, 1};
+    graph.y = {0, 0, 0.25F};
+    graph.theta = {0, 0, 1};
+    graph.map_id = {0, 0, 1};
+    graph.tied = {1, 1, 0};
+    graph.num_loops = 1;
+    graph.loop_from = {0};
+    graph.loop_to = {1};
+    graph.loop_kind = {1};
+    return graph;
+}
+
+TEST_F(RobotWatched, TheGraphOfTheMapperIsPinned)
+{
+    watch.graph(graph_of_three());
+    const std::string text = *board.newest(Topic::graph).text;
+    for (const char *part :
+         {R"({"at":[0.0,0.0,0.0],"map_id":0,"tied":false})", R"({"at":[0.5,0.0,0.0],"map_id":0,"tied":true})",
+          R"({"at":[1.0,0.25,1.0],"map_id":1,"tied":false})",
+          R"("loops":[{"from":0,"kind":"closed","to":1}])", R"("left_out":[5,0])", R"("version":4)"}) {
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+    }
+}
+
+TEST_F(RobotWatched, AGraphThatCannotBeIsRefused)
+{
+    const auto refused = [this](const auto &spoil) {
+        ale::graph_t graph = graph_of_three();
+        spoil(graph);
+        EXPECT_THROW(watch.graph(graph), std::runtime_error);
+    };
+    refused([](ale::graph_t &graph) { graph.num_keyframes = 513; });
+    refused([](ale::graph_t &graph) { graph.num_loops = 513; });
+    refused([](ale::graph_t &graph) { graph.loops_left_out = -1; });
+    refused([](ale::graph_t &graph) { graph.theta[2] = std::numeric_limits<float>::quiet_NaN(); });
+    refused([](ale::graph_t &graph) { graph.loop_to[0] = 3; });
+    refused([](ale::graph_t &graph) { graph.loop_from[0] = -1; });
+    refused([](ale::graph_t &graph) { graph.loop_from[0] = 1; });
+    refused([](ale::graph_t &graph) { graph.loop_kind[0] = 3; });
+    EXPECT_FALSE(board.newest(Topic::graph).text);
+}
+
 TEST_F(RobotWatched, MessagesOutOfThisWorldAreRefused)
 {
     ale::tracking_t tracking{};

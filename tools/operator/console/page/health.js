@@ -24,7 +24,7 @@ export class Health {
   take(message, scene) {
     this.cause.take(message);
     switch (message.type) {
-      case "hello": case "past": this.times = []; break;
+      case "hello": case "past": this.times = []; this.layers.tellEmpty("graph", true); break;
       case "pose": this.#pose(message); break;
       case "tracking":
         show("maps", mapsInWords(message)[0] || "one", message.maps > 1 ? "fair" : "");
@@ -42,6 +42,7 @@ export class Health {
         show("map-version", message.version);
         this.layers.tellEmpty("apart", !scene.hasWallsApart);
         break;
+      case "graph": this.#graph(message); break;
       case "status": this.#status(message); break;
       case "link": this.#link(message, scene); break;
     }
@@ -96,6 +97,14 @@ export class Health {
     const used = scan.ranges_mm.reduce((count, r) => count + (r > 0 ? 1 : 0), 0);
     show("beams", `${used} / ${scan.ranges_mm.length}`);
     show("codes", codesInWords(scan.codes));
+  }
+
+  #graph(message) {
+    const [keyframes, loops] = message.left_out;
+    this.layers.tellEmpty("graph", message.keyframes.length === 0);
+    show("keyframes", message.keyframes.length);
+    show("loops", message.loops.length);
+    show("graph-left-out", keyframes + loops);
   }
 
   #status(status) {

@@ -1,12 +1,12 @@
 // What is drawn and what is not: the legend's entries are its switches. The operator's choice is remembered.
 
-const KEPT = "layers off";
-const OFF_AT_FIRST = '["occupancy"]';
+const KEPT = "layers";
+const OFF_AT_FIRST = ["occupancy", "graph"];
 
 export class Layers {
   constructor(changed) {
     this.changed = changed;
-    this.off = new Set(JSON.parse(localStorage.getItem(KEPT) ?? OFF_AT_FIRST));
+    this.chosen = JSON.parse(localStorage.getItem(KEPT) ?? "{}"); // layer -> on; of those that were ever switched
     this.legend = document.getElementById("legend");
     this.button = document.getElementById("layers");
     for (const entry of this.#entries()) entry.addEventListener("click", () => this.#toggle(entry.dataset.layer));
@@ -16,7 +16,7 @@ export class Layers {
   }
 
   isOn(layer) {
-    return !this.off.has(layer);
+    return this.chosen[layer] ?? !OFF_AT_FIRST.includes(layer);
   }
 
   // There is nothing of it now.
@@ -29,8 +29,8 @@ export class Layers {
   }
 
   #toggle(layer) {
-    this.isOn(layer) ? this.off.add(layer) : this.off.delete(layer);
-    localStorage.setItem(KEPT, JSON.stringify([...this.off]));
+    this.chosen[layer] = !this.isOn(layer);
+    localStorage.setItem(KEPT, JSON.stringify(this.chosen));
     this.#show();
     this.changed();
   }

@@ -1,6 +1,8 @@
 // Draws the scene. Strokes are in screen pixels at every zoom and the canvas has the screen's own
 // resolution, so the picture stays crisp.
 
+import { drawGraph } from "./graph.js";
+
 const ROBOT_RADIUS_M = 0.17;
 const ROBOT_LEAST_PX = 9;
 const ELLIPSE_SIGMAS = 3;
@@ -63,6 +65,7 @@ export class Painter {
     this.#layer("scan", () => this.#points());
     this.#layer("lines", () => this.#uncertain() && this.#lineBands());
     this.#walls();
+    this.#layer("graph", () => this.#graph());
     this.#layer("lines", () => this.#currentLines());
     this.#layer("corners", () => this.#corners());
     this.#robot();
@@ -221,6 +224,10 @@ export class Painter {
     c.setLineDash([]);
     c.lineCap = "round";
     c.globalAlpha = 1;
+  }
+
+  #graph() {
+    if (this.scene.graph) drawGraph(this.context, this.view, this.scene, this.colour);
   }
 
   #currentLines() {

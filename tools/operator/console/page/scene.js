@@ -37,6 +37,7 @@ export class Scene {
     this.sight = []; // outline of what the scanner sees, [x, y, ...], sensor first
     this.map = null;
     this.mapBounds = null;
+    this.graph = null; // newest: keyframes of the mapper, and loops between them
     this.trail = []; // [x, y, ...], null between stretches
     this.status = null;
   }
@@ -51,6 +52,7 @@ export class Scene {
       case "features": this.#takeFeatures(message); break;
       case "scan": this.#takeScan(message); break;
       case "map": this.map = message; this.mapBounds = bounds(message.lines); break;
+      case "graph": this.graph = message; break;
       case "trail": this.trail = message.anew ? message.points : this.trail.concat(message.points); break;
       case "status": this.status = message; break;
     }
@@ -109,9 +111,9 @@ export class Scene {
     }
   }
 
-  // The wall is in another map than the robot: where it is drawn says nothing.
-  isApart(line) {
-    return (line.map_id ?? 0) !== (this.tracking?.map_id ?? 0);
+  // The wall or keyframe is in another map than the robot: where it is drawn says nothing.
+  isApart(thing) {
+    return (thing.map_id ?? 0) !== (this.tracking?.map_id ?? 0);
   }
 
   get hasWallsApart() {

@@ -19,11 +19,9 @@ namespace
 constexpr int64_t trail_ms = int64_t{2} * 60 * 1000;
 constexpr int64_t scan_ms = 200; /* what belongs to the newest pose has come by then */
 
-constexpr std::pair<const char *, Topic> single_messages[] = {{"ALE_TRACKING", Topic::tracking},
-                                                              {"ALE_FEATURES", Topic::features},
-                                                              {"ALE_SCAN", Topic::scan},
-                                                              {"ALE_PLAN", Topic::plan},
-                                                              {"ALE_STATUS", Topic::status}};
+constexpr std::pair<const char *, Topic> single_messages[] = {
+    {"ALE_TRACKING", Topic::tracking}, {"ALE_FEATURES", Topic::features}, {"ALE_SCAN", Topic::scan},
+    {"ALE_GRAPH", Topic::graph},       {"ALE_PLAN", Topic::plan},         {"ALE_STATUS", Topic::status}};
 
 std::string scan_words(const ale::scan_t &scan)
 {
@@ -156,6 +154,8 @@ History::Text OpenRecording::text_of(Topic topic, const Place &place) const
             return json_of<ale::features_t>(place, features_message);
         case Topic::scan:
             return json_of<ale::scan_t>(place, scan_words);
+        case Topic::graph:
+            return json_of<ale::graph_t>(place, graph_message);
         case Topic::plan:
             return json_of<ale::plan_t>(place, plan_message);
         case Topic::status:

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ale/features_t.hpp"
+#include "ale/graph_t.hpp"
 #include "ale/map_pieces_t.hpp"
 #include "ale/map_t.hpp"
 #include "ale/status_t.hpp"
@@ -97,6 +98,11 @@ TEST_F(Recording, ShowsWhatWasToBeSeenThen)
         ale::features_t features{};
         features.scan = k;
         put(105000 + 100000 * k, "ALE_FEATURES", features);
+        if (k % 5 == 0) {
+            ale::graph_t graph{};
+            graph.version = 1 + k;
+            put(106000 + 100000 * k, "ALE_GRAPH", graph);
+        }
     }
     put_map(620000, 2, 0, 2); /* its other part is lost */
     const OpenRecording recording = opened();
@@ -109,6 +115,7 @@ TEST_F(Recording, ShowsWhatWasToBeSeenThen)
     EXPECT_EQ(map["version"], 1);
     EXPECT_EQ(map["lines"].size(), 2U);
     EXPECT_EQ(map["lines"][1]["map_id"], 7);
+    EXPECT_EQ(message_of(past, "graph")["version"], 6);
     EXPECT_EQ(past.way.size(), 6U);
     EXPECT_TRUE(past.way[0].first);
     EXPECT_FALSE(past.way[1].first);
@@ -136,7 +143,7 @@ TEST_F(Recording, WhatMakesNoSenseIsLeftOut)
     put_pose(100000, 1, std::numeric_limits<float>::quiet_NaN());
     const std::vector<uint8_t> noise(200, 0xA5);
     for (const char *channel : {"ALE_POSE", "ALE_SCAN", "ALE_FEATURES", "ALE_MAP", "ALE_MAP_PIECES",
-                                "ALE_STATUS", "ALE_PLAN", "ALE_TRACKING", "SOMETHING"}) {
+                                "ALE_STATUS", "ALE_PLAN", "ALE_GRAPH", "ALE_TRACKING", "SOMETHING"}) {
         writer_.put(begin_us + 150000, channel, noise.data(), noise.size());
     }
     put_pose(200000, 2, 0);
