@@ -12,7 +12,7 @@ import pytest
 
 from at_hand import BINARIES, LONG, ROOT
 from foxglove_client import FoxgloveClient
-from robot_double import WALLS
+from robot_double import GRAPH, WALLS
 from watching import commands, lcm_url, pulse, robot  # noqa: F401 (fixtures)
 
 pytest.importorskip("foxglove", reason="PyPI's foxglove-sdk is not here")
@@ -112,6 +112,7 @@ def test_what_is_shown_is_recorded_and_is_what_the_robot_said(bridge, robot, tmp
     robot.drive(11)
     robot.publish_map()
     robot.publish_plan(3, "drives to 2.00 1.00", place=(2, 1), path=[(0.5, -0.6), (1, 0), (2, 1)])
+    robot.publish_graph(apart=4)
     robot.drive(3)
     assert running.end() == 0
     found = messages(tmp_path / "live.mcap")
@@ -126,6 +127,10 @@ def test_what_is_shown_is_recorded_and_is_what_the_robot_said(bridge, robot, tmp
     way = found["/plan"][-1][2].entities[0]
     assert [(point.x, point.y) for point in way.lines[0].points] == [(0.5, pytest.approx(-0.6)), (1, 0), (2, 1)]
     assert (way.spheres[0].pose.position.x, way.spheres[0].pose.position.y) == (2, 1) and way.frame_id == "map"
+    graph = found["/graph"][-1][2].entities[0]
+    assert [(dot.pose.position.x, dot.pose.position.y) for dot in graph.spheres] == [pytest.approx(place[:2]) for place in GRAPH]
+    assert [len(line.points) // 2 for line in graph.lines] == [17, 3, 1, 1], "neighbours in two maps, two kinds of loops"
+    assert (graph.lines[3].points[1].x, graph.lines[3].points[1].y) == pytest.approx(GRAPH[20][:2]) and graph.frame_id == "map"
     assert "streaming" in {message.message for _, _, message in found["/log"]}
     assert found["/health"][-1][2]["counters"]["bad_checksum"] == 3
 
@@ -249,7 +254,7 @@ def test_the_layout_names_only_what_the_bridge_sends_and_takes(tmp_path):
     assert run("layout", tmp_path / "ale.json").returncode == 0
     layout = json.loads((tmp_path / "ale.json").read_text(encoding="utf-8"))
     panels = layout["configById"]
-    topics = {"/map", "/plan", "/scan", "/lines", "/corners", "/pose", "/odometry"}
+    topics = {"/map", "/graph", "/plan", "/scan", "/lines", "/corners", "/pose", "/odometry"}
     assert set(panels["3D!robot"]["topics"]) == topics
 
     def named(tree):

@@ -16,8 +16,9 @@ from foxglove.messages import (Color, Duration, FrameTransform, FrameTransforms,
 
 STATES = ("lost", "weak", "good")
 NO_RETURN, TOO_NEAR = 0x81, 0x85  # codes of beams without a range
-LINE, CORNER, WALL, APART, PLAN = (Color(r=r, g=g, b=b, a=1.0) for r, g, b in (
-    (0.1, 0.5, 1.0), (1.0, 0.4, 0.1), (0.9, 0.9, 0.9), (0.7, 0.3, 1.0), (0.2, 0.9, 0.4)))
+LINE, CORNER, WALL, APART, PLAN, KEYFRAME, LOOP = (Color(r=r, g=g, b=b, a=1.0) for r, g, b in (
+    (0.1, 0.5, 1.0), (1.0, 0.4, 0.1), (0.9, 0.9, 0.9), (0.7, 0.3, 1.0), (0.2, 0.9, 0.4), (0.7, 0.85, 0.3), (1.0, 0.35, 0.25)))
+RECOGNISED, JOINS = 0, 2  # kinds of loops: of the least and the greatest weight
 
 
 def turn(theta):
@@ -60,6 +61,12 @@ def way(plan):
     return LinePrimitive(type=LinePrimitiveLineType.LineStrip, thickness=0.06, color=PLAN, points=points) if points else None
 
 
+def edges(graph, ends, colour, width):
+    """Between keyframes, as pairs of their indices."""
+    points = [Point3(x=graph.x[k], y=graph.y[k], z=0.0) for pair in ends for k in pair]
+    return LinePrimitive(type=LinePrimitiveLineType.LineList, thickness=width, color=colour, points=points) if points else None
+
+
 def ball(x, y, size, colour):
     return SpherePrimitive(pose=pose_of(x, y, 0.0), size=Vector3(x=size, y=size, z=size), color=colour)
 
@@ -80,6 +87,7 @@ class Scene:
         self.corners = made(channels.SceneUpdateChannel, "/corners")
         self.walls = made(channels.SceneUpdateChannel, "/map")
         self.plan = made(channels.SceneUpdateChannel, "/plan")
+        self.graph = made(channels.SceneUpdateChannel, "/graph")
         self.pose = made(channels.PoseInFrameChannel, "/pose")
         self.wheels = made(channels.PoseInFrameChannel, "/odometry")
         self.tf = made(channels.FrameTransformsChannel, "/tf")
@@ -90,7 +98,7 @@ class Scene:
                        "ALE_TRACKING": (ale.tracking_t, self.take_tracking), "ALE_FEATURES": (ale.features_t, self.take_features),
                        "ALE_MAP": (ale.map_t, self.take_map), "ALE_MAP_PIECES": (ale.map_pieces_t, self.take_pieces),
                        "ALE_STATUS": (ale.status_t, self.take_status), "ALE_ODOMETRY": (ale.odometry_t, self.take_odometry),
-                       "ALE_PLAN": (ale.plan_t, self.take_plan)}
+                       "ALE_PLAN": (ale.plan_t, self.take_plan), "ALE_GRAPH": (ale.graph_t, self.take_graph)}
         self.newest = None  # pose
         self.parts, self.pieces, self.apart = {}, {}, (0, frozenset())
         self.said = {}
@@ -165,6 +173,18 @@ class Scene:
         whole = gathered(self.pieces, part)
         if whole:
             self.apart = (part.version, frozenset(line for each in whole for line in each.line_id))
+
+    def take_graph(self, graph):
+        """The colours of keyframes are those of the maps that they are in; loops are the thinner the less they moved."""
+        loops = list(zip(graph.loop_from, graph.loop_to, graph.loop_kind))
+        if not all(0 <= a < b < graph.num_keyframes and RECOGNISED <= kind <= JOINS for a, b, kind in loops):
+            raise ValueError
+        colours = [APART if map_id else KEYFRAME for map_id in graph.map_id]
+        ties = [(k - 1, k) for k in range(1, graph.num_keyframes) if graph.tied[k]]
+        lines = [edges(graph, [tie for tie in ties if colours[tie[1]] is colour], colour, 0.02) for colour in (KEYFRAME, APART)]
+        lines += [edges(graph, [(a, b) for a, b, of in loops if of == kind], LOOP, 0.01 * (1 + kind)) for kind in range(RECOGNISED, JOINS + 1)]
+        dots = [ball(x, y, 0.08, colour) for x, y, colour in zip(graph.x, graph.y, colours)]
+        self.graph.log(entity("graph", "map", graph.utime, 0, lines, dots), log_time=graph.utime * 1000)
 
     def take_plan(self, plan):
         """The robot repeats it every second while there is one."""
