@@ -67,24 +67,23 @@ static bool explains(ale_recovery_t recovery, const ale_fit_t *fit)
            (recovery == ALE_RECOVER_CONFIRMED && !ale_tracking_doubts(fit));
 }
 
-/* Whether the next scan is waited for: wheels may be told of late after a gap, and a pose that is proposed
- * needs to be confirmed. Not where several poses explain the scan. */
-static bool may_wait(const ale_pipeline_t *p, ale_recovery_t recovery, const ale_ways_t *ways)
+/* Whether the next scan is waited for: wheels may be told of late after a gap, a pose that is proposed needs
+ * to be confirmed, and of several poses that explain the scan one may turn out to be right. Not where wheels
+ * have told of a way: it may have led to what the map does not hold, and then none of them is. */
+static bool may_wait(const ale_pipeline_t *p, ale_recovery_t recovery, bool counted, bool driven)
 {
-    return p->waited < WAITS_MOST &&
-           (recovery == ALE_RECOVER_UNDECIDED || (ways->counted && recovery != ALE_RECOVER_OPEN));
+    const bool several = recovery == ALE_RECOVER_OPEN;
+    return p->waited < WAITS_MOST && (several ? !driven : counted || recovery == ALE_RECOVER_UNDECIDED);
 }
 
 /* Whether this scan speaks against the pose after a time that nobody watched: the map has changed, several
- * poses explain the scan, or it is strange and no wheels say where it was taken. */
-static bool is_refuted(const ale_pipeline_t *p, const ale_prediction_t *prediction,
-                       ale_scene_verdict_t verdict, ale_recovery_t recovery, const ale_ways_t *ways)
+ * poses explain the scan, or this one does not and no wheels have told of a way. */
+static bool is_refuted(ale_scene_verdict_t verdict, ale_recovery_t recovery, bool driven,
+                       const ale_fit_t *fit)
 {
-    if (recovery == ALE_RECOVER_CONFIRMED || !ale_recover_is_unwatched(p, prediction)) {
-        return false;
-    }
-    const bool unsure = verdict == ALE_SCENE_STRANGE && !ways->counted;
-    return verdict == ALE_SCENE_CHANGED || recovery == ALE_RECOVER_OPEN || unsure;
+    const bool unsure = ale_tracking_doubts(fit) && !driven;
+    const bool others = recovery == ALE_RECOVER_OPEN || recovery == ALE_RECOVER_UNDECIDED;
+    return recovery != ALE_RECOVER_CONFIRMED && (verdict == ALE_SCENE_CHANGED || others || unsure);
 }
 
 /* What a scan that the prediction does not explain, or that nobody watched, comes to. */
@@ -99,8 +98,9 @@ static ale_scene_verdict_t recover(ale_pipeline_t *p, const ale_prediction_t *pr
         p->monitor.contradicted = false;
         return ALE_SCENE_KNOWN;
     }
-    if (is_refuted(p, prediction, verdict, recovery, ways)) {
-        p->waits = (uint8_t)(may_wait(p, recovery, ways) ? p->waited + 1 : 0);
+    const bool driven = ale_recover_has_driven(p, prediction);
+    if (ale_recover_is_unwatched(p, prediction) && is_refuted(verdict, recovery, driven, fit)) {
+        p->waits = (uint8_t)(may_wait(p, recovery, ways->counted, driven) ? p->waited + 1 : 0);
         return p->waits > 0 ? ALE_SCENE_CHANGED : lose(p);
     }
     const bool undecided = recovery == ALE_RECOVER_UNDECIDED && verdict != ALE_SCENE_CHANGED;
@@ -183,7 +183,8 @@ ale_tracked_t ale_step_track(ale_pipeline_t *p, const ale_prediction_t *predicti
     ale_update_reanchor(p, fit);
     const bool good = p->monitor.state == ALE_STATE_GOOD && verdict != ALE_SCENE_CHANGED;
     ale_filter_newcomers(p, prediction->before.pose, good, fit);
-    tracked.matched_corners = ale_update_map(p, fit, ale_tracking_may_map(&p->monitor, fit));
+    const bool changed = verdict == ALE_SCENE_CHANGED;
+    tracked.matched_corners = ale_update_map(p, fit, !changed && ale_tracking_may_map(&p->monitor, fit));
     const ale_visibility_counts_t counts = ale_update_decay(p, fit->motion.pose);
     ale_monitor_judge(p, fit, &counts);
     return tracked;

@@ -361,6 +361,12 @@ def test_the_home_is_survived_and_no_scan_is_silently_wrong():
     assert (within, silent, ends) == (runs, "0", "0")
 
 
+def test_in_darkness_driven_on_unseen_by_dead_wheels_the_robot_is_never_wrong_while_good():
+    """Where the scans begin again, half of what they show lies on the map at the old place, too."""
+    rows = rows_of(bench("--only", "office", "--seeds", "5", "--kinds", "dark-4"))
+    assert rows["dark-4"][0] == "1" and rows["dark-4"][4] == "0"
+
+
 def test_carried_into_a_room_like_another_the_robot_is_never_wrong_while_good():
     rows = rows_of(bench("--only", "alike", "--seeds", "1,2"))
     runs, _, _, _, wrong, silent, _, ends = rows["alike"]
