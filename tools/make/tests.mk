@@ -223,8 +223,7 @@ ROBOT_TESTS = tests/lib tests/drivers tests/firmware
 THREADED = $(SUB) BUILD=$(BUILD)/tsan TEST_BUILD=$(BUILD) SANITIZE=thread OPT=-O1 T=tests/firmware
 RTAI_SYSTEM_TESTS = tests/system/test_daemon.py tests/system/test_latency.py
 RTAI_BUILD = BUILD=$(BUILD)/rtai-build RT=rtai RTAI_CONFIG=$(RTAI_EMULATION_CONFIG)
-# Of these each leaves the processors idle for most of its time: two at a time. The virtual machines in which a scanner's time counts
-# are not among them.
+# Each of these waits most of its time.
 WAITING = waiting-rtai waiting-clients waiting-power
 # What waits for programs in real time does not run beside what computes, not even with a low priority for that: the kernel's
 # worker that hands on what a pseudo terminal received may then get no processor for seconds, and the firmware is blind.
@@ -298,7 +297,7 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	@rm -rf $(BUILD)/rtai-build && mkdir -p $(BUILD)/rtai-build && cp -a $(BUILD)/obj $(BUILD)/lcmtypes $(BUILD)/rtai-build
 	-@$(PYTHON) tools/make/run_tests.py command "make RT=rtai" $(SUB) $(RTAI_BUILD) -j2 programs
 	@$(PHASE) "the firmware on an emulated RTAI; simulated scanners read by clients that are not ours, a minute each; power cuts"
-	-@$(SUB) --keep-going -j2 --output-sync=target $(WAITING)
+	-@$(SUB) --keep-going $(WAITING)
 	@$(PHASE) "hostile datagrams, messages and requests on every socket, with sanitizers"
 	@$(CHECKED) -j2 $(HOSTILE_PROGRAMS) lcm-types
 	-@ALE_LONG_TESTS=1 $(CHECKED) VENV=$(abspath $(VENV)) SYSTEM_PROGRAMS= T="$(HOSTILE_TESTS)" system
