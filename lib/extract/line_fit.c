@@ -2,6 +2,7 @@
 
 #include "base/fixed.h"
 #include "base/trig.h"
+#include "extract/merge.h"
 
 enum {
     SAMPLES = 4,  /* points of a line at which its noise is looked at, */
@@ -135,11 +136,12 @@ static void set_covariance(const ale_prepared_scan_t *scan, const ale_spread_t *
     const int64_t n = line->points;
     const int64_t beams = scan->noise.shared_beams;
     const int64_t shared_q8 = stated_shared_q8(scan, &m->fit);
-    const int64_t mean_q8 = m->fit.var_q8 + ((shared_q8 * together_in_mean_q8(n, beams)) >> 8);
+    const ale_merge_doubt_t doubt = ale_merge_doubt(&scan->noise, m);
+    const int64_t mean_q8 = doubt.var_q8 + doubt.mean_q8 + ((shared_q8 * together_in_mean_q8(n, beams)) >> 8);
     /* a point at an end has 3 / n of what is known of the slope */
     const int64_t told_q8 = (n << 8) + 3 * ale_min64(doubtful_q8, (n << 8) / 4);
-    const int64_t own_q8 = (((m->fit.var_q8 * slope_q16) >> 16) * told_q8 / n) >> 8;
-    const int64_t slope_q8 = own_q8 + ((shared_q8 * together_in_slope_q8(n, beams)) >> 8);
+    const int64_t own_q8 = (((doubt.var_q8 * slope_q16) >> 16) * told_q8 / n) >> 8;
+    const int64_t slope_q8 = own_q8 + doubt.slope_q8 + ((shared_q8 * together_in_slope_q8(n, beams)) >> 8);
     const int64_t along2_q8 = ale_max64(m->along2_q8, 1);
     line->var_alpha_nrad2 = nano_nano(ale_max64(slope_q8, 1), along2_q8);
     line->cov_alpha_rho = ale_mul_nano(line->var_alpha_nrad2, mean_along_um);

@@ -6,6 +6,17 @@
 
 enum { PENALTY = 19, SHARED_PEAK = 3, MAX_GAP_POINTS = 8 };
 
+/* A step h amid n points: two lines gain n h^2 / 16 over one, which is turned by 3 h / (2 length), as by
+ * three times that gain in a point. Its mean is taken to be off by h / 4: once that gain. */
+enum {
+    SHALLOW_MM = 50, /* less is no step: what surfaces have, or a door in its frame */
+    DEEP_MM = 200,   /* deviation where none could show: cabinets and recesses are up to 0.45 m deep */
+    GAIN_Q8 = 256 / 16,
+    SLOPE_GAINS = 3
+};
+
+static const int64_t most_var_q8 = (int64_t)1 << 32; /* (4 m)^2 */
+
 int64_t ale_merge_ratio_q8(const ale_scan_noise_t *noise, const ale_run_fit_t *one, const ale_run_fit_t *a,
                            const ale_run_fit_t *b, bool on_one_surface)
 {
@@ -66,4 +77,20 @@ bool ale_merge_runs(ale_run_list_t *r)
         }
     }
     return r->count < before;
+}
+
+ale_merge_doubt_t ale_merge_doubt(const ale_scan_noise_t *noise, const ale_spread_t *m)
+{
+    const int64_t n = m->fit.n;
+    ale_merge_doubt_t doubt = {.var_q8 = m->fit.var_q8};
+    if (noise->own_square_q60 > 0) {
+        const int64_t mse_q8 = m->fit.sse_q8 / ale_max64(n - 2, 1);
+        doubt.var_q8 = ale_max64(doubt.var_q8, ale_min64(mse_q8, most_var_q8));
+        const int64_t hidden_q8 = PENALTY * ale_min64(doubt.var_q8, most_var_q8);
+        const int64_t shallow_q8 = n * SHALLOW_MM * SHALLOW_MM * GAIN_Q8;
+        const int64_t deep_q8 = n * DEEP_MM * DEEP_MM * GAIN_Q8;
+        doubt.mean_q8 = ale_min64(ale_clamp64(hidden_q8 - shallow_q8, 0, deep_q8), m->along2_q8 / 4);
+        doubt.slope_q8 = SLOPE_GAINS * doubt.mean_q8;
+    }
+    return doubt;
 }

@@ -62,7 +62,7 @@ TEST(ScanNoise, NoiseThatGrowsWithTheSquareOfTheRangeIsMeasured)
         const ale_noise_t measured = ale_extractor_noise(e);
         EXPECT_EQ(measured.own_ppm, 0);
         square.push_back(measured.own_ppm_per_m);
-        EXPECT_GE(features.line_count, 4) << k;
+        EXPECT_GE(features.line_count, k <= 50 ? 4 : 3) << k; // of a wall 7 m off the direction is too vague
         EXPECT_LE(features.line_count, 5) << k;
     }
     std::sort(square.begin(), square.end());
