@@ -15,8 +15,6 @@ enum {
     SLOPE_GAINS = 3
 };
 
-static const int64_t most_var_q8 = (int64_t)1 << 32; /* (4 m)^2 */
-
 int64_t ale_merge_ratio_q8(const ale_scan_noise_t *noise, const ale_run_fit_t *one, const ale_run_fit_t *a,
                            const ale_run_fit_t *b, bool on_one_surface)
 {
@@ -81,6 +79,7 @@ bool ale_merge_runs(ale_run_list_t *r)
 
 ale_merge_doubt_t ale_merge_doubt(const ale_scan_noise_t *noise, const ale_spread_t *m)
 {
+    const int64_t most_var_q8 = (int64_t)1 << 32; /* (4 m)^2 */
     const int64_t n = m->fit.n;
     ale_merge_doubt_t doubt = {.var_q8 = m->fit.var_q8};
     if (noise->own_square_q60 > 0) {
