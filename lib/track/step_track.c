@@ -158,6 +158,7 @@ ale_tracked_t ale_step_track(ale_pipeline_t *p, const ale_prediction_t *predicti
     ale_ways_t ways = ale_step_associate(p, prediction, fit);
     ale_step_solve(p, fit);
     const ale_scene_verdict_t verdict = judge(p, prediction, &ways, fit);
+    const bool changed = verdict == ALE_SCENE_CHANGED;
     tracked.kept = filter(p, verdict, prediction, &ways.believed, fit);
 
     const ale_scale_error_t scale_error = p->scale_error;
@@ -174,16 +175,15 @@ ale_tracked_t ale_step_track(ale_pipeline_t *p, const ale_prediction_t *predicti
         /* chance matches go along with the robot and would stop it; wheels outvote them */
         ale_motion_keep_along(&fit->motion, &ways.believed, observability.along_bam);
     }
-    if (verdict != ALE_SCENE_CHANGED) {
+    if (!changed) {
         ale_update_learn(p, prediction, &ways, &scale_error, fit);
         tracked.slips = ways.part ? ale_ways_slip(&ways, fit->motion.pose, p->slips) : p->slips;
     }
     ale_stage_end(&p->hook, ALE_STAGE_MATCH);
 
     ale_update_reanchor(p, fit);
-    const bool good = p->monitor.state == ALE_STATE_GOOD && verdict != ALE_SCENE_CHANGED;
+    const bool good = p->monitor.state == ALE_STATE_GOOD && !changed;
     ale_filter_newcomers(p, prediction->before.pose, good, fit);
-    const bool changed = verdict == ALE_SCENE_CHANGED;
     tracked.matched_corners = ale_update_map(p, fit, !changed && ale_tracking_may_map(&p->monitor, fit));
     const ale_visibility_counts_t counts = ale_update_decay(p, fit->motion.pose);
     ale_monitor_judge(p, fit, &counts);

@@ -100,7 +100,9 @@ def wanted_logs(specs, quick, every):
 
 
 def check(build, specs, quick):
-    inputs = {name: path for name, path in logs().items() if name in wanted_logs(specs, quick, logs())}
+    at_hand = logs()
+    wanted = wanted_logs(specs, quick, at_hand)
+    inputs = {name: path for name, path in at_hand.items() if name in wanted}
     ordinary = [build / "bin/ale-replay"]
     # What differs from run to run differs from that of another build, too: it runs a second time only where there is no other.
     others = {spec: built(build, spec) for spec in specs} or {"a second run": ordinary}

@@ -110,14 +110,11 @@ system: $(SYSTEM_PROGRAMS) lcm-types venv ## tests of the real programs over pse
 system-rtai: programs lcm-types venv $(BUILD)/rtai/ale-slamd ## the system tests with the firmware on an emulated RTAI (T=file of tests/system)
 	@ALE_SLAMD=$(BUILD)/rtai/ale-slamd $(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(or $(T),tests/system)
 
-# Their tests are in tests/system/NAME_vm.py.
-MACHINES ?= hil boots power
-VM_TEST = $(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python --reruns 0 -rP
 .PHONY: hil-vm
 hil-vm: programs lcm-types venv deb ## virtual robot PCs in qemu: a drive under PREEMPT_RT, days from boot to power cut, cuts while files are written (BOOTS=10 CUTS=50)
 	@tools/make/deps.sh tools/make/packages-vm.txt
-	@for machine in $(MACHINES); do \
-	    $(VM_TEST) tests/system/$${machine}_vm.py || failed=1; done; [ -z "$$failed" ]
+	@for machine in hil boots power; do \
+	    $(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python --reruns 0 -rP tests/system/$${machine}_vm.py || failed=1; done; [ -z "$$failed" ]
 
 .PHONY: endurance
 endurance: programs lcm-types venv ## 20,000 scans at ten times the speed, and latency under load: minutes, on an idle machine
@@ -223,11 +220,9 @@ ROBOT_TESTS = tests/lib tests/drivers tests/firmware
 THREADED = $(SUB) BUILD=$(BUILD)/tsan TEST_BUILD=$(BUILD) SANITIZE=thread OPT=-O1 T=tests/firmware
 RTAI_SYSTEM_TESTS = tests/system/test_daemon.py tests/system/test_latency.py
 RTAI_BUILD = BUILD=$(BUILD)/rtai-build RT=rtai RTAI_CONFIG=$(RTAI_EMULATION_CONFIG)
-# Each of these waits most of its time.
-WAITING = waiting-rtai waiting-clients waiting-power
 # What waits for programs in real time does not run beside what computes, not even with a low priority for that: the kernel's
 # worker that hands on what a pseudo terminal received may then get no processor for seconds, and the firmware is blind.
-.PHONY: test test-waiting test-computing test-all $(WAITING)
+.PHONY: test test-waiting test-computing test-all
 test: deps-test ## all tests on this machine; the last line counts them
 	@$(PYTHON) tools/make/run_tests.py begin
 	@$(PHASE) "build"
@@ -265,13 +260,6 @@ test-computing:
 	@$(CHECKED) -j2 $(MUTATED_PROGRAMS)
 	-@$(PYTHON) tools/make/run_tests.py command "mutated files" $(MUTATED) --inputs $(MUTATED_SHORT) --without $(MUTATED_LONG_FORMATS)
 
-waiting-rtai:
-	@$(SUB) T="$(filter-out $(RTAI_SYSTEM_TESTS),$(wildcard tests/system/test_*.py))" system-rtai
-waiting-clients:
-	@ALE_LONG_TESTS=1 $(SUB) system T=independent_clients DIST=load
-waiting-power:
-	@$(VM_TEST) tests/system/power_vm.py
-
 # A build with RTAI begins with the objects of the ordinary one: only the port is another, and what is linked with it.
 #
 # After `make test` in the same build folder (AFTER_TEST=1) only the rest runs, and the sum is of both.
@@ -292,17 +280,18 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	@$(PHASE) "the same bytes on other machines, emulated"
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, aarch64 armhf s390x" $(SUB) cross
 	@$(PHASE) "the firmware on a virtual robot PC"
-	-@$(SUB) hil-vm MACHINES="$(filter-out power,$(MACHINES))"
-	@$(PHASE) "the build for RTAI"
+	-@$(SUB) hil-vm
+	@$(PHASE) "the firmware as an RTAI program, on an emulated RTAI"
 	@rm -rf $(BUILD)/rtai-build && mkdir -p $(BUILD)/rtai-build && cp -a $(BUILD)/obj $(BUILD)/lcmtypes $(BUILD)/rtai-build
 	-@$(PYTHON) tools/make/run_tests.py command "make RT=rtai" $(SUB) $(RTAI_BUILD) -j2 programs
-	@$(PHASE) "the firmware on an emulated RTAI; simulated scanners read by clients that are not ours, a minute each; power cuts"
-	-@$(SUB) --keep-going $(WAITING)
+	-@$(SUB) T="$(filter-out $(RTAI_SYSTEM_TESTS),$(wildcard tests/system/test_*.py))" system-rtai
 	@$(PHASE) "hostile datagrams, messages and requests on every socket, with sanitizers"
 	@$(CHECKED) -j2 $(HOSTILE_PROGRAMS) lcm-types
 	-@ALE_LONG_TESTS=1 $(CHECKED) VENV=$(abspath $(VENV)) SYSTEM_PROGRAMS= T="$(HOSTILE_TESTS)" system
 	@$(PHASE) "the robot explores at a click in the browser; the console's page in every size, theme and layer; all tests of the bridges"
 	-@ALE_LONG_TESTS=1 $(SUB) system T="console_explores or test_console_access or ros2 or test_foxglove or test_bags"
+	@$(PHASE) "simulated scanners read by clients that are not ours, a minute each"
+	-@ALE_LONG_TESTS=1 $(SUB) system T=independent_clients DIST=load
 	@$(PHASE) "Python's wheel in an empty virtual environment"
 	-@ALE_LONG_TESTS=1 $(SUB) system T="test_python_wheel or test_python_types"
 	@$(PHASE) "explorations in a closed loop with the simulator, more of them"
