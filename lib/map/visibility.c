@@ -14,6 +14,15 @@ enum {
     NOT_IN_VIEW = -1
 };
 
+int64_t ale_farthest_um(const ale_scan_t *scan)
+{
+    int32_t most_um = 0;
+    for (uint32_t k = 0; k < scan->beams; k++) {
+        most_um = scan->range_um[k] > most_um ? scan->range_um[k] : most_um;
+    }
+    return most_um;
+}
+
 /* The beam that points in a direction of the sensor's frame. Deskewing moves bearings by a few steps: the
  * index of the evenly spaced beam is corrected twice. */
 static int32_t beam_towards(const ale_posed_scan_t *from, uint32_t direction_bam)

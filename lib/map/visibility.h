@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/fixed.h"
 #include "map/wall.h"
 #include "observe/posed_scan.h"
 
@@ -34,6 +35,18 @@ typedef struct {
     int32_t angle_urad;
     bool same_place;
 } ale_slack_t;
+
+/* The longest range of a scan. O(beams). */
+int64_t ale_farthest_um(const ale_scan_t *scan);
+
+/* Whether the wall faces the sensor, and some of it may lie nearer than the farthest of what is seen. */
+static inline bool ale_wall_may_be_in_view(const ale_wall_t *wall, ale_pose_t sensor, int64_t farthest_um)
+{
+    const int64_t most_um = farthest_um + wall->end_um - wall->start_um;
+    return ale_abs64((int64_t)wall->anchor.x_um - sensor.x_um) < most_um &&
+           ale_abs64((int64_t)wall->anchor.y_um - sensor.y_um) < most_um &&
+           ale_wall_offset(wall, (ale_point_t){sensor.x_um, sensor.y_um}) > 0;
+}
 
 /* Visibility of three evenly spaced points. from: sensor pose in the frame of the wall, here and below. */
 ale_points_visibility_t ale_wall_points_visibility(const ale_wall_t *wall, const ale_posed_scan_t *from,

@@ -22,32 +22,14 @@ static int64_t explained_um(const ale_scene_t *scene, const ale_fit_t *fit)
     return sum_um;
 }
 
-static int64_t farthest_um(const ale_scan_t *scan)
-{
-    int32_t most_um = 0;
-    for (uint32_t k = 0; k < scan->beams; k++) {
-        most_um = scan->range_um[k] > most_um ? scan->range_um[k] : most_um;
-    }
-    return most_um;
-}
-
-/* Whether it faces the sensor, and some of it may lie nearer than what is seen. */
-static inline bool may_be_in_view(const ale_wall_t *wall, ale_pose_t sensor, int64_t farthest_um)
-{
-    const int64_t most_um = farthest_um + wall->end_um - wall->start_um;
-    return ale_abs64((int64_t)wall->anchor.x_um - sensor.x_um) < most_um &&
-           ale_abs64((int64_t)wall->anchor.y_um - sensor.y_um) < most_um &&
-           ale_wall_offset(wall, (ale_point_t){sensor.x_um, sensor.y_um}) > 0;
-}
-
 static int64_t looked_through_um(const ale_local_map_t *map, const ale_posed_scan_t *from)
 {
-    const int64_t reach_um = farthest_um(from->scan);
+    const int64_t farthest_um = ale_farthest_um(from->scan);
     int64_t sum_um = 0;
     uint32_t asked = 0;
     for (uint32_t n = 0; n < map->near_first[ALE_MAP_DIRECTIONS] && asked < ALE_EVIDENCE_WALLS; n++) {
         const ale_wall_t *wall = &map->wall[map->near[n]];
-        if (!may_be_in_view(wall, from->sensor, reach_um)) {
+        if (!ale_wall_may_be_in_view(wall, from->sensor, farthest_um)) {
             continue;
         }
         asked++;

@@ -52,8 +52,6 @@ void ale_relocation_clear(ale_relocation_t *relocation)
     relocation->count = 0;
     relocation->next = 0;
     relocation->next_wall = 0;
-    relocation->scans = 0;
-    relocation->known_for = 0;
     relocation->recognised = false;
 }
 
@@ -127,7 +125,6 @@ static void add_proposal(ale_relocation_t *r, const ale_scene_t *scene, const al
 {
     const ale_pose_t to_now = ale_pose_between(ale_trail_newest(&r->trail)->from, (ale_pose_t){0, 0, 0});
     ale_place_t place = {.pose = ale_pose_compose(h->pose, to_now),
-                         .entered = r->scans,
                          .score_q8 = (int32_t)(h->score_um * 256 / h->shown_um)};
     if (place.score_q8 < SCORE_LEAST_Q8 || is_known(r, place.pose)) {
         return;
@@ -363,7 +360,6 @@ bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const 
                   const ale_motion_t *predicted, ale_fit_t *fit)
 {
     ale_place_t *place = answer(relocation);
-    relocation->scans++;
     if (!place) {
         propose(relocation, scene);
         fit_some(relocation, scene, mounted, predicted, fit);
@@ -377,7 +373,6 @@ bool ale_relocate(ale_relocation_t *relocation, const ale_scene_t *scene, const 
         place->scans = 0;
         return false;
     }
-    relocation->known_for = relocation->scans - place->entered;
     ale_register_associate(scene, fit);
     ale_register_weigh(scene, fit);
     return true;

@@ -28,7 +28,6 @@ typedef struct {
     int32_t score_q8;    /* part explained, 256: all; smoothed over the fits */
     int32_t coverage_q8; /* of the search for rivals: sum of the rounds' pair_q8, expiring with the path */
     uint16_t scans;      /* fits so far */
-    uint32_t entered;    /* scan of this search that proposed it */
 } ale_place_t;
 
 typedef struct {
@@ -42,8 +41,6 @@ typedef struct {
     uint16_t count;
     uint16_t next;      /* place to be fitted */
     uint16_t next_wall; /* to be asked whether it is visible */
-    uint32_t scans;     /* of this search */
-    uint32_t known_for; /* scans for which the answer has been a place */
     bool recognised;    /* by the last scan, */
     ale_pose_t at;      /* there, seen from where the robot is now */
 } ale_relocation_t;

@@ -34,6 +34,7 @@
 #include "track/evidence/carried.h"
 #include "track/evidence/elders.h"
 #include "track/evidence/slip.h"
+#include "track/evidence/way_back.h"
 #include "track/evidence/witness.h"
 #include "track/evidence/zero_motion.h"
 #include "track/pipeline_config.h"
@@ -106,7 +107,8 @@ struct ale_pipeline {
     /* monitor */
     ale_tracking_monitor_t monitor;
     uint8_t waits; /* scans in a row, to this one, that wait for the next one to tell where they were taken */
-    uint8_t waited; /* to the one before */
+    uint8_t waited;       /* to the one before */
+    bool denied_to_stand; /* by one of those, or this one */
     uint32_t
         led_by_wheels; /* the scan to which they alone have led, unseen; 0 where a map has confirmed it */
 
@@ -114,6 +116,7 @@ struct ale_pipeline {
     ale_static_scene_t still;
     ale_carried_t carried;
     ale_elders_t elders;
+    ale_way_back_t way_back; /* through the robot's map, unless that is the first */
     ale_zero_motion_t zero_motion;
     ale_witness_t witness;
 

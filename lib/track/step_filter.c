@@ -29,6 +29,7 @@ void ale_filter_clear(ale_pipeline_t *p)
     ale_witness_clear(&p->witness);
     ale_carried_clear(&p->carried);
     ale_elders_clear(&p->elders);
+    ale_way_back_clear(&p->way_back);
     ale_zero_motion_clear(&p->zero_motion);
     p->still.count = 0;
 }
@@ -78,6 +79,7 @@ void ale_filter_newcomers(ale_pipeline_t *p, ale_pose_t before, bool good, ale_f
                                   p->still.observation, fit->association);
     if (good) {
         ale_elders_keep(&p->elders, &now);
+        ale_way_back_keep(&p->way_back, &now);
     }
 }
 

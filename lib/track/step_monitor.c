@@ -4,6 +4,7 @@
 
 #include "base/fixed.h"
 #include "track/step_filter.h"
+#include "track/step_recover.h"
 
 enum {
     SLACK_UM = 60000,
@@ -21,16 +22,35 @@ static ale_slack_t slack_of(const ale_matrix_t *cov, bool counted)
         (int32_t)ale_min64(2 * ale_matrix_sigma(cov, 2), counted ? SLACK_MOST_URAD : SLACK_URAD), false};
 }
 
+/* Whether the last scan denies that the robot is where it was, after a time that nobody watched and in which
+ * no wheels told of a way: a robot that stood sees what it saw. What has denied it once does so while scans
+ * are waited for. */
+static bool is_denied_to_stand(const ale_pipeline_t *p, const ale_prediction_t *prediction,
+                               const ale_seen_t *now)
+{
+    if (!ale_recover_is_unwatched(p, prediction) || ale_recover_has_driven(p, prediction)) {
+        return false;
+    }
+    if (p->waited > 0 && p->denied_to_stand) {
+        return true;
+    }
+    const ale_testimony_t testimony =
+        ale_witness_hear(&p->witness, now, (ale_slack_t){SLACK_UM, SLACK_URAD, false});
+    return ale_tracking_denies(&testimony);
+}
+
 ale_scene_verdict_t ale_step_monitor(ale_pipeline_t *p, const ale_prediction_t *prediction, bool counted,
                                      const ale_fit_t *fit)
 {
     const bool strange = ale_tracking_is_strange(&p->monitor, fit);
+    const ale_seen_t now = ale_pipeline_seen_from(p, prediction->before.pose, fit->motion.pose);
     ale_testimony_t testimony = {0};
     if (strange) {
-        const ale_seen_t now = ale_pipeline_seen_from(p, prediction->before.pose, fit->motion.pose);
         testimony = ale_witness_hear(&p->witness, &now, slack_of(&fit->motion.cov, counted));
     }
     ale_tracking_notice(&p->monitor, strange ? &testimony : NULL, counted, p->map.count > 0);
+    p->denied_to_stand = !strange && is_denied_to_stand(p, prediction, &now);
+    p->monitor.contradicted = p->monitor.contradicted || p->denied_to_stand;
     if (p->monitor.contradicted) {
         return ALE_SCENE_CHANGED;
     }

@@ -17,8 +17,9 @@ enum {
     EXPECTED_UM = 500000, /* of where the prediction has put the robot: there less will do */
     EXPECTED_BAM = 350 * ALE_BAM_PER_MRAD,
     EXPECTED_LEAST_UM = 2000000,
-    LAID_LEAST_UM = 10000000,   /* of walls of the one map that lie on the other, */
-    LAID_PERCENT = 90,          /* and the part of them */
+    LAID_LEAST_UM = 15000000,   /* of walls of the one map that lie on the other; */
+    LAID_SMALL_UM = 10000000,   /* this much where they are three quarters of all that the other holds */
+    DENIED_WEIGHT = 10,         /* one that the way there has led through speaks against so many */
     LAID_WALL_MOST_UM = 2000000 /* that one of them counts for */
 };
 
@@ -42,18 +43,37 @@ static search_t next_search(ale_pipeline_t *p, ale_pose_t displacement)
     return p->claim == ALE_CLAIM_SAID && p->claims % 4 == 3 ? WHERE_SAID : NEAR;
 }
 
-/* Whether the robot's own map lies on the selected one when the robot is at this pose of that. Each wall
- * counts once: many scans from one place show no more than one does. */
-static bool is_laid_on(const ale_pipeline_t *p, ale_pose_t there, uint32_t within)
+/* What the robot has looked through on the way through its own map, if it is at this pose of the selected
+ * one. */
+static int64_t denied_um(ale_pipeline_t *p, ale_pose_t there)
+{
+    const ale_pose_t smooth = ale_pose_compose(p->smooth.shift, p->motion.pose);
+    return ale_way_back_denied_um(&p->way_back, &p->map, smooth, there);
+}
+
+/* How much of the robot's own map must lie on the selected one. */
+static int64_t least_um(const ale_pipeline_t *p, bool expected)
+{
+    int64_t held_um = 0;
+    for (uint32_t i = 0; i < p->map.count && !expected; i++) {
+        const ale_wall_t *wall = &p->map.wall[i];
+        const int64_t length_um = (int64_t)wall->end_um - wall->start_um;
+        held_um += wall->map == p->map.selected ? ale_min64(length_um, LAID_WALL_MOST_UM) : 0;
+    }
+    return expected ? EXPECTED_LEAST_UM : ale_clamp64(held_um * 3 / 4, LAID_SMALL_UM, LAID_LEAST_UM);
+}
+
+/* By how much more of the robot's own map lies on the selected one than must, when the robot is at this pose
+ * of that. Each wall counts once: many scans from one place show no more than one does.
+ * The newest are asked first: work is bounded. */
+static int64_t laid_um(const ale_pipeline_t *p, ale_pose_t there)
 {
     const ale_viewpoint_t shift = ale_viewpoint(ale_pose_shift(p->motion.pose, there));
     int32_t work = ALE_ASSOCIATION_WORK;
-    int64_t shown_um = 0;
     int64_t explained_um = 0;
-    for (uint16_t i = 0; i < p->map.count; i++) {
-        const ale_wall_t *wall = &p->map.wall[i];
-        if (wall->map == p->atlas.current && wall->seen >= ALE_MAP_CONFIRMED &&
-            wall->last_scan + within > p->scans) {
+    for (uint32_t i = p->map.count; i > 0; i--) {
+        const ale_wall_t *wall = &p->map.wall[i - 1];
+        if (wall->map == p->atlas.current && wall->seen >= ALE_MAP_CONFIRMED) {
             const ale_observation_t as_seen = {.centre = wall->anchor,
                                                .normal_bam = wall->normal_bam,
                                                .start_um = wall->start_um,
@@ -62,16 +82,14 @@ static bool is_laid_on(const ale_pipeline_t *p, ale_pose_t there, uint32_t withi
                                                .var_angle_urad2 = wall->var_angle_urad2};
             const ale_association_t a = ale_associate(&p->map, &as_seen, &shift, NULL, &laid_gate, &work);
             const int64_t length_um = ale_min64(ale_observation_length_um(&as_seen), LAID_WALL_MOST_UM);
-            shown_um += length_um;
             explained_um += a.wall == ALE_NO_WALL ? 0 : ale_min64(a.error.overlap_um, length_um);
         }
     }
     const bool expected = ale_are_near(p->motion.pose, there, EXPECTED_UM, EXPECTED_BAM);
     if (p->claim == ALE_CLAIM_DRIVEN && !expected) {
-        return false;
+        return -1;
     }
-    return explained_um > (expected ? EXPECTED_LEAST_UM : LAID_LEAST_UM) &&
-           explained_um * 100 > shown_um * LAID_PERCENT;
+    return explained_um - least_um(p, expected);
 }
 
 static void fit_at(ale_pipeline_t *p, ale_pose_t pose, ale_fit_t *fit)
@@ -89,7 +107,7 @@ static bool is_near(ale_pipeline_t *p, ale_fit_t *fit)
         return false;
     }
     *fit = p->best;
-    return is_laid_on(p, fit->motion.pose, p->scans + 1);
+    return true;
 }
 
 static bool is_anywhere(ale_pipeline_t *p, ale_fit_t *fit)
@@ -99,13 +117,7 @@ static bool is_anywhere(ale_pipeline_t *p, ale_fit_t *fit)
     const ale_scene_t scene = ale_observed_scene(p);
     const ale_posed_scan_t mounted = {&p->observed.scan, ale_observed_bearings(&p->observed),
                                       p->config.sensor};
-    if (!ale_relocate(&p->relocation, &scene, &mounted, &p->motion, fit) || !ale_tracking_accepts(fit)) {
-        return false;
-    }
-    /* all that was seen while the place was known; or the last part of it, where the other map begins there
-     */
-    const uint32_t scans = p->relocation.known_for;
-    return is_laid_on(p, fit->motion.pose, scans) || is_laid_on(p, fit->motion.pose, scans / 2);
+    return ale_relocate(&p->relocation, &scene, &mounted, &p->motion, fit) && ale_tracking_accepts(fit);
 }
 
 /* Whether the robot is where it is said to be, or where the last scan has recognised a place; else the place
@@ -115,13 +127,14 @@ static bool is_found(ale_pipeline_t *p, search_t search, ale_fit_t *fit)
     ale_pose_t at;
     if (ale_relocation_recognised(&p->relocation, &at)) {
         fit_at(p, at, fit);
-        return ale_tracking_explains(fit);
+        return ale_tracking_explains(fit) &&
+               laid_um(p, fit->motion.pose) > DENIED_WEIGHT * denied_um(p, fit->motion.pose);
     }
     if (search == WHERE_SAID) {
         fit_at(p, p->motion.pose, fit);
         return ale_tracking_confirms(fit);
     }
-    if (search == NEAR ? is_near(p, fit) : is_anywhere(p, fit)) {
+    if ((search == NEAR ? is_near(p, fit) : is_anywhere(p, fit)) && laid_um(p, fit->motion.pose) > 0) {
         ale_relocation_recognise(&p->relocation, fit->motion.pose);
     }
     return false;

@@ -11,7 +11,7 @@ enum {
     DENIED_LEAST_UM = 1000000, /* surfaces that must be gone before a change is called one, */
     SHOWN_LEAST_UM = 2000000,  /* two scans that show less of each other than this cannot be compared */
     DENIED_PERCENT = 20,       /* and the part of all that both scans looked at, */
-    UNWATCHED_PERCENT = 10,    /* or this one where nothing was seen of the way between them */
+    UNWATCHED_PERCENT = 5,     /* or this one where nothing was seen of the way between them */
     CONFIRM_PERCENT = 20,      /* two scans confirm this much of each other at the least, */
     CLOSE_PERCENT = 45,  /* this much when taken side by side, or nothing was seen of the way between, */
     EMPTY_LEAST = 2,     /* as in so many scans that showed nothing, */
@@ -86,6 +86,13 @@ static bool is_confirmed(const ale_tracking_monitor_t *monitor, const ale_testim
 static bool is_adrift(const ale_tracking_monitor_t *monitor, bool counted)
 {
     return monitor->misfits > 0 && !counted;
+}
+
+bool ale_tracking_denies(const ale_testimony_t *testimony)
+{
+    const int64_t compared_um = testimony->denied_um + testimony->confirmed_um;
+    return testimony->denied_um > DENIED_LEAST_UM &&
+           testimony->denied_um * 100 > compared_um * UNWATCHED_PERCENT;
 }
 
 void ale_tracking_notice(ale_tracking_monitor_t *monitor, const ale_testimony_t *testimony, bool counted,

@@ -34,6 +34,9 @@ bool ale_tracking_doubts(const ale_fit_t *fit);
 /* Whether so little is found that the last scan must be asked; more is needed once a scan did not fit. */
 bool ale_tracking_is_strange(const ale_tracking_monitor_t *monitor, const ale_fit_t *fit);
 
+/* Whether two scans, of whose way from the one to the other nothing was seen, contradict each other. */
+bool ale_tracking_denies(const ale_testimony_t *testimony);
+
 /* Decides whether the last scan contradicts this one, before it goes into the map. testimony: what the last
  * scan says of it, NULL where it was not asked. counted: wheels measured the motion between the two. mapped:
  * the map holds walls. */

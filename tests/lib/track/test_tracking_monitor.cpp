@@ -268,6 +268,16 @@ TEST(TrackingMonitor, APoseThatTheMapDoesNotHoldIsWhereTheMapGoesOnUnlessTheLast
     EXPECT_FALSE(ale_tracking_may_reanchor(&t, &fit));
 }
 
+TEST(TrackingMonitor, TwoScansOfARobotThatStoodMustNotDenyAMetreAndATwentiethOfWhatBothLookAt)
+{
+    const ale_testimony_t people = {40000000, 30000000, 950000, true};
+    const ale_testimony_t small_part = {60000000, 50000000, 1500000, true};
+    const ale_testimony_t elsewhere = {18500000, 13300000, 1150000, true};
+    EXPECT_FALSE(ale_tracking_denies(&people));
+    EXPECT_FALSE(ale_tracking_denies(&small_part));
+    EXPECT_TRUE(ale_tracking_denies(&elsewhere));
+}
+
 TEST(TrackingMonitor,
      WhatIsNotWhereAPoseOfLittleCertaintyPutsItIsNoNewPlaceButLostUnlessWheelsToldOrNothingIsMapped)
 {

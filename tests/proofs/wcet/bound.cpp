@@ -498,7 +498,20 @@ void search(Parts &parts, Random &random, Lost &lost)
     }
 }
 
-/* The scan confirms where the robot is; all marks are of its own map, which moves. */
+/* Scans from along the way, each of which looks through all walls. */
+void way_back(ale_pipeline_t *p)
+{
+    const ale_posed_scan_t from = {&p->observed.scan, ale_observed_bearings(&p->observed), {0, 0, 0}};
+    const ale_seen_t seen = {from, {0, 0, 0}, nullptr, 0};
+    ale_way_back_clear(&p->way_back);
+    for (ale_seen_copy_t &copy : p->way_back.seen) {
+        ale_seen_copy(&copy, &seen);
+        p->way_back.count++;
+    }
+}
+
+/* The scan confirms where the robot is, and what its own scans have looked through is asked; all marks are of
+ * its own map, which moves. */
 void joining(Parts &parts, Lost &lost)
 {
     for (uint32_t views = 4; views <= ALE_MAX_OBSERVATIONS; views += 8) {
@@ -511,8 +524,10 @@ void joining(Parts &parts, Lost &lost)
         ale_motion_t there = p->motion;
         p->motion.pose = {500 * centimetre_um, 700 * centimetre_um, 123456789};
         p->map.near_radius_um = 0;
+        way_back(p);
         parts.measure("lost: two maps join", 1, [&] {
             ale_pipeline_fit(p, &there, 40000000, &p->other);
+            ale_way_back_denied_um(&p->way_back, &p->map, {0, 0, 0}, there.pose);
             ale_maps_join(p, ALE_FIRST_MAP, &p->other);
         });
     }
