@@ -1,14 +1,35 @@
 #include "extract/points.h"
 
+#include <string.h>
+
 #include "base/fixed.h"
 #include "base/trig.h"
 
-enum { PLACE_SHIFT = 36 };
+enum {
+    PLACE_SHIFT = 36,
+    BLOCK = 32,                          /* beams looked at together */
+    AHEAD = (ALE_MAX_BEAMS + 1) / 2 * 2, /* place of straight ahead among the half steps */
+    DENSE = 4 /* times more points than other beams: a scan that is not sparse, for few lose a neighbour */
+};
 
 /* Cosine or sine as what a range in micrometres is multiplied by: Q36 of points (1/16 mm) a micrometre. */
 static int32_t per_um_q36(int32_t cos_q30)
 {
     return (int32_t)ale_round_div((int64_t)cos_q30 * 128, 125);
+}
+
+/* Mirrored to the other side of straight ahead. */
+static void set_direction(ale_points_t *p, uint32_t half_steps, ale_direction_t d)
+{
+    ale_beam_directions_t *of = &p->direction[half_steps % 2];
+    const uint32_t before = (AHEAD - half_steps) / 2;
+    const uint32_t behind = (AHEAD + half_steps) / 2;
+    const int32_t cos_q36 = per_um_q36(d.cos_q30);
+    const int32_t sin_q36 = per_um_q36(d.sin_q30);
+    of->cos_q36[before] = cos_q36;
+    of->sin_q36[before] = -sin_q36;
+    of->cos_q36[behind] = cos_q36;
+    of->sin_q36[behind] = sin_q36;
 }
 
 /* Directions of as many multiples of half a beam as the scan is wide. */
@@ -19,9 +40,7 @@ static void cache_directions(ale_points_t *p, const ale_scan_t *scan)
         p->direction_step_bam = scan->step_bam;
     }
     for (int32_t m = p->directions; m < scan->beams; m++) {
-        const ale_direction_t d = ale_direction((uint32_t)((int64_t)m * scan->step_bam / 2));
-        p->cos_q36[m] = per_um_q36(d.cos_q30);
-        p->sin_q36[m] = per_um_q36(d.sin_q30);
+        set_direction(p, (uint32_t)m, ale_direction((uint32_t)((int64_t)m * scan->step_bam / 2)));
     }
     p->directions = (int32_t)ale_max64(p->directions, scan->beams);
 }
@@ -50,31 +69,87 @@ void ale_points_note_gaps(ale_points_t *p)
     }
 }
 
-void ale_points_list(ale_points_t *p, const ale_scan_t *scan, const uint32_t *bearing_bam)
+static inline bool is_point(const ale_scan_t *scan, int32_t k)
 {
     const uint32_t span_um = ALE_MAX_RANGE_UM - ALE_MIN_RANGE_UM;
-    uint32_t n = 0;
-    p->gap_count = 0;
-    for (uint32_t k = 0; k < scan->beams; k++) {
-        const int32_t range_um = scan->range_um[k];
-        if (scan->flag[k] == ALE_BEAM_VALID && (uint32_t)range_um - ALE_MIN_RANGE_UM <= span_um) {
+    return scan->flag[k] == ALE_BEAM_VALID && (uint32_t)scan->range_um[k] - ALE_MIN_RANGE_UM <= span_um;
+}
+
+/* Whether all beams of the block from k on are points: no branch, for the compiler takes several at once. */
+static bool are_points(const ale_scan_t *scan, int32_t k)
+{
+    uint32_t flags = 0;
+    uint32_t beyond = 0; /* sign bit: below the least or above the farthest range */
+    for (int32_t j = k; j < k + BLOCK; j++) {
+        const uint32_t range_um = (uint32_t)scan->range_um[j];
+        beyond |= (range_um - ALE_MIN_RANGE_UM) | (ALE_MAX_RANGE_UM - range_um);
+    }
+    for (int32_t j = k; j < k + BLOCK; j++) {
+        flags |= scan->flag[j];
+    }
+    return flags == ALE_BEAM_VALID && beyond <= INT32_MAX;
+}
+
+static inline int32_t inverse_q44(int32_t range_um)
+{
+    return (int32_t)(((int64_t)1 << 44) / range_um);
+}
+
+/* Lists those of the beams first..end - 1 that are points. */
+static void list_points(ale_points_t *p, const ale_scan_t *scan, int32_t first, int32_t end)
+{
+    int32_t n = p->count;
+    for (int32_t k = first; k < end; k++) {
+        if (is_point(scan, k)) {
             p->beam[n] = (uint16_t)k;
-            p->range_um[n] = range_um;
-            p->inverse_q44[n] = (int32_t)(((int64_t)1 << 44) / range_um);
+            p->range_um[n] = scan->range_um[k];
+            p->inverse_q44[n] = inverse_q44(scan->range_um[k]);
             n++;
         } else if (n > 0 && k - p->beam[n - 1] == ALE_MAX_GAP_BEAMS) {
             p->gap_after[p->gap_count++] = (uint16_t)(n - 1);
         }
     }
     p->count = (uint16_t)n;
-    p->sparse = ale_scan_is_sparse(scan);
+}
+
+static void list_block(ale_points_t *p, const ale_scan_t *scan, int32_t first)
+{
+    memcpy(&p->range_um[p->count], &scan->range_um[first], BLOCK * sizeof *p->range_um);
+    for (int32_t j = 0; j < BLOCK; j++) {
+        p->beam[p->count + j] = (uint16_t)(first + j);
+    }
+    for (int32_t j = 0; j < BLOCK; j++) {
+        p->inverse_q44[p->count + j] = inverse_q44(scan->range_um[first + j]);
+    }
+    p->count = (uint16_t)(p->count + BLOCK);
+}
+
+void ale_points_list(ale_points_t *p, const ale_scan_t *scan, const uint32_t *bearing_bam)
+{
+    p->count = 0;
+    p->gap_count = 0;
+    int32_t k = 0;
+    for (; k + BLOCK <= scan->beams; k += BLOCK) {
+        if (are_points(scan, k)) {
+            list_block(p, scan, k);
+        } else {
+            list_points(p, scan, k, k + BLOCK);
+        }
+    }
+    list_points(p, scan, k, scan->beams);
+    p->sparse = p->count - 1 < DENSE * (scan->beams - p->count) && ale_scan_is_sparse(scan);
     p->step_nrad = ale_bam_to_nrad((int32_t)ale_abs64(scan->step_bam));
     p->turn_beams = turn_beams(scan, bearing_bam);
 }
 
-static inline int32_t coordinate_q4(int64_t range_um, int64_t per_um)
+/* Rounded half away from zero. By magnitudes and without a branch: so the compiler takes several at once. */
+static inline int32_t coordinate_q4(int32_t range_um, int32_t per_um)
 {
-    return (int32_t)ale_round_shift(range_um * per_um, PLACE_SHIFT);
+    const uint64_t half = (uint64_t)1 << (PLACE_SHIFT - 1);
+    const uint32_t sign = 0u - ((uint32_t)per_um >> 31);
+    const uint32_t size = ((uint32_t)per_um ^ sign) - sign;
+    const uint32_t q4 = (uint32_t)(((uint32_t)range_um * (uint64_t)size + half) >> PLACE_SHIFT);
+    return (int32_t)((q4 ^ sign) - sign);
 }
 
 /* Midway between the first and the last point, as the mirror turns. */
@@ -105,6 +180,34 @@ static void place_each(ale_points_t *p, const ale_scan_t *scan, const uint32_t *
     }
 }
 
+static inline void place_stretch(ale_points_t *p, int32_t first, int32_t points,
+                                 const int32_t *restrict cos_q36, const int32_t *restrict sin_q36)
+{
+    for (int32_t j = 0; j < points; j++) {
+        p->x_q4[first + j] = coordinate_q4(p->range_um[first + j], cos_q36[j]);
+        p->y_q4[first + j] = coordinate_q4(p->range_um[first + j], sin_q36[j]);
+    }
+}
+
+/* All points in the cached directions, those of a block whose beams follow one another together. */
+static void place_evenly(ale_points_t *p)
+{
+    const int32_t width = p->beam[p->count - 1] - p->beam[0];
+    const ale_beam_directions_t *of = &p->direction[width % 2];
+    const int32_t ahead = (AHEAD - width) / 2 - p->beam[0]; /* place of a beam's direction less the beam */
+    int32_t i = 0;
+    while (i < p->count) {
+        const int32_t k = ahead + p->beam[i];
+        if (i + BLOCK <= p->count && p->beam[i + BLOCK - 1] - p->beam[i] == BLOCK - 1) {
+            place_stretch(p, i, BLOCK, &of->cos_q36[k], &of->sin_q36[k]);
+            i += BLOCK;
+        } else {
+            place_stretch(p, i, 1, &of->cos_q36[k], &of->sin_q36[k]);
+            i++;
+        }
+    }
+}
+
 void ale_points_place(ale_points_t *p, const ale_scan_t *scan, const uint32_t *bearing_bam)
 {
     p->frame_bam = middle_bam(p, scan);
@@ -116,18 +219,7 @@ void ale_points_place(ale_points_t *p, const ale_scan_t *scan, const uint32_t *b
         return;
     }
     cache_directions(p, scan);
-    const int32_t middle = p->beam[0] + p->beam[p->count - 1];
-    int32_t i = 0;
-    for (; 2 * p->beam[i] < middle; i++) {
-        const int32_t m = middle - 2 * p->beam[i];
-        p->x_q4[i] = coordinate_q4(p->range_um[i], p->cos_q36[m]);
-        p->y_q4[i] = -coordinate_q4(p->range_um[i], p->sin_q36[m]);
-    }
-    for (; i < p->count; i++) {
-        const int32_t m = 2 * p->beam[i] - middle;
-        p->x_q4[i] = coordinate_q4(p->range_um[i], p->cos_q36[m]);
-        p->y_q4[i] = coordinate_q4(p->range_um[i], p->sin_q36[m]);
-    }
+    place_evenly(p);
 }
 
 void ale_points_place_smoothed(ale_points_t *p, const int32_t *smooth_q44)

@@ -21,13 +21,18 @@
 /* Nearer than this no scanner measures, and 2^44 / range would not fit. */
 #define ALE_MIN_RANGE_UM 16384
 
+/* Directions of multiples of half a step to either side of straight ahead, every other one: those of beams
+ * that follow one another lie side by side. Points a micrometre of range, Q36. */
 typedef struct {
-    /* Directions of the multiples of half a step, as many as were needed, kept as long as the scanner stays
-     * the same. */
+    int32_t cos_q36[ALE_MAX_BEAMS + 1];
+    int32_t sin_q36[ALE_MAX_BEAMS + 1];
+} ale_beam_directions_t;
+
+typedef struct {
+    /* As many multiples as were needed, even and odd ones, kept as long as the scanner stays the same. */
     int32_t directions;
     int32_t direction_step_bam;
-    int32_t cos_q36[ALE_MAX_BEAMS]; /* points a micrometre of range, Q36 */
-    int32_t sin_q36[ALE_MAX_BEAMS];
+    ale_beam_directions_t direction[2];
 
     int64_t step_nrad;  /* from beam to beam, without sign */
     int32_t turn_beams; /* of a whole turn, after which the beams repeat; 0: the scan has two ends */
