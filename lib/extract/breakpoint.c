@@ -9,6 +9,7 @@ enum {
     SHARED_SHARE = 2, /* shared variances that a point may add in the mean, */
     SHARED_PEAK = 6,  /* and those that are in error together on top of it */
     SEARCH_FIT_EFFORT = 2,  /* in residual sums of runs: a fit has its variances, too, and is judged */
+    JOINT_EFFORT = 2,       /* a place known to be no better counts, too */
     GRID = 9,               /* places at which a run is tried for a break */
     MEETING_UNIT = 1 << 20, /* so that the difference of two lines times a point fits int64 */
     MEETING_LOSS_Q8 =
@@ -43,13 +44,15 @@ static int64_t floating_chi_q8(const ale_run_list_t *r, const ale_run_fit_t *acc
     return ale_clamp64(scaled_q8, r->chi_low_q8[n], r->chi_high_q8[n]);
 }
 
-/* Step 5 of the paper's listing: the value of the error is below its threshold, and its rate of increase,
- * which is the error per point added since the fit accepted last, is no more than noise makes it. */
+/* Step 5 of the paper's listing: the rate of increase of the error, which is the error per point added since
+ * the fit accepted last, is no more than noise makes it, and its value is below its threshold, which is not
+ * asked for where it is below the lower bound of that. */
 static bool acceptable(const ale_run_list_t *r, const ale_run_fit_t *fit, const ale_run_fit_t *accepted)
 {
     const int32_t added = fit->n - accepted->n + 2;
-    return fit->sse_q8 <= allowed_q8(r, fit, fit->n, floating_chi_q8(r, accepted, fit->n)) &&
-           fit->sse_q8 - accepted->sse_q8 <= allowed_q8(r, fit, added, r->chi_high_q8[added]);
+    return fit->sse_q8 - accepted->sse_q8 <= allowed_q8(r, fit, added, r->chi_high_q8[added]) &&
+           (fit->sse_q8 <= allowed_q8(r, fit, fit->n, r->chi_low_q8[fit->n]) ||
+            fit->sse_q8 <= allowed_q8(r, fit, fit->n, floating_chi_q8(r, accepted, fit->n)));
 }
 
 static ale_run_fit_t search_fit(ale_run_list_t *r, int32_t a, int32_t b)
@@ -94,12 +97,29 @@ typedef struct {
     int64_t var_b_q8;
 } pair_t;
 
-/* Squared residuals of the two lines that part after split, each in its own variance; Q8. */
-static int64_t joint_chi_q8(ale_run_list_t *r, const pair_t *pair, int32_t split)
+/* Squared residuals of the line before a break and of that behind it, in its own variance; Q8. */
+static int64_t chi_before_q8(const ale_run_list_t *r, const pair_t *pair, int32_t split)
 {
-    r->effort += 2;
-    return (ale_moments_sse_q8(&r->scan, pair->both.first, split) << 8) / pair->var_a_q8 +
-           (ale_moments_sse_q8(&r->scan, split + 1, pair->both.last) << 8) / pair->var_b_q8;
+    return (ale_moments_sse_q8(&r->scan, pair->both.first, split) << 8) / pair->var_a_q8;
+}
+
+static int64_t chi_behind_q8(const ale_run_list_t *r, const pair_t *pair, int32_t split)
+{
+    return (ale_moments_sse_q8(&r->scan, split + 1, pair->both.last) << 8) / pair->var_b_q8;
+}
+
+/* Both together, unless one alone has `enough`: the line comes first that has taken points of the other since
+ * the break was at `centre`. */
+static int64_t joint_chi_q8(ale_run_list_t *r, const pair_t *pair, int32_t split, int32_t centre,
+                            int64_t enough_q8)
+{
+    r->effort += JOINT_EFFORT;
+    if (split > centre) {
+        const int64_t before_q8 = chi_before_q8(r, pair, split);
+        return before_q8 >= enough_q8 ? before_q8 : before_q8 + chi_behind_q8(r, pair, split);
+    }
+    const int64_t behind_q8 = chi_behind_q8(r, pair, split);
+    return behind_q8 >= enough_q8 ? behind_q8 : behind_q8 + chi_before_q8(r, pair, split);
 }
 
 /* The break where the lines through both runs meet: the one is nearer before it, the other beyond it. -1 when
@@ -129,10 +149,11 @@ static int32_t meeting_point(const ale_run_list_t *r, const pair_t *pair, int32_
     return low;
 }
 
-/* A place, and how good it is. */
+/* A place, how good it is, and the place last found to be no better on the side read before and after it. */
 typedef struct {
     int32_t split;
     int64_t chi_q8;
+    int32_t refused[2];
 } placing_t;
 
 /* The meeting point of the lines that part at a place is known better than the least joint chi square, which
@@ -142,8 +163,9 @@ static bool move_to_meeting(ale_run_list_t *r, const pair_t *pair, const ale_bre
                             placing_t *best)
 {
     const int32_t meeting = meeting_point(r, pair, best->split, range);
+    const int64_t most_q8 = best->chi_q8 + MEETING_LOSS_Q8;
     if (meeting < 0 || meeting == best->split ||
-        joint_chi_q8(r, pair, meeting) > best->chi_q8 + MEETING_LOSS_Q8) {
+        joint_chi_q8(r, pair, meeting, best->split, most_q8 + 1) > most_q8) {
         return false;
     }
     const bool moved_far = ale_abs64(meeting - best->split) > 1;
@@ -161,9 +183,16 @@ static bool better_side(ale_run_list_t *r, const pair_t *pair, const ale_break_r
         if (k < range->lowest || k > range->highest || k == came_from) {
             continue;
         }
-        const int64_t chi = joint_chi_q8(r, pair, k);
-        if (chi < best->chi_q8) {
-            *best = (placing_t){k, chi};
+        if (k == best->refused[side]) {
+            r->effort += JOINT_EFFORT;
+            continue;
+        }
+        const int64_t chi_q8 = joint_chi_q8(r, pair, k, centre, best->chi_q8);
+        if (chi_q8 < best->chi_q8) {
+            best->split = k;
+            best->chi_q8 = chi_q8;
+        } else {
+            best->refused[side] = k;
         }
     }
     return best->split != centre;
@@ -176,8 +205,8 @@ int32_t ale_break_place(ale_run_list_t *r, ale_segment_t both, int64_t var_a_q8,
         return range->start;
     }
     const pair_t pair = {both, var_a_q8, var_b_q8};
-    placing_t best = {(int32_t)ale_clamp64(range->start, range->lowest, range->highest), 0};
-    best.chi_q8 = joint_chi_q8(r, &pair, best.split);
+    placing_t best = {(int32_t)ale_clamp64(range->start, range->lowest, range->highest), 0, {-1, -1}};
+    best.chi_q8 = joint_chi_q8(r, &pair, best.split, best.split, INT64_MAX);
     int32_t came_from = -1;
     for (int32_t step = range->widest_step; step > 0; step /= 2) {
         for (int32_t tries = 0; tries < 4; tries++) {
@@ -195,6 +224,19 @@ int32_t ale_break_place(ale_run_list_t *r, ale_segment_t both, int64_t var_a_q8,
     return best.split;
 }
 
+/* Squared residuals of the two lines that part after split, unless that of more points alone has `enough`. */
+static int64_t joint_sse_q8(ale_run_list_t *r, ale_segment_t run, int32_t split, int64_t enough_q8)
+{
+    const ale_segment_t before = {run.first, (uint16_t)split};
+    const ale_segment_t behind = {(uint16_t)(split + 1), run.last};
+    const bool before_first = 2 * split > run.first + run.last;
+    const ale_segment_t more = before_first ? before : behind;
+    const ale_segment_t fewer = before_first ? behind : before;
+    r->effort += JOINT_EFFORT;
+    const int64_t sse_q8 = ale_moments_sse_q8(&r->scan, more.first, more.last);
+    return sse_q8 >= enough_q8 ? sse_q8 : sse_q8 + ale_moments_sse_q8(&r->scan, fewer.first, fewer.last);
+}
+
 /* The break after which the joint fit is best, of the places of a grid that is the same in both directions;
  * -1 when the run has no room for two. *sse_q8: squared residuals of the two lines. */
 static int32_t coarse_break(ale_run_list_t *r, ale_segment_t run, int32_t direction, int64_t *sse_q8)
@@ -208,9 +250,7 @@ static int32_t coarse_break(ale_run_list_t *r, ale_segment_t run, int32_t direct
             continue;
         }
         const int32_t split = direction > 0 ? run.first + near_part - 1 : run.last - near_part;
-        r->effort += 2;
-        const int64_t sse = ale_moments_sse_q8(&r->scan, run.first, split) +
-                            ale_moments_sse_q8(&r->scan, split + 1, run.last);
+        const int64_t sse = joint_sse_q8(r, run, split, *sse_q8);
         if (sse < *sse_q8) {
             *sse_q8 = sse;
             best = split;
@@ -268,5 +308,6 @@ int32_t ale_break_find(ale_run_list_t *r, ale_run_t *run, int32_t direction)
     const ale_break_range_t range = {run->first + ALE_MIN_RUN - 1, run->last - ALE_MIN_RUN, coarse, direction,
                                      ALE_BREAK_WIDE_STEP};
     const int32_t split = ale_break_place(r, both, p.a.var_q8, p.b.var_q8, &range);
-    return part_at(r, run, split).ratio_q8 >= 256 ? split : -1;
+    const int64_t ratio_q8 = split == coarse ? p.ratio_q8 : part_at(r, run, split).ratio_q8;
+    return ratio_q8 >= 256 ? split : -1;
 }
