@@ -6,7 +6,8 @@ enum {
     MAX_RADIUS_Q4 = 10000 << ALE_POINT_SHIFT,
     MAX_EXTENT_Q4 = 1 << 18,
     MAX_DISTANCE_Q4 = 1 << 20,
-    SUM_BITS = 29
+    SUM_BITS = 29,
+    HALF_Q4 = 1 << (ALE_POINT_SHIFT - 1)
 };
 
 typedef struct {
@@ -18,21 +19,65 @@ typedef struct {
     int64_t z;
 } circle_sums_t;
 
-static circle_sums_t sums_about(const ale_prepared_scan_t *scan, int32_t first, int32_t last, int64_t x,
-                                int64_t y)
+typedef struct {
+    int64_t x;
+    int64_t y;
+} mean_t;
+
+/* Sums of the squares about the mean, from those of the scan. */
+static circle_sums_t squares_about(const ale_prepared_scan_t *scan, int32_t first, int32_t last, mean_t mean)
+{
+    const ale_moments_t *p = &scan->sum[first];
+    const ale_moments_t *q = &scan->sum[last + 1];
+    const int64_t n = last + 1 - first;
+    const int64_t sx = q->x - p->x;
+    const int64_t sy = q->y - p->y;
+    return (circle_sums_t){.uu = q->xx - p->xx - 2 * mean.x * sx + n * mean.x * mean.x,
+                           .uv = q->xy - p->xy - mean.x * sy - mean.y * sx + n * mean.x * mean.y,
+                           .vv = q->yy - p->yy - 2 * mean.y * sy + n * mean.y * mean.y};
+}
+
+/* The same of points that count as though no farther than MAX_EXTENT_Q4. */
+static circle_sums_t held_squares_about(const ale_prepared_scan_t *scan, int32_t first, int32_t last,
+                                        mean_t mean)
 {
     circle_sums_t s = {0};
     for (int32_t i = first; i <= last; i++) {
-        const int64_t u = ale_clamp64(scan->points.x_q4[i] - x, -MAX_EXTENT_Q4, MAX_EXTENT_Q4);
-        const int64_t v = ale_clamp64(scan->points.y_q4[i] - y, -MAX_EXTENT_Q4, MAX_EXTENT_Q4);
-        const int64_t z = ale_round_shift(u * u + v * v, ALE_POINT_SHIFT);
+        const int64_t u = ale_clamp64(scan->points.x_q4[i] - mean.x, -MAX_EXTENT_Q4, MAX_EXTENT_Q4);
+        const int64_t v = ale_clamp64(scan->points.y_q4[i] - mean.y, -MAX_EXTENT_Q4, MAX_EXTENT_Q4);
         s.uu += u * u;
         s.uv += u * v;
         s.vv += v * v;
-        s.uz += u * z;
-        s.vz += v * z;
-        s.z += z;
     }
+    return s;
+}
+
+/* Adds those of the third powers, of points held at an extent. Inlined, for without one there is nothing to
+ * hold. */
+static inline __attribute__((always_inline)) void add_thirds_about(const ale_prepared_scan_t *scan,
+                                                                   int32_t first, int32_t last, mean_t mean,
+                                                                   int64_t extent, circle_sums_t *s)
+{
+    for (int32_t i = first; i <= last; i++) {
+        const int64_t u = ale_clamp64(scan->points.x_q4[i] - mean.x, -extent, extent);
+        const int64_t v = ale_clamp64(scan->points.y_q4[i] - mean.y, -extent, extent);
+        const int64_t z = (u * u + v * v + HALF_Q4) >> ALE_POINT_SHIFT;
+        s->uz += u * z;
+        s->vz += v * z;
+        s->z += z;
+    }
+}
+
+static circle_sums_t sums_about(const ale_prepared_scan_t *scan, int32_t first, int32_t last, mean_t mean)
+{
+    const int64_t held = (int64_t)MAX_EXTENT_Q4 * MAX_EXTENT_Q4;
+    circle_sums_t s = squares_about(scan, first, last, mean);
+    if (s.uu <= held && s.vv <= held) { /* then no point is so far off */
+        add_thirds_about(scan, first, last, mean, INT64_MAX, &s);
+        return s;
+    }
+    s = held_squares_about(scan, first, last, mean);
+    add_thirds_about(scan, first, last, mean, MAX_EXTENT_Q4, &s);
     return s;
 }
 
@@ -60,7 +105,7 @@ ale_circle_t ale_circle_fit(const ale_prepared_scan_t *scan, int32_t first, int3
     const int64_t n = last + 1 - first;
     const int64_t x = (scan->sum[last + 1].x - scan->sum[first].x) / n;
     const int64_t y = (scan->sum[last + 1].y - scan->sum[first].y) / n;
-    const circle_sums_t s = sums_about(scan, first, last, x, y);
+    const circle_sums_t s = sums_about(scan, first, last, (mean_t){x, y});
     const unsigned p = excess_bits(s.uu + s.vv);
     const unsigned q = excess_bits(ale_abs64(s.uz) + ale_abs64(s.vz));
     const int64_t uu = ale_round_shift(s.uu, p);

@@ -186,8 +186,11 @@ static void mark_chain(const stretch_t *stretch, uint8_t curve, uint8_t *curve_o
     }
 }
 
-static void join_marked(ale_run_list_t *r, const uint8_t *curve_of)
+static void join_marked(ale_run_list_t *r, uint8_t curves, const uint8_t *curve_of)
 {
+    if (curves == 0) {
+        return;
+    }
     int32_t kept = 0;
     for (int32_t k = 0; k < r->count; k++) {
         ale_run_t run = r->run[k];
@@ -205,10 +208,12 @@ static void join_marked(ale_run_list_t *r, const uint8_t *curve_of)
 void ale_curve_find(ale_run_list_t *r, bool again)
 {
     shape_t shape[ALE_MAX_RUNS];
-    uint8_t curve_of[ALE_MAX_RUNS] = {0};
-    int64_t strength_q8[ALE_MAX_RUNS] = {0};
+    uint8_t curve_of[ALE_MAX_RUNS];
+    int64_t strength_q8[ALE_MAX_RUNS];
     uint8_t curves = 0;
     for (int32_t k = 0; k < r->count; k++) {
+        curve_of[k] = 0;
+        strength_q8[k] = 0;
         const bool enough = r->run[k].last - r->run[k].first + 1 >= MIN_POINTS;
         shape[k] = enough ? shape_of(r, &r->run[k]) : (shape_t){0};
     }
@@ -229,7 +234,7 @@ void ale_curve_find(ale_run_list_t *r, bool again)
         }
         first = last > first ? last : first + 1;
     }
-    join_marked(r, curve_of);
+    join_marked(r, curves, curve_of);
 }
 
 void ale_curve_fit(const ale_prepared_scan_t *scan, ale_segment_t run, ale_curve_t *curve)

@@ -22,11 +22,13 @@ void ale_moments_build(ale_prepared_scan_t *scan)
 {
     ale_moments_t total = {0};
     int64_t inverse_total = 0;
+    int64_t inverse2_total_q54 = 0;
     scan->noise.own_um2_q8 =
         ale_min64(((scan->noise.own_mm2_q36 >> 10) * 15625) >> 12, (int64_t)1 << OWN_BITS);
     for (int32_t i = 0; i < scan->points.count; i++) {
         scan->sum[i] = total;
         scan->inverse_sum[i] = inverse_total;
+        scan->inverse2_sum_q54[i] = inverse2_total_q54;
         const int64_t x = scan->points.x_q4[i];
         const int64_t y = scan->points.y_q4[i];
         const int64_t inverse = scan->points.inverse_q44[i];
@@ -35,11 +37,12 @@ void ale_moments_build(ale_prepared_scan_t *scan)
         total.xx += x * x;
         total.yy += y * y;
         total.xy += x * y;
-        total.inverse2_q54 += inverse * inverse >> INVERSE2_SHIFT;
         inverse_total += inverse;
+        inverse2_total_q54 += inverse * inverse >> INVERSE2_SHIFT;
     }
     scan->sum[scan->points.count] = total;
     scan->inverse_sum[scan->points.count] = inverse_total;
+    scan->inverse2_sum_q54[scan->points.count] = inverse2_total_q54;
 }
 
 typedef struct {
@@ -55,8 +58,7 @@ static inline ale_moments_t sums_of(const ale_prepared_scan_t *scan, int32_t fir
 {
     const ale_moments_t *p = &scan->sum[first];
     const ale_moments_t *q = &scan->sum[last + 1];
-    const ale_moments_t s = {q->x - p->x,   q->y - p->y,   q->xx - p->xx,
-                             q->yy - p->yy, q->xy - p->xy, q->inverse2_q54 - p->inverse2_q54};
+    const ale_moments_t s = {q->x - p->x, q->y - p->y, q->xx - p->xx, q->yy - p->yy, q->xy - p->xy};
     return s;
 }
 
@@ -67,8 +69,10 @@ static inline int64_t small_eigenvalue(int64_t a, int64_t b, int64_t c)
     const int64_t trace = ale_max64(a + c, 1);
     const int64_t det = ale_max64(a * c - b * b, 0);
     int64_t lambda = det / trace;
-    const int32_t steps = lambda * ROUND <= trace ? 1 : STEPS_OF_ROUND;
-    for (int32_t k = 0; k < steps; k++) {
+    if (lambda * ROUND <= trace) {
+        return (det - lambda * lambda) / (trace - 2 * lambda);
+    }
+    for (int32_t k = 0; k < STEPS_OF_ROUND; k++) {
         lambda = (det - lambda * lambda) / ale_max64(trace - 2 * lambda, 1);
     }
     return lambda;
@@ -112,19 +116,27 @@ typedef struct {
     int64_t range2;
 } noise_at_t;
 
-static inline noise_at_t noise_of(const ale_scan_noise_t *noise, int64_t n, const ale_moments_t *s)
+static inline noise_at_t noise_of(const ale_prepared_scan_t *scan, int32_t first, int32_t last,
+                                  const ale_moments_t *s)
 {
-    const int64_t inverse2_q54 = ale_min64(s->inverse2_q54 / n, MOST_INVERSE2_Q54);
+    const int64_t n = last + 1 - first;
+    const int64_t inverse2_q54 = (scan->inverse2_sum_q54[last + 1] - scan->inverse2_sum_q54[first]) / n;
     const int64_t range2 = (s->xx + s->yy) / (n << (2 * ALE_POINT_SHIFT));
-    const int64_t own_q36 =
-        (inverse2_q54 * noise->own_um2_q8 >> 26) + ale_scan_noise_relative_q36(noise, range2);
+    const int64_t own_q36 = (ale_min64(inverse2_q54, MOST_INVERSE2_Q54) * scan->noise.own_um2_q8 >> 26) +
+                            ale_scan_noise_relative_q36(&scan->noise, range2);
     const noise_at_t at = {ale_min64(own_q36, ALE_MOST_RELATIVE_Q36), range2};
     return at;
 }
 
+/* Rounded; of what has no sign, in half as many steps as ale_round_shift. */
+static inline int64_t round_variance(int64_t v, unsigned shift)
+{
+    return (v + ((int64_t)1 << (shift - 1))) >> shift;
+}
+
 static inline int64_t scaled_var_q8(const ale_scan_noise_t *noise, int64_t own_mm2_q36)
 {
-    return ale_max64(ale_round_shift((own_mm2_q36 >> 20) * noise->own_scale_q16, 24), VAR_FLOOR_Q8);
+    return ale_max64(round_variance((own_mm2_q36 >> 20) * noise->own_scale_q16, 24), VAR_FLOOR_Q8);
 }
 
 static inline __attribute__((always_inline)) ale_run_fit_t
@@ -139,7 +151,7 @@ fit_of(const ale_scan_noise_t *noise, int64_t n, ale_moments_t s, const scatter_
         .n = (int32_t)n,
         .sse_q8 = (m->lambda << m->shift) / n,
         .var_q8 = scaled_var_q8(noise, own),
-        .shared_q8 = ale_round_shift(rho2 * shared_q36, 28),
+        .shared_q8 = round_variance(rho2 * shared_q36, 28),
     };
     return fit;
 }
@@ -156,7 +168,7 @@ ale_run_fit_t ale_moments_fit(const ale_prepared_scan_t *scan, int32_t first, in
     const int64_t n = last + 1 - first;
     const ale_moments_t s = sums_of(scan, first, last);
     const scatter_t m = scatter_of(n, s);
-    return fit_of(&scan->noise, n, s, &m, noise_of(&scan->noise, n, &s));
+    return fit_of(&scan->noise, n, s, &m, noise_of(scan, first, last, &s));
 }
 
 ale_spread_t ale_moments_spread(const ale_prepared_scan_t *scan, int32_t first, int32_t last)
@@ -165,7 +177,7 @@ ale_spread_t ale_moments_spread(const ale_prepared_scan_t *scan, int32_t first, 
     const ale_moments_t s = sums_of(scan, first, last);
     const scatter_t m = scatter_of(n, s);
     const ale_spread_t spread = {
-        .fit = fit_of(&scan->noise, n, s, &m, noise_of(&scan->noise, n, &s)),
+        .fit = fit_of(&scan->noise, n, s, &m, noise_of(scan, first, last, &s)),
         .a = m.a,
         .b = m.b,
         .c = m.c,

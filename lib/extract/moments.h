@@ -10,14 +10,14 @@
 #include "extract/scan_noise.h"
 #include "extract/segment.h"
 
-/* Sums over the points before one: their difference is the sum over a run. */
+/* Sums over the points before one: their difference is the sum over a run. Of five words, which one
+ * instruction finds. */
 typedef struct {
     int64_t x;
     int64_t y;
     int64_t xx;
     int64_t yy;
     int64_t xy;
-    int64_t inverse2_q54; /* 1 / range^2, um */
 } ale_moments_t;
 
 /* A scan ready for fits: what every later step reads. */
@@ -26,7 +26,8 @@ typedef struct {
     ale_scan_noise_t noise;
     ale_segments_t segments;
     ale_moments_t sum[ALE_MAX_BEAMS + 1];
-    int64_t inverse_sum[ALE_MAX_BEAMS + 1]; /* of points.inverse_q44 */
+    int64_t inverse_sum[ALE_MAX_BEAMS + 1];      /* of points.inverse_q44, */
+    int64_t inverse2_sum_q54[ALE_MAX_BEAMS + 1]; /* and of their squares */
 } ale_prepared_scan_t;
 
 /* Fills the sums from the points and their noise. O(points). */

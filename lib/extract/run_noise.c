@@ -30,10 +30,10 @@ enum {
 };
 
 /* Range in the middle of three blocks of points, the same from either side. */
-static int64_t middle_range_um(const ale_prepared_scan_t *scan, int32_t start)
+static uint32_t middle_range_um(const ale_prepared_scan_t *scan, int32_t start)
 {
     const int32_t *middle = &scan->points.range_um[start + THREE_BLOCKS / 2];
-    return ((int64_t)middle[-1] + middle[0]) / 2;
+    return ((uint32_t)middle[-1] + (uint32_t)middle[0]) / 2;
 }
 
 /* Squared second difference of three blocks of points from start on, over what own noise would give; Q8. */
@@ -42,7 +42,7 @@ static int64_t block_ratio_q8(const ale_prepared_scan_t *scan, int32_t start, in
     const int64_t *p = &scan->inverse_sum[start];
     const int64_t middle = p[TWO_BLOCKS] - p[BLOCK];
     const int64_t d = p[THREE_BLOCKS] - p[0] - 3 * middle + ale_round_shift(middle * curvature_q30, 30);
-    const int64_t range_um = middle_range_um(scan, start);
+    const uint32_t range_um = middle_range_um(scan, start);
     const int64_t d_um = d * range_um / middle;
     const int64_t range_mm = range_um / 1000;
     const int64_t own_q20 = ale_scan_noise_own_q20(&scan->noise, range_mm * range_mm);

@@ -70,21 +70,27 @@ static void end_segment(ale_segments_t *s, int32_t first, int32_t last)
     s->count++;
 }
 
-/* Adds the suspects among first..last - 1. */
+/* Adds the suspects among first..last - 1: a change is suspicious when it is more than a constant and a part
+ * of the sum of both ranges. Then the larger one less its part is more than the other with its own. */
 static void add_suspects(ale_segments_t *s, const ale_points_t *points, const ale_scan_noise_t *noise,
                          int32_t first, int32_t last)
 {
     const int64_t constant_q20 = SUSPECT_HALVES * (noise->sigma_um << 20) / 2;
     const int64_t per_sum_q20 = SUSPECT_HALVES * noise->sigma_per_range_q20 / 4;
+    const int64_t less_q20 = (1 << 20) - per_sum_q20;
+    const int64_t more_q20 = (1 << 20) + per_sum_q20;
     uint32_t suspects = s->suspect_count;
-    int64_t here_um = points->range_um[first];
+    int64_t here_less = points->range_um[first] * less_q20;
+    int64_t here_more = points->range_um[first] * more_q20 + constant_q20;
     for (int32_t i = first; i < last; i++) {
         const int64_t next_um = points->range_um[i + 1];
-        const int64_t limit_q20 = constant_q20 + (here_um + next_um) * per_sum_q20;
-        if (ale_abs64(next_um - here_um) << 20 > limit_q20) {
+        const int64_t next_less = next_um * less_q20;
+        const int64_t next_more = next_um * more_q20 + constant_q20;
+        if (next_less > here_more || here_less > next_more) {
             s->suspect[suspects++] = (uint16_t)i;
         }
-        here_um = next_um;
+        here_less = next_less;
+        here_more = next_more;
     }
     s->suspect_count = (uint16_t)suspects;
 }
