@@ -53,7 +53,10 @@ static shape_t shape_of(const ale_run_list_t *r, ale_run_t *run)
     const int64_t var_q8 = fit->var_q8 / (n - (int64_t)2 * third) + fit->var_q8 / ((int64_t)2 * third) +
                            ((fit->shared_q8 * SHARED_PART_Q8) >> 8);
     const int64_t length2_mm2 = (dx * dx + dy * dy) >> (2 * ALE_POINT_SHIFT);
-    const int64_t sigma_length_q4 = ale_max64(ale_isqrt((uint64_t)(ale_max64(var_q8, 1) * length2_mm2)), 1);
+    /* metres of a shared error along 100 m are beyond int64: held at what fits, they are many deviations
+     * still */
+    const int64_t sigma2_length2_q8 = ale_mul_shift(ale_max64(var_q8, 1), length2_mm2, 0);
+    const int64_t sigma_length_q4 = ale_max64(ale_isqrt((uint64_t)sigma2_length2_q8), 1);
     const shape_t shape = {dx, dy, twice_cross_q12 / (2 * sigma_length_q4)};
     return shape;
 }

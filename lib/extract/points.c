@@ -7,6 +7,7 @@
 
 enum {
     PLACE_SHIFT = 36,
+    FARTHEST_Q44 = ((int64_t)1 << 44) / ALE_MAX_RANGE_UM,
     BLOCK = 32,                          /* beams looked at together */
     AHEAD = (ALE_MAX_BEAMS + 1) / 2 * 2, /* place of straight ahead among the half steps */
     DENSE = 4 /* times more points than other beams: a scan that is not sparse, for few lose a neighbour */
@@ -222,12 +223,18 @@ void ale_points_place(ale_points_t *p, const ale_scan_t *scan, const uint32_t *b
     place_evenly(p);
 }
 
+/* No farther than a range may be: what the sums of the points fit int64 for. */
+static int32_t moved_q4(int64_t v_q4, int64_t ratio_q30)
+{
+    return (int32_t)ale_clamp64(ale_round_shift(v_q4 * ratio_q30, 30), -ALE_POINT_MAX_Q4, ALE_POINT_MAX_Q4);
+}
+
 void ale_points_place_smoothed(ale_points_t *p, const int32_t *smooth_q44)
 {
     for (int32_t i = 0; i < p->count; i++) {
-        const int64_t ratio_q30 = ((int64_t)p->inverse_q44[i] << 30) / ale_max64(smooth_q44[i], 1);
-        p->x_q4[i] = (int32_t)ale_round_shift(p->x_q4[i] * ratio_q30, 30);
-        p->y_q4[i] = (int32_t)ale_round_shift(p->y_q4[i] * ratio_q30, 30);
+        const int64_t ratio_q30 = ((int64_t)p->inverse_q44[i] << 30) / ale_max64(smooth_q44[i], FARTHEST_Q44);
+        p->x_q4[i] = moved_q4(p->x_q4[i], ratio_q30);
+        p->y_q4[i] = moved_q4(p->y_q4[i], ratio_q30);
     }
 }
 

@@ -68,7 +68,8 @@ void ale_points_note_gaps(ale_points_t *points);
 /* frame_bam, and x_q4, y_q4 of the listed points. O(points). */
 void ale_points_place(ale_points_t *points, const ale_scan_t *scan, const uint32_t *bearing_bam);
 
-/* Moves the placed points along their beams to the smoothed ranges, 2^44 / smooth_q44. O(points). */
+/* Moves the placed points along their beams to the smoothed ranges, 2^44 / smooth_q44; where a regression
+ * over a change of range says 0 or less, or farther than ALE_MAX_RANGE_UM, to that. O(points). */
 void ale_points_place_smoothed(ale_points_t *points, const int32_t *smooth_q44);
 
 /* A surface is read from its nearer end, so that both directions of a scan give the same lines: 1 when that

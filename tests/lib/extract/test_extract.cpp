@@ -322,6 +322,46 @@ TEST(Extract, SmoothingMayBeSwitchedOn)
     EXPECT_LE(f.line_count, 5);
 }
 
+// Nothing is told apart where the range changes at every beam; near ends of such a surface the regression
+// then says that 1/range is below 0.
+TEST(Extract, SmoothsRangesThatChangeAtEveryBeam)
+{
+    ale_extract_config_t config = ale_extract_default_config();
+    config.smooth_span = 15;
+    config.robust_passes = 0;
+    scene::extractor extract(config);
+    const auto scan = empty_scan();
+    scan->range_max_um = ALE_MAX_RANGE_UM;
+    for (int k = 0; k < scan->beams; k++) {
+        const bool inner = k >= 11 && k < scan->beams - 11;
+        scan->flag[k] = ALE_BEAM_VALID;
+        scan->range_um[k] = k % 2 == 0 ? 79000000 : inner ? 20000 : 20000000;
+    }
+    expect_sane(*scan, extract(*scan));
+}
+
+// The largest room and the largest shared error that the documents allow: its arcs are one line at 16 m of
+// shared deviation, as long as the room.
+TEST(Extract, WidestRoomInTheLargestSharedError)
+{
+    ale_extract_config_t config = ale_extract_default_config();
+    config.noise.shared_um = 100000;
+    config.noise.shared_ppm = 100000;
+    config.noise.own_um = 0;
+    config.noise.own_ppm = 0;
+    for (const int32_t shared_beams : {1, ALE_MAX_BEAMS}) {
+        config.noise.shared_beams = shared_beams;
+        scene::extractor extract(config);
+        for (int beams = 100; beams <= ALE_MAX_BEAMS; beams += 109) {
+            const auto scan = empty_scan(beams, -beams / 2 * pi / 720, pi / 720);
+            for (int k = 0; k < beams; k++) {
+                ale_scan_set_range(scan.get(), static_cast<uint16_t>(k), 79900000);
+            }
+            expect_sane(*scan, extract(*scan));
+        }
+    }
+}
+
 TEST(Extract, CovarianceIsCalibratedInSimulation)
 {
     scene::extractor extract;
