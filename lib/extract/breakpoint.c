@@ -20,6 +20,9 @@ enum {
     PROMISING_Q8 = 100       /* part of the gain wanted that a place of the grid must show */
 };
 
+/* A chi square beyond any bound of the model, three times which, times a bound, fits int64. */
+static const int64_t MOST_CHI_Q8 = (int64_t)1 << 42;
+
 /* Shared variances that n points of a true line may have, of which they have only one draw for every
  * 2 * shared_beams of them. */
 static int64_t shared_times(const ale_run_list_t *r, int32_t n)
@@ -40,7 +43,8 @@ static int64_t allowed_q8(const ale_run_list_t *r, const ale_run_fit_t *fit, int
 static int64_t floating_chi_q8(const ale_run_list_t *r, const ale_run_fit_t *accepted, int32_t n)
 {
     const int64_t expected_q8 = ale_max64((int64_t)2 * r->chi_high_q8[accepted->n], 1);
-    const int64_t scaled_q8 = ale_fit_chi_q8(accepted) * 3 * r->chi_high_q8[n] / expected_q8;
+    const int64_t chi_q8 = ale_min64(ale_fit_chi_q8(accepted), MOST_CHI_Q8);
+    const int64_t scaled_q8 = chi_q8 * 3 * r->chi_high_q8[n] / expected_q8;
     return ale_clamp64(scaled_q8, r->chi_low_q8[n], r->chi_high_q8[n]);
 }
 

@@ -31,7 +31,6 @@ enum {
     ROUGH_SHARED = 12,  /* shared variances that a long wall may be wavy by, */
     ROUGH_REACHES = 4   /* and the reaches of the shared error from which on it is a long one */
 };
-static const int64_t MAX_SIGMA_ALPHA_NRAD = 139626340; /* 8 degrees: a line of no known direction is none */
 
 ale_extract_config_t ale_extract_default_config(void)
 {
@@ -100,7 +99,7 @@ static bool is_line(ale_extractor_t *e, const ale_line_t *line)
         e->runs.refused[ALE_REFUSED_SHORT]++;
         return false;
     }
-    if (line->var_alpha_nrad2 > MAX_SIGMA_ALPHA_NRAD * MAX_SIGMA_ALPHA_NRAD) {
+    if (line->var_alpha_nrad2 > ALE_MOST_VAR_ALPHA_NRAD2) {
         e->runs.refused[ALE_REFUSED_VAGUE]++;
         return false;
     }

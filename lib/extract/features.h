@@ -13,6 +13,14 @@
 #include "base/limits.h"
 #include "base/pose.h"
 
+/* No place of a scan's features lies farther from its sensor along an axis: a point at ALE_MAX_RANGE_UM, as
+ * a line or an arc through it may be off it. */
+#define ALE_MAX_PLACE_UM (1 << 29)
+
+/* A line whose direction is not known to 8 degrees is none: (139626340 nrad)^2, in nrad^2. Neither
+ * of the others of a covariance is larger than this, in its own unit. */
+#define ALE_MOST_VAR_ALPHA_NRAD2 INT64_C(19495514821795600)
+
 /* Why a line ends where it ends. */
 typedef enum {
     ALE_END_EDGE = 0,     /* the wall really ends here: what lies beyond is farther away, or a corner */

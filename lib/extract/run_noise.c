@@ -29,6 +29,10 @@ enum {
     MOST_OWN_SCALE_Q16 = 360 << 8
 };
 
+/* What no surface has: its square fits int64 with what it is multiplied by; (1 m)^2 the same. */
+enum { MOST_DIFFERENCE_UM = 1 << 25 };
+static const int64_t MOST_OWN_Q20 = (int64_t)1 << 40;
+
 /* Range in the middle of three blocks of points, the same from either side. */
 static uint32_t middle_range_um(const ale_prepared_scan_t *scan, int32_t start)
 {
@@ -41,11 +45,12 @@ static int64_t block_ratio_q8(const ale_prepared_scan_t *scan, int32_t start, in
 {
     const int64_t *p = &scan->inverse_sum[start];
     const int64_t middle = p[TWO_BLOCKS] - p[BLOCK];
-    const int64_t d = p[THREE_BLOCKS] - p[0] - 3 * middle + ale_round_shift(middle * curvature_q30, 30);
+    const int64_t d = p[THREE_BLOCKS] - p[0] - 3 * middle + ale_mul_shift(middle, curvature_q30, 30);
     const uint32_t range_um = middle_range_um(scan, start);
-    const int64_t d_um = d * range_um / middle;
+    const int64_t d_um = ale_clamp64(d * range_um / middle, -MOST_DIFFERENCE_UM, MOST_DIFFERENCE_UM);
     const int64_t range_mm = range_um / 1000;
-    const int64_t own_q20 = ale_scan_noise_own_q20(&scan->noise, range_mm * range_mm);
+    const int64_t own_q20 =
+        ale_min64(ale_scan_noise_own_q20(&scan->noise, range_mm * range_mm), MOST_OWN_Q20);
     return d_um * d_um * (BLOCK << 8) / ale_max64((own_q20 * 6000000) >> 20, 1);
 }
 

@@ -13,13 +13,16 @@ enum {
     PERCENT = 75,     /* a quantile of the Gauss curve that is known better than the median */
     QUARTILE_PER_MILLE = 2818,
     SIGMA_BITS = 4,
-    MOST_MISFIT = 16,   /* variances that an octave's own one may be */
-    CLUTTER_FACTOR = 2, /* 3.4 deviations of what the quartile of MIN_SAMPLES is off by chance */
-    ROW_BITS = 20,      /* of the rows of the fit: variances of one scan differ a hundredfold */
-    NORMAL_BITS = 19    /* of its normal equations: their products fit int64 */
+    MOST_MISFIT = 16,         /* variances that an octave's own one may be */
+    CLUTTER_FACTOR = 2,       /* 3.4 deviations of what the quartile of MIN_SAMPLES is off by chance */
+    MOST_STEPS_Q8 = 64 * 256, /* from one beam to one of the next 8: more is no mirror's */
+    ROW_BITS = 20,            /* of the rows of the fit: variances of one scan differ a hundredfold */
+    NORMAL_BITS = 19          /* of its normal equations: their products fit int64 */
 };
 /* The least and the most own noise that is believed, um. */
 enum { SIGMA_FLOOR_UM = 400, SIGMA_MOST_UM = 100000 };
+/* Of beams 2 rad apart: times 1 / range it fits int64. */
+static const int64_t MOST_BEND_Q30 = (int64_t)4 << 30;
 static const int64_t micro_q36 = 68719;    /* 2^36 / 10^6 */
 static const int64_t micro2_q60 = 1152922; /* 2^60 / 10^12 */
 static const int64_t most_square_q60 = (int64_t)1 << 29;
@@ -70,7 +73,8 @@ static void count_over_gaps(ale_scan_noise_t *noise, const ale_points_t *p, int3
     if (left <= ALE_MAX_GAP_BEAMS && right <= ALE_MAX_GAP_BEAMS) {
         const int64_t q = p->inverse_q44[i];
         const int64_t neighbours = right * p->inverse_q44[i - 1] + left * p->inverse_q44[i + 1];
-        const int64_t d = 2 * neighbours / (left + right) - 2 * q + (q * left * right * curvature_q30 >> 30);
+        const int64_t bend_q30 = ale_min64(left * right * curvature_q30, MOST_BEND_Q30);
+        const int64_t d = 2 * neighbours / (left + right) - 2 * q + (q * bend_q30 >> 30);
         count_difference(noise, d, p->range_um[i], octave);
     }
 }
@@ -80,7 +84,7 @@ static int64_t steps_q8(const ale_scan_t *scan, const ale_points_t *p, int32_t i
 {
     const int64_t ahead_bam = ale_bam_diff(ale_scan_bearing(scan, ale_points_beam(p, i + 1)),
                                            ale_scan_bearing(scan, ale_points_beam(p, i)));
-    return ale_max64(ahead_bam * 256 / scan->step_bam, 0);
+    return ale_clamp64(ahead_bam * 256 / scan->step_bam, 0, MOST_STEPS_Q8);
 }
 
 /* The same where beams have bearings of their own: each neighbour weighs by the other's distance. */
@@ -93,7 +97,7 @@ static void count_between(ale_scan_noise_t *noise, const ale_scan_t *scan, const
     if (left + right > 0 && p->beam[i] - p->beam[i - 1] <= most && p->beam[i + 1] - p->beam[i] <= most) {
         const int64_t q = p->inverse_q44[i];
         const int64_t neighbours = right * p->inverse_q44[i - 1] + left * p->inverse_q44[i + 1];
-        const int64_t bend_q30 = left * right * curvature_q30 >> 16;
+        const int64_t bend_q30 = ale_min64(left * right * curvature_q30 >> 16, MOST_BEND_Q30);
         const int64_t d = 2 * neighbours / (left + right) - 2 * q + (q * bend_q30 >> 30);
         count_difference(noise, d, p->range_um[i], octave);
     }

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/fixed.h"
 #include "base/histogram.h"
 #include "base/noise.h"
 #include "base/scan.h"
@@ -50,10 +51,12 @@ static inline int64_t ale_scan_noise_relative_q36(const ale_scan_noise_t *noise,
     return noise->own_relative_q36 + (noise->own_square_q60 * range2_mm2 >> 24);
 }
 
-/* Own variance at a squared range, mm^2 Q20. */
+/* Own variance at a squared range below 2^33 mm^2, mm^2 Q20: no more of the range than is believed. */
 static inline int64_t ale_scan_noise_own_q20(const ale_scan_noise_t *noise, int64_t range2_mm2)
 {
-    return (noise->own_mm2_q36 + ale_scan_noise_relative_q36(noise, range2_mm2) * range2_mm2) >> 16;
+    const int64_t relative_q36 =
+        ale_min64(ale_scan_noise_relative_q36(noise, range2_mm2), ALE_MOST_RELATIVE_Q36);
+    return (noise->own_mm2_q36 + relative_q36 * range2_mm2) >> 16;
 }
 
 /* Takes over the configured model, and measures the own noise: from the second differences of 1/range (zero

@@ -362,6 +362,75 @@ TEST(Extract, WidestRoomInTheLargestSharedError)
     }
 }
 
+ale_extract_config_t any_config(std::mt19937 &random)
+{
+    const auto up_to = [&random](int32_t most) {
+        return random() % 2 == 0 ? most : static_cast<int32_t>(random() % (static_cast<uint32_t>(most) + 1));
+    };
+    ale_extract_config_t config = ale_extract_default_config();
+    config.noise = {.own_um = up_to(100000),
+                    .own_ppm = up_to(100000),
+                    .shared_um = up_to(100000),
+                    .shared_ppm = up_to(100000),
+                    .shared_beams = std::max(1, up_to(ALE_MAX_BEAMS)),
+                    .surface_um = up_to(100000),
+                    .bearing_nrad = up_to(100000000),
+                    .own_ppm_per_m = random() % 2 == 0 ? 0 : up_to(10000)};
+    config.min_points = static_cast<uint16_t>(5 + random() % 20);
+    config.smooth_span = static_cast<uint16_t>(random() % 2 == 0 ? 1 : 1 + 2 * (random() % 16));
+    return config;
+}
+
+// Surfaces of any distance and steepness, each with a noise of its own, seen by beams of any step.
+void any_scan(std::mt19937 &random, ale_scan_t *scan)
+{
+    const auto part = [&random] { return std::uniform_real_distribution<double>(0, 1)(random); };
+    scan->beams = static_cast<uint16_t>(random() % 2 == 0 ? ALE_MAX_BEAMS : random() % (ALE_MAX_BEAMS + 1));
+    scan->step_bam = static_cast<int32_t>(random() >> (random() % 2 == 0 ? 0 : 10));
+    scan->first_bearing_bam = static_cast<uint32_t>(random());
+    scan->own_bearings = random() % 3 == 0;
+    double range_m = 1;
+    double slope_m = 0;
+    double sigma_m = 0;
+    for (int k = 0; k < scan->beams; k++) {
+        if (k == 0 || random() % 100 == 0) {
+            range_m = std::pow(10, -1.75 + 3.65 * part());
+            slope_m = range_m * (part() - 0.5) * 0.02;
+            sigma_m = random() % 2 == 0 ? 0 : std::pow(10, -4 + 3.5 * part());
+        }
+        range_m += slope_m;
+        const double seen_m = std::clamp(range_m + sigma_m * (part() - part()), 0.0165, 80.0);
+        scan->range_um[k] = static_cast<int32_t>(1e6 * seen_m);
+        scan->flag[k] = random() % 50 == 0 ? ALE_BEAM_UNKNOWN : ALE_BEAM_VALID;
+        scan->bearing_bam[k] = scan->first_bearing_bam +
+                               static_cast<uint32_t>(k) * static_cast<uint32_t>(scan->step_bam) +
+                               static_cast<uint32_t>(random() % 100000);
+    }
+}
+
+// Whatever is configured and seen: sanitizers find what does not fit its numbers, and places are as
+// features.h says.
+TEST(Extract, AnyModelAndScanFitTheNumbers)
+{
+    std::mt19937 random(21);
+    const auto scan = empty_scan();
+    for (int round = 0; round < 400; round++) {
+        scene::extractor extract(any_config(random));
+        any_scan(random, scan.get());
+        const ale_features_t &f = extract(*scan);
+        for (int k = 0; k < f.line_count; k++) {
+            const ale_line_t &line = f.line[k];
+            EXPECT_LE(line.var_alpha_nrad2, ALE_MOST_VAR_ALPHA_NRAD2);
+            EXPECT_LE(std::abs(line.cov_alpha_rho), ALE_MOST_VAR_ALPHA_NRAD2);
+            EXPECT_LE(line.var_rho_um2, ALE_MOST_VAR_ALPHA_NRAD2);
+            EXPECT_LE(line.rmse_um, ALE_MAX_RANGE_UM);
+            for (const int32_t um : {line.start.x_um, line.start.y_um, line.end.x_um, line.end.y_um}) {
+                EXPECT_LE(std::abs(um), ALE_MAX_PLACE_UM);
+            }
+        }
+    }
+}
+
 TEST(Extract, CovarianceIsCalibratedInSimulation)
 {
     scene::extractor extract;

@@ -93,4 +93,24 @@ TEST(Points, AreAllValidBeamsInTheirDirectionsHoweverHolesLie)
     }
 }
 
+// A regression of 1/range over a change of it may say 0, or less: beyond all that a scanner sees.
+TEST(Points, SmoothedRangesStayWithinReach)
+{
+    const auto points = std::make_unique<ale_points_t>();
+    const int32_t smooth_q44[] = {-1000, 0, 1, 219902, 222689};
+    points->count = 5;
+    for (int i = 0; i < points->count; i++) {
+        points->inverse_q44[i] = 222689; // 79 m
+        points->x_q4[i] = 1264000;
+        points->y_q4[i] = -500000;
+    }
+    ale_points_place_smoothed(points.get(), smooth_q44);
+    for (int i = 0; i < 4; i++) {
+        EXPECT_EQ(points->x_q4[i], ALE_POINT_MAX_Q4);
+        EXPECT_NEAR(points->y_q4[i], -506337, 1);
+    }
+    EXPECT_EQ(points->x_q4[4], 1264000);
+    EXPECT_EQ(points->y_q4[4], -500000);
+}
+
 } // namespace
