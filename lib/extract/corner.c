@@ -163,14 +163,15 @@ static bool corner_of(const ale_line_t *a, const ale_line_t *b, direction_t na, 
                       ale_corner_t *corner)
 {
     const int64_t det = ale_round_shift(na.c * nb.s - na.s * nb.c, 30);
-    if (ale_abs64(det) < min_sine_q30) {
+    const int64_t sine = ale_abs64(det);
+    if (sine < min_sine_q30) {
         return false;
     }
     const int64_t sign = det < 0 ? -1 : 1;
     const int64_t x = sign * (a->rho_um * nb.s - b->rho_um * na.s);
     const int64_t y = sign * (b->rho_um * na.c - a->rho_um * nb.c);
-    corner->p.x_um = (int32_t)ale_clamp64(ale_round_div(x, sign * det), INT32_MIN / 2, INT32_MAX / 2);
-    corner->p.y_um = (int32_t)ale_clamp64(ale_round_div(y, sign * det), INT32_MIN / 2, INT32_MAX / 2);
+    corner->p.x_um = (int32_t)ale_clamp64(ale_round_div(x, sine), INT32_MIN / 2, INT32_MAX / 2);
+    corner->p.y_um = (int32_t)ale_clamp64(ale_round_div(y, sine), INT32_MIN / 2, INT32_MAX / 2);
     const int64_t reach2 = (int64_t)MAX_REACH_UM * MAX_REACH_UM;
     if (squared_distance(corner->p, a->end) > reach2 || squared_distance(corner->p, b->start) > reach2) {
         return false;
@@ -183,7 +184,8 @@ static bool corner_of(const ale_line_t *a, const ale_line_t *b, direction_t na, 
     return true;
 }
 
-/* Beams from one line to the next, of a whole turn also over the seam. */
+/* Beams from one line to the next, of a whole turn also over the seam; 0 and less: the one does not lie
+ * behind the other. */
 static int32_t gap_between(const ale_line_t *a, const ale_line_t *b, int32_t turn_beams)
 {
     const int32_t gap = b->first - a->last;
@@ -206,7 +208,7 @@ void ale_corner_find(int64_t step_nrad, int32_t turn_beams, ale_features_t *out)
         const direction_t here = next;
         next = normal_of(b);
         const int32_t gap = gap_between(a, b, turn_beams);
-        if (gap > MAX_GAP_BEAMS) {
+        if (gap <= 0 || gap > MAX_GAP_BEAMS) {
             continue;
         }
         const meeting_t meeting = meeting_of(a, b, here, next, a->end);

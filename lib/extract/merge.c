@@ -18,7 +18,7 @@ enum {
 int64_t ale_merge_ratio_q8(const ale_scan_noise_t *noise, const ale_run_fit_t *one, const ale_run_fit_t *a,
                            const ale_run_fit_t *b, bool on_one_surface)
 {
-    const int64_t n = a->n + b->n;
+    const int64_t n = ale_max64(a->n + b->n, 1);
     const int64_t var = ale_max64(one->var_q8, (a->var_q8 * a->n + b->var_q8 * b->n) / n);
     const int64_t shared = ale_max64(one->shared_q8, (a->shared_q8 * a->n + b->shared_q8 * b->n) / n);
     const int64_t together =
@@ -46,7 +46,8 @@ static void join_with_next(ale_run_list_t *r, int32_t k)
     r->run[k].last = r->run[k + 1].last;
     ale_run_changed(&r->run[k]);
     for (int32_t i = k + 1; i + 1 < r->count; i++) {
-        r->run[i] = r->run[i + 1];
+        const ale_run_t next = r->run[i + 1];
+        r->run[i] = next;
     }
     r->count--;
 }
@@ -54,7 +55,7 @@ static void join_with_next(ale_run_list_t *r, int32_t k)
 bool ale_merge_runs(ale_run_list_t *r)
 {
     const int32_t before = r->count;
-    int64_t ratio[ALE_MAX_RUNS];
+    int64_t ratio[ALE_MAX_RUNS] = {0};
     for (int32_t k = 0; k + 1 < r->count; k++) {
         ratio[k] = ratio_at(r, k);
     }

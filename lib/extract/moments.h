@@ -43,6 +43,9 @@ typedef struct {
 
 /* Fit over the points first..last, first <= last. Constant time. The squared residuals are exact to
  * 2^-28 of the squares along the line and to their own share of those, squared. */
+/*@ assigns \nothing;
+  @ ensures 1 <= \result.n <= ALE_MAX_BEAMS && 0 <= \result.sse_q8 <= 1 << 51;
+  @ ensures 1 <= \result.var_q8 <= 1 << 35 && 0 <= \result.shared_q8 <= 1 << 35; */
 ale_run_fit_t ale_moments_fit(const ale_prepared_scan_t *scan, int32_t first, int32_t last);
 
 /* Its squared residuals alone, mm^2 Q8. Constant time. */

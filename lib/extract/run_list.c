@@ -40,7 +40,7 @@ static int32_t rank_of(const ale_run_list_t *r, const ale_run_t *run)
 
 void ale_run_list_drop_short(ale_run_list_t *r, int32_t fewest, int32_t enough)
 {
-    int32_t rank[ALE_MAX_RUNS];
+    int32_t rank[ALE_MAX_RUNS] = {0};
     for (int32_t k = 0; k < r->count; k++) {
         rank[k] = rank_of(r, &r->run[k]);
     }
@@ -58,12 +58,14 @@ void ale_run_list_drop_short(ale_run_list_t *r, int32_t fewest, int32_t enough)
             too_high = middle;
         }
     }
+    const int32_t runs = r->count;
     int32_t kept = 0;
-    for (int32_t k = 0; k < r->count; k++) {
+    for (int32_t k = 0; k < runs; k++) {
+        const ale_run_t run = r->run[k];
         if (rank[k] >= least) {
-            r->run[kept++] = r->run[k];
+            r->run[kept++] = run;
         } else {
-            const int32_t points = r->run[k].last + 1 - r->run[k].first;
+            const int32_t points = run.last + 1 - run.first;
             r->refused[points < r->min_points ? ALE_REFUSED_FEW_POINTS : ALE_REFUSED_CAPACITY]++;
         }
     }

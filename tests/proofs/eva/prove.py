@@ -87,6 +87,7 @@ class Harness:
         self.sources = self.proves + self._words(comment, "with")
         self.settles = set(self._words(comment, "settles"))
         self.wp = self._words(comment, "wp")
+        self.kernel = self._words(comment, "kernel")
         self.options = self._words(comment, "options")
 
     @staticmethod
@@ -107,7 +108,7 @@ class Harness:
 
     def command(self, tree, report):
         """The call of Frama-C."""
-        parse = ["frama-c", *KERNEL, f"-cpp-extra-args={' '.join(self.preprocessing(tree))}", *(str(tree / source) for source in self.sources)]
+        parse = ["frama-c", *KERNEL, f"-cpp-extra-args={' '.join(self.preprocessing(tree))}", *(str(tree / source) for source in self.sources), *self.kernel]
         write = ["-then", "-report-csv", str(report)]
         if self.wp:
             return [*parse, *WP, "-wp-fct", ",".join(self.wp), *self.options, *write]
