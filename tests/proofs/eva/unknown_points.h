@@ -12,6 +12,16 @@
 #define MOST_BEAM (ALE_MAX_BEAMS - 1 + MOST_TURN_BEAMS)
 #define MOST_STEP_NRAD INT64_C(3141592654)
 
+static inline void unknown_directions(ale_beam_directions_t *directions)
+{
+    const int64_t most_q36 = 1099511644; /* 2^30 + 16 as what a micrometre is multiplied by */
+    //@ loop unroll 1;
+    for (uint32_t i = 0; i <= ALE_MAX_BEAMS; i++) {
+        directions->cos_q36[i] = (int32_t)unknown(-most_q36, most_q36);
+        directions->sin_q36[i] = (int32_t)unknown(-most_q36, most_q36);
+    }
+}
+
 static inline void unknown_points(ale_points_t *points)
 {
     points->directions = (int32_t)unknown(0, ALE_MAX_BEAMS);
@@ -22,11 +32,10 @@ static inline void unknown_points(ale_points_t *points)
     points->count = (uint16_t)unknown(0, ALE_MAX_BEAMS);
     points->sparse = unknown(0, 1);
     points->gap_count = (uint16_t)unknown(0, ALE_MAX_BEAMS / ALE_MAX_GAP_BEAMS);
-    const int64_t most_q36 = 1099511644; /* 2^30 + 16 as what a micrometre is multiplied by */
+    unknown_directions(&points->direction[0]);
+    unknown_directions(&points->direction[1]);
     //@ loop unroll 1;
     for (uint32_t i = 0; i < ALE_MAX_BEAMS; i++) {
-        points->cos_q36[i] = (int32_t)unknown(-most_q36, most_q36);
-        points->sin_q36[i] = (int32_t)unknown(-most_q36, most_q36);
         points->beam[i] = (uint16_t)unknown(0, MOST_BEAM);
         points->range_um[i] = (int32_t)unknown(ALE_MIN_RANGE_UM, ALE_MAX_RANGE_UM);
         points->inverse_q44[i] = (int32_t)unknown((INT64_C(1) << 44) / ALE_MAX_RANGE_UM, 1 << 30);
