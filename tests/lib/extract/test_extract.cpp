@@ -353,7 +353,7 @@ TEST(Extract, WidestRoomInTheLargestSharedError)
         config.noise.shared_beams = shared_beams;
         scene::extractor extract(config);
         for (int beams = 100; beams <= ALE_MAX_BEAMS; beams += 109) {
-            const auto scan = empty_scan(beams, -beams / 2 * pi / 720, pi / 720);
+            const auto scan = empty_scan(beams, -beams * pi / 1440, pi / 720);
             for (int k = 0; k < beams; k++) {
                 ale_scan_set_range(scan.get(), static_cast<uint16_t>(k), 79900000);
             }

@@ -474,10 +474,10 @@ void places(ale_relocation_t *relocation, const ale_pipeline_t *p, Random &rando
     }
     relocation->count = ALE_PLACES;
     for (ale_place_t &place : relocation->place) {
-        place = {any_motion(random).pose, 200, 0, 4, 0};
+        place = {any_motion(random).pose, 200, 0, 4};
     }
     if (known == Known::place) {
-        relocation->place[0] = {{0, 0, 0}, 256, 256, 40, 0};
+        relocation->place[0] = {{0, 0, 0}, 256, 256, 40};
     }
 }
 
