@@ -18,7 +18,7 @@ enum {
     EXPECTED_BAM = 350 * ALE_BAM_PER_MRAD,
     EXPECTED_LEAST_UM = 2000000,
     LAID_LEAST_UM = 15000000,   /* of walls of the one map that lie on the other; */
-    LAID_SMALL_UM = 10000000,   /* this much where they are three quarters of all that the other holds */
+    LAID_SMALL_UM = 10000000,   /* so much where they are half of all that the other holds */
     DENIED_WEIGHT = 10,         /* one that the way there has led through speaks against so many */
     LAID_WALL_MOST_UM = 2000000 /* that one of them counts for */
 };
@@ -60,7 +60,7 @@ static int64_t least_um(const ale_pipeline_t *p, bool expected)
         const int64_t length_um = (int64_t)wall->end_um - wall->start_um;
         held_um += wall->map == p->map.selected ? ale_min64(length_um, LAID_WALL_MOST_UM) : 0;
     }
-    return expected ? EXPECTED_LEAST_UM : ale_clamp64(held_um * 3 / 4, LAID_SMALL_UM, LAID_LEAST_UM);
+    return expected ? EXPECTED_LEAST_UM : ale_clamp64(held_um / 2, LAID_SMALL_UM, LAID_LEAST_UM);
 }
 
 /* By how much more of the robot's own map lies on the selected one than must, when the robot is at this pose

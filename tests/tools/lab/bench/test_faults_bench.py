@@ -369,8 +369,9 @@ def test_in_darkness_driven_on_unseen_by_dead_wheels_the_robot_is_never_wrong_wh
 
 
 def test_a_map_of_a_place_that_only_looks_alike_is_not_joined_where_the_way_would_have_led_through_walls():
-    rows = rows_of(bench("--only", "maze", "--seeds", "6", "--kinds", "dark-8"))
-    assert rows["dark-8"][0] == "1" and rows["dark-8"][4] == "0"
+    done = bench("--shared", str(shared("bench").parent), "--only", "maze", "--seeds", "6", "--kinds", "dark-8")
+    rows = rows_of(done)
+    assert int(rows["dark-8"][0]) >= 1 and rows["dark-8"][4] == "0"
 
 
 def test_carried_into_a_room_like_another_the_robot_is_never_wrong_while_good():
