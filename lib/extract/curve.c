@@ -211,12 +211,10 @@ static void join_marked(ale_run_list_t *r, uint8_t curves, const uint8_t *curve_
 void ale_curve_find(ale_run_list_t *r, bool again)
 {
     shape_t shape[ALE_MAX_RUNS];
-    uint8_t curve_of[ALE_MAX_RUNS];
-    int64_t strength_q8[ALE_MAX_RUNS];
+    uint8_t curve_of[ALE_MAX_RUNS] = {0};
+    int64_t strength_q8[ALE_MAX_RUNS] = {0};
     uint8_t curves = 0;
     for (int32_t k = 0; k < r->count; k++) {
-        curve_of[k] = 0;
-        strength_q8[k] = 0;
         const bool enough = r->run[k].last - r->run[k].first + 1 >= MIN_POINTS;
         shape[k] = enough ? shape_of(r, &r->run[k]) : (shape_t){0};
     }

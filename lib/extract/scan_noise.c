@@ -45,7 +45,7 @@ static inline uint64_t as_range_q4(int64_t difference_q44, int64_t range_um)
 static inline void count_difference(ale_scan_noise_t *noise, int64_t difference_q44, int64_t range_um,
                                     octave_t *octave)
 {
-    const uint32_t k = (31u ^ (uint32_t)__builtin_clz((uint32_t)range_um)) - OCTAVE_BASE;
+    const uint32_t k = 31 - OCTAVE_BASE - (uint32_t)__builtin_clz((uint32_t)range_um);
     noise->histogram[k][ale_histogram_bin(as_range_q4(difference_q44, range_um))]++;
     octave[k].samples++;
     octave[k].range_um += range_um;

@@ -125,6 +125,7 @@ struct ale_pipeline {
     ale_claim_t next_claim; /* what the next map begins with */
     ale_claim_t claim;      /* what the robot's map has begun with, */
     uint16_t claims;        /* and so many scans show it first of all */
+    int64_t surplus_um;     /* of its walls, by which it lies enough on the place recognised */
     int64_t unlooked_um;    /* gone and turned since the robot last looked around */
 
     /* update */

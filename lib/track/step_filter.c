@@ -77,9 +77,9 @@ void ale_filter_newcomers(ale_pipeline_t *p, ale_pose_t before, bool good, ale_f
     p->still.count =
         ale_elders_drop_newcomers(&p->elders, &p->map, &now, ale_zero_motion_is_long(&p->zero_motion),
                                   p->still.observation, fit->association);
-    if (good) {
-        ale_elders_keep(&p->elders, &now);
-        ale_way_back_keep(&p->way_back, &now);
+    const bool copied = good && ale_elders_keep(&p->elders, &now);
+    if (good && !copied && p->atlas.current != ALE_FIRST_MAP) {
+        ale_way_back_keep(&p->way_back, &now); /* or the next one: one copy is enough for a scan */
     }
 }
 

@@ -25,7 +25,7 @@ static ale_slack_t slack_of(const ale_matrix_t *cov, bool counted)
 /* Whether the last scan denies that the robot is where it was, after a time that nobody watched and in which
  * no wheels told of a way: a robot that stood sees what it saw. What has denied it once does so while scans
  * are waited for. */
-static bool is_denied_to_stand(const ale_pipeline_t *p, const ale_prediction_t *prediction,
+static bool is_denied_to_stand(const ale_pipeline_t *p, const ale_prediction_t *prediction, bool strange,
                                const ale_seen_t *now)
 {
     if (!ale_recover_is_unwatched(p, prediction) || ale_recover_has_driven(p, prediction)) {
@@ -33,6 +33,9 @@ static bool is_denied_to_stand(const ale_pipeline_t *p, const ale_prediction_t *
     }
     if (p->waited > 0 && p->denied_to_stand) {
         return true;
+    }
+    if (strange) {
+        return false; /* the last scan has been heard */
     }
     const ale_testimony_t testimony =
         ale_witness_hear(&p->witness, now, (ale_slack_t){SLACK_UM, SLACK_URAD, false});
@@ -49,7 +52,7 @@ ale_scene_verdict_t ale_step_monitor(ale_pipeline_t *p, const ale_prediction_t *
         testimony = ale_witness_hear(&p->witness, &now, slack_of(&fit->motion.cov, counted));
     }
     ale_tracking_notice(&p->monitor, strange ? &testimony : NULL, counted, p->map.count > 0);
-    p->denied_to_stand = !strange && is_denied_to_stand(p, prediction, &now);
+    p->denied_to_stand = is_denied_to_stand(p, prediction, strange, &now);
     p->monitor.contradicted = p->monitor.contradicted || p->denied_to_stand;
     if (p->monitor.contradicted) {
         return ALE_SCENE_CHANGED;

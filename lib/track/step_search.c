@@ -55,17 +55,20 @@ static int64_t denied_um(ale_pipeline_t *p, ale_pose_t there)
 static int64_t least_um(const ale_pipeline_t *p, bool expected)
 {
     int64_t held_um = 0;
-    for (uint32_t i = 0; i < p->map.count && !expected; i++) {
+    if (expected) {
+        return EXPECTED_LEAST_UM;
+    }
+    for (uint32_t i = 0; i < p->map.count; i++) {
         const ale_wall_t *wall = &p->map.wall[i];
         const int64_t length_um = (int64_t)wall->end_um - wall->start_um;
         held_um += wall->map == p->map.selected ? ale_min64(length_um, LAID_WALL_MOST_UM) : 0;
     }
-    return expected ? EXPECTED_LEAST_UM : ale_clamp64(held_um / 2, LAID_SMALL_UM, LAID_LEAST_UM);
+    return ale_clamp64(held_um / 2, LAID_SMALL_UM, LAID_LEAST_UM);
 }
 
-/* By how much more of the robot's own map lies on the selected one than must, when the robot is at this pose
- * of that. Each wall counts once: many scans from one place show no more than one does.
- * The newest are asked first: work is bounded. */
+/* How much of the robot's own map lies on the selected one, when the robot is at this pose of that. Each wall
+ * counts once: many scans from one place show no more than one does. The newest are asked first: work is
+ * bounded. */
 static int64_t laid_um(const ale_pipeline_t *p, ale_pose_t there)
 {
     const ale_viewpoint_t shift = ale_viewpoint(ale_pose_shift(p->motion.pose, there));
@@ -85,11 +88,17 @@ static int64_t laid_um(const ale_pipeline_t *p, ale_pose_t there)
             explained_um += a.wall == ALE_NO_WALL ? 0 : ale_min64(a.error.overlap_um, length_um);
         }
     }
+    return explained_um;
+}
+
+/* By how much more lies there than must; 0 or less: not enough, or not where wheels have led. */
+static int64_t surplus_um(const ale_pipeline_t *p, ale_pose_t there)
+{
     const bool expected = ale_are_near(p->motion.pose, there, EXPECTED_UM, EXPECTED_BAM);
     if (p->claim == ALE_CLAIM_DRIVEN && !expected) {
-        return -1;
+        return 0;
     }
-    return explained_um - least_um(p, expected);
+    return laid_um(p, there) - least_um(p, expected);
 }
 
 static void fit_at(ale_pipeline_t *p, ale_pose_t pose, ale_fit_t *fit)
@@ -127,15 +136,17 @@ static bool is_found(ale_pipeline_t *p, search_t search, ale_fit_t *fit)
     ale_pose_t at;
     if (ale_relocation_recognised(&p->relocation, &at)) {
         fit_at(p, at, fit);
-        return ale_tracking_explains(fit) &&
-               laid_um(p, fit->motion.pose) > DENIED_WEIGHT * denied_um(p, fit->motion.pose);
+        return ale_tracking_explains(fit) && p->surplus_um > DENIED_WEIGHT * denied_um(p, fit->motion.pose);
     }
     if (search == WHERE_SAID) {
         fit_at(p, p->motion.pose, fit);
         return ale_tracking_confirms(fit);
     }
-    if ((search == NEAR ? is_near(p, fit) : is_anywhere(p, fit)) && laid_um(p, fit->motion.pose) > 0) {
-        ale_relocation_recognise(&p->relocation, fit->motion.pose);
+    if (search == NEAR ? is_near(p, fit) : is_anywhere(p, fit)) {
+        p->surplus_um = surplus_um(p, fit->motion.pose);
+        if (p->surplus_um > 0) {
+            ale_relocation_recognise(&p->relocation, fit->motion.pose);
+        }
     }
     return false;
 }

@@ -88,20 +88,22 @@ static bool is_adrift(const ale_tracking_monitor_t *monitor, bool counted)
     return monitor->misfits > 0 && !counted;
 }
 
-bool ale_tracking_denies(const ale_testimony_t *testimony)
+static bool denies(const ale_testimony_t *testimony, int64_t percent)
 {
     const int64_t compared_um = testimony->denied_um + testimony->confirmed_um;
-    return testimony->denied_um > DENIED_LEAST_UM &&
-           testimony->denied_um * 100 > compared_um * UNWATCHED_PERCENT;
+    return testimony->denied_um > DENIED_LEAST_UM && testimony->denied_um * 100 > compared_um * percent;
+}
+
+bool ale_tracking_denies(const ale_testimony_t *testimony)
+{
+    return denies(testimony, UNWATCHED_PERCENT);
 }
 
 void ale_tracking_notice(ale_tracking_monitor_t *monitor, const ale_testimony_t *testimony, bool counted,
                          bool mapped)
 {
-    const int64_t compared_um = testimony ? testimony->denied_um + testimony->confirmed_um : 0;
-    const int64_t percent = is_unwatched(monitor) ? UNWATCHED_PERCENT : DENIED_PERCENT;
-    const bool denied = testimony && testimony->denied_um > DENIED_LEAST_UM &&
-                        testimony->denied_um * 100 > compared_um * percent;
+    const bool denied =
+        testimony && denies(testimony, is_unwatched(monitor) ? UNWATCHED_PERCENT : DENIED_PERCENT);
     monitor->in_reach = counted || !mapped;
     monitor->contradicted_nearby =
         monitor->misfits > 0 ? monitor->contradicted_nearby : testimony && testimony->close;

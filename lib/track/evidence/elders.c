@@ -34,15 +34,16 @@ static uint32_t place_of(uint32_t n)
     return place;
 }
 
-void ale_elders_keep(ale_elders_t *elders, const ale_seen_t *seen)
+bool ale_elders_keep(ale_elders_t *elders, const ale_seen_t *seen)
 {
     if (elders->kept > 0 && ale_abs64(seen->posed.scan->stamp_us - elders->kept_us) < EVERY_US) {
-        return;
+        return false;
     }
     ale_elder_t *elder = &elders->elder[place_of(elders->kept++)];
     elders->kept_us = seen->posed.scan->stamp_us;
     elder->taken = true;
     ale_seen_copy(&elder->seen, seen);
+    return true;
 }
 
 /* A robot that rests hardly errs in where its elders were: whatever of a line was not there speaks against

@@ -29,8 +29,9 @@ typedef struct {
 
 void ale_elders_clear(ale_elders_t *elders);
 
-/* Copies the scan when 5 s have passed since the last one. Only scans whose pose is known. */
-void ale_elders_keep(ale_elders_t *elders, const ale_seen_t *seen);
+/* Copies the scan when 5 s have passed since the last one; false: it is not kept. Only scans whose pose is
+ * known. */
+bool ale_elders_keep(ale_elders_t *elders, const ale_seen_t *seen);
 
 /* Takes the lines that found no wall of the map and were not always there out of the observations, and their
  * matches with them; seen->view is `view`. rests: the robot has stood still for long enough to tell more

@@ -16,29 +16,40 @@ void ale_way_back_clear(ale_way_back_t *way_back)
 {
     way_back->count = 0;
     way_back->apart_um = APART_UM;
+    for (uint32_t i = 0; i < ALE_WAY_BACK; i++) {
+        way_back->order[i] = (uint8_t)i;
+    }
 }
 
-/* Every other one. */
+/* Gives up every other one of all that there is room for. */
 static void thin(ale_way_back_t *way_back)
 {
+    uint8_t given_up[ALE_WAY_BACK / 2];
     way_back->count /= 2;
     way_back->apart_um *= 2;
-    for (uint32_t i = 1; i < way_back->count; i++) {
-        way_back->seen[i] = way_back->seen[(size_t)2 * i];
+    for (size_t i = 0; i < ALE_WAY_BACK / 2; i++) {
+        given_up[i] = way_back->order[2 * i + 1];
+        way_back->order[i] = way_back->order[2 * i];
     }
+    memcpy(&way_back->order[ALE_WAY_BACK / 2], given_up, sizeof given_up);
+}
+
+static const ale_seen_copy_t *newest(const ale_way_back_t *way_back)
+{
+    return &way_back->seen[way_back->order[way_back->count - 1]];
 }
 
 void ale_way_back_keep(ale_way_back_t *way_back, const ale_seen_t *seen)
 {
     const int32_t apart_bam = way_back->apart_um / 1000 * ALE_BAM_PER_MRAD;
     if (way_back->count > 0 &&
-        ale_are_near(way_back->seen[way_back->count - 1].robot, seen->robot, way_back->apart_um, apart_bam)) {
+        ale_are_near(newest(way_back)->robot, seen->robot, way_back->apart_um, apart_bam)) {
         return;
     }
     if (way_back->count == ALE_WAY_BACK) {
         thin(way_back);
     }
-    ale_seen_copy(&way_back->seen[way_back->count++], seen);
+    ale_seen_copy(&way_back->seen[way_back->order[way_back->count++]], seen);
 }
 
 /* Which walls of the selected map a scan sees, and sees through, taken from there; `next` is asked first. */
@@ -68,7 +79,7 @@ int64_t ale_way_back_denied_um(ale_way_back_t *way_back, const ale_local_map_t *
     int64_t denied_um = 0;
     memset(way_back->wall, 0, sizeof way_back->wall);
     for (uint32_t k = 0; k < way_back->count; k++) {
-        const ale_seen_copy_t *then = &way_back->seen[k];
+        const ale_seen_copy_t *then = &way_back->seen[way_back->order[k]];
         ale_posed_scan_t from = ale_seen_copy_posed(then);
         from.sensor = ale_pose_compose(there, ale_pose_between(robot, then->sensor));
         ask(way_back, map, &from, k * map->count / ALE_WAY_BACK);

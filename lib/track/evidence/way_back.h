@@ -12,10 +12,11 @@
 #include "map/local_map.h"
 #include "observe/seen.h"
 
-enum { ALE_WAY_BACK = 32, ALE_WAY_BACK_WALLS = 64 /* in view of a scan that are asked for */ };
+enum { ALE_WAY_BACK = 32, ALE_WAY_BACK_WALLS = 48 /* in view of a scan that are asked for */ };
 
 typedef struct {
-    ale_seen_copy_t seen[ALE_WAY_BACK]; /* on the way that is smooth, the oldest first */
+    ale_seen_copy_t seen[ALE_WAY_BACK]; /* on the way that is smooth */
+    uint8_t order[ALE_WAY_BACK];        /* their places, the oldest first; then those that are free */
     uint32_t count;
     int32_t apart_um; /* or as many urad */
     struct {

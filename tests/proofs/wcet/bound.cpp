@@ -323,6 +323,16 @@ void notice(Parts &parts, const std::string &name, const ale_scan_t &before, con
                   [&] { ale_carried_notice(carried.get(), &then, &now, &scan, views.data(), match.data()); });
 }
 
+/* As many scans from along the way as are kept. */
+void way_back(ale_way_back_t &kept, const ale_seen_t &seen)
+{
+    ale_way_back_clear(&kept);
+    for (ale_seen_copy_t &copy : kept.seen) {
+        ale_seen_copy(&copy, &seen);
+        kept.count++;
+    }
+}
+
 void witnesses(Parts &parts, Random &random, Crowd &crowd)
 {
     auto pipeline = std::make_unique<ale_pipeline>();
@@ -361,7 +371,12 @@ void witnesses(Parts &parts, Random &random, Crowd &crowd)
                   ALE_BEAM_NO_RETURN); /* none denies */
     }
     scan.stamp_us += 10000000;
-    parts.measure("an elder kept", 1, [&] { ale_elders_keep(&pipeline->elders, &seen); });
+    const std::string copied = "an elder kept, or a scan of the way"; /* the one or the other */
+    parts.measure(copied, 1, [&] { ale_elders_keep(&pipeline->elders, &seen); });
+    way_back(pipeline->way_back, seen);
+    ale_seen_t gone_on = seen;
+    gone_on.robot.x_um = pipeline->way_back.apart_um;
+    parts.measure(copied, 1, [&] { ale_way_back_keep(&pipeline->way_back, &gone_on); });
     std::vector<ale_association_t> match(ALE_MAX_OBSERVATIONS, {ALE_NO_WALL, ALE_NO_LANDMARK, {}});
     parts.measure("elders asked", 1, [&] {
         ale_elders_drop_newcomers(&pipeline->elders, &pipeline->map, &seen, false, crowd.views.data(),
@@ -498,20 +513,8 @@ void search(Parts &parts, Random &random, Lost &lost)
     }
 }
 
-/* Scans from along the way, each of which looks through all walls. */
-void way_back(ale_pipeline_t *p)
-{
-    const ale_posed_scan_t from = {&p->observed.scan, ale_observed_bearings(&p->observed), {0, 0, 0}};
-    const ale_seen_t seen = {from, {0, 0, 0}, nullptr, 0};
-    ale_way_back_clear(&p->way_back);
-    for (ale_seen_copy_t &copy : p->way_back.seen) {
-        ale_seen_copy(&copy, &seen);
-        p->way_back.count++;
-    }
-}
-
-/* The scan confirms where the robot is, and what its own scans have looked through is asked; all marks are of
- * its own map, which moves. */
+/* The scan confirms where the robot is, and what its own scans have looked through is asked; whatever they
+ * say, the maps join then. All marks are of its own map, which moves. */
 void joining(Parts &parts, Lost &lost)
 {
     for (uint32_t views = 4; views <= ALE_MAX_OBSERVATIONS; views += 8) {
@@ -524,7 +527,7 @@ void joining(Parts &parts, Lost &lost)
         ale_motion_t there = p->motion;
         p->motion.pose = {500 * centimetre_um, 700 * centimetre_um, 123456789};
         p->map.near_radius_um = 0;
-        way_back(p);
+        way_back(p->way_back, ale_pipeline_seen_from(p, {0, 0, 0}, {0, 0, 0}));
         parts.measure("lost: two maps join", 1, [&] {
             ale_pipeline_fit(p, &there, 40000000, &p->other);
             ale_way_back_denied_um(&p->way_back, &p->map, {0, 0, 0}, there.pose);

@@ -8,25 +8,10 @@ extern "C" {
 #include "track/evidence/elders.h"
 }
 
+#include "lib/track/evidence/round_room.h"
+
 namespace
 {
-
-/* All around at the same range. */
-std::unique_ptr<ale_scan_t> round_room(double range_m, double seconds)
-{
-    auto scan = std::make_unique<ale_scan_t>();
-    scan->stamp_us = static_cast<int64_t>(seconds * 1e6);
-    scan->first_bearing_bam = 0u - 90u * ALE_BAM_PER_DEGREE;
-    scan->step_bam = ALE_BAM_PER_DEGREE;
-    scan->range_min_um = 20000;
-    scan->range_max_um = 5600000;
-    scan->beams = 181;
-    for (int k = 0; k < scan->beams; k++) {
-        scan->range_um[k] = static_cast<int32_t>(range_m * 1e6);
-        scan->flag[k] = ALE_BEAM_VALID;
-    }
-    return scan;
-}
 
 /* A line straight ahead, square to the beam. */
 ale_observation_t line_ahead(double range_m)

@@ -9,26 +9,12 @@ extern "C" {
 #include "track/evidence/way_back.h"
 }
 
+#include "lib/track/evidence/round_room.h"
+
 namespace
 {
 
 constexpr double room_m = 3; // around the scanner, as far as it looks
-
-/* A scan of 181 beams that all end at the same range. */
-std::unique_ptr<ale_scan_t> round_room()
-{
-    auto scan = std::make_unique<ale_scan_t>();
-    scan->first_bearing_bam = 0u - 90u * ALE_BAM_PER_DEGREE;
-    scan->step_bam = ALE_BAM_PER_DEGREE;
-    scan->range_min_um = 20000;
-    scan->range_max_um = 5600000;
-    scan->beams = 181;
-    for (int k = 0; k < scan->beams; k++) {
-        scan->range_um[k] = static_cast<int32_t>(room_m * 1e6);
-        scan->flag[k] = ALE_BEAM_VALID;
-    }
-    return scan;
-}
 
 ale_pose_t at(double x_m, double y_m, double degrees = 0)
 {
@@ -46,7 +32,7 @@ class WayBack : public testing::Test
     }
     void drive_to(double x_m)
     {
-        const auto scan = round_room();
+        const auto scan = round_room(room_m, 0);
         for (; driven_m <= x_m; driven_m += 0.05) {
             const ale_pose_t robot = at(driven_m, 0);
             const ale_seen_t seen = {{scan.get(), nullptr, robot}, robot, nullptr, 0};
