@@ -110,10 +110,12 @@ system: $(SYSTEM_PROGRAMS) lcm-types venv ## tests of the real programs over pse
 system-rtai: programs lcm-types venv $(BUILD)/rtai/ale-slamd ## the system tests with the firmware on an emulated RTAI (T=file of tests/system)
 	@ALE_SLAMD=$(BUILD)/rtai/ale-slamd $(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(or $(T),tests/system)
 
+# Which of them: hil (a drive), boots, power.
+VIRTUAL ?= hil boots power
 .PHONY: hil-vm
 hil-vm: programs lcm-types venv deb ## virtual robot PCs in qemu: a drive under PREEMPT_RT, days from boot to power cut, cuts while files are written (BOOTS=10 CUTS=50)
 	@tools/make/deps.sh tools/make/packages-vm.txt
-	@for machine in hil boots power; do \
+	@for machine in $(VIRTUAL); do \
 	    $(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python --reruns 0 -rP tests/system/$${machine}_vm.py || failed=1; done; [ -z "$$failed" ]
 
 .PHONY: endurance
@@ -127,6 +129,10 @@ soak: programs lcm-types venv ## a day at ten times the speed: nothing grows, no
 .PHONY: proofs
 proofs: programs ## bounded by construction: symbols, call graph, soft-float build, system call filter (part of make test)
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m pytest -q -rP -p no:cacheprovider tests/proofs
+
+.PHONY: soak-bridges
+soak-bridges: programs lcm-types venv ## half an hour of exploring with console, Foxglove and ROS 2 looked at: no pose later than without (BRIDGES_MINUTES=30), on an idle machine
+	@PYTHONPATH=$(BUILD)/python PYTHONDONTWRITEBYTECODE=1 $(VENV)/bin/python -m pytest -q -rP -s -p no:cacheprovider tests/system/bridges_soak.py
 
 # Coverage-guided fuzzing with clang's libFuzzer, one program a harness.
 FUZZ_SECONDS ?= 600
@@ -180,7 +186,8 @@ same-bytes: programs
 digest: programs ## after a wanted change of features or trajectories: their new digests into tests/digest
 	@$(PYTHON) tools/make/digest.py --build $(BUILD) update
 
-MISRA = $(PYTHON) tests/proofs/misra.py --build $(BUILD)
+LINT_JOBS ?= 2
+MISRA = $(PYTHON) tests/proofs/misra.py --build $(BUILD) --jobs $(LINT_JOBS)
 misra: ## MISRA C:2012 over the core, by cppcheck's addon: what tests/proofs/misra.md says of it is so
 	@tools/make/deps.sh tools/make/packages-test.txt
 	@$(MISRA)
@@ -190,11 +197,11 @@ lint: lint-format lint-cppcheck lint-misra lint-tidy ## clang-format and cppchec
 lint-format:
 	@$(PYTHON) tools/make/run_tests.py command clang-format clang-format --dry-run -Werror $(C_FAMILY)
 lint-cppcheck:
-	@$(PYTHON) tools/make/run_tests.py command cppcheck tools/make/cppcheck.sh $(BUILD)
+	@$(PYTHON) tools/make/run_tests.py command cppcheck tools/make/cppcheck.sh $(LINT_JOBS)
 lint-misra:
 	@$(PYTHON) tools/make/run_tests.py command misra $(MISRA)
 lint-tidy: $(LCM_STAMP)
-	@$(PYTHON) tools/make/run_tests.py command clang-tidy tools/make/tidy.sh $(BUILD) $(LIB_SOURCES) $(DRIVER_SOURCES) $(FIRMWARE_SOURCES) $(wildcard firmware/main.c)
+	@$(PYTHON) tools/make/run_tests.py command clang-tidy env JOBS=$(LINT_JOBS) tools/make/tidy.sh $(BUILD) $(LIB_SOURCES) $(DRIVER_SOURCES) $(FIRMWARE_SOURCES) $(wildcard firmware/main.c)
 
 .PHONY: docs-check
 docs-check: programs ## what the READMEs name is there, and their figures are what their commands print (ALL=1: the long ones, too)
@@ -218,10 +225,13 @@ HOSTILE_TESTS = test_hostile or ten_thousand_hostile
 HOSTILE_PROGRAMS = $(addprefix $(BUILD)/asan/bin/ale-,slamd keys send sim console watch latency record bridge)
 ROBOT_TESTS = tests/lib tests/drivers tests/firmware
 THREADED = $(SUB) BUILD=$(BUILD)/tsan TEST_BUILD=$(BUILD) SANITIZE=thread OPT=-O1 T=tests/firmware
+MORE_SEEDS = tools/lab/explore/test_exploration lib/graph/test_joins
 RTAI_SYSTEM_TESTS = tests/system/test_daemon.py tests/system/test_latency.py
 RTAI_BUILD = BUILD=$(BUILD)/rtai-build RT=rtai RTAI_CONFIG=$(RTAI_EMULATION_CONFIG)
 # What waits for programs in real time does not run beside what computes, not even with a low priority for that: the kernel's
 # worker that hands on what a pseudo terminal received may then get no processor for seconds, and the firmware is blind.
+# One program at a time, when nothing else wants a processor, does no harm to what waits.
+IDLY = chrt --idle 0
 .PHONY: test test-waiting test-computing test-all
 test: deps-test ## all tests on this machine; the last line counts them
 	@$(PYTHON) tools/make/run_tests.py begin
@@ -265,8 +275,7 @@ test-computing:
 # After `make test` in the same build folder (AFTER_TEST=1) only the rest runs, and the sum is of both.
 test-all: ## make test, lint, and the same bytes from every compiler, level and emulated machine
 	$(if $(AFTER_TEST),,@$(SUB) test)
-	@$(PHASE) "lint"
-	-@$(SUB) --keep-going lint
+	@$(PHASE) "the same bytes from another compiler"
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, every recording" $(SUB) same-bytes SAME_BYTES_BUILDS=clang:-O3
 	@$(PHASE) "no run-time error in the arithmetic and the scanners' protocols: Frama-C"
 	-@$(PYTHON) tools/make/run_tests.py command "proofs of run time" $(SUB) prove-share
@@ -280,7 +289,10 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	@$(PHASE) "the same bytes on other machines, emulated"
 	-@$(PYTHON) tools/make/run_tests.py command "same bytes, aarch64 armhf s390x" $(SUB) cross
 	@$(PHASE) "the firmware on a virtual robot PC"
-	-@$(SUB) hil-vm
+	-@$(SUB) hil-vm VIRTUAL=hil
+	@$(PHASE) "days and power cuts of a virtual robot PC, mostly waiting; meanwhile lint"
+	-@$(IDLY) $(SUB) --keep-going lint LINT_JOBS=1 > $(BUILD)/lint.txt 2>&1 & $(SUB) hil-vm VIRTUAL="boots power"; wait
+	@cat $(BUILD)/lint.txt
 	@$(PHASE) "the firmware as an RTAI program, on an emulated RTAI"
 	@rm -rf $(BUILD)/rtai-build && mkdir -p $(BUILD)/rtai-build && cp -a $(BUILD)/obj $(BUILD)/lcmtypes $(BUILD)/rtai-build
 	-@$(PYTHON) tools/make/run_tests.py command "make RT=rtai" $(SUB) $(RTAI_BUILD) -j2 programs
@@ -294,8 +306,8 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	-@ALE_LONG_TESTS=1 $(SUB) system T=independent_clients DIST=load
 	@$(PHASE) "Python's wheel in an empty virtual environment"
 	-@ALE_LONG_TESTS=1 $(SUB) system T="test_python_wheel or test_python_types"
-	@$(PHASE) "explorations in a closed loop with the simulator, more of them"
-	@$(SUB) T=tools/lab/explore/test_exploration unit-programs
-	-@ALE_LONG_TESTS=1 $(SUB) T=tools/lab/explore/test_exploration unit
+	@$(PHASE) "explorations in a closed loop with the simulator and maps that join, more of them"
+	@$(SUB) -j2 T="$(MORE_SEEDS)" unit-programs
+	-@ALE_LONG_TESTS=1 $(SUB) T="$(MORE_SEEDS)" unit
 	@$(PHASE) "all of it"
 	@$(PYTHON) tools/make/run_tests.py sum

@@ -1,5 +1,5 @@
 #!/bin/sh
-# clang-tidy, two at a time, one file each (of a second one it says that a va_list is uninitialised): tidy.sh BUILD FILE...
+# clang-tidy, two at a time ($JOBS), one file each (of a second one it says that a va_list is uninitialised): tidy.sh BUILD FILE...
 # Generated types of LCM and DDS are taken as system headers.
 build=$1
 shift
@@ -10,7 +10,7 @@ tidy() {
     shift 2
     for file in "$@"; do
         case $file in *."$extension") echo "$file" ;; esac
-    done | xargs -r -P 2 -n 1 sh -c 'clang-tidy --quiet "$@" -- '"-std=$standard $flags"' 2>/dev/null' tidy
+    done | xargs -r -P "${JOBS:-2}" -n 1 sh -c 'clang-tidy --quiet "$@" -- '"-std=$standard $flags"' 2>/dev/null' tidy
 }
 status=0
 tidy c c11 "$@" || status=1

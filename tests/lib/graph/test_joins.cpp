@@ -1,6 +1,8 @@
 // lib/graph/mapper: maps that it joins by itself, and those that it must not.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "alike_worlds.hpp"
 
 namespace
@@ -8,6 +10,12 @@ namespace
 
 using namespace alike_worlds;
 using namespace maps_drive;
+
+// One drive, up to three with ALE_LONG_TESTS=1 (make test-all).
+unsigned seeds(unsigned most)
+{
+    return std::getenv("ALE_LONG_TESTS") ? most : 1;
+}
 
 // The wheels have lost a little.
 ale_pose_t nearby()
@@ -92,7 +100,7 @@ Path in_second_room()
 TEST(Joins, OfTwoEqualRoomsNeitherIsTaken)
 {
     const Path known = through_both_rooms();
-    for (unsigned seed = 1; seed <= 3; seed++) {
+    for (unsigned seed = 1; seed <= seeds(3); seed++) {
         const Outcome outcome =
             drive(two_rooms(0.4), joined_paths(known, in_second_room()), known.size(), seed);
         EXPECT_EQ(outcome.maps_driven, 2U);
@@ -116,7 +124,7 @@ TEST(Joins, WhatIsBesideTheRoomsTellsThemApart)
 {
     const Path known = through_both_rooms();
     const Path along = path_through({{10.5, 4.2}, {10.5, 1}, {4, 1}, {2.5, 1}, {2.5, 3}});
-    for (unsigned seed = 1; seed <= 2; seed++) {
+    for (unsigned seed = 1; seed <= seeds(2); seed++) {
         const Outcome outcome = drive(two_rooms(0), joined_paths(known, along), known.size(), seed);
         EXPECT_EQ(outcome.maps_driven, 1U) << "as soon as it has seen enough";
         EXPECT_GT(outcome.joined_at, known.size());
@@ -129,7 +137,7 @@ TEST(Joins, ACorridorThatIsTheSameAfterHalfATurnIsNotJoined)
 {
     const Path known = path_through({{-7, 0.1}, {7, 0.1}, {7, -0.1}, {-7, -0.1}});
     const Path again = path_through({{-6, 0}, {6, 0}, {6.4, 0}, {1, 0}});
-    for (unsigned seed = 1; seed <= 2; seed++) {
+    for (unsigned seed = 1; seed <= seeds(2); seed++) {
         const Outcome outcome = drive(turned_corridor(0), joined_paths(known, again), known.size(), seed);
         EXPECT_EQ(outcome.maps_driven, 2U);
         EXPECT_EQ(outcome.maps, 2U);
@@ -140,7 +148,7 @@ TEST(Joins, OneBoxTellsBothEndsOfTheCorridorApart)
 {
     const Path known = path_through({{-7, 0.3}, {7, 0.3}, {7, 0.1}, {-7, 0.1}});
     const Path again = path_through({{-6, 0.2}, {4.4, 0.2}, {5, 0.4}, {1, 0.4}});
-    for (unsigned seed = 1; seed <= 2; seed++) {
+    for (unsigned seed = 1; seed <= seeds(2); seed++) {
         const Outcome outcome = drive(turned_corridor(0.9), joined_paths(known, again), known.size(), seed);
         EXPECT_EQ(outcome.maps, 1U);
         EXPECT_LT(outcome.error_m, 0.15);
