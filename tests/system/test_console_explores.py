@@ -1,4 +1,5 @@
-"""A click on "explore" in the browser, and the robot maps the arena: every program is the real one.
+"""A click on "explore" in the browser, and the robot maps the arena; a press on the map, and it drives there: every program is the
+real one.
 
 It takes minutes and wants the processor for itself: with ALE_LONG_TESTS=1, as `make test-all` runs it."""
 import math
@@ -82,3 +83,47 @@ def test_a_click_on_explore_makes_the_robot_map_the_arena(page, chain):
     part = seen_part("arena", [to_world(start, line) for line in lines])
     print(f"{100 * part:.1f} % of the walls in the map")
     assert part > 0.9
+
+
+BEHIND_TWO_CORNERS, START = (3.2, 1.1), (0.0, 0.0)  # map frame
+PEEK = """
+    const canvas = document.getElementById("map");
+    canvas.dispatchEvent(new PointerEvent("pointermove", { clientX: arguments[0], clientY: arguments[1], bubbles: true }));
+    return document.getElementById("cursor").textContent;"""
+
+
+def place_under(page, x_px, y_px):
+    words = page.run(PEEK, x_px, y_px).split()
+    return float(words[1]), float(words[3])
+
+
+def pixel_of(page, place):
+    """Where on the screen a place of the map is, while the camera rests."""
+    left, right = place_under(page, 300, 300), place_under(page, 700, 300)
+    px_m = 400 / (right[0] - left[0])
+    return round(300 + px_m * (place[0] - left[0])), round(300 - px_m * (place[1] - left[1]))
+
+
+def press_goal(page, place):
+    page.click("goal")
+    x_px, y_px = pixel_of(page, place)
+    page.drag(x_px, y_px, x_px, y_px)
+
+
+def test_a_press_on_the_map_makes_the_robot_drive_there(page, chain):
+    page.wait_for("document.body.dataset.control === 'yes'")
+    page.wait_for(f"{WALLS} > 3")
+    for place in (BEHIND_TWO_CORNERS, START):
+        press_goal(page, place)
+        page.wait_for(f"{WORD}.startsWith('drives to')")
+        page.wait_for(f"{WORD}.startsWith('is at')", LONGEST_S / SPEED)
+    press_goal(page, BEHIND_TWO_CORNERS)
+    page.wait_for(f"{WORD}.startsWith('drives to')")
+    page.click("stop")
+    page.wait_for(f"!{WORD}.startsWith('drives to')")
+    assert chain.sim.end() == 0
+    assert tally(chain.sim)["collisions"] == 0
+    way = Truth(chain.truth_path).world
+    there = to_world(way[0], {"x1": BEHIND_TWO_CORNERS[0], "y1": BEHIND_TWO_CORNERS[1], "x2": 0, "y2": 0})[:2]
+    assert min(math.dist(pose[:2], there) for pose in way) < 0.15
+    assert math.dist(way[-1][:2], way[0][:2]) < 1, "stopped soon after the start"
