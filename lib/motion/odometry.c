@@ -69,11 +69,17 @@ static ale_pose_t part_of_way(ale_pose_t a, ale_pose_t b, int64_t num, int64_t d
 /* The interval that holds an instant, or the last one: the sample at its end. Needs two samples. */
 static uint32_t interval_at(const ale_wheels_t *w, int64_t t_us)
 {
-    uint32_t k = w->count - 1;
-    while (k > 1 && sample_at(w, k - 1)->stamp_us >= t_us) {
-        k--;
+    uint32_t low = 1;
+    uint32_t high = w->count - 1;
+    while (low < high) {
+        const uint32_t middle = (low + high + 1) / 2;
+        if (sample_at(w, middle - 1)->stamp_us < t_us) {
+            low = middle;
+        } else {
+            high = middle - 1;
+        }
     }
-    return k;
+    return low;
 }
 
 int64_t ale_wheels_gap_us(const ale_wheels_t *wheels, int64_t t_us)

@@ -109,6 +109,7 @@ struct ale_pipeline {
     uint8_t waits; /* scans in a row, to this one, that wait for the next one to tell where they were taken */
     uint8_t waited;       /* to the one before */
     bool denied_to_stand; /* by one of those, or this one */
+    bool driven;          /* wheels have told of a way through the time unwatched before this scan */
     uint32_t
         led_by_wheels; /* the scan to which they alone have led, unseen; 0 where a map has confirmed it */
 

@@ -28,7 +28,7 @@ static ale_slack_t slack_of(const ale_matrix_t *cov, bool counted)
 static bool is_denied_to_stand(const ale_pipeline_t *p, const ale_prediction_t *prediction, bool strange,
                                const ale_seen_t *now)
 {
-    if (!ale_recover_is_unwatched(p, prediction) || ale_recover_has_driven(p, prediction)) {
+    if (!ale_recover_is_unwatched(p, prediction) || p->driven) {
         return false;
     }
     if (p->waited > 0 && p->denied_to_stand) {

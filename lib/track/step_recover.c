@@ -38,12 +38,27 @@ bool ale_recover_may_be_anywhere(const ale_pipeline_t *p, const ale_prediction_t
     return t_us > ANYWHERE_US && usual_us > 0 && t_us > ANYWHERE_PERIODS * usual_us;
 }
 
+/* Whether wheels that may have told of a way have told of none but at the ends of the time unwatched: what
+ * they count until the last scan before it and from the first one after it is no way through it. */
+static bool has_stood(const ale_pipeline_t *p, const ale_prediction_t *prediction)
+{
+    const int64_t end_us = p->timestamp_filter.usual_us;
+    const int64_t from_us = p->watched_us + end_us - p->lag.lag_us;
+    const int64_t to_us = prediction->ways.believed.stamp_us - end_us - p->lag.lag_us;
+    const ale_pose_t nowhere = {0};
+    ale_pose_t between;
+    int32_t beyond_us;
+    return from_us < to_us && ale_wheels_motion(&p->wheels, from_us, to_us, &between, &beyond_us) &&
+           ale_are_near(nowhere, between, SAME_UM, SAME_BAM);
+}
+
 bool ale_recover_has_driven(const ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
     const ale_pose_t before = ale_witness_seen(&p->witness).robot;
     const ale_pose_t now =
         ale_pipeline_smooth_pose(p, prediction->before.pose, prediction->ways.believed.pose);
-    return prediction->ways.counted && !ale_are_near(before, now, SAME_UM, SAME_BAM);
+    return ale_recover_is_unwatched(p, prediction) && prediction->ways.counted &&
+           !ale_are_near(before, now, SAME_UM, SAME_BAM) && !has_stood(p, prediction);
 }
 
 bool ale_recover_is_unwatched(const ale_pipeline_t *p, const ale_prediction_t *prediction)

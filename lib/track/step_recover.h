@@ -15,8 +15,8 @@ bool ale_recover_is_unwatched(const ale_pipeline_t *p, const ale_prediction_t *p
 /* Whether so much time has gone that somebody may have carried it anywhere. */
 bool ale_recover_may_be_anywhere(const ale_pipeline_t *p, const ale_prediction_t *prediction);
 
-/* Whether wheels have told of a way since a scan last told where the robot is: they were on the floor, nobody
- * has carried it. */
+/* Whether wheels have told of a way through a time unwatched: they were on the floor, nobody has carried the
+ * robot. */
 bool ale_recover_has_driven(const ale_pipeline_t *p, const ale_prediction_t *prediction);
 
 /* Whether one pose within the reach of the vote explains the scan by the selected map clearly better than any

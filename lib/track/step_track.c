@@ -54,7 +54,7 @@ static ale_claim_t claim_of(const ale_pipeline_t *p, const ale_prediction_t *pre
     if (!ale_recover_is_unwatched(p, prediction)) {
         return ALE_CLAIM_NEAR;
     }
-    if (p->monitor.misfits == 0 && ale_recover_has_driven(p, prediction)) {
+    if (p->monitor.misfits == 0 && p->driven) {
         return ALE_CLAIM_DRIVEN;
     }
     return ale_recover_may_be_anywhere(p, prediction) ? ALE_CLAIM_NONE : ALE_CLAIM_NEAR;
@@ -98,9 +98,8 @@ static ale_scene_verdict_t recover(ale_pipeline_t *p, const ale_prediction_t *pr
         p->monitor.contradicted = false;
         return ALE_SCENE_KNOWN;
     }
-    const bool driven = ale_recover_has_driven(p, prediction);
-    if (ale_recover_is_unwatched(p, prediction) && is_refuted(verdict, recovery, driven, fit)) {
-        p->waits = (uint8_t)(may_wait(p, recovery, ways->counted, driven) ? p->waited + 1 : 0);
+    if (ale_recover_is_unwatched(p, prediction) && is_refuted(verdict, recovery, p->driven, fit)) {
+        p->waits = (uint8_t)(may_wait(p, recovery, ways->counted, p->driven) ? p->waited + 1 : 0);
         return p->waits > 0 ? ALE_SCENE_CHANGED : lose(p);
     }
     const bool undecided = recovery == ALE_RECOVER_UNDECIDED && verdict != ALE_SCENE_CHANGED;
@@ -112,6 +111,7 @@ static ale_scene_verdict_t recover(ale_pipeline_t *p, const ale_prediction_t *pr
 static ale_scene_verdict_t judge(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_ways_t *ways,
                                  ale_fit_t *fit)
 {
+    p->driven = ale_recover_has_driven(p, prediction);
     const ale_scene_verdict_t verdict = ale_step_monitor(p, prediction, ways->counted, fit);
     p->next_claim = claim_of(p, prediction);
     const bool doubtful =

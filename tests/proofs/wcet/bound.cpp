@@ -582,6 +582,10 @@ void wheels(Parts &parts)
     ale_wheel_motion_t motion;
     parts.measure("way of the wheels", 1,
                   [&] { ale_wheel_motion(wheels.get(), &lag, &scale, 300000, 400000, &motion); });
+    ale_pose_t unwatched;
+    int32_t beyond_us;
+    parts.measure("way through a time unwatched", 1,
+                  [&] { ale_wheels_motion(wheels.get(), 300000, 400000, &unwatched, &beyond_us); });
     parts.measure("lag of the wheels", 1, [&] { ale_lag_update(&lag, wheels.get()); });
 }
 
