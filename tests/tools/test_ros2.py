@@ -144,6 +144,29 @@ def test_who_comes_late_gets_the_map_and_the_mounting_at_once_though_nothing_new
     assert cells_at(grid, -2.3, 2.3) == {-1}
 
 
+def known(grid):
+    return sum(cell >= 0 for cell in grid.data)
+
+
+@LONG
+def test_of_a_map_that_the_robot_has_forgotten_nothing_is_shown_any_more(bridge, peer, robot):
+    grids = peer.reader("map", OccupancyGrid, LATCHED)
+    bridge()
+    end = time.monotonic() + 120
+    while not any(shows_the_rooms(grid) for grid in grids.poll()):
+        assert time.monotonic() < end
+        robot.drive(3)
+    robot.drive(60)
+    time.sleep(2.5)  # the map goes out every second or so
+    most = known(grids.poll()[-1])
+    robot.drive(2)
+    robot.scan = 0  # where it began: nobody drives there in a moment
+    while known(grids.poll()[-1]) >= most:
+        assert time.monotonic() < end
+        robot.drive(1)
+        time.sleep(0.2)
+
+
 def shows_the_rooms(grid):
     """Walls of both, and free floor where the robot is."""
     return 100 in cells_at(grid, 3.0, 1.5) and 100 in cells_at(grid, -2.0, 0.0) and 0 in cells_at(grid, 0.5, -0.6)

@@ -15,6 +15,9 @@ constexpr int64_t most_cells = 16000000;
 constexpr size_t most_points = 2000000;
 constexpr double step_m = 0.1;
 constexpr double step_rad = 0.05;
+/* More than robots speed up, slow down or begin to turn. */
+constexpr double most_m_s2 = 3;
+constexpr double most_rad_s2 = 10;
 
 Pose2 smooth_of(const ale::pose_t &pose)
 {
@@ -27,15 +30,33 @@ Pose2 map_of(const ale::pose_t &pose)
             static_cast<double>(pose.map_theta)};
 }
 
+bool is_far(const Pose2 &off, double most_m, double most_rad)
+{
+    return std::hypot(off.x, off.y) > most_m || std::fabs(std::remainder(off.theta, 2 * M_PI)) > most_rad;
+}
+
+/* Whether the smooth pose, which never jumps, is where no robot can have gone to: its map was forgotten. */
+bool leaps(const ale::pose_t &before, const ale::pose_t &now, const Pose2 &way)
+{
+    const double seconds = std::fabs(static_cast<double>(now.utime - before.utime)) * 1e-6;
+    const Pose2 expected = {static_cast<double>(before.vx) * seconds,
+                            static_cast<double>(before.vy) * seconds,
+                            static_cast<double>(before.omega) * seconds};
+    return is_far({way.x - expected.x, way.y - expected.y, way.theta - expected.theta},
+                  step_m + most_m_s2 * seconds * seconds, step_rad + most_rad_s2 * seconds * seconds);
+}
+
 } // namespace
 
-/* Whether the map pose went elsewhere than the smooth one. */
+/* Whether the map pose went elsewhere than the smooth one, or that is of another map. */
 bool Occupancy::steps(const ale::pose_t &pose) const
 {
     const Pose2 way = compose(inverse(smooth_of(*pose_)), smooth_of(pose));
+    if (leaps(*pose_, pose, way)) {
+        return true;
+    }
     const Pose2 expected = compose(map_of(*pose_), way);
-    const Pose2 off = compose(inverse(expected), map_of(pose));
-    return std::hypot(off.x, off.y) > step_m || std::fabs(off.theta) > step_rad;
+    return is_far(compose(inverse(expected), map_of(pose)), step_m, step_rad);
 }
 
 void Occupancy::take(const ale::scan_t &scan)

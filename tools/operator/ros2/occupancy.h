@@ -5,7 +5,8 @@
  *   if (occupancy.has_changed()) grid = occupancy.grid();
  *
  * Walls are always those of the newest map. A scan is laid out at its own map pose; when the map pose takes a
- * step (a loop was closed, another map) what was seen before lies wrong, and is begun anew. */
+ * step (a loop was closed, another map, one that was forgotten) what was seen before lies wrong, and is begun
+ * anew. */
 #ifndef ROS2_OCCUPANCY_H
 #define ROS2_OCCUPANCY_H
 
