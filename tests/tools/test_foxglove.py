@@ -198,6 +198,7 @@ def test_a_recording_becomes_an_mcap_that_its_own_reader_takes_and_comes_back_th
         summary = mcap_reader.make_reader(file, validate_crcs=True).get_summary()
     counts = {summary.channels[k].topic: count for k, count in summary.statistics.channel_message_counts.items()}
     assert counts["/scan"] == counts["/pose"] == counts["/lines"] > 100 and counts["/map"] > 5
+    assert 10 <= counts["/graph"] <= 14, "of twelve seconds, one a second at most, and the one in the end"
     assert converted(shown, tmp_path / "again.scip").read_bytes() == scip.read_bytes()
     log = converted(shown, tmp_path / "drive.lcm")
     assert converted(converted(log, tmp_path / "log.mcap"), tmp_path / "again.lcm").read_bytes() == log.read_bytes()
@@ -235,7 +236,7 @@ def test_events_of_a_log_have_the_times_of_their_messages(tmp_path):
     log = converted(LOG, tmp_path / "a.lcm")
     found = list(events(log))
     assert {name for _, name, _ in found} == {"ALE_SCAN", "ALE_ODOMETRY", "ALE_ODOMETRY_EXACT", "ALE_POSE", "ALE_TRACKING", "ALE_FEATURES",
-                                              "ALE_MAP", "ALE_MAP_PIECES"}
+                                              "ALE_MAP", "ALE_MAP_PIECES", "ALE_GRAPH"}
     assert all(utime == struct.unpack_from(">q", data, 8)[0] for utime, _, data in found)
     scans = [ale.scan_t.decode(data) for _, name, data in found if name == "ALE_SCAN"]
     assert [scan.scan for scan in scans] == list(range(len(scans)))

@@ -8,6 +8,8 @@ import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 
+import ale
+import lcm
 import pytest
 
 from at_hand import BINARIES, ROOT, shared
@@ -145,6 +147,43 @@ def test_the_trajectory_is_the_way_driven(room_log, tmp_path, odometry):
         assert pose["state"] in (0, 1, 2) and {"x", "y", "theta", "map_x", "map_y", "map_theta", "lag_us"} <= set(pose)
         assert pose["map_x"] == live[k][1]
         assert list(pose.items())[-3:] == [("map_id", 0), ("maps", 1), ("wheel_fault", "fine")]
+
+
+def graphs_of(log, folder, *words):
+    """[(time, message)] of ALE_GRAPH; trajectories as known then, and in the end."""
+    replay(log, "--lcm", folder / "sent.lcm", "--trajectory-live", folder / "live.tum", "--trajectory", folder / "end.tum", *words)
+    sent = lcm.EventLog(str(folder / "sent.lcm"), "r")
+    graphs = [(event.timestamp, ale.graph_t.decode(event.data)) for event in sent if event.channel == "ALE_GRAPH"]
+    return graphs, read_tum(folder / "live.tum"), read_tum(folder / "end.tum")
+
+
+def furthest(graph, trajectory):
+    return max(math.dist((x, y), trajectory[scan][1:3]) for scan, x, y in zip(graph.scan, graph.x, graph.y))
+
+
+def test_keyframes_are_sent_where_they_lie_as_they_come_and_in_the_end(tmp_path):
+    graphs, live, end = graphs_of(ROOT / "tests/digest/apartment.log.gz", tmp_path)
+    *on_the_way, (last_us, last) = graphs
+    assert len(on_the_way) > 8 and all(graph.utime == at for at, graph in graphs)
+    assert all(b - a >= 1000000 for (a, _), (b, _) in zip(on_the_way, on_the_way[1:]))
+    assert all(a.version < b.version for (_, a), (_, b) in zip(graphs, graphs[1:]))
+    assert max(furthest(graph, live) for _, graph in on_the_way) < 1e-6, "no loop has moved them"
+    assert last_us == round(end[-1][0] * 1e6) and furthest(last, end) < 0.01
+    assert last.scan == tuple(sorted(last.scan)) and last.num_loops > 0 and {0} == set(last.map_id)
+    assert graphs_of(ROOT / "tests/digest/apartment.log.gz", tmp_path, "--loops", "off")[0] == []
+
+
+def test_a_loop_is_sent_when_it_is_closed(tmp_path):
+    graphs, _, _ = graphs_of(shared("data/urg04lx/exp1.dat"), tmp_path)
+    first = next(k for k, (_, graph) in enumerate(graphs) if graph.num_loops)
+    assert 0 < first < len(graphs) - 2 and 1 in graphs[first][1].loop_kind
+
+
+def test_a_graph_that_does_not_change_is_sent_again_every_ten_seconds(tmp_path):
+    still = scan_line(10, 0, 0, 0)
+    (tmp_path / "still.log").write_text("".join(still.replace(" 10.000000 made 10.000000", f" {10 + k / 10} made {10 + k / 10}") for k in range(250)))
+    times = [at for at, _ in graphs_of(tmp_path / "still.log", tmp_path)[0]]
+    assert [b - a for a, b in zip(times, times[1:])][:2] == [pytest.approx(10000000, abs=200000)] * 2
 
 
 def with_echoes(log, told, has_echo):

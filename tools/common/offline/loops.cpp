@@ -90,6 +90,7 @@ void Loops::after_scan(ale_pipeline_t *pipeline, const ale_estimate_t &estimate)
     const int64_t start_ns = thread_time_ns();
     ale_mapper_add(mapper_.get(), keyframe_.get());
     take_correction();
+    graph_version_++;
     longest_ns_ = std::max(longest_ns_, thread_time_ns() - start_ns);
 }
 
@@ -114,6 +115,7 @@ void Loops::refine()
 void Loops::finish(ale_pipeline_t *pipeline)
 {
     refine();
+    graph_version_ += graph_version_ > 0 ? 1 : 0;
     for (const auto &correction : due_) {
         correction->due = 0;
     }

@@ -59,6 +59,17 @@ class Loops
      * finish(). */
     uint32_t map_of(uint32_t scan) const;
 
+    /* The graph as others are told it. False: out of memory; *out may then hold anything. */
+    bool copy_graph(ale_mapper_graph_t *out) const
+    {
+        return ale_mapper_graph(mapper_.get(), out);
+    }
+    /* Grows whenever the graph may have changed; 0: there is none yet. */
+    uint32_t graph_version() const
+    {
+        return graph_version_;
+    }
+
     ale_mapper_statistics_t statistics() const
     {
         return ale_mapper_statistics(mapper_.get());
@@ -99,6 +110,7 @@ class Loops
     std::vector<ale_pose_t> corrected_; /* by scan; after finish() */
     std::vector<uint32_t> breaks_;      /* scans that nothing ties to those before them */
     int64_t longest_ns_ = 0;
+    uint32_t graph_version_ = 0;
 };
 
 } // namespace ale

@@ -1,6 +1,7 @@
 #include "lab/replay/lcm_file.h"
 
 #include <array>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -22,6 +23,8 @@ constexpr size_t channel_length_at = 20;
 constexpr size_t data_length_at = 24;
 constexpr size_t utime_at = 8;
 constexpr uint32_t maps_every = 10;
+constexpr int64_t graphs_apart_us = 1000000;
+constexpr int64_t graph_again_us = 10000000;
 
 using Header = std::array<char, header_bytes>;
 
@@ -115,8 +118,37 @@ void LcmFile::put_map(const OfflineSlam &slam, int64_t stamp_us)
     }
 }
 
-void LcmFile::close()
+void LcmFile::send_graph(const Loops &loops, int64_t stamp_us)
 {
+    if (!loops.copy_graph(graph_.get())) {
+        return;
+    }
+    sent_graph_ = loops.graph_version();
+    graph_sent_us_ = stamp_us;
+    took(ale_bus_send_graph(bus_.get(), graph_.get(), stamp_us, sent_graph_));
+}
+
+/* As the firmware does (telemetry/graph_publisher.h), by the time of the log; a clock that is set back must
+ * not silence it. */
+void LcmFile::put_graph(const OfflineSlam &slam, int64_t stamp_us)
+{
+    const Loops *loops = slam.loops();
+    if (!loops || loops->graph_version() == 0) {
+        return;
+    }
+    const int64_t since_us = std::abs(stamp_us - graph_sent_us_);
+    const bool due = loops->graph_version() != sent_graph_ && since_us >= graphs_apart_us;
+    if (sent_graph_ == 0 || due || since_us >= graph_again_us) {
+        send_graph(*loops, stamp_us);
+    }
+}
+
+void LcmFile::close(const OfflineSlam &slam)
+{
+    const Loops *loops = slam.loops();
+    if (loops && loops->graph_version() != sent_graph_) {
+        send_graph(*loops, slam.trajectory().back().stamp_us);
+    }
     bus_.reset();
     std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
     stamp_events(file);

@@ -1,5 +1,5 @@
 /* --lcm: what the robot would have sent over LCM, as an event log (lcm-logger's format) by the times of the
- * log that is replayed: ALE_SCAN, ALE_ODOMETRY, ALE_POSE, ALE_TRACKING, ALE_FEATURES, ALE_MAP. */
+ * log that is replayed: ALE_SCAN, ALE_ODOMETRY, ALE_POSE, ALE_TRACKING, ALE_FEATURES, ALE_MAP, ALE_GRAPH. */
 #ifndef ALE_LAB_REPLAY_LCM_FILE_H
 #define ALE_LAB_REPLAY_LCM_FILE_H
 
@@ -29,17 +29,24 @@ class LcmFile
                       const ale_pose_t &sensor);
     /* Sent when it has changed, and once in ten scans at most. */
     void put_map(const OfflineSlam &slam, int64_t stamp_us);
+    /* Sent when it has changed, once a second at most; the same every ten seconds. */
+    void put_graph(const OfflineSlam &slam, int64_t stamp_us);
 
-    void close();
+    /* After finish(): the graph as it stands in the end. */
+    void close(const OfflineSlam &slam);
 
   private:
     void took(int result);
+    void send_graph(const Loops &loops, int64_t stamp_us);
 
     std::string path_;
     std::unique_ptr<ale_bus_t, decltype(&ale_bus_close)> bus_;
     std::unique_ptr<ale_map_t> map_ = std::make_unique<ale_map_t>();
     uint32_t sent_version_ = 0;
     uint32_t scans_without_map_ = 0;
+    std::unique_ptr<ale_mapper_graph_t> graph_ = std::make_unique<ale_mapper_graph_t>();
+    uint32_t sent_graph_ = 0; /* its version; 0: none was sent */
+    int64_t graph_sent_us_ = 0;
 };
 
 } // namespace ale

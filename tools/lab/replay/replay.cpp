@@ -165,6 +165,7 @@ void Replay::put_lcm(const ale_scan_t &scan, const ale_features_t &features)
     lcm_file_->put_scan(scan, number, config_.pipeline.sensor);
     lcm_file_->put_features(features, scan.stamp_us, number, config_.pipeline.sensor);
     lcm_file_->put_map(*slam_, scan.stamp_us);
+    lcm_file_->put_graph(*slam_, scan.stamp_us);
 }
 
 /* A scan that the device sent and nobody could read: answered by prediction. */
@@ -328,7 +329,7 @@ void Replay::finish()
         timing_file_->close();
     }
     if (lcm_file_) {
-        lcm_file_->close();
+        lcm_file_->close(*slam_);
     }
     if (slam_) {
         draw_maps();
