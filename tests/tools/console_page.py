@@ -24,6 +24,20 @@ for (let k = 0; k < pixels.length; k += 4) {
 }
 return {count, x: x / count / canvas.width, y: y / count / canvas.height};
 """
+# Of the layer of cells: how many pixels are free and occupied, mixed with the ground as the layer mixes them.
+COUNT_CELLS = """
+const canvas = document.getElementById("map");
+const style = getComputedStyle(document.documentElement);
+const rgb = (name) => { const text = style.getPropertyValue("--" + name).trim(); return [1, 3, 5].map((k) => parseInt(text.slice(k, k + 2), 16)); };
+const mixed = (name, alpha) => rgb(name).map((value, k) => (value * alpha + rgb("ground")[k] * (255 - alpha)) / 255);
+const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+return [["sight", 70], ["wall", 200]].map(([name, alpha]) => {
+  const wanted = mixed(name, alpha);
+  let count = 0;
+  for (let k = 0; k < pixels.length; k += 4) count += [0, 1, 2].every((c) => Math.abs(pixels[k + c] - wanted[c]) <= 3);
+  return count;
+});
+"""
 STATE = "document.body.dataset.state"
 LINK = "document.body.dataset.link"
 ALARM = "!document.getElementById('alarm').hidden && document.getElementById('alarm-word').textContent"
@@ -47,6 +61,17 @@ def page(chromium, console):
 
 def pixels(page, colour, tolerance=12):
     return page.run(COUNT_PIXELS, colour, tolerance)
+
+
+def cells(page):
+    """Pixels of free and of occupied cells."""
+    let_the_camera_glide(page)
+    return page.run(COUNT_CELLS)
+
+
+def show_only(page, layer):
+    page.run("for (const each of document.querySelectorAll('[data-layer]')) if ((each.ariaPressed === 'true') !== (each.dataset.layer === arguments[0])) each.click()",
+             layer)
 
 
 def let_the_camera_glide(page):

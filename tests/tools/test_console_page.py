@@ -509,15 +509,18 @@ def test_the_occupancy_of_what_was_scanned_is_a_layer(page, robot, pulse):
     found = page.run("""
         return import("/occupancy.js").then(({ Occupancy }) => {
           const cells = new Occupancy();
-          for (let k = 0; k < 4; k++) cells.add([1.02, 0.02, 0.52, 0.52], [0.02, 0.02], 0);
+          for (const scan of [0, 1, 1, 2, 3]) cells.add(scan, [1.02, 0.02, 0.52, 0.52], [0.02, 0.02], 0, [0, 0, 0]);
           const at = (x, y) => cells.tiles.get(`${Math.floor(x / 3.2)},${Math.floor(y / 3.2)}`)
             ?.cells[(Math.floor(y / 0.05) % 64) * 64 + (Math.floor(x / 0.05) % 64)];
           const seen = [at(1.02, 0.02), at(0.5, 0.02), at(0.52, 0.52), at(0.9, 0.9)];
-          cells.add([2, 2], [1.5, 1.5], 0);
+          cells.add(4, [2, 2], [1.5, 1.5], 0, [0, 0, 0.1]);
+          seen.push(at(1.02, 0.02));
+          cells.add(5, [2, 2], [1.5, 1.5], 0, [0, 0, 0.5]);
           return [...seen, cells.tiles.size, at(1.02, 0.02)];
         });""")
-    assert found[0] > 6 and found[1] < 0 and found[2] > 6 and found[3] == 0
-    assert found[4] == 1 and found[5] == 0, "a pose that jumps begins anew"
+    assert found[0] == 20 and found[1] < 0 and found[2] > 6 and found[3] == 0
+    assert found[4] == 20, "a robot that has driven on, its map turned a little"
+    assert found[5] == 1 and found[6] == 0, "a map pose that jumps begins anew"
     page.run("document.querySelector('[data-layer=occupancy]').click()")
 
 

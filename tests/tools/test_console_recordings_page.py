@@ -5,7 +5,7 @@ import pytest
 
 import browser
 from at_hand import LONG
-from console_page import STATE, chromium, cockpit, page, pixels  # noqa: F401 (fixtures)
+from console_page import STATE, cells, chromium, cockpit, page, pixels, show_only  # noqa: F401 (fixtures)
 from recorded import RECORDED, write_recording
 from waiting import Pulse, wait_until
 from watching import Console, alice, commands, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
@@ -124,5 +124,41 @@ def test_a_recording_is_looked_at_without_a_robot(alice, chromium):
     chromium.click(f"open-{RECORDED}")
     chromium.wait_for(f"document.body.dataset.link === 'recording' && {STATE} === 'good'")
     assert not chromium.run("return document.getElementById('when').disabled")
+    show_only(chromium, "occupancy")
+    chromium.click("play")
+    chromium.wait_for("document.getElementById('scan').textContent === '29'")
+    assert cells(chromium)[1] > 3000
     chromium.click("live")
     chromium.wait_for("document.body.dataset.link === 'waiting' && document.body.dataset.time === 'now'")
+
+
+def look_at(page, begin_ms):
+    """So long after the beginning of what is kept."""
+    page.run("const when = document.getElementById('when'); when.value = Number(when.min) + arguments[0]; when.dispatchEvent(new Event('input'))", begin_ms)
+
+
+def test_cells_are_those_of_what_is_shown(cockpit, pulse):
+    """Live, in the past, in a recording, back in it, and live again."""
+    show_only(cockpit, "occupancy")
+    cockpit.wait_for("Number(document.getElementById('scan').textContent) > 25")
+    free, live = cells(cockpit)
+    assert free > 10000 and live > 3000
+    look_at(cockpit, 0)
+    cockpit.wait_for("document.body.dataset.time === 'past' && document.getElementById('scan').textContent === '0'")
+    past_free, past = cells(cockpit)
+    assert 100 < past < 0.6 * live and 100 < past_free < 0.8 * free, "those of one scan"
+    cockpit.press("n")
+    cockpit.wait_for("document.body.dataset.time === 'now'")
+    assert cells(cockpit)[1] > 0.8 * live
+    cockpit.click(f"open-{RECORDED}")
+    cockpit.wait_for("document.body.dataset.time === 'recording' && document.getElementById('scan').textContent === '0'")
+    assert cells(cockpit) == pytest.approx([past_free, past], rel=0.1), "the same scan in the recording"
+    cockpit.press("p")
+    cockpit.wait_for("document.getElementById('scan').textContent === '29' && document.getElementById('play').ariaPressed === 'false'")
+    assert cells(cockpit)[1] > 1.5 * past
+    look_at(cockpit, 0)
+    cockpit.wait_for("document.getElementById('scan').textContent === '0'")
+    assert cells(cockpit) == pytest.approx([past_free, past], rel=0.1), "what was seen after that is not known then"
+    cockpit.press("n")
+    cockpit.wait_for("document.body.dataset.time === 'now'")
+    assert cells(cockpit)[1] > 0.8 * live

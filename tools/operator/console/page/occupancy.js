@@ -1,5 +1,5 @@
-// Free and occupied cells from the scans that this page has seen, each from its pose in the map: what lines do not show. It
-// begins anew when the robot is in another map or its pose jumps; what loops have moved since is drawn over by what is seen next.
+// Free and occupied cells from the scans that have been shown, each from its pose in the map: what lines do not show. They
+// begin anew when the robot is in another map or its pose jumps; what loops have moved since is drawn over by what is seen next.
 
 const CELL_M = 0.05;
 const TILE = 64; // cells a side
@@ -7,6 +7,7 @@ const HIT = 5;
 const PASS = -1;
 const MOST = 40;
 const SURE = 6; // evidence of an occupied cell
+const LARGEST_STEP_M = 0.5;
 const MOST_TILES = 4096; // 13 m^2 each of what has been seen
 
 export class Occupancy {
@@ -16,16 +17,25 @@ export class Occupancy {
 
   forget() {
     this.tiles = new Map(); // "x,y" -> {x, y, cells, canvas, due}
-    this.place = null;
+    this.frame = null;
     this.map = undefined;
+    this.scan = undefined;
   }
 
-  // points: ends of the beams in the map, [x, y, ...]; from: the sensor.
-  add(points, from, map) {
-    if (map !== this.map || (this.place && Math.hypot(from[0] - this.place[0], from[1] - this.place[1]) > 0.5)) this.forget();
-    this.map = map;
-    this.place = from;
+  // scan: its number, since it may be shown more than once; points: ends of the beams in the map, [x, y, ...]; from: the sensor;
+  // map: its number; frame: [x, y, turn] of the smooth pose's in it, which stays while the robot drives and moves when its map pose does.
+  add(scan, points, from, map, frame) {
+    if (scan === this.scan) return;
+    if (map !== this.map || this.#moved(from, frame) > LARGEST_STEP_M) this.forget();
+    [this.scan, this.map, this.frame] = [scan, map, frame];
     for (let k = 0; k < points.length; k += 2) this.#beam(from[0], from[1], points[k], points[k + 1]);
+  }
+
+  // How far from there it would be, had the map not moved since the scan before.
+  #moved([x, y], [left, bottom, turn]) {
+    const [beforeLeft, beforeBottom, before] = this.frame ?? [left, bottom, turn];
+    const [c, s] = [Math.cos(before - turn), Math.sin(before - turn)];
+    return Math.hypot(beforeLeft + c * (x - left) - s * (y - bottom) - x, beforeBottom + s * (x - left) + c * (y - bottom) - y);
   }
 
   // Cell by cell along the longer axis, up to the cell before the last.

@@ -9,6 +9,11 @@ export function compose(a, b) {
   return [a[0] + c * b[0] - s * b[1], a[1] + s * b[0] + c * b[1], a[2] + b[2]];
 }
 
+function inverse([x, y, turn]) {
+  const [c, s] = [Math.cos(turn), Math.sin(turn)];
+  return [-c * x - s * y, s * x - c * y, -turn];
+}
+
 export function apply(pose, x, y) {
   const [c, s] = [Math.cos(pose[2]), Math.sin(pose[2])];
   return [pose[0] + c * x - s * y, pose[1] + s * x + c * y];
@@ -16,8 +21,9 @@ export function apply(pose, x, y) {
 
 export class Scene {
   constructor() {
-    this.occupancy = new Occupancy();
-    this.past = false;
+    this.live = new Occupancy();
+    this.replayed = new Occupancy(); // of the past or the recording that is looked at
+    this.at = null; // what is shown is of then, milliseconds since 1970; null: of now
     this.recording = null; // the name of what is shown, unless it is the robot
     this.#forget();
   }
@@ -44,8 +50,8 @@ export class Scene {
 
   take(message) {
     switch (message.type) {
-      case "hello": this.#forget(); this.past = false; this.recording = null; this.occupancy.forget(); break;
-      case "past": this.#forget(); this.past = message.at !== null; this.recording = message.recording; break;
+      case "hello": this.#look(null, null); this.live.forget(); break;
+      case "past": this.#look(message.at, message.recording); break;
       case "pose": this.#takePose(message); break;
       case "plan": this.plan = message; break;
       case "tracking": this.tracking = message; break;
@@ -56,6 +62,17 @@ export class Scene {
       case "trail": this.trail = message.anew ? message.points : this.trail.concat(message.points); break;
       case "status": this.status = message; break;
     }
+  }
+
+  get occupancy() {
+    return this.at === null ? this.live : this.replayed;
+  }
+
+  // Cells stay as long as time goes on.
+  #look(at, recording) {
+    if (at === null || at < this.at || recording !== this.recording) this.replayed.forget();
+    this.#forget();
+    [this.at, this.recording] = [at, recording];
   }
 
   #takePose(message) {
@@ -105,9 +122,8 @@ export class Scene {
     }
     this.points = points;
     this.sight = sight;
-    if (!this.past && pose.scan === message.scan && pose.state === "good" && this.addedScan !== message.scan) {
-      this.addedScan = message.scan;
-      this.occupancy.add(points, sensorNow, this.tracking?.map_id ?? 0);
+    if (pose.scan === message.scan && pose.state === "good") {
+      this.occupancy.add(message.scan, points, sensorNow, this.tracking?.map_id ?? 0, compose(pose.map, inverse(pose.smooth)));
     }
   }
 
