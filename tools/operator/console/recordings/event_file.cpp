@@ -51,6 +51,11 @@ void EventWriter::put(int64_t received_us, const std::string &channel, const uin
     ends_.push_back(waiting_.size());
 }
 
+size_t EventWriter::with(const std::string &channel, size_t count) const
+{
+    return waiting_.size() + ALE_LCM_EVENT_HEAD + channel.size() + count;
+}
+
 int EventWriter::flush()
 {
     size_t written = 0;

@@ -26,6 +26,9 @@ class EventWriter
     /* Waits in memory until it is flushed. */
     void put(int64_t received_us, const std::string &channel, const uint8_t *bytes, size_t count);
 
+    /* How many bytes would wait if this were put, too. */
+    size_t with(const std::string &channel, size_t count) const;
+
     /* 0, or errno: then the file ends with the last event that is whole, and what was put since is gone. */
     int flush();
 

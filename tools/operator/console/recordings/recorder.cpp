@@ -16,7 +16,8 @@ namespace console
 namespace
 {
 
-constexpr int most_of_a_second = 99; /* recordings that begin in the same one */
+constexpr uint64_t least_room = uint64_t{1} << 16; /* for less it is not worth while to begin */
+constexpr int most_of_a_second = 99;               /* recordings that begin in the same one */
 
 int64_t now_us()
 {
@@ -47,6 +48,13 @@ uint64_t Recorder::free_bytes() const
                                                         : UINT64_MAX;
 }
 
+/* What may be written. */
+uint64_t Recorder::room_bytes() const
+{
+    const uint64_t free = free_bytes();
+    return free > keep_free_ ? free - keep_free_ : 0;
+}
+
 /* By this computer's clock on the wall. */
 std::string Recorder::new_name() const
 {
@@ -71,7 +79,7 @@ void Recorder::start()
     if (!shelf_.is_there()) {
         throw std::runtime_error("there is no folder for recordings (ale-console --recordings DIR)");
     }
-    if (free_bytes() < keep_free_) {
+    if (room_bytes() < least_room) {
         throw std::runtime_error("the disk of " + shelf_.folder() + " is full: " + megabytes(free_bytes()) +
                                  " are left, and " + megabytes(keep_free_) + " are kept free");
     }
@@ -156,11 +164,13 @@ void Recorder::write_all()
 
 bool Recorder::write(const std::vector<Heard> &batch)
 {
-    for (const Heard &heard : batch) {
-        file_->put(heard.received_us, heard.channel, heard.bytes.data(), heard.bytes.size());
-    }
     const uint64_t before = file_->events();
-    const int error = free_bytes() < keep_free_ ? ENOSPC : 0;
+    const uint64_t room = room_bytes();
+    auto heard = batch.begin();
+    for (; heard != batch.end() && file_->with(heard->channel, heard->bytes.size()) <= room; ++heard) {
+        file_->put(heard->received_us, heard->channel, heard->bytes.data(), heard->bytes.size());
+    }
+    const int error = heard != batch.end() ? ENOSPC : 0;
     const int failed = file_->flush();
     const uint64_t written = file_->events() - before;
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -68,6 +68,7 @@ class Recorder
     bool write(const std::vector<Heard> &batch);
     std::string trouble_of(int error) const;
     uint64_t free_bytes() const;
+    uint64_t room_bytes() const;
     std::string new_name() const;
 
     const Shelf &shelf_;
