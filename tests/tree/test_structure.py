@@ -1,5 +1,6 @@
 """The tree keeps its order: what includes what, how many units a folder holds, how complicated a function is."""
 import pathlib
+import re
 import shutil
 
 import lizard
@@ -92,3 +93,30 @@ def test_a_complicated_function_is_found(tmp_path):
                        "    return a;\n}\nint g(int a, int b, int c, int d, int e, int f, int h);\n"
                        "int g(int a, int b, int c, int d, int e, int f, int h) { return a; }\n", encoding="utf-8")
     assert [line.split()[1] for line in complicated(functions([planted]))] == ["f:", "g:"]
+
+
+def long_tests():
+    """Files with tests that run with ALE_LONG_TESTS alone, as far as pytest selects them by name."""
+    found = [path for path in sorted((ROOT / "tests").rglob("test_*.py")) if path != pathlib.Path(__file__).resolve()]
+    return [path for path in found if re.search(r"@LONG|marks=LONG|ALE_LONG_TESTS", path.read_text(encoding="utf-8"))]
+
+
+def without_a_command(paths):
+    """Those that no command with ALE_LONG_TESTS names, neither the file nor a test of it."""
+    recipes = (ROOT / "tools/make/tests.mk").read_text(encoding="utf-8")
+    variables = dict(re.findall(r"^(\w+) = (.*)$", recipes, re.MULTILINE))
+    chosen = re.findall(r'ALE_LONG_TESTS=1 .*?\bT=(?:"([^"]*)"|(\S+))', recipes)
+    text = " or ".join(re.sub(r"\$\((\w+)\)", lambda name: variables[name[1]], quoted or bare) for quoted, bare in chosen)
+    words = text.split(" or ")
+    return [path.name for path in paths if not any(word in path.stem or f"def test_{word}" in path.read_text(encoding="utf-8") for word in words)]
+
+
+def test_make_test_all_runs_every_long_test():
+    assert len(long_tests()) > 8
+    assert without_a_command(long_tests()) == []
+
+
+def test_a_long_test_that_nothing_runs_is_found(tmp_path):
+    planted = tmp_path / "test_planted.py"
+    planted.write_text("@LONG\ndef test_it(): pass\n", encoding="utf-8")
+    assert without_a_command([planted]) == ["test_planted.py"]
