@@ -6,6 +6,7 @@ import pathlib
 import struct
 import subprocess
 import time
+import zlib
 
 import ale
 import pytest
@@ -17,6 +18,7 @@ from watching import commands, lcm_url, pulse, robot  # noqa: F401 (fixtures)
 
 pytest.importorskip("foxglove", reason="PyPI's foxglove-sdk is not here")
 mcap_reader = pytest.importorskip("mcap.reader", reason="PyPI's mcap is not here")
+stream_reader = pytest.importorskip("mcap.stream_reader", reason="PyPI's mcap is not here")
 protobuf = pytest.importorskip("mcap_protobuf.decoder", reason="PyPI's mcap-protobuf-support is not here")
 
 PYTHON_FIRST = {**os.environ, "PATH": f"{pathlib.Path(os.sys.executable).parent}:{os.environ['PATH']}"}
@@ -77,12 +79,28 @@ class Decoder:
         return self.factory.decoder_for(channel.message_encoding, schema)(message.data)
 
 
-def messages(path):
-    """{topic: [(schema's name, time, message)]} with every sum checked."""
-    found, decode = {}, Decoder()
+def check_sums(path):
+    """Every sum is there, and right: of chunks and of the data section, attachments in it, as mcap's reader of streams checks them; of
+    the summary, which it does not."""
     with open(path, "rb") as file:
-        for schema, channel, message in mcap_reader.make_reader(file, validate_crcs=True).iter_messages():
+        sums = [getattr(record, name) for record in stream_reader.StreamReader(file, validate_crcs=True, emit_chunks=True).records
+                for name in ("uncompressed_crc", "data_section_crc", "summary_crc") if hasattr(record, name)]
+    assert len(sums) > 2 and all(sums)
+    data = path.read_bytes()
+    summary_start, _, summary_sum = struct.unpack("<QQI", data[-28:-8])
+    assert zlib.crc32(data[summary_start:-12]) == summary_sum
+
+
+def messages(path):
+    """{topic: [(schema's name, time, message)]} with every sum checked; by the index the same as from front to back."""
+    found, decode, count = {}, Decoder(), 0
+    check_sums(path)
+    with open(path, "rb") as file:
+        for schema, channel, message in mcap_reader.NonSeekingReader(file, validate_crcs=True).iter_messages():
             found.setdefault(channel.topic, []).append((schema.name, message.log_time, decode(schema, channel, message)))
+            count += 1
+    with open(path, "rb") as file:
+        assert sum(1 for _ in mcap_reader.make_reader(file, validate_crcs=True).iter_messages()) == count
     return found
 
 
@@ -194,14 +212,26 @@ def test_what_is_no_command_is_refused_in_words(bridge, pulse, commands, alice):
 def test_a_recording_becomes_an_mcap_that_its_own_reader_takes_and_comes_back_the_same(tmp_path):
     scip = converted(LOG, tmp_path / "drive.scip")
     shown = converted(scip, tmp_path / "drive.mcap")
+    counts = {topic: len(found) for topic, found in messages(shown).items()}
     with open(shown, "rb") as file:
         summary = mcap_reader.make_reader(file, validate_crcs=True).get_summary()
-    counts = {summary.channels[k].topic: count for k, count in summary.statistics.channel_message_counts.items()}
+    assert counts == {summary.channels[k].topic: count for k, count in summary.statistics.channel_message_counts.items()}
     assert counts["/scan"] == counts["/pose"] == counts["/lines"] > 100 and counts["/map"] > 5
     assert 10 <= counts["/graph"] <= 14, "of twelve seconds, one a second at most, and the one in the end"
     assert converted(shown, tmp_path / "again.scip").read_bytes() == scip.read_bytes()
     log = converted(shown, tmp_path / "drive.lcm")
     assert converted(converted(log, tmp_path / "log.mcap"), tmp_path / "again.lcm").read_bytes() == log.read_bytes()
+
+
+def test_a_byte_that_is_wrong_is_found_by_the_sums_of_an_mcap(tmp_path):
+    whole = converted(LOG, tmp_path / "drive.mcap").read_bytes()
+    summary_start, = struct.unpack("<Q", whole[-28:-20])
+    for at in (2000, whole.index(b"ALE_POSE", whole.index(b"original.lcm")), summary_start + 40):  # a chunk, the attachment, the summary
+        data = bytearray(whole)
+        data[at] ^= 1
+        (tmp_path / "wrong.mcap").write_bytes(data)
+        with pytest.raises((stream_reader.CRCValidationError, AssertionError)):
+            check_sums(tmp_path / "wrong.mcap")
 
 
 def replayed(log, out):
