@@ -9,7 +9,7 @@ import ale
 import pytest
 
 from at_hand import BINARIES, LONG, ROOT
-from test_foxglove import events
+from test_foxglove import converted, events, messages
 
 rosbag1 = pytest.importorskip("rosbags.rosbag1", reason="PyPI's rosbags is not here")
 rosbag2 = pytest.importorskip("rosbags.rosbag2", reason="PyPI's rosbags is not here")
@@ -192,12 +192,12 @@ def test_the_first_echo_of_many_counts(drive, tmp_path):
     assert poses(bag, tmp_path) == poses(plain, tmp_path)
 
 
-def test_what_foxglove_has_recorded_of_another_robot_is_replayed(drive, tmp_path):
+def write_foxglove(path, drive):
     """LaserScan alone, without what this bridge keeps of the recording."""
     from foxglove import channels
     from foxglove.messages import LaserScan, Timestamp
     context = foxglove.Context()
-    with foxglove.open_mcap(str(tmp_path / "other.mcap"), context=context):
+    with foxglove.open_mcap(str(path), context=context):
         scans = channels.LaserScanChannel("/lidar", context=context)
         for name, scan in drive:
             if name == "ALE_SCAN":
@@ -205,8 +205,35 @@ def test_what_foxglove_has_recorded_of_another_robot_is_replayed(drive, tmp_path
                                     start_angle=scan.first_bearing, end_angle=scan.first_bearing + scan.step * (scan.num_ranges - 1),
                                     ranges=[r / 1000 if code == 0 else math.inf for r, code in zip(scan.range_mm, scan.codes)]),
                           log_time=scan.utime * 1000)
-    count = sum(name == "ALE_SCAN" for name, _ in drive)
-    assert len(poses(tmp_path / "other.mcap", tmp_path)) == count
+    return path
+
+
+def scans_in(drive):
+    return sum(name == "ALE_SCAN" for name, _ in drive)
+
+
+def test_what_foxglove_has_recorded_of_another_robot_is_replayed(drive, tmp_path):
+    assert len(poses(write_foxglove(tmp_path / "other.mcap", drive), tmp_path)) == scans_in(drive)
+
+
+@pytest.mark.parametrize("write, name", [(write_ros1, "drive.bag"), pytest.param(write_ros2, "drive", marks=LONG), (write_foxglove, "other.mcap"),
+                                         pytest.param(write_single_mcap, "drive", marks=LONG)])
+def test_a_bag_becomes_a_scip_recording_of_the_same_drive(write, name, drive, tmp_path):
+    bag = write(tmp_path / name, drive)
+    was, now = poses(bag, tmp_path), poses(converted(bag, tmp_path / "bag.scip"), tmp_path)
+    assert len(was) == len(now) == scans_in(drive)
+    assert apart(was, now) < 0.001
+
+
+@pytest.mark.parametrize("write, name", [(write_ros2, "drive"), pytest.param(write_ros1, "drive.bag", marks=LONG),
+                                         pytest.param(write_single_mcap, "drive", marks=LONG), pytest.param(write_foxglove, "other.mcap", marks=LONG)])
+def test_a_bag_becomes_an_mcap_with_poses_and_the_map_and_comes_back_as_it_was(write, name, drive, tmp_path):
+    bag = write(tmp_path / name, drive)
+    shown = converted(bag, tmp_path / "bag-shown.mcap")
+    counts = {topic: len(found) for topic, found in messages(shown).items()}
+    assert counts["/scan"] == counts["/pose"] == counts["/lines"] == scans_in(drive) and counts["/map"] > 5 and counts["/graph"] > 5
+    assert counts.get("/odometry", 0) == (0 if write is write_foxglove else len(drive) - scans_in(drive))
+    assert converted(shown, tmp_path / "back.lcm").read_bytes() == converted(bag, tmp_path / "bag.lcm").read_bytes()
 
 
 def test_a_bag_without_scans_is_told_so(tmp_path):

@@ -98,8 +98,7 @@ def foxglove_scan(schema, channel, message):
         first, last, frame = scan.start_angle, scan.end_angle, scan.frame_id
     step = (last - first) / max(len(ranges) - 1, 1)
     return Fields(header=Fields(stamp=Fields(sec=sec, nanosec=nanosec), frame_id=frame), angle_min=first, angle_increment=step,
-                  time_increment=0.0, range_min=0.0, range_max=max([r for r in ranges if math.isfinite(r)], default=0.0) + 0.001,
-                  ranges=ranges)
+                  time_increment=0.0, range_min=0.0, range_max=None, ranges=ranges)
 
 
 def utime_of(header):
@@ -216,12 +215,16 @@ class Converter:
 
 
 def events(path):
-    """The bag is read twice: who is mounted where may be told late."""
+    """The bag is read twice: who is mounted where may be told late, and how far a scanner sees that does not say so, by its scans alone."""
     messages = mcap_messages if is_mcap(path) else ros_messages
-    frames = Frames()
+    frames, furthest = Frames(), 0.0
     for kind, _, _, message in messages(path):
         if kind == FRAMES:
             frames.take(message)
+        elif kind == LASER and message.range_max is None:
+            furthest = max([furthest, *(r for r in message.ranges if math.isfinite(r))])
     converter = Converter(frames)
     for kind, topic, _, message in odometry_first(messages(path)):
+        if kind == LASER and message.range_max is None:
+            message.range_max = furthest + 0.001
         yield from converter.events(kind, topic, message)
