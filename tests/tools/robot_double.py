@@ -69,6 +69,7 @@ class RobotDouble:
         self.lost_scans = 1
         self.observability = [0.0] * 6
         self.blind_beams = 0  # so many from the first on see nothing
+        self.wheel_scale = None  # what the wheels say of the way, 1: the truth; None: there are none
         self.answer = ("", 0, "")  # operator, counter and result of the last command
 
     @property
@@ -119,12 +120,22 @@ class RobotDouble:
         return pose
 
     def publish_pose(self):
-        data = self.pose().encode()
+        pose = self.pose()
+        if self.wheel_scale is not None:
+            self.publish_odometry(pose)
+        data = pose.encode()
         self.bus.publish("ALE_POSE", data)
         self.sent = self.sent[-31:] + [(self.scan, digest(data))]
 
+    def publish_odometry(self, pose):
+        sample = ale.odometry_t()
+        sample.utime, sample.theta = pose.utime, pose.theta
+        sample.x, sample.y = self.wheel_scale * pose.x, self.wheel_scale * pose.y
+        self.bus.publish("ALE_ODOMETRY", sample.encode())
+
     def publish_tracking(self):
         tracking = ale.tracking_t()
+        tracking.utime = time.time_ns() // 1000 - 70000
         tracking.scan, tracking.map_id, tracking.maps = self.scan, self.map_id, self.maps
         tracking.wheel_word, tracking.wheel_fault = self.wheels, WHEELS.index(self.wheels)
         tracking.wheel_faults = 0 if self.wheels == "fine" else 1
@@ -132,7 +143,7 @@ class RobotDouble:
 
     def publish_features(self):
         features = ale.features_t()
-        features.scan = self.scan
+        features.utime, features.scan = time.time_ns() // 1000 - 70000, self.scan
         for x1, y1, x2, y2 in WALLS[:5]:
             line = ale.line_t()
             line.x1, line.y1 = to_robot(self.where, x1, y1)

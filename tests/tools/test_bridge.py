@@ -190,6 +190,17 @@ def test_every_pose_has_its_tracking_and_every_map_its_pieces_with_it(sides, end
         wait_until(lambda: operator.on(channel) == [bytes([k]) * 40 for k in range(20)], 180, channel)
 
 
+def test_wheels_are_told_twenty_times_a_second_at_most(sides, ends):
+    robot, operator = sides
+    begin = time.monotonic()
+    for k in range(100):
+        robot.bus.publish("ALE_ODOMETRY", bytes([k]) * 28)
+        time.sleep(0.005)
+    seconds = time.monotonic() - begin
+    wait_until(lambda: len(operator.on("ALE_ODOMETRY")) >= 5, 180, "odometry")
+    assert len(operator.on("ALE_ODOMETRY")) <= 20 * seconds + 2
+
+
 def test_commands_go_to_the_robot_and_nothing_else_does(sides, ends):
     robot, operator = sides
     operator.bus.publish("ALE_ODOMETRY", b"not for the robot")

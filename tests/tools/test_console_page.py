@@ -502,6 +502,33 @@ def test_plots_show_any_signal_also_of_before_the_page_was_opened(page, robot):
     assert page.run("return document.getElementById('signal-2').options.length") > 20
 
 
+SIGNALS = {"lines seen": "5 ", "corners seen": "3 ", "maps that are not joined": "2 ", "faults of the wheels": "0 ", "deadline misses": "0 ",
+           "beams without": r"\d+ ", "observability ahead": "900 /m²", "observability at its weakest": "100 /m²", "observability of the heading": "40 /rad²",
+           "match p99": r"[\d.]+ ms", "all stages worst": r"[\d.]+ ms", "wheels: turn": r"[\d.]+ °/s", "wheels minus scans: speed": r"0.0\d+ m/s",
+           "wheels minus scans: turn": r"-?[\d.e-]+ °/s", "count of bad checksum": "3 "}
+
+
+def choose_each_signal(page):
+    for name, said in SIGNALS.items():
+        page.run("const choice = document.getElementById('signal-1'); choice.value = arguments[0]; choice.dispatchEvent(new Event('change'))", name)
+        page.wait_for(f"/^{said.replace('/', chr(92) + '/')}/.test(document.querySelector('#plots output').textContent)", 30)
+
+
+def test_plots_show_what_was_seen_counted_and_driven_live_and_of_before(page, robot):
+    robot.wheel_scale, robot.observability, robot.maps = 1.2, [900.0, 0.0, 0.0, 100.0, 0.0, 40.0], 2
+    pulse = Pulse(0.1, robot.step)
+    try:
+        page.wait_for("Number(document.getElementById('scan').textContent) > 12")
+        choose_each_signal(page)
+    finally:
+        pulse.stop()
+    page.wait_for(f"document.getElementById('scan').textContent === '{robot.scan - 1}'")
+    page.reload()
+    choose_each_signal(page)
+    groups = page.run("return [...document.getElementById('signal-2').children].map((group) => group.label)")
+    assert groups == ["pose", "wheels against scans", "maps", "seen", "health", "counts"]
+
+
 def test_the_occupancy_of_what_was_scanned_is_a_layer(page, robot, pulse):
     page.wait_for("document.getElementById('map-lines').textContent === '12'")
     assert page.run("return document.querySelector('[data-layer=occupancy]').ariaPressed") == "false"

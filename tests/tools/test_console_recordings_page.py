@@ -128,6 +128,9 @@ def test_a_recording_is_looked_at_without_a_robot(alice, chromium):
     chromium.click("play")
     chromium.wait_for("document.getElementById('scan').textContent === '29'")
     assert cells(chromium)[1] > 3000
+    for name, value in (("lines seen", "5 "), ("wheels: speed", "nothing")):
+        chromium.run("const choice = document.getElementById('signal-1'); choice.value = arguments[0]; choice.dispatchEvent(new Event('change'))", name)
+        chromium.wait_for(f"document.querySelector('#plots output').textContent.startsWith('{value}')")
     chromium.click("live")
     chromium.wait_for("document.body.dataset.link === 'waiting' && document.body.dataset.time === 'now'")
 

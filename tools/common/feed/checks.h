@@ -12,6 +12,7 @@
 #include "ale/graph_t.hpp"
 #include "ale/map_pieces_t.hpp"
 #include "ale/map_t.hpp"
+#include "ale/odometry_t.hpp"
 #include "ale/plan_t.hpp"
 #include "ale/pose_t.hpp"
 #include "ale/scan_t.hpp"
@@ -52,6 +53,11 @@ inline void check(const ale::pose_t &pose)
     require(sane({pose.vx, pose.vy, pose.omega}), "velocity out of this world");
     require(pose.state >= 0 && pose.state <= 2, "unknown state");
     require(pose.scan >= 0, "negative number of a scan");
+}
+
+inline void check(const ale::odometry_t &sample)
+{
+    require(sane({sample.x, sample.y, sample.theta}), "odometry out of this world");
 }
 
 inline void check(const ale::features_t &features)

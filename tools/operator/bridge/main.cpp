@@ -36,13 +36,14 @@ constexpr char usage[] =
     "By default the robot's end sends ALE_POSE ALE_TRACKING ALE_STATUS ALE_SPEAKER ALE_VOUCHED ALE_MAP "
     "ALE_MAP_PIECES "
     "ALE_GRAPH ALE_PLAN ALE_FEATURES:5\n"
-    "ALE_DRIVE:5 ALE_SCAN:2 POSE LASER:2\n"
+    "ALE_DRIVE:5 ALE_ODOMETRY:20 ALE_SCAN:2 POSE LASER:2\n"
     "and accepts ALE_COMMAND alone; the operator's end the other way round.\n"
     "Ends with Ctrl-C or SIGTERM and says what it has carried. Exit status: 0 fine, 1 failed, 2 wrong use.\n";
 
 const std::vector<std::string> of_robot = {
-    "ALE_POSE",  "ALE_TRACKING",   "ALE_STATUS", "ALE_SPEAKER", "ALE_VOUCHED", "ALE_MAP", "ALE_MAP_PIECES",
-    "ALE_GRAPH", "ALE_FEATURES:5", "ALE_PLAN",   "ALE_DRIVE:5", "ALE_SCAN:2",  "POSE",    "LASER:2"};
+    "ALE_POSE",    "ALE_TRACKING",    "ALE_STATUS", "ALE_SPEAKER",    "ALE_VOUCHED",
+    "ALE_MAP",     "ALE_MAP_PIECES",  "ALE_GRAPH",  "ALE_FEATURES:5", "ALE_PLAN",
+    "ALE_DRIVE:5", "ALE_ODOMETRY:20", "ALE_SCAN:2", "POSE",           "LASER:2"};
 const std::vector<std::string> of_operator = {"ALE_COMMAND"};
 
 struct Options {

@@ -41,15 +41,16 @@ void Board::wake() const
     }
 }
 
-void Board::pin(Topic topic, std::string text)
+void Board::pin(Topic topic, std::string text, const std::string &brief)
 {
     auto shared = std::make_shared<const std::string>(std::move(text));
+    History::Text in_brief = brief.empty() ? nullptr : std::make_shared<const std::string>(brief);
     {
         const std::lock_guard<std::mutex> lock(mutex_);
         Pinned &pinned = pinned_[static_cast<size_t>(topic)];
         pinned.text = shared;
         pinned.number++;
-        history_.keep(topic, now_ms(), std::move(shared));
+        history_.keep(topic, now_ms(), std::move(shared), std::move(in_brief));
     }
     wake();
 }

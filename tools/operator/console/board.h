@@ -65,7 +65,8 @@ class Board
     /* Called on the LCM thread after each change; it must only wake somebody. */
     void on_change(std::function<void()> wake);
 
-    void pin(Topic topic, std::string text);
+    /* brief: what charts want of it (sample), where that is not all of it. */
+    void pin(Topic topic, std::string text, const std::string &brief = "");
     Pinned newest(Topic topic) const;
 
     /* The map that is pinned, for who writes it to a file; nullptr: none yet. */
@@ -86,7 +87,7 @@ class Board
     /* What the board showed then, milliseconds since 1970 of this computer. */
     Past look_back(int64_t at_ms) const;
     History::Span span() const;
-    /* So many of a topic over the whole time, for charts. */
+    /* So many of a topic over the whole time, in brief, for charts. */
     std::vector<History::Text> sample(Topic topic, size_t most) const;
 
   private:

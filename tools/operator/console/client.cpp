@@ -153,7 +153,8 @@ bool Client::tell_series()
     if (answers_.size() >= most_answers) {
         return false;
     }
-    answers_.push_back(series_message(sample(Topic::pose), sample(Topic::status)));
+    answers_.push_back(series_message({sample(Topic::pose), sample(Topic::tracking), sample(Topic::features),
+                                       sample(Topic::scan), sample(Topic::odometry), sample(Topic::status)}));
     return true;
 }
 

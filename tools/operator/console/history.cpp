@@ -19,18 +19,19 @@ const std::deque<History::Kept> &History::of(Topic topic) const
     return kept_[static_cast<size_t>(topic)];
 }
 
-void History::keep(Topic topic, int64_t at_ms, Text text)
+void History::keep(Topic topic, int64_t at_ms, Text text, Text brief)
 {
     std::deque<Kept> &kept = kept_[static_cast<size_t>(topic)];
-    bytes_ += text->size();
+    Kept entry = {at_ms, std::move(text), std::move(brief)};
+    bytes_ += entry.bytes();
     const bool is_large = topic == Topic::map || topic == Topic::graph;
     const bool replaces =
         is_large && kept.size() > 1 && kept.back().at_ms - kept[kept.size() - 2].at_ms < map_period_ms;
     if (replaces) {
-        bytes_ -= kept.back().text->size();
-        kept.back() = {at_ms, std::move(text)};
+        bytes_ -= kept.back().bytes();
+        kept.back() = std::move(entry);
     } else {
-        kept.push_back({at_ms, std::move(text)});
+        kept.push_back(std::move(entry));
     }
     drop_old(at_ms);
 }
@@ -50,7 +51,7 @@ void History::clear()
 
 void History::drop_first(std::deque<Kept> &kept)
 {
-    bytes_ -= kept.front().text->size();
+    bytes_ -= kept.front().bytes();
     kept.pop_front();
 }
 
@@ -124,7 +125,8 @@ std::vector<History::Text> History::sample(Topic topic, size_t most) const
     std::vector<Text> texts;
     const size_t count = std::min(most, kept.size());
     for (size_t k = 0; k < count; k++) {
-        texts.push_back(kept[k * kept.size() / count].text);
+        const Kept &entry = kept[k * kept.size() / count];
+        texts.push_back(entry.brief ? entry.brief : entry.text);
     }
     return texts;
 }

@@ -36,7 +36,8 @@ class History
         int64_t to_ms = 0; /* the same: nothing is kept */
     };
 
-    void keep(Topic topic, int64_t at_ms, Text text);
+    /* brief: what charts want of it, where that is not all of it. */
+    void keep(Topic topic, int64_t at_ms, Text text, Text brief = {});
     void keep_point(int64_t at_ms, TrailPoint point);
     void clear();
 
@@ -49,13 +50,18 @@ class History
     /* The way of the two minutes before. */
     std::vector<TrailPoint> trail(int64_t at_ms) const;
 
-    /* At most so many of a topic, in equal steps of their number. */
+    /* At most so many of a topic, in equal steps of their number, in brief. */
     std::vector<Text> sample(Topic topic, size_t most) const;
 
   private:
     struct Kept {
         int64_t at_ms;
         Text text;
+        Text brief;
+        size_t bytes() const
+        {
+            return text->size() + (brief ? brief->size() : 0);
+        }
     };
     struct Point {
         int64_t at_ms;

@@ -74,6 +74,17 @@ json corners_of(const std::vector<ale::corner_t> &corners)
     return list;
 }
 
+json found_of(const ale::features_t &features)
+{
+    return json::array({features.lines.size(), features.corners.size()});
+}
+
+json beams_of(const ale::scan_t &scan)
+{
+    const auto good = std::count(scan.codes.begin(), scan.codes.end(), 0);
+    return json::array({good, scan.range_mm.size()});
+}
+
 /* A corrupted string must not keep the rest of the message from the operator. */
 std::string text_of(const json &message)
 {
@@ -165,6 +176,28 @@ std::string graph_message(const ale::graph_t &graph)
                     {"left_out", json::array({graph.keyframes_left_out, graph.loops_left_out})}});
 }
 
+std::string odometry_message(const WheelWay &way)
+{
+    const auto speed_of = [](const Speed &speed) {
+        return json::array({number(speed.ahead_m_s), number(speed.turn_rad_s)});
+    };
+    return text_of({{"type", "odometry"},
+                    {"utime", way.utime},
+                    {"scan", way.scan},
+                    {"wheels", speed_of(way.wheels)},
+                    {"scans", speed_of(way.scans)}});
+}
+
+std::string features_brief(const ale::features_t &features)
+{
+    return text_of({{"type", "features"}, {"utime", features.utime}, {"found", found_of(features)}});
+}
+
+std::string scan_brief(const ale::scan_t &scan)
+{
+    return text_of({{"type", "scan"}, {"utime", scan.utime}, {"beams", beams_of(scan)}});
+}
+
 std::string features_message(const ale::features_t &features)
 {
     json lines = json::array();
@@ -182,6 +215,7 @@ std::string features_message(const ale::features_t &features)
                     {"utime", features.utime},
                     {"scan", features.scan},
                     {"sensor", pose_of(features.sensor_x, features.sensor_y, features.sensor_theta)},
+                    {"found", found_of(features)},
                     {"lines", lines},
                     {"corners", corners_of(features.corners)}});
 }
@@ -210,6 +244,7 @@ std::string scan_message(const ale::scan_t &scan, const std::optional<Stain> &st
                     {"step", number(scan.step, 1e9)},
                     {"range_max", number(scan.range_max)},
                     {"sensor", pose_of(scan.sensor_x, scan.sensor_y, scan.sensor_theta)},
+                    {"beams", beams_of(scan)},
                     {"ranges_mm", ranges},
                     {"codes", counts},
                     {"stain", stain ? json::array({stain->beams, stain->bearing}) : json(nullptr)}});
@@ -345,10 +380,12 @@ std::string list_of(const std::vector<History::Text> &texts)
 
 } // namespace
 
-std::string series_message(const std::vector<History::Text> &poses,
-                           const std::vector<History::Text> &statuses)
+std::string series_message(const Series &series)
 {
-    return R"({"type":"series","poses":)" + list_of(poses) + R"(,"statuses":)" + list_of(statuses) + "}";
+    return R"({"type":"series","poses":)" + list_of(series.poses) + R"(,"trackings":)" +
+           list_of(series.trackings) + R"(,"features":)" + list_of(series.features) + R"(,"scans":)" +
+           list_of(series.scans) + R"(,"odometry":)" + list_of(series.odometry) + R"(,"statuses":)" +
+           list_of(series.statuses) + "}";
 }
 
 std::string sent_message(const std::string &verb, const Sent &sent)

@@ -20,6 +20,7 @@
 #include "operator/console/board.h"
 #include "operator/console/commander.h"
 #include "operator/console/recordings/recorder.h"
+#include "operator/console/wheel_watch.h"
 #include "operator/console/window_watch.h"
 
 namespace console
@@ -31,8 +32,12 @@ std::string pose_message(const ale::pose_t &pose);
 std::string tracking_message(const ale::tracking_t &tracking);
 std::string plan_message(const ale::plan_t &plan);
 std::string graph_message(const ale::graph_t &graph);
+std::string odometry_message(const WheelWay &way);
 std::string features_message(const ale::features_t &features);
 std::string scan_message(const ale::scan_t &scan, const std::optional<Stain> &stain = {});
+/* Of these two only how much there is in them, for charts. */
+std::string features_brief(const ale::features_t &features);
+std::string scan_brief(const ale::scan_t &scan);
 std::string map_message(const ale::map_t &map, const feed::MapPieces &pieces = {});
 /* Whether the robot vouches for a status, and what an operator must know of whom he hears. */
 struct Trust {
@@ -49,9 +54,16 @@ std::string link_message(const LinkHealth &link, uint64_t skipped, const History
 std::string past_message(std::optional<int64_t> at_ms, const History::Span &span,
                          const std::string &recording = "");
 
-/* Messages of the past, for charts; each as it was. */
-std::string series_message(const std::vector<History::Text> &poses,
-                           const std::vector<History::Text> &statuses);
+/* Messages of the past, for charts. */
+struct Series {
+    std::vector<History::Text> poses;
+    std::vector<History::Text> trackings;
+    std::vector<History::Text> features; /* in brief */
+    std::vector<History::Text> scans;    /* in brief */
+    std::vector<History::Text> odometry;
+    std::vector<History::Text> statuses;
+};
+std::string series_message(const Series &series);
 
 /* What became of a page's command: on its way to the robot under that number, or not and why. */
 std::string sent_message(const std::string &verb, const Sent &sent);

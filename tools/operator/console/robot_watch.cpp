@@ -68,6 +68,8 @@ void RobotWatch::subscribe(feed::LcmFeed &feed)
     follow(feed, "ALE_SCAN", &RobotWatch::scan);
     follow(feed, "ALE_MAP", &RobotWatch::map);
     follow(feed, "ALE_MAP_PIECES", &RobotWatch::map_pieces);
+    /* It comes from whoever counts the wheels, and not from the robot's own socket. */
+    feed.on<ale::odometry_t>("ALE_ODOMETRY", [this](const ale::odometry_t &sample) { odometry(sample); });
     feed.on<ale::status_t>("ALE_STATUS", [this](const ale::status_t &message) { status(message); });
     feed.on<ale::speaker_t>("ALE_SPEAKER", [this](const ale::speaker_t &message) { speaker(message); });
 }
@@ -83,6 +85,7 @@ void RobotWatch::restarted()
     map_parts_ = feed::MapParts();
     map_pieces_ = feed::MapPieces();
     window_ = WindowWatch();
+    wheels_ = WheelWatch();
     last_pose_.reset();
     restart_known_ = true;
 }
@@ -116,6 +119,8 @@ void RobotWatch::pose(const ale::pose_t &pose)
     extend_trail(pose);
     board_.note_pose(Board::Clock::now(), static_cast<uint64_t>(gap));
     board_.pin(Topic::pose, pose_message(pose));
+    wheels_.pose(pose);
+    show_wheels();
     last_pose_ = pose;
 }
 
@@ -144,10 +149,24 @@ void RobotWatch::graph(const ale::graph_t &graph)
     board_.pin(Topic::graph, graph_message(graph));
 }
 
+void RobotWatch::odometry(const ale::odometry_t &sample)
+{
+    feed::check(sample);
+    wheels_.odometry(sample);
+    show_wheels();
+}
+
+void RobotWatch::show_wheels()
+{
+    while (const auto way = wheels_.next()) {
+        board_.pin(Topic::odometry, odometry_message(*way));
+    }
+}
+
 void RobotWatch::features(const ale::features_t &features)
 {
     feed::check(features);
-    board_.pin(Topic::features, features_message(features));
+    board_.pin(Topic::features, features_message(features), features_brief(features));
 }
 
 void RobotWatch::scan(const ale::scan_t &scan)
@@ -156,7 +175,7 @@ void RobotWatch::scan(const ale::scan_t &scan)
     if (last_pose_) {
         window_.scan(scan, static_cast<double>(last_pose_->theta));
     }
-    board_.pin(Topic::scan, scan_message(scan, window_.stain()));
+    board_.pin(Topic::scan, scan_message(scan, window_.stain()), scan_brief(scan));
 }
 
 void RobotWatch::map(const ale::map_t &part)

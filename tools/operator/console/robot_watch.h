@@ -9,6 +9,7 @@
 #include "ale/features_t.hpp"
 #include "ale/graph_t.hpp"
 #include "ale/map_t.hpp"
+#include "ale/odometry_t.hpp"
 #include "ale/plan_t.hpp"
 #include "ale/pose_t.hpp"
 #include "ale/scan_t.hpp"
@@ -21,6 +22,7 @@
 #include "operator/console/commander.h"
 #include "operator/console/pose_witness.h"
 #include "operator/console/speaker_choice.h"
+#include "operator/console/wheel_watch.h"
 #include "operator/console/window_watch.h"
 
 namespace console
@@ -47,6 +49,7 @@ class RobotWatch
     void tracking(const ale::tracking_t &tracking);
     void plan(const ale::plan_t &plan);
     void graph(const ale::graph_t &graph);
+    void odometry(const ale::odometry_t &sample);
     void features(const ale::features_t &features);
     void scan(const ale::scan_t &scan);
     void map(const ale::map_t &part);
@@ -66,12 +69,14 @@ class RobotWatch
     void show(const ale::status_t &status, bool vouched);
     void restarted();
     void extend_trail(const ale::pose_t &pose);
+    void show_wheels();
 
     Board &board_;
     Commander &commander_;
     feed::MapParts map_parts_;
     feed::MapPieces map_pieces_;
     WindowWatch window_;
+    WheelWatch wheels_;
     PoseWitness witness_;
     SpeakerChoice speakers_;
     const feed::LcmFeed *feed_ = nullptr;

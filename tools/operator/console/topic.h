@@ -7,8 +7,8 @@
 namespace console
 {
 
-enum class Topic { pose, tracking, features, scan, map, graph, plan, status };
-constexpr size_t topic_count = 8;
+enum class Topic { pose, tracking, features, scan, map, graph, plan, odometry, status };
+constexpr size_t topic_count = 9;
 
 struct TrailPoint {
     float x;

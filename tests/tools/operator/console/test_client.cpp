@@ -305,11 +305,16 @@ TEST(Client, TheSeriesHasWhatIsKeptForCharts)
     Board board;
     board.pin(Topic::pose, message_of("pose", 1));
     board.pin(Topic::status, message_of("status", 7));
+    board.pin(Topic::odometry, message_of("odometry", 3));
+    board.pin(Topic::features, message_of("features", 4), message_of("features", 5));
     Client client = watcher(board);
     drain(client);
     ASSERT_TRUE(client.heard(R"({"type":"series"})"));
     const auto series = next(client);
     EXPECT_EQ((*series)["poses"][0]["k"], 1);
+    EXPECT_EQ((*series)["odometry"][0]["k"], 3);
+    EXPECT_EQ((*series)["features"][0]["k"], 5) << "in brief";
+    EXPECT_EQ((*series)["scans"].size() + (*series)["trackings"].size(), 0U);
     EXPECT_EQ((*series)["statuses"][0]["k"], 7);
 }
 

@@ -54,6 +54,16 @@ TEST(History, ShowsTheNewestOfEachTopicWithWhatBelongsToThatPose)
     EXPECT_EQ(history.span().to_ms, 1400);
 }
 
+TEST(History, ASampleIsInBriefWhatIsLookedAtWhole)
+{
+    History history;
+    history.keep(Topic::pose, 1000, text("pose"));
+    history.keep(Topic::features, 1001, text("features"), text("five"));
+    EXPECT_EQ(words(history.sample(Topic::features, 10)), std::vector<std::string>{"five"});
+    EXPECT_EQ(words(history.sample(Topic::pose, 10)), std::vector<std::string>{"pose"});
+    EXPECT_EQ(words(history.at(1000)), (std::vector<std::string>{"pose", "features"}));
+}
+
 TEST(History, KeepsTenMinutesAndOfSlowTopicsTheOneThatWasToBeSeenThen)
 {
     History history;

@@ -61,6 +61,31 @@ TEST(Messages, ABeamWithACodeHasNoRangeAndCodesAreCounted)
     const json message = json::parse(console::scan_message(scan));
     EXPECT_EQ(message["ranges_mm"], json({500, 0, 0, 0}));
     EXPECT_EQ(message["codes"], json({{7, 2}, {0x81, 1}}));
+    EXPECT_EQ(message["beams"], json({1, 4}));
+    scan.utime = 5;
+    EXPECT_EQ(json::parse(console::scan_brief(scan)),
+              json({{"type", "scan"}, {"utime", 5}, {"beams", {1, 4}}}));
+}
+
+TEST(Messages, OfFeaturesTheBriefHasHowMany)
+{
+    ale::features_t features{};
+    features.utime = 6;
+    features.lines.resize(3);
+    features.corners.resize(1);
+    EXPECT_EQ(json::parse(console::features_message(features))["found"], json({3, 1}));
+    EXPECT_EQ(json::parse(console::features_brief(features)),
+              json({{"type", "features"}, {"utime", 6}, {"found", {3, 1}}}));
+}
+
+TEST(Messages, WheelsStandBesideTheScans)
+{
+    const console::WheelWay way = {7, 8, {0.25, -0.5}, {0.24, -0.48}};
+    EXPECT_EQ(json::parse(console::odometry_message(way)), json({{"type", "odometry"},
+                                                                 {"utime", 7},
+                                                                 {"scan", 8},
+                                                                 {"wheels", {0.25, -0.5}},
+                                                                 {"scans", {0.24, -0.48}}}));
 }
 
 TEST(Messages, ARangeUnitScalesTheRanges)

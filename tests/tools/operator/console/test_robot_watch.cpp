@@ -49,6 +49,27 @@ TEST_F(RobotWatched, GapsInTheScanNumbersAreLostPoses)
     EXPECT_EQ(board.link(Board::Clock::now()).poses, 4U);
 }
 
+TEST_F(RobotWatched, WheelsAreShownBesideTheScansOfTheSameWay)
+{
+    for (int k = 0; k < 3; k++) {
+        ale::odometry_t sample{};
+        sample.utime = 100000 * k;
+        sample.x = 0.03F * static_cast<float>(k);
+        watch.odometry(sample);
+        ale::pose_t pose = pose_of(k);
+        pose.utime = sample.utime;
+        pose.x = 0.02F * static_cast<float>(k);
+        watch.pose(pose);
+    }
+    const auto odometry = board.newest(Topic::odometry);
+    EXPECT_EQ(odometry.number, 2U);
+    EXPECT_NE(odometry.text->find(R"("wheels":[0.3,0.0])"), std::string::npos) << *odometry.text;
+    EXPECT_NE(odometry.text->find(R"("scans":[0.2,0.0])"), std::string::npos) << *odometry.text;
+    ale::odometry_t nowhere{};
+    nowhere.x = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THROW(watch.odometry(nowhere), std::runtime_error);
+}
+
 TEST_F(RobotWatched, AnOvertakenScanIsLeftOut)
 {
     watch.pose(pose_of(20));

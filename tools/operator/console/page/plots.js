@@ -8,20 +8,46 @@ const degrees = (rad) => (rad * 180) / Math.PI;
 const wrapped = (rad) => Math.atan2(Math.sin(rad), Math.cos(rad));
 const milliseconds = (us) => (us === null ? null : us / 1000);
 
-// Of a pose: [name, unit, value].
-const OF_POSE = [
-  ["x", "m", (p) => p.map[0]], ["y", "m", (p) => p.map[1]], ["heading", "°", (p) => degrees(wrapped(p.map[2]))],
-  ["speed", "m/s", (p) => Math.hypot(p.velocity[0], p.velocity[1])], ["turn", "°/s", (p) => degrees(p.velocity[2])],
-  ["sigma x", "mm", (p) => 1000 * sigma(p.cov[0])], ["sigma y", "mm", (p) => 1000 * sigma(p.cov[4])],
-  ["sigma heading", "°", (p) => degrees(sigma(p.cov[8]))],
-  ["state (2 good, 0 lost)", "", (p) => ["lost", "weak", "good"].indexOf(p.state)],
-  ["map pose from smooth pose", "m", (p) => Math.hypot(p.map[0] - p.smooth[0], p.map[1] - p.smooth[1])],
-  ["scan takes", "ms", (p) => milliseconds(p.stages_us.reduce((sum, t) => sum + (t ?? 0), 0))],
-  ...["deskew", "smooth", "extract", "match", "map"].map((name, k) => [`${name} takes`, "ms", (p) => milliseconds(p.stages_us[k])]),
-  ["latency", "ms", (p) => milliseconds(p.latency_us)], ["age", "ms", (p) => milliseconds(p.age_us)],
-  ["odometry's lag", "ms", (p) => milliseconds(p.lag_us)],
-];
-const OF_STATUS = [["scans a second", "/s", (s) => s.scan_rate_hz], ["latency p99", "ms", (s) => milliseconds(s.latency_p99_us)]];
+const STAGES = ["deskew", "smooth", "extract", "match", "map", "all stages"]; // as a status has them; a pose has the first five
+
+// The least that the scan alone says of the place, whatever the direction: the smaller eigenvalue of [xx, xy; xy, yy].
+function weakest([xx, xy, , yy]) {
+  return (xx + yy) / 2 - Math.hypot((xx - yy) / 2, xy);
+}
+
+// Signals by the message that they are of, in the groups in which they are offered: [name, unit, value].
+const SIGNALS = {
+  pose: [
+    ["x", "m", (p) => p.map[0]], ["y", "m", (p) => p.map[1]], ["heading", "°", (p) => degrees(wrapped(p.map[2]))],
+    ["speed", "m/s", (p) => Math.hypot(p.velocity[0], p.velocity[1])], ["turn", "°/s", (p) => degrees(p.velocity[2])],
+    ["sigma x", "mm", (p) => 1000 * sigma(p.cov[0])], ["sigma y", "mm", (p) => 1000 * sigma(p.cov[4])],
+    ["sigma heading", "°", (p) => degrees(sigma(p.cov[8]))],
+    ["state (2 good, 0 lost)", "", (p) => ["lost", "weak", "good"].indexOf(p.state)],
+    ["map pose from smooth pose", "m", (p) => Math.hypot(p.map[0] - p.smooth[0], p.map[1] - p.smooth[1])],
+    ["observability ahead", "/m²", (p) => p.observability[0]], ["observability aside", "/m²", (p) => p.observability[3]],
+    ["observability at its weakest", "/m²", (p) => weakest(p.observability)], ["observability of the heading", "/rad²", (p) => p.observability[5]],
+    ["scan takes", "ms", (p) => milliseconds(p.stages_us.reduce((sum, t) => sum + (t ?? 0), 0))],
+    ...STAGES.slice(0, 5).map((name, k) => [`${name} takes`, "ms", (p) => milliseconds(p.stages_us[k])]),
+    ["latency", "ms", (p) => milliseconds(p.latency_us)], ["age", "ms", (p) => milliseconds(p.age_us)],
+    ["odometry's lag", "ms", (p) => milliseconds(p.lag_us)],
+  ],
+  odometry: [
+    ["wheels: speed", "m/s", (o) => o.wheels[0]], ["wheels: turn", "°/s", (o) => degrees(o.wheels[1])],
+    ["wheels minus scans: speed", "m/s", (o) => o.wheels[0] - o.scans[0]],
+    ["wheels minus scans: turn", "°/s", (o) => degrees(o.wheels[1] - o.scans[1])],
+  ],
+  tracking: [["maps that are not joined", "", (t) => t.maps], ["faults of the wheels", "", (t) => t.wheel_faults]],
+  features: [["lines seen", "", (f) => f.found[0]], ["corners seen", "", (f) => f.found[1]]],
+  scan: [["beams with a range", "", (s) => s.beams[0]], ["beams without", "", (s) => s.beams[1] - s.beams[0]]],
+  status: [
+    ["scans a second", "/s", (s) => s.scan_rate_hz], ["latency p99", "ms", (s) => milliseconds(s.latency_p99_us)],
+    ["deadline misses", "", (s) => s.deadline_misses],
+    ...STAGES.flatMap((name, k) => [[`${name} p99`, "ms", (s) => milliseconds(s.stages_p99_us[k])],
+                                    [`${name} worst`, "ms", (s) => milliseconds(s.stages_worst_us[k])]]),
+  ],
+};
+const GROUPS = { pose: "pose", odometry: "wheels against scans", tracking: "maps", features: "seen", scan: "seen", status: "health" };
+const COUNTS = "counts";
 
 export class Plots {
   constructor(link) {
@@ -35,7 +61,9 @@ export class Plots {
     for (const { choice } of this.plots) choice.addEventListener("change", () => (this.due = true));
     this.span.addEventListener("change", () => (this.due = true));
     new ResizeObserver(() => (this.due = true)).observe(document.getElementById("plots"));
-    for (const [name, unit] of [...OF_POSE, ...OF_STATUS]) this.#seriesOf(name, unit);
+    for (const [type, signals] of Object.entries(SIGNALS)) {
+      for (const [name, unit] of signals) this.#seriesOf(name, unit, GROUPS[type]);
+    }
     this.plots[0].choice.value = "speed";
     this.plots[1].choice.value = "scan takes";
   }
@@ -44,10 +72,11 @@ export class Plots {
     switch (message.type) {
       case "hello": this.recording = null; this.#forget(); this.link.send({ type: "series" }); break;
       case "series": this.#takeSeries(message); break;
-      case "pose": this.marked = isPast ? message.utime / 1e6 : null; isPast || this.#takePose(message); break;
-      case "status": isPast || this.#takeStatus(message); break;
       case "past": this.#looksElsewhere(message); break;
-      default: return;
+      default:
+        if (!(message.type in SIGNALS)) return;
+        if (message.type === "pose") this.marked = isPast ? message.utime / 1e6 : null;
+        isPast || this.#takeSignals(message);
     }
     this.due = true;
   }
@@ -75,23 +104,19 @@ export class Plots {
   // What comes late is of before what came meanwhile.
   #takeSeries(message) {
     this.#forget();
-    message.poses.forEach((pose) => this.#takePose(pose));
-    message.statuses.forEach((status) => this.#takeStatus(status));
+    Object.values(message).filter(Array.isArray).flat().forEach((each) => this.#takeSignals(each));
   }
 
-  #takePose(pose) {
-    for (const [name, unit, value] of OF_POSE) this.#add(this.#seriesOf(name, unit), pose.utime / 1e6, value(pose));
+  #takeSignals(message) {
+    const time = message.utime / 1e6;
+    for (const [name, unit, value] of SIGNALS[message.type]) this.#add(this.#seriesOf(name, unit, GROUPS[message.type]), time, value(message));
+    for (const { name, value } of message.counters ?? []) this.#add(this.#seriesOf(`count of ${name.replaceAll("_", " ")}`, "", COUNTS), time, value);
   }
 
-  #takeStatus(status) {
-    for (const [name, unit, value] of OF_STATUS) this.#add(this.#seriesOf(name, unit), status.utime / 1e6, value(status));
-    for (const { name, value } of status.counters) this.#add(this.#seriesOf(`count of ${name.replaceAll("_", " ")}`, ""), status.utime / 1e6, value);
-  }
-
-  #seriesOf(name, unit) {
+  #seriesOf(name, unit, group) {
     if (!this.series.has(name)) {
       this.series.set(name, { unit, times: [], values: [] });
-      for (const { choice } of this.plots) choice.add(new Option(name));
+      for (const { choice } of this.plots) groupIn(choice, group).append(new Option(name));
     }
     return this.series.get(name);
   }
@@ -117,6 +142,15 @@ export class Plots {
     text.textContent = shown.length ? `${inShort(last)} ${unit} (${inShort(low)} to ${inShort(high)})` : "nothing yet";
     paint(canvas, shown, { begin, end, low, high, marked: this.marked });
   }
+}
+
+function groupIn(choice, label) {
+  const found = [...choice.children].find((group) => group.label === label);
+  if (found) return found;
+  const made = document.createElement("optgroup");
+  made.label = label;
+  choice.append(made);
+  return made;
 }
 
 const inShort = (value) => (Math.abs(value) >= 1000 ? value.toFixed(0) : Number(value.toPrecision(3)).toString());

@@ -33,6 +33,11 @@ std::string status_words(const ale::status_t &status)
     return status_message(status);
 }
 
+History::Text shared(const std::string &text)
+{
+    return text.empty() ? nullptr : std::make_shared<const std::string>(text);
+}
+
 /* The last entry that is not later; nullptr: all are. */
 template <class Entry> const Entry *newest(const std::vector<Entry> &entries, int64_t at_ms)
 {
@@ -76,6 +81,9 @@ void OpenRecording::take(const EventPlace &event, int64_t at_ms)
     } else if (event.channel == "ALE_MAP_PIECES") {
         take_pieces(place);
     } else {
+        if (event.channel == "ALE_ODOMETRY") {
+            take_odometry(place); /* of the robot's wheels, and not of the robot itself */
+        }
         return;
     }
     from_ms_ = to_ms_ == 0 ? at_ms : from_ms_;
@@ -106,6 +114,23 @@ void OpenRecording::take_pose(const Place &place)
     places_[static_cast<size_t>(Topic::pose)].push_back(place);
     way_.push_back({place.at_ms, {pose->map_x, pose->map_y, first}});
     last_pose_ = pose;
+    wheels_.pose(*pose);
+    take_wheels(place.at_ms);
+}
+
+void OpenRecording::take_odometry(const Place &place)
+{
+    if (const auto sample = message_of<ale::odometry_t>(place)) {
+        wheels_.odometry(*sample);
+        take_wheels(place.at_ms);
+    }
+}
+
+void OpenRecording::take_wheels(int64_t at_ms)
+{
+    while (const auto way = wheels_.next()) {
+        driven_.push_back({at_ms, *way});
+    }
 }
 
 void OpenRecording::take_map(const Place &place)
@@ -141,7 +166,7 @@ int64_t OpenRecording::end_of_scan(int64_t at_ms) const
     return next == poses.end() ? at_ms + scan_ms : next->at_ms - 1;
 }
 
-/* Empty: nothing that makes sense. */
+/* nullptr: nothing that makes sense. */
 History::Text OpenRecording::text_of(Topic topic, const Place &place) const
 {
     const auto text = [&] {
@@ -161,11 +186,25 @@ History::Text OpenRecording::text_of(Topic topic, const Place &place) const
         case Topic::status:
             return json_of<ale::status_t>(place, status_words);
         case Topic::map:
+        case Topic::odometry: /* neither is a message of its own */
             break;
         }
         return std::string();
     }();
-    return text.empty() ? nullptr : std::make_shared<const std::string>(text);
+    return shared(text);
+}
+
+History::Text OpenRecording::text_of(const Driven &driven)
+{
+    return std::make_shared<const std::string>(odometry_message(driven.way));
+}
+
+History::Text OpenRecording::brief_of(Topic topic, const Place &place) const
+{
+    if (topic == Topic::features) {
+        return shared(json_of<ale::features_t>(place, features_brief));
+    }
+    return topic == Topic::scan ? shared(json_of<ale::scan_t>(place, scan_brief)) : text_of(topic, place);
 }
 
 History::Text OpenRecording::map_text(int64_t at_ms) const
@@ -186,6 +225,20 @@ History::Text OpenRecording::map_text(int64_t at_ms) const
     return whole ? std::make_shared<const std::string>(map_message(parts.whole(), pieces)) : nullptr;
 }
 
+/* The newest of a topic then; nullptr: none was, or it makes no sense. */
+History::Text OpenRecording::text_at(Topic topic, int64_t at_ms) const
+{
+    if (topic == Topic::map) {
+        return map_text(at_ms);
+    }
+    if (topic == Topic::odometry) {
+        const Driven *driven = newest(driven_, at_ms);
+        return driven ? text_of(*driven) : nullptr;
+    }
+    const Place *place = newest(of(topic), at_ms);
+    return place ? text_of(topic, *place) : nullptr;
+}
+
 Past OpenRecording::look_back(int64_t at_ms) const
 {
     Past past;
@@ -193,11 +246,7 @@ Past OpenRecording::look_back(int64_t at_ms) const
     const int64_t end_ms = end_of_scan(at_ms);
     for (size_t k = 0; k < topic_count; k++) {
         const auto topic = static_cast<Topic>(k);
-        const Place *place = newest(of(topic), topic == Topic::pose ? at_ms : end_ms);
-        History::Text text = topic == Topic::map ? map_text(end_ms)
-                             : place             ? text_of(topic, *place)
-                                                 : nullptr;
-        if (text) {
+        if (History::Text text = topic == Topic::pose ? text_at(topic, at_ms) : text_at(topic, end_ms)) {
             past.texts.push_back(std::move(text));
         }
     }
@@ -210,17 +259,31 @@ Past OpenRecording::look_back(int64_t at_ms) const
     return past;
 }
 
-std::vector<History::Text> OpenRecording::sample(Topic topic, size_t most) const
+namespace
 {
-    const std::vector<Place> &places = of(topic);
-    const size_t count = std::min(most, places.size());
+
+/* At most so many of a list, in equal steps. */
+template <class Entry, class Words>
+std::vector<History::Text> sample_of(const std::vector<Entry> &entries, size_t most, const Words &words)
+{
+    const size_t count = std::min(most, entries.size());
     std::vector<History::Text> texts;
     for (size_t k = 0; k < count; k++) {
-        if (History::Text text = text_of(topic, places[k * places.size() / count])) {
+        if (History::Text text = words(entries[k * entries.size() / count])) {
             texts.push_back(std::move(text));
         }
     }
     return texts;
+}
+
+} // namespace
+
+std::vector<History::Text> OpenRecording::sample(Topic topic, size_t most) const
+{
+    if (topic == Topic::odometry) {
+        return sample_of(driven_, most, [](const Driven &driven) { return text_of(driven); });
+    }
+    return sample_of(of(topic), most, [&](const Place &place) { return brief_of(topic, place); });
 }
 
 } // namespace console

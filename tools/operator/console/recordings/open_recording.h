@@ -18,6 +18,7 @@
 #include "common/feed/parts.h"
 #include "operator/console/board.h"
 #include "operator/console/recordings/event_file.h"
+#include "operator/console/wheel_watch.h"
 
 namespace console
 {
@@ -56,6 +57,10 @@ class OpenRecording
         std::vector<Part> parts;
         std::vector<Part> pieces;
     };
+    struct Driven {
+        int64_t at_ms;
+        WheelWay way;
+    };
     struct WayPoint {
         int64_t at_ms;
         TrailPoint point;
@@ -65,12 +70,17 @@ class OpenRecording
     void take_pose(const Place &place);
     void take_map(const Place &place);
     void take_pieces(const Place &place);
+    void take_odometry(const Place &place);
+    void take_wheels(int64_t at_ms);
     const std::vector<Place> &of(Topic topic) const
     {
         return places_[static_cast<size_t>(topic)];
     }
     int64_t end_of_scan(int64_t at_ms) const;
     History::Text text_of(Topic topic, const Place &place) const;
+    History::Text brief_of(Topic topic, const Place &place) const;
+    static History::Text text_of(const Driven &driven);
+    History::Text text_at(Topic topic, int64_t at_ms) const;
     History::Text map_text(int64_t at_ms) const;
     template <class Message> std::optional<Message> message_of(const Place &place) const;
     template <class Message>
@@ -86,6 +96,8 @@ class OpenRecording
     feed::Parts<Part> piece_parts_;
     std::vector<Part> pieces_; /* the newest that are whole */
     std::optional<ale::pose_t> last_pose_;
+    WheelWatch wheels_;
+    std::vector<Driven> driven_;
 };
 
 } // namespace console

@@ -13,6 +13,7 @@
 #include "ale/graph_t.hpp"
 #include "ale/map_pieces_t.hpp"
 #include "ale/map_t.hpp"
+#include "ale/odometry_t.hpp"
 #include "ale/status_t.hpp"
 #include "files.hpp"
 
@@ -126,6 +127,35 @@ TEST_F(Recording, ShowsWhatWasToBeSeenThen)
     EXPECT_EQ(json::parse(*sample[1])["scan"], 2);
 }
 
+TEST_F(Recording, ChartsGetWheelsAndHowMuchWasSeen)
+{
+    for (int k = 0; k < 10; k++) {
+        ale::odometry_t sample{};
+        sample.utime = begin_us + 100000 * k;
+        sample.x = 0.05F * static_cast<float>(k);
+        put(100000 * k, "ALE_ODOMETRY", sample);
+        ale::pose_t pose{};
+        pose.utime = sample.utime;
+        pose.scan = k;
+        put(100000 * k + 1, "ALE_POSE", pose);
+        ale::features_t features{};
+        features.num_lines = k;
+        features.lines.resize(static_cast<size_t>(k));
+        put(100000 * k + 2, "ALE_FEATURES", features);
+        writer_.put(begin_us + 100000 * k + 3, "ALE_SCAN", nullptr, 0);
+    }
+    const OpenRecording recording = opened();
+    const auto wheels = recording.sample(Topic::odometry, 100);
+    ASSERT_EQ(wheels.size(), 9U);
+    EXPECT_NEAR(json::parse(*wheels[4])["wheels"][0].get<double>(), 0.5, 1e-3);
+    EXPECT_EQ(json::parse(*wheels[4])["scans"][0], 0);
+    EXPECT_EQ(message_of(recording.look_back(begin_ms + 550), "odometry")["scan"], 5);
+    const auto features = recording.sample(Topic::features, 5);
+    ASSERT_EQ(features.size(), 5U);
+    EXPECT_EQ(json::parse(*features[2])["found"], json({4, 0}));
+    EXPECT_TRUE(recording.sample(Topic::scan, 5).empty()) << "they make no sense";
+}
+
 TEST_F(Recording, AClockThatIsSetBackKeepsTheOrder)
 {
     put_pose(0, 0, 0);
@@ -142,8 +172,9 @@ TEST_F(Recording, WhatMakesNoSenseIsLeftOut)
     put_pose(0, 0, 0);
     put_pose(100000, 1, std::numeric_limits<float>::quiet_NaN());
     const std::vector<uint8_t> noise(200, 0xA5);
-    for (const char *channel : {"ALE_POSE", "ALE_SCAN", "ALE_FEATURES", "ALE_MAP", "ALE_MAP_PIECES",
-                                "ALE_STATUS", "ALE_PLAN", "ALE_GRAPH", "ALE_TRACKING", "SOMETHING"}) {
+    for (const char *channel :
+         {"ALE_POSE", "ALE_SCAN", "ALE_FEATURES", "ALE_MAP", "ALE_MAP_PIECES", "ALE_STATUS", "ALE_PLAN",
+          "ALE_GRAPH", "ALE_TRACKING", "ALE_ODOMETRY", "SOMETHING"}) {
         writer_.put(begin_us + 150000, channel, noise.data(), noise.size());
     }
     put_pose(200000, 2, 0);
