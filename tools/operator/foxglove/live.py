@@ -1,4 +1,5 @@
 """The live bridge: LCM in, a WebSocket server that Foxglove opens, commands back."""
+import contextlib
 import json
 import queue
 import signal
@@ -11,10 +12,12 @@ from foxglove import websocket
 from . import bus as lcm_bus
 from . import orders, scene
 from .near import program
+from .recording import Recording
 
 SCHEMA = {"type": "object", "title": "ale.command", "properties": {"words": {"type": "string"}}}
 ANSWER = {"type": "object", "title": "ale.answer", "properties": {"obeyed": {"type": "boolean"}, "words": {"type": "string"}}}
 DRIVES_A_SECOND = 20
+ONLY_RECORDED = ["ALE_ODOMETRY_EXACT", "ALE_SPEAKER"]
 
 
 def say(text):
@@ -113,26 +116,27 @@ def run(options):
     foxglove.set_log_level("WARN")
     context = foxglove.Context()
     shown = scene.Scene(context)
-    heard = lcm_bus.Bus(options.lcm_url, list(shown.takers))
+    heard = lcm_bus.Bus(options.lcm_url, [*shown.takers, *(ONLY_RECORDED if options.record else [])])
     given = orders_of(options)
     desk = Desk(given)
     server = foxglove.start_server(
         name="ALE-SLAM", host=options.host, port=options.port, context=context, server_listener=Listener(desk),
         capabilities=[websocket.Capability.ClientPublish, websocket.Capability.Services], supported_encodings=["json"],
         services=[service(given)], message_backlog_size=256)
-    recording = foxglove.open_mcap(options.record, context=context) if options.record else None
+    recording = Recording(options.record, context) if options.record else contextlib.nullcontext()
     stopping = threading.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stopping.set())
     print(f"ws://{options.host}:{server.port}", flush=True)
     try:
-        while not stopping.is_set():
-            for channel, data in heard.receive(0.2):
-                shown.take(channel, data)
+        with recording as record:
+            while not stopping.is_set():
+                for channel, data in heard.receive(0.2):
+                    shown.take(channel, data)
+                    if record:
+                        record.take(channel, data)
     finally:
         server.stop()
-        if recording:
-            recording.close()
         given.close()
         say(f"{shown.malformed} messages of the robot were malformed; commands: {desk.counts['obeyed']} obeyed, "
             f"{desk.counts['refused']} refused")

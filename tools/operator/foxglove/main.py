@@ -14,7 +14,7 @@ The robot in Foxglove: a WebSocket that Foxglove opens, and recordings turned in
   --lcm-url URL    where the robot is (default: LCM_DEFAULT_URL, else LCM's own default)
   --host ADDR      who may open it: 127.0.0.1, this computer (default); 0.0.0.0, all the network
   --port N         of the WebSocket (default 8765; 0: a free one)
-  --record F.mcap  what is shown goes into a file, too
+  --record F.mcap  what is shown goes into a file, too, and what the robot said for convert; F.mcap.lcm until it ends
   --keys FILE      the operator's secret key (ale-keys makes it): /cmd_vel, /initialpose, /goal_pose and the
                    service /ale/command are signed with it, by whomever they come; without it they are refused
   --robots FILE    the robots whose word is believed (default: the file of --keys with .robots behind)
