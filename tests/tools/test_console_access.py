@@ -23,7 +23,11 @@ const parse = (text) => {
 };
 const over = (top, bottom) => [0, 1, 2].map((k) => top[k] * top[3] + bottom[k] * (1 - top[3])).concat(1);
 const ground = parse(getComputedStyle(document.body).backgroundColor);
-const behind = (element) => element ? over(parse(getComputedStyle(element).backgroundColor), behind(element.parentElement)) : ground;
+const behind = (element, under) => element && !element.matches("main") ? over(parse(getComputedStyle(element).backgroundColor), behind(element.parentElement, under)) : under;
+// What may lie under a text: the page's ground, and over the map any colour that is drawn there.
+const hex = (name) => [1, 3, 5].map((k) => parseInt(getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim().slice(k, k + 2), 16)).concat(1);
+const drawn = ["wall", "line", "corner", "scan", "trail", "robot", "path", "apart", "keyframe", "loop"].map(hex);
+const grounds = (element) => element.closest("main") ? [ground, ...drawn] : [ground];
 const opacity = (element) => element ? Number(getComputedStyle(element).opacity) * opacity(element.parentElement) : 1;
 const luminance = (colour) => [0.2126, 0.7152, 0.0722].reduce((sum, weight, k) => {
   const c = colour[k] / 255;
@@ -32,11 +36,14 @@ const luminance = (colour) => [0.2126, 0.7152, 0.0722].reduce((sum, weight, k) =
 const written = (element) => element.matches("input:not([type=range]), select") ||
   [...element.childNodes].some((node) => node.nodeType === Node.TEXT_NODE && node.data.trim());
 return [...document.body.querySelectorAll("*")].filter((e) => !e.closest("svg") && e.checkVisibility() && written(e)).map((element) => {
-  const back = behind(element);
-  const own = parse(getComputedStyle(element).color);
-  own[3] *= opacity(element);
-  const [light, dark] = [luminance(over(own, back)), luminance(back)].sort((a, b) => b - a);
-  return [(light + 0.05) / (dark + 0.05), element.id || element.className || element.tagName, element.textContent.trim().slice(0, 30)];
+  const contrasts = grounds(element).map((under) => {
+    const back = behind(element, under);
+    const own = parse(getComputedStyle(element).color);
+    own[3] *= opacity(element);
+    const [light, dark] = [luminance(over(own, back)), luminance(back)].sort((a, b) => b - a);
+    return (light + 0.05) / (dark + 0.05);
+  });
+  return [Math.min(...contrasts), element.id || element.className || element.tagName, element.textContent.trim().slice(0, 30)];
 });
 """
 CONTROLS = "button:not([hidden]), input, select, a[href], [tabindex]"
@@ -82,6 +89,8 @@ def test_every_text_can_be_read_in_every_state(cockpit, robot, theme):
     if cockpit.run("return document.documentElement.dataset.theme") != theme:
         cockpit.click("theme")
     hold_still(cockpit)
+    cockpit.drag(600, 300, 600, 300)
+    assert cockpit.text("cursor").startswith("x ") and cockpit.text("scale-text").endswith("m"), "they lie over the map without a panel"
     for state, name in ((2, "good"), (1, "weak"), (0, "lost")):
         robot.state = state
         cockpit.wait_for(f"{STATE} === '{name}'")
