@@ -10,6 +10,8 @@ from at_hand import BINARIES, free_udp_port
 from chain import Chain
 from lcm_url import free_lcm_url
 from waiting import Ear, wait_until
+from watching import Console
+from web_socket import WebSocket
 
 
 def counters(status):
@@ -91,6 +93,12 @@ def test_several_robots_share_a_network_by_their_prefixes(rovers):
             assert "speaks on the same channels" not in chain.rover.err()
     finally:
         ear.stop()
+    console = Console(chains[0].url, "127.0.0.1:0", "--lcm-url", chains[1].url)
+    pages = [WebSocket(f"{console.url}&robot={name}") for name in ("rover1", "rover2")]
+    for page in pages:
+        page.wait_for("robots", lambda told: all(robot["state"] == "good" for robot in told["robots"]))
+    assert [page.wait_for("status")["robot"] for page in pages] == ["rover1", "rover2"]
+    assert console.end() == 0
 
 
 def test_a_recording_and_a_bridge_choose_by_the_prefix(rovers, tmp_path):

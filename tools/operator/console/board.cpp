@@ -138,9 +138,10 @@ TrailPiece Board::trail(uint64_t epoch, size_t first, size_t limit) const
     return {trail_epoch_, from, {begin, begin + static_cast<std::ptrdiff_t>(count)}};
 }
 
-void Board::note_pose(Clock::time_point arrival, uint64_t lost_before)
+void Board::note_pose(Clock::time_point arrival, uint64_t lost_before, int state)
 {
     const std::lock_guard<std::mutex> lock(mutex_);
+    state_ = state;
     poses_++;
     lost_poses_ += lost_before;
     if (arrivals_.size() == rate_window) {
@@ -165,6 +166,7 @@ LinkHealth Board::link(Clock::time_point now) const
     health.poses = poses_;
     health.lost_poses = lost_poses_;
     health.malformed = malformed_;
+    health.state = state_;
     if (arrivals_.empty()) {
         return health;
     }

@@ -55,6 +55,7 @@ struct LinkHealth {
     uint64_t poses = 0;
     uint64_t lost_poses = 0; /* by gaps in the numbers of the scans */
     uint64_t malformed = 0;
+    int state = 0; /* of the last pose, as in pose_t */
 };
 
 class Board
@@ -80,7 +81,7 @@ class Board
     /* At most limit points from index first of that epoch; from the start if the epoch is another. */
     TrailPiece trail(uint64_t epoch, size_t first, size_t limit) const;
 
-    void note_pose(Clock::time_point arrival, uint64_t lost_before);
+    void note_pose(Clock::time_point arrival, uint64_t lost_before, int state);
     void note_malformed(uint64_t total);
     LinkHealth link(Clock::time_point now) const;
 
@@ -110,6 +111,7 @@ class Board
     uint64_t poses_ = 0;
     uint64_t lost_poses_ = 0;
     uint64_t malformed_ = 0;
+    int state_ = 0;
     History history_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace console
 {
@@ -24,16 +25,15 @@ std::optional<std::string> Client::choose(Board::Clock::time_point now)
         life_ = board_.life();
         looks_back_ = false;
         past_.clear();
-        return hello_message(operator_name_);
+        return greet();
     }
     if (!answers_.empty()) {
         std::string answer = std::move(answers_.front());
         answers_.pop_front();
         return answer;
     }
-    if (link_due_) {
-        link_due_ = false;
-        return link_message(board_.link(now), skipped_, span(), recordings_.state());
+    if (auto report = next_report(now)) {
+        return report;
     }
     if (!past_.empty()) {
         std::string message = std::move(past_.front());
@@ -45,6 +45,30 @@ std::optional<std::string> Client::choose(Board::Clock::time_point now)
     }
     auto trail = next_trail();
     return trail ? trail : next_topic();
+}
+
+std::string Client::greet()
+{
+    told_ = company_.told();
+    return hello_message(operator_name_, company_.robot, told_);
+}
+
+/* Of the link, and behind it how the robots are, if that has changed. */
+std::optional<std::string> Client::next_report(Board::Clock::time_point now)
+{
+    if (link_due_) {
+        link_due_ = false;
+        company_due_ = true;
+        return link_message(board_.link(now), skipped_, span(), recordings_.state());
+    }
+    if (!company_due_) {
+        return std::nullopt;
+    }
+    company_due_ = false;
+    const std::vector<RobotTold> before = std::exchange(told_, company_.told());
+    const bool same = std::equal(told_.begin(), told_.end(), before.begin(), before.end(),
+                                 [](const auto &a, const auto &b) { return a.state == b.state; });
+    return same ? std::nullopt : std::optional(robots_message(told_));
 }
 
 std::optional<std::string> Client::next_topic()
@@ -92,6 +116,8 @@ bool Client::heard(const std::string &text)
         return got(message->drawn);
     case PageMessage::Kind::command:
         return command(message->words);
+    case PageMessage::Kind::stop_all:
+        return stop_all();
     case PageMessage::Kind::look:
         return look(message->at_ms);
     case PageMessage::Kind::series:
@@ -193,6 +219,15 @@ bool Client::command(const std::vector<std::string> &words)
         return false;
     }
     answers_.push_back(sent_message(words[0], command_(words)));
+    return true;
+}
+
+bool Client::stop_all()
+{
+    if (answers_.size() >= most_answers) {
+        return false;
+    }
+    answers_.push_back(sent_message("stop", company_.stop_all()));
     return true;
 }
 

@@ -32,6 +32,13 @@ struct Recordings {
     std::function<bool(const PageMessage &)> ask = [](const PageMessage &) { return false; };
 };
 
+/* The robots of the console, as a page sees them that shows one. */
+struct Company {
+    std::string robot; /* that it shows */
+    std::function<std::vector<RobotTold>()> told = [] { return std::vector<RobotTold>(); };
+    std::function<Sent()> stop_all = [] { return Sent(); };
+};
+
 class Client
 {
   public:
@@ -40,9 +47,10 @@ class Client
     using Command = std::function<Sent(const std::vector<std::string> &words)>;
 
     /* operator_name: in whose name it commands; empty: it cannot. */
-    Client(const Board &board, std::string operator_name, Command command, Recordings recordings = {})
+    Client(const Board &board, std::string operator_name, Command command, Recordings recordings = {},
+           Company company = {})
         : board_(board), operator_name_(std::move(operator_name)), command_(std::move(command)),
-          recordings_(std::move(recordings))
+          recordings_(std::move(recordings)), company_(std::move(company))
     {
     }
 
@@ -69,6 +77,8 @@ class Client
     static constexpr size_t trail_points_a_message = 2000;
 
     std::optional<std::string> choose(Board::Clock::time_point now);
+    std::string greet();
+    std::optional<std::string> next_report(Board::Clock::time_point now);
     std::optional<std::string> next_topic();
     std::optional<std::string> next_trail();
 
@@ -80,6 +90,7 @@ class Client
     bool look(std::optional<int64_t> at_ms);
     bool tell_series();
     bool command(const std::vector<std::string> &words);
+    bool stop_all();
     bool ask(const PageMessage &message);
     void answered();
     Past look_back(int64_t at_ms) const;
@@ -90,6 +101,8 @@ class Client
     std::string operator_name_;
     Command command_;
     Recordings recordings_;
+    Company company_;
+    std::vector<RobotTold> told_; /* what it knows of the company */
     std::deque<std::string> answers_;
     size_t asked_ = 0;                               /* what the page asked for, and has no answer yet */
     std::shared_ptr<const OpenRecording> recording_; /* that is shown; nullptr: the robot is */
@@ -98,6 +111,7 @@ class Client
     std::deque<std::string> past_; /* what is still to be sent of where he looks */
     uint64_t life_ = 0;            /* the robot's life that the page was told of */
     bool link_due_ = true;
+    bool company_due_ = false;
     uint64_t sent_ = 0;
     uint64_t drawn_ = 0;
     uint64_t skipped_ = 0;

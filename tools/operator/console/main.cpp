@@ -1,4 +1,5 @@
-/* ale-console: the operator's page. LCM in on one thread, the web on another, the board between them. */
+/* ale-console: the operator's page. LCM in on a thread for each robot, the web on another, the boards between
+ * them. */
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -6,19 +7,15 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <sodium.h>
 #include <unistd.h>
 
 #include "common/command_line/command_line.h"
-#include "common/feed/lcm_feed.h"
-#include "operator/console/board.h"
-#include "operator/console/commander.h"
+#include "operator/console/fleet.h"
 #include "operator/console/http_address.h"
-#include "operator/console/recordings/archive.h"
-#include "operator/console/recordings/desk.h"
-#include "operator/console/recordings/recorder.h"
-#include "operator/console/robot_watch.h"
+#include "operator/console/robot.h"
 #include "operator/console/token.h"
 #include "operator/console/web_server.h"
 
@@ -26,12 +23,13 @@ namespace
 {
 
 constexpr char usage[] =
-    "usage: ale-console [--lcm-url URL] [--http ADDR:PORT] [--keys FILE] [--robots FILE] [--robot NAME]\n"
-    "                   [--recordings DIR] [--maps DIR]\n"
+    "usage: ale-console [--lcm-url URL]... [--http ADDR:PORT] [--keys FILE] [--robots FILE]\n"
+    "                   [--robot NAME]... [--recordings DIR]... [--maps DIR]...\n"
     "                   [--token-file FILE] [--cert FILE --key FILE] [--origin URL]\n"
     "The operator's console: serves a web page that shows what the robot publishes over LCM and commands "
     "it.\n"
-    "  --lcm-url URL     where the robot publishes (default: LCM_DEFAULT_URL, else LCM's own default)\n"
+    "  --lcm-url URL     where the robot publishes (default: LCM_DEFAULT_URL, else LCM's own default); for\n"
+    "                    several robots once for each, and --robot, --recordings, --maps in the same order\n"
     "  --http ADDR:PORT  where the page is served (default 127.0.0.1:8080; port 0: any free one)\n"
     "  --keys FILE       the operator's key (ale-keys makes it); without it the page only watches\n"
     "  --robots FILE     the robots whose word is believed (default: the file of --keys with .robots "
@@ -51,18 +49,13 @@ constexpr char usage[] =
     "use.\n";
 
 struct Options {
-    std::string lcm_url;
+    console::FleetOptions fleet;
     std::string http = "127.0.0.1:8080";
-    std::string keys;
-    std::string robots;
-    std::string robot;
     std::string token;
     std::string token_file;
     std::string certificate;
     std::string key;
     std::string proxy;
-    std::string recordings;
-    std::string maps;
 };
 
 /* The token that is asked for: on the loopback, too, because others may be logged in on this machine. */
@@ -101,35 +94,6 @@ void warn(const Options &options, const console::HttpAddress &address)
     }
 }
 
-/* Of the robot that is shown, and its wheels: as the bus has it, before it is looked at. Commands and set
- * points are left out: who plays a recording on a robot's bus must not move it. */
-void record_from(feed::LcmFeed &feed, console::Recorder &recorder, console::RobotWatch &watch)
-{
-    for (const char *channel : {"ALE_POSE", "ALE_TRACKING", "ALE_FEATURES", "ALE_SCAN", "ALE_MAP",
-                                "ALE_MAP_PIECES", "ALE_GRAPH", "ALE_PLAN", "ALE_STATUS", "ALE_VOUCHED"}) {
-        feed.on_bytes(channel, [&recorder, &watch, channel](const uint8_t *bytes, size_t count) {
-            if (watch.hears()) {
-                recorder.take(channel, bytes, count);
-            }
-        });
-    }
-    for (const char *channel : {"ALE_ODOMETRY", "ALE_ODOMETRY_EXACT", "ALE_SPEAKER"}) {
-        feed.on_bytes(channel, [&recorder, channel](const uint8_t *bytes, size_t count) {
-            recorder.take(channel, bytes, count);
-        });
-    }
-}
-
-void follow_robot(feed::LcmFeed &feed, console::Board &board, console::Commander &commander,
-                  const std::atomic<bool> &stopping)
-{
-    while (!stopping) {
-        feed.wait(100);
-        commander.keep_stopped();
-        board.note_malformed(feed.refused());
-    }
-}
-
 /* Blocked before any thread exists, so that all inherit it and only sigwait sees them. */
 sigset_t block_endings()
 {
@@ -160,21 +124,23 @@ void check(const Options &options)
     }
 }
 
+/* Hears one robot until all is to stop. Who can no longer hear it ends the console. */
+void follow(console::Robot &robot, const std::atomic<bool> &stopping, std::atomic<bool> &failed)
+{
+    try {
+        robot.follow(stopping);
+    } catch (const std::exception &error) {
+        std::fprintf(stderr, "ale-console: %s\n", error.what());
+        failed = true;
+        kill(getpid(), SIGTERM);
+    }
+}
+
 void run(const Options &options, const sigset_t &endings)
 {
     const console::HttpAddress address = console::parse_http_address(options.http);
-    console::Board board;
-    feed::LcmFeed feed(options.lcm_url);
-    console::Commander commander({options.lcm_url, options.keys, options.robots, options.robot});
-    console::RobotWatch watch(board, commander);
-    const console::Shelf recordings(options.recordings, ".lcm");
-    const console::Shelf maps(options.maps, ".map");
-    console::Recorder recorder(recordings);
-    console::Archive archive(board, recordings, maps);
-    record_from(feed, recorder, watch);
-    watch.subscribe(feed);
-    console::Desk desk(archive, recorder);
-    console::WebServer server(board, commander, desk,
+    console::Fleet fleet(console::settings_of(options.fleet));
+    console::WebServer server(fleet,
                               {address, token_for(options), options.certificate, options.key, options.proxy});
     warn(options, address);
     std::printf("%s\n", server.url().c_str());
@@ -182,22 +148,18 @@ void run(const Options &options, const sigset_t &endings)
 
     std::atomic<bool> stopping{false};
     std::atomic<bool> failed{false};
-    std::thread web([&] { server.run(); });
-    std::thread lcm([&] {
-        try {
-            follow_robot(feed, board, commander, stopping);
-        } catch (const std::exception &error) {
-            std::fprintf(stderr, "ale-console: %s\n", error.what());
-            failed = true;
-            kill(getpid(), SIGTERM);
-        }
-    });
+    std::vector<std::thread> threads;
+    threads.emplace_back([&] { server.run(); });
+    for (console::Robot &robot : fleet.robots()) {
+        threads.emplace_back([&] { follow(robot, stopping, failed); });
+    }
     int signal = 0;
     sigwait(&endings, &signal);
     stopping = true;
     server.stop();
-    lcm.join();
-    web.join();
+    for (std::thread &thread : threads) {
+        thread.join();
+    }
     if (failed) {
         throw std::runtime_error("ended because the robot's messages can no longer be received");
     }
@@ -209,18 +171,18 @@ int main(int argc, char **argv)
 {
     Options options;
     cli::CommandLine line("ale-console", usage);
-    line.text("lcm-url", options.lcm_url);
+    line.texts("lcm-url", options.fleet.lcm_urls);
     line.text("http", options.http);
     line.text("token", options.token);
     line.text("token-file", options.token_file);
     line.text("cert", options.certificate);
     line.text("key", options.key);
     line.text("origin", options.proxy);
-    line.text("recordings", options.recordings);
-    line.text("maps", options.maps);
-    line.text("keys", options.keys);
-    line.text("robots", options.robots);
-    line.text("robot", options.robot);
+    line.texts("recordings", options.fleet.recordings);
+    line.texts("maps", options.fleet.maps);
+    line.text("keys", options.fleet.key_file);
+    line.text("robots", options.fleet.robots_file);
+    line.texts("robot", options.fleet.robots);
     return line.run(argc, argv, [&] {
         check(options);
         if (!options.token.empty()) {

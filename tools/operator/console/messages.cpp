@@ -51,11 +51,6 @@ json pose_of(float x, float y, float theta)
     return json::array({number(x), number(y), number(theta)});
 }
 
-const char *state_name(int state)
-{
-    return state == 2 ? "good" : state == 1 ? "weak" : "lost";
-}
-
 json corner_of(const ale::corner_t &corner)
 {
     return {{"x", number(corner.x)},
@@ -91,13 +86,35 @@ std::string text_of(const json &message)
     return message.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
+json list_of(const std::vector<RobotTold> &robots)
+{
+    json list = json::array();
+    for (const RobotTold &robot : robots) {
+        list.push_back({{"name", robot.name}, {"state", robot.state}});
+    }
+    return list;
+}
+
 } // namespace
 
-std::string hello_message(const std::string &operator_name)
+const char *state_name(int state)
+{
+    return state == 2 ? "good" : state == 1 ? "weak" : "lost";
+}
+
+std::string hello_message(const std::string &operator_name, const std::string &robot,
+                          const std::vector<RobotTold> &robots)
 {
     return text_of({{"type", "hello"},
-                    {"protocol", 4},
-                    {"operator", operator_name.empty() ? json(nullptr) : json(operator_name)}});
+                    {"protocol", 5},
+                    {"operator", operator_name.empty() ? json(nullptr) : json(operator_name)},
+                    {"robot", robot},
+                    {"robots", list_of(robots)}});
+}
+
+std::string robots_message(const std::vector<RobotTold> &robots)
+{
+    return text_of({{"type", "robots"}, {"robots", list_of(robots)}});
 }
 
 std::string pose_message(const ale::pose_t &pose)
@@ -453,6 +470,9 @@ std::optional<PageMessage> page_message(const std::string &text)
     }
     if (type == "series") {
         return PageMessage{Kind::series};
+    }
+    if (type == "stop_all") {
+        return PageMessage{Kind::stop_all};
     }
     if (auto wish = recordings_wish(type, message)) {
         return wish;

@@ -1,4 +1,4 @@
-/* The messages between ale-console and its page: JSON, one object each; README.md lists the fields.
+/* The messages between ale-console and its page: JSON, one object each; WEB_SOCKET.md lists the fields.
  * Metres, radians and microseconds, rounded to what an eye or a map can use (0.1 mm, 0.1 mrad). */
 #ifndef CONSOLE_MESSAGES_H
 #define CONSOLE_MESSAGES_H
@@ -26,8 +26,20 @@
 namespace console
 {
 
-/* operator_name empty: no command can be given here. */
-std::string hello_message(const std::string &operator_name);
+/* good, weak or lost: a pose's state in a word. */
+const char *state_name(int state);
+
+/* A robot of the console in the list of them. */
+struct RobotTold {
+    std::string name;
+    std::string state; /* state_name; silent: no pose comes any more; waiting: none has come yet */
+};
+
+/* operator_name empty: no command can be given here. robot: that the page shows, one of the list. */
+std::string hello_message(const std::string &operator_name, const std::string &robot,
+                          const std::vector<RobotTold> &robots);
+/* Some are in another state than before. */
+std::string robots_message(const std::vector<RobotTold> &robots);
 std::string pose_message(const ale::pose_t &pose);
 std::string tracking_message(const ale::tracking_t &tracking);
 std::string plan_message(const ale::plan_t &plan);
@@ -70,10 +82,10 @@ std::string sent_message(const std::string &verb, const Sent &sent);
 
 /* What a page says: {"type":"got","count":n}; {"type":"command","words":["drive","0.2","0"]};
  * {"type":"look","at":ms}, null for now; {"type":"series"}; {"type":"shelf"}; {"type":"record","on":true};
- * {"type":"open","name":"..."}, a recording without its ending.
+ * {"type":"open","name":"..."}, a recording without its ending; {"type":"stop_all"}.
  * Nothing when the text is anything else. */
 struct PageMessage {
-    enum class Kind { got, command, look, series, shelf, record, open } kind = Kind::got;
+    enum class Kind { got, command, stop_all, look, series, shelf, record, open } kind = Kind::got;
     uint64_t drawn = 0;
     std::vector<std::string> words{};
     std::optional<int64_t> at_ms{};

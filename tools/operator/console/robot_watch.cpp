@@ -117,7 +117,7 @@ void RobotWatch::pose(const ale::pose_t &pose)
     const int64_t gap = last_pose_ ? static_cast<int64_t>(pose.scan) - last_pose_->scan - 1 : 0;
     feed::require(gap <= largest_gap, "scan number out of all proportion");
     extend_trail(pose);
-    board_.note_pose(Board::Clock::now(), static_cast<uint64_t>(gap));
+    board_.note_pose(Board::Clock::now(), static_cast<uint64_t>(gap), pose.state);
     board_.pin(Topic::pose, pose_message(pose));
     wheels_.pose(pose);
     show_wheels();

@@ -58,6 +58,24 @@ std::string header(lws *connection, lws_token_indexes token)
     return length > 0 ? std::string(text.data(), static_cast<size_t>(length)) : std::string();
 }
 
+/* Of the address, as in ?robot=rover1; empty: it is not there. */
+std::string argument(lws *connection, const char *name)
+{
+    const std::string_view wanted(name);
+    for (int k = 0;; k++) {
+        const int length = lws_hdr_fragment_length(connection, WSI_TOKEN_HTTP_URI_ARGS, k);
+        if (length <= 0) {
+            return "";
+        }
+        std::string text(static_cast<size_t>(length) + 1, '\0');
+        lws_hdr_copy_fragment(connection, text.data(), length + 1, WSI_TOKEN_HTTP_URI_ARGS, k);
+        text.pop_back();
+        if (text.compare(0, wanted.size(), wanted) == 0) {
+            return text.substr(wanted.size());
+        }
+    }
+}
+
 bool add_header(lws *connection, const char *name, std::string_view value, unsigned char **at,
                 unsigned char *end)
 {
@@ -100,6 +118,9 @@ std::string peer_of(lws *connection)
 constexpr char token_wanted[] =
     "<p>This console wants its token: open the address that ale-console printed when it started.";
 
+constexpr char no_such_robot[] =
+    "<p>This console has no robot of that name: open the address that ale-console printed when it started.";
+
 int serve(lws *connection, std::string_view path, bool has_token)
 {
     const ale_page_file_t *file = find_page_file(path);
@@ -131,20 +152,16 @@ struct WebCallbacks {
             server->came(connection);
             return 0;
         case LWS_CALLBACK_WSI_DESTROY:
-            server->antechamber_.leave(connection);
-            server->desk_.downloads().left(connection);
+            server->left(connection);
             return 0;
         case LWS_CALLBACK_HTTP:
             return answer_request(*server, connection, text);
         case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION:
-            return server->accepts(connection) ? 0 : refuse(connection);
+            return admit(*server, connection);
         case LWS_CALLBACK_ESTABLISHED:
-            server->antechamber_.leave(connection);
-            server->connections_.emplace(connection, server->new_connection(connection));
-            lws_callback_on_writable(connection);
-            return 0;
+            return established(*server, connection);
         case LWS_CALLBACK_HTTP_WRITEABLE:
-            return server->desk_.downloads().send_next(connection);
+            return server->send_file(connection);
         case LWS_CALLBACK_SERVER_WRITEABLE:
             return server->send_next(connection);
         case LWS_CALLBACK_RECEIVE:
@@ -170,25 +187,48 @@ struct WebCallbacks {
             return lws_return_http_status(connection, HTTP_STATUS_METHOD_NOT_ALLOWED, nullptr);
         }
         const std::optional<Wanted> wanted = wanted_of(path);
-        return wanted ? download(server, connection, *wanted, has_token) : serve(connection, path, has_token);
+        Robot *robot = has_token ? server.robot_of(connection) : nullptr;
+        if (has_token && robot == nullptr) {
+            return lws_return_http_status(connection, HTTP_STATUS_NOT_FOUND, no_such_robot);
+        }
+        return wanted ? download(server, connection, *wanted, robot) : serve(connection, path, has_token);
     }
 
-    /* Who has the token may take as long as the file is large. */
-    static int download(WebServer &server, lws *connection, const Wanted &wanted, bool has_token)
+    /* Who has the token may take as long as the file is large. robot: nullptr for who has none. */
+    static int download(WebServer &server, lws *connection, const Wanted &wanted, Robot *robot)
     {
-        if (!has_token) {
+        if (robot == nullptr) {
             return lws_return_http_status(connection, HTTP_STATUS_FORBIDDEN, token_wanted);
         }
         server.antechamber_.leave(connection);
-        return server.desk_.fetch(connection, wanted)
+        return robot->desk().fetch(connection, wanted)
                    ? 0
                    : lws_return_http_status(connection, HTTP_STATUS_SERVICE_UNAVAILABLE, nullptr);
     }
 
-    static int refuse(lws *connection)
+    static int admit(WebServer &server, lws *connection)
     {
-        lws_return_http_status(connection, HTTP_STATUS_FORBIDDEN, nullptr);
+        if (!server.accepts(connection)) {
+            return refuse(connection, HTTP_STATUS_FORBIDDEN);
+        }
+        Robot *robot = server.robot_of(connection);
+        lws_set_opaque_user_data(connection, robot); /* the address is forgotten once it is let in */
+        return robot != nullptr ? 0 : refuse(connection, HTTP_STATUS_NOT_FOUND);
+    }
+
+    static int refuse(lws *connection, unsigned status)
+    {
+        lws_return_http_status(connection, status, nullptr);
         return -1;
+    }
+
+    static int established(WebServer &server, lws *connection)
+    {
+        auto *robot = static_cast<Robot *>(lws_get_opaque_user_data(connection));
+        server.antechamber_.leave(connection);
+        server.connections_.emplace(connection, server.new_connection(connection, *robot));
+        lws_callback_on_writable(connection);
+        return 0;
     }
 
     static int received(WebServer &server, lws *connection, std::string_view part)
@@ -235,8 +275,7 @@ const lws_retry_bo_t keep_alive = {nullptr, 0, 0, 15, 30, 0};
 
 } // namespace
 
-WebServer::WebServer(Board &board, Commander &commander, Desk &desk, Door door)
-    : board_(board), commander_(commander), desk_(desk), door_(std::move(door))
+WebServer::WebServer(Fleet &fleet, Door door) : fleet_(fleet), door_(std::move(door))
 {
     require_free(door_.address);
     char name[256] = "";
@@ -271,14 +310,12 @@ WebServer::WebServer(Board &board, Commander &commander, Desk &desk, Door door)
                  : ": is " + door_.certificate + " a certificate, and " + door_.key + " its key?"));
     }
     door_.address.port = static_cast<uint16_t>(lws_get_vhost_listen_port(host));
-    board_.on_change([this] { wake(); });
-    desk_.open([this] { wake(); });
+    fleet_.open([this] { wake(); });
 }
 
 WebServer::~WebServer()
 {
-    board_.on_change(nullptr);
-    desk_.close();
+    fleet_.close();
     lws_context_destroy(context_);
 }
 
@@ -312,16 +349,18 @@ std::string WebServer::url() const
 
 bool WebServer::has_token(lws *connection) const
 {
-    constexpr size_t longest = 256;
-    char argument[longest];
-    const char *given =
-        lws_get_urlarg_by_name(connection, "token=", argument, static_cast<int>(sizeof argument));
-    const std::string_view text(given == nullptr ? "" : given);
+    const std::string text = argument(connection, "token=");
     const std::string &token = door_.token;
     return text.size() == token.size() && sodium_memcmp(text.data(), token.data(), token.size()) == 0;
 }
 
-WebServer::Connection WebServer::new_connection(lws *connection)
+/* nullptr: it asks for one that is not of this console. */
+Robot *WebServer::robot_of(lws *connection)
+{
+    return fleet_.find(argument(connection, "robot="));
+}
+
+WebServer::Connection WebServer::new_connection(lws *connection, Robot &robot)
 {
     const uint64_t page = ++pages_;
     const Desk::Tell tell = {
@@ -336,10 +375,12 @@ WebServer::Connection WebServer::new_connection(lws *connection)
             }
         }};
     Client client(
-        board_, commander_.operator_name(),
-        [this, page](const std::vector<std::string> &words) { return commander_.send(page, words); },
-        {[this] { return desk_.recorder(); },
-         [this, tell](const PageMessage &message) { return desk_.ask(message, tell); }});
+        robot.board(), robot.commander().operator_name(),
+        [&robot, page](const std::vector<std::string> &words) { return robot.commander().send(page, words); },
+        {[&robot] { return robot.desk().recorder(); },
+         [&robot, tell](const PageMessage &message) { return robot.desk().ask(message, tell); }},
+        {robot.name(), [this] { return fleet_.told(); },
+         [this, &robot, page] { return fleet_.stop_all(page, robot); }});
     return {std::move(client), page, peer_of(connection), {}};
 }
 
@@ -400,9 +441,29 @@ int WebServer::send_next(lws *connection)
     return 0;
 }
 
+int WebServer::send_file(lws *connection)
+{
+    for (Robot &robot : fleet_.robots()) {
+        if (robot.desk().downloads().has(connection)) {
+            return robot.desk().downloads().send_next(connection);
+        }
+    }
+    return 0;
+}
+
+void WebServer::left(lws *connection)
+{
+    antechamber_.leave(connection);
+    for (Robot &robot : fleet_.robots()) {
+        robot.desk().downloads().left(connection);
+    }
+}
+
 void WebServer::woken()
 {
-    desk_.hand_out();
+    for (Robot &robot : fleet_.robots()) {
+        robot.desk().hand_out();
+    }
     offer_all();
 }
 

@@ -1,9 +1,10 @@
-/* The page over HTTP or HTTPS, and the board over a web socket to every browser that asks.
+/* The page over HTTP or HTTPS, and a robot's board over a web socket to every browser that asks.
  *
- *   WebServer server(board, commander, door);   (throws std::runtime_error)
- *   server.run();                               (until another thread stops it)
+ *   WebServer server(fleet, door);   (throws std::runtime_error)
+ *   server.run();                    (until another thread stops it)
  *
- * Page and web socket are for those who have the token in the address (?token=...).
+ * Page and web socket are for those who have the token in the address (?token=...). Which robot they are of
+ * stands there, too (&robot=...); without, of the first one.
  * One thread runs the server; wake() and stop() may be called from any. */
 #ifndef CONSOLE_WEB_SERVER_H
 #define CONSOLE_WEB_SERVER_H
@@ -15,11 +16,9 @@
 #include <unordered_map>
 
 #include "operator/console/antechamber.h"
-#include "operator/console/board.h"
 #include "operator/console/client.h"
-#include "operator/console/commander.h"
+#include "operator/console/fleet.h"
 #include "operator/console/http_address.h"
-#include "operator/console/recordings/desk.h"
 
 struct lws;
 struct lws_context;
@@ -39,7 +38,7 @@ struct Door {
 class WebServer
 {
   public:
-    WebServer(Board &board, Commander &commander, Desk &desk, Door door);
+    WebServer(Fleet &fleet, Door door);
     ~WebServer();
     WebServer(const WebServer &) = delete;
     WebServer &operator=(const WebServer &) = delete;
@@ -75,20 +74,21 @@ class WebServer
 
     Client *client_of(uint64_t page);
     bool has_token(lws *connection) const;
+    Robot *robot_of(lws *connection);
     bool accepts(lws *connection) const;
     bool has_room_for(lws *connection) const;
     void came(lws *connection);
     void end_overdue();
-    Connection new_connection(lws *connection);
+    Connection new_connection(lws *connection, Robot &robot);
     /* 0, or -1: the connection takes no more, and is to be closed. */
     int send_next(lws *connection);
+    int send_file(lws *connection);
+    void left(lws *connection);
     void woken();
     void offer_all();
     void links_due();
 
-    Board &board_;
-    Commander &commander_;
-    Desk &desk_;
+    Fleet &fleet_;
     Door door_;
     Ours ours_;
     uint64_t pages_ = 0;

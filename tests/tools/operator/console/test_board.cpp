@@ -112,7 +112,7 @@ TEST(Board, AfterARestartNothingOfTheFormerLifeIsLeft)
 {
     Board board;
     board.pin(Topic::map, "old");
-    board.note_pose(Board::Clock::now(), 3);
+    board.note_pose(Board::Clock::now(), 3, 2);
     const uint64_t life = board.life();
     board.clear();
     EXPECT_NE(board.life(), life);
@@ -126,13 +126,14 @@ TEST(Board, TheLinksRateAndAgeAreThoseOfTheArrivals)
     Board board;
     const auto start = Board::Clock::now();
     for (int k = 0; k < 50; k++) {
-        board.note_pose(start + milliseconds(100 * k), k == 10 ? 2 : 0);
+        board.note_pose(start + milliseconds(100 * k), k == 10 ? 2 : 0, k < 49 ? 2 : 1);
     }
     const auto link = board.link(start + milliseconds(4900 + 345));
     EXPECT_EQ(link.pose_age_ms, 345);
     EXPECT_NEAR(link.pose_rate_hz, 10, 1e-6);
     EXPECT_EQ(link.poses, 50U);
     EXPECT_EQ(link.lost_poses, 2U);
+    EXPECT_EQ(link.state, 1) << "of the last pose";
 }
 
 TEST(Board, OneThreadPinsWhileAnotherReads)

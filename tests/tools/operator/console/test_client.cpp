@@ -385,3 +385,42 @@ TEST(Client, WhoAsksAndTakesNoAnswersEndsHisConnection)
     EXPECT_TRUE(client.heard(R"({"type":"shelf"})"));
     EXPECT_FALSE(watcher(board).heard(R"({"type":"record","on":true})")) << "where there is nobody to ask";
 }
+
+TEST(Client, HowTheRobotsAreIsToldFirstAndBehindTheLinkWhenOneOfThemHasChanged)
+{
+    const Board board;
+    std::vector<console::RobotTold> robots = {{"rover1", "good"}, {"rover2", "waiting"}};
+    Client client(board, "", nullptr, {}, {"rover2", [&] { return robots; }, [] { return console::Sent(); }});
+    const auto hello = next(client);
+    EXPECT_EQ((*hello)["robot"], "rover2");
+    EXPECT_EQ((*hello)["robots"],
+              json::parse(R"([{"name":"rover1","state":"good"},{"name":"rover2","state":"waiting"}])"));
+    EXPECT_EQ(types_of(client), (std::vector<std::string>{"link", "trail"}));
+    robots[1].state = "weak";
+    EXPECT_FALSE(next(client)) << "not before the link is told of";
+    client.link_due();
+    EXPECT_EQ(next(client)->value("type", ""), "link");
+    EXPECT_EQ((*next(client))["robots"][1]["state"], "weak");
+    client.link_due();
+    EXPECT_EQ(types_of(client), std::vector<std::string>{"link"}) << "nothing has changed";
+}
+
+TEST(Client, AStopForAllIsAnsweredAsACommand)
+{
+    const Board board;
+    int stops = 0;
+    Client client(board, "", nullptr, {},
+                  {"rover1", [] { return std::vector<console::RobotTold>(); },
+                   [&] {
+                       stops++;
+                       return console::Sent{7, stops == 1 ? "" : "rover2: no robot has been heard yet"};
+                   }});
+    drain(client);
+    ASSERT_TRUE(client.heard(R"({"type":"stop_all"})"));
+    EXPECT_EQ(*next(client), json::parse(R"({"type":"sent","verb":"stop","number":7,"refusal":null})"));
+    ASSERT_TRUE(client.heard(R"({"type":"stop_all"})"));
+    EXPECT_EQ((*next(client))["refusal"], "rover2: no robot has been heard yet");
+    while (stops < 100 && client.heard(R"({"type":"stop_all"})")) {
+    }
+    EXPECT_EQ(stops, 66) << "64 that the page has not fetched";
+}

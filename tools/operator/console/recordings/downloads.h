@@ -29,6 +29,10 @@ class Downloads
     {
         return under_way_.size() < most;
     }
+    bool has(lws *connection) const
+    {
+        return under_way_.count(connection) > 0;
+    }
     /* A number by which what comes of it is told. */
     uint64_t expect(lws *connection);
 
