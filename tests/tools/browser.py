@@ -131,6 +131,10 @@ class Browser:
         found = self._call("POST", f"{self.session}/elements", {"using": "css selector", "value": selector})
         return [next(iter(reference.values())) for reference in found]
 
+    def select(self, option):
+        """As a hand does in the list that a <select> opens, which is none of the page's."""
+        self._call("POST", f"{self.session}/element/{option}/click")
+
     def spoken_name(self, element):
         """The name by which a screen reader knows an element, as the browser computes it."""
         return self._call("GET", f"{self.session}/element/{element}/computedlabel")

@@ -3,6 +3,7 @@ import { Link } from "./link.js";
 import { Scene } from "./scene.js";
 import { View } from "./view.js";
 import { Painter } from "./paint.js";
+import { Fleet } from "./fleet.js";
 import { Health } from "./health.js";
 import { Layers } from "./layers.js";
 import { Pointing } from "./pointing.js";
@@ -19,6 +20,7 @@ const pointing = new Pointing(canvas, view, () => painter.wanted());
 const painter = new Painter(canvas, scene, view, pointing, layers);
 const health = new Health(layers);
 const link = new Link((message) => {
+  fleet.take(message);
   timeline.take(message);
   scene.take(message);
   control.take(message, timeline.isPast);
@@ -31,6 +33,9 @@ const control = new Control(link, pointing);
 const timeline = new Timeline(link);
 const plots = new Plots(link);
 const recordings = new Recordings(link);
+const fleet = new Fleet(link, () => {
+  for (const part of [view, pointing, control, health, recordings]) part.leave();
+});
 
 for (const [id, action] of Object.entries({
   "zoom-in": () => view.zoom(1.4),
@@ -61,6 +66,7 @@ function changeTheme() {
 setInterval(() => {
   health.showLink(link, scene);
   control.showLink(link.state);
+  fleet.showLink(link.state);
   timeline.showLink(link.state);
   recordings.showLink(link.state);
 }, 100);

@@ -64,6 +64,16 @@ export class Control {
     this.#show();
   }
 
+  // Another robot is shown: nothing that was begun with this one may reach that one.
+  leave() {
+    this.#release();
+    this.driving = false;
+    this.held = undefined;
+    this.waitsFor = null;
+    this.#say("", "");
+    for (const button of document.querySelectorAll("button[data-sure]")) this.#unsure(button);
+  }
+
   // The state of the link, as link.js has it.
   showLink(state) {
     if (state === this.linkState) return;
@@ -154,8 +164,9 @@ export class Control {
 
   #listenToKeys() {
     addEventListener("keydown", (event) => {
-      if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches(WRITTEN_TO)) return;
       const key = driveKey(event);
+      const written = event.target.matches(WRITTEN_TO) && !(event.target.id === "robot" && key === " ");
+      if (event.ctrlKey || event.metaKey || event.altKey || written) return;
       if (key === " " && !this.silence) {
         event.preventDefault();
         this.#stop();
@@ -193,7 +204,6 @@ export class Control {
   #whenSure(id, action) {
     const button = element(id);
     if (button.dataset.sure) {
-      clearTimeout(Number(button.dataset.sure));
       this.#unsure(button);
       action();
       return;
@@ -204,6 +214,7 @@ export class Control {
   }
 
   #unsure(button) {
+    clearTimeout(Number(button.dataset.sure));
     button.textContent = button.dataset.words;
     delete button.dataset.sure;
   }

@@ -48,6 +48,16 @@ export class Health {
     }
   }
 
+  // Another robot is shown, of which nothing is known yet.
+  leave() {
+    for (const { id } of document.querySelectorAll("dd[id]:not(#control dd)")) show(id, "–", "");
+    for (const id of ["seen-note", "stage-note"]) show(id, "");
+    for (const row of this.stageRows) [...row.cells].slice(1).forEach((time) => (time.textContent = "–"));
+    document.querySelector("#counters tbody").replaceChildren();
+    this.layers.tellEmpty("apart", true);
+    this.chartDue = true;
+  }
+
   // State and age, and the alarm when they are bad: called ten times a second.
   showLink(link, scene) {
     const state = scene.recording && !MUTE.includes(link.state) ? "recording" : link.state;

@@ -6,23 +6,40 @@ const SILENCE_MS = 800; // the console speaks four times a second
 const POSE_SILENCE_MS = 700; // a pose comes with every scan, ten a second from a URG
 const STATUS_SILENCE_MS = 1600; // a status comes every second
 const RETRY_MS = 400;
+const PATIENCE_MS = 1000; // with a console that does not answer
 
 export class Link {
   constructor(onMessage) {
     this.onMessage = onMessage;
-    this.received = 0;
-    this.told = 0;
+    this.#forget();
+    // A page that comes to the front again asks at once for what it missed.
+    document.addEventListener("visibilitychange", () => this.drawn());
+  }
+
+  #forget() {
     this.heardAt = -Infinity; // anything from the console
     this.poseAt = -Infinity; // a pose, by this page's clock
     this.statusAt = -Infinity;
     this.scansCome = true; // as the status says
     this.past = false; // poses and statuses that come are old ones
     this.opened = false;
-    // A page that comes to the front again asks at once for what it missed.
-    document.addEventListener("visibilitychange", () => this.drawn());
+  }
+
+  // Another robot of the console: what comes from now on is of that one, and so is all that the page's address is handed on
+  // to. What was known of this one is forgotten at once, whenever the console answers; nothing can be sent until then.
+  choose(robot) {
+    const query = new URLSearchParams(location.search);
+    query.set("robot", robot);
+    history.replaceState(null, "", `?${query.toString().replaceAll("+", "%20")}`);
+    this.socket.onmessage = this.socket.onclose = null;
+    this.socket.close();
+    this.#forget();
+    this.open();
+    this.onMessage({ ...this.hello, robot });
   }
 
   open() {
+    clearTimeout(this.retry);
     const scheme = location.protocol === "https:" ? "wss" : "ws";
     this.socket = new WebSocket(`${scheme}://${location.host}/${location.search}`);
     this.received = 0;
@@ -31,8 +48,16 @@ export class Link {
     this.socket.onmessage = (event) => this.#take(JSON.parse(event.data));
     this.socket.onclose = () => {
       this.heardAt = -Infinity; // nothing more can come
-      setTimeout(() => this.open(), RETRY_MS);
+      this.retry = setTimeout(() => this.#openAgain(), RETRY_MS);
     };
+  }
+
+  // A console that was started anew without this robot says so on its page, and to no web socket.
+  #openAgain() {
+    const { socket } = this;
+    const again = () => socket === this.socket && this.open();
+    fetch(location.href, { cache: "no-store", signal: AbortSignal.timeout(PATIENCE_MS) })
+      .then((answer) => (answer.status === 404 ? location.reload() : again()), again);
   }
 
   send(message) {
@@ -81,6 +106,7 @@ export class Link {
       if (message.protocol !== PROTOCOL) {
         location.reload(); // the console was replaced by another version
       }
+      this.hello = message;
       this.poseAt = -Infinity;
       this.past = false;
     } else if (message.type === "past") {

@@ -42,6 +42,11 @@ export class Pointing {
     this.mode === "goal" ? this.#end() : this.#begin("goal");
   }
 
+  // What is pointed at is on the map of a robot that is not shown any more.
+  leave() {
+    this.#end();
+  }
+
   get metres() {
     return Math.hypot(this.to[0] - this.from[0], this.to[1] - this.from[1]);
   }

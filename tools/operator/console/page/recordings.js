@@ -79,6 +79,17 @@ export class Recordings {
     }
   }
 
+  // Another robot is shown, which has recordings and a map of its own.
+  leave() {
+    this.shelf = this.recorder = null;
+    this.hasMap = this.all = false;
+    document.querySelector("#shelf .thumbnail").replaceWith(made("span", { className: "thumbnail" }));
+    element("shelf").replaceChildren(element("shelf").firstElementChild);
+    element("shelf-more").hidden = true;
+    this.#showRecorder();
+    this.#showLinks();
+  }
+
   // The state of the link, as link.js has it.
   showLink(state) {
     const mute = DUMB.includes(state);

@@ -29,7 +29,7 @@ export class Timeline {
 
   take(message) {
     switch (message.type) {
-      case "hello": this.at = this.wanted = this.recording = null; this.asked = false; this.#play(false); break;
+      case "hello": this.at = this.wanted = this.recording = null; this.asked = false; this.kept = [0, 0]; this.#play(false); break;
       case "link": this.kept = message.kept; break;
       case "past": this.#answered(message); break;
       default: return;

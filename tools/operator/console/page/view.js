@@ -13,13 +13,24 @@ export class View {
     this.canvas = canvas;
     this.scene = scene;
     this.changed = changed;
+    this.mode = "whole";
+    this.#rest();
+    this.pointers = new Map();
+    this.#listen();
+  }
+
+  // Where one looks before there is something to see.
+  #rest() {
     this.x = 0;
     this.y = 0;
     this.scale = 60;
-    this.target = null;
-    this.mode = "whole";
-    this.pointers = new Map();
-    this.#listen();
+    this.settled = undefined;
+  }
+
+  // Another robot is shown, somewhere else.
+  leave() {
+    this.#rest();
+    this.whole();
   }
 
   toScreen(x, y) {

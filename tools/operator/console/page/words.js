@@ -144,6 +144,10 @@ export const STATES = {
   lost: ["lost", "position unknown"],
 };
 
+// In the list of robots: those that are not shown are known by a word.
+const ROBOTS = { waiting: "not heard yet" };
+export const robotInWords = ({ name, state }) => `${name}: ${ROBOTS[state] ?? state}`;
+
 // While no robot has been heard: what a robot sends stays on it unless it is fetched.
 export const ADVICE_ON_HEARING =
   "A robot's messages stay on the robot. For this computer to hear it, run here: ale-bridge --connect ROBOT:7700 --keys KEY (on the robot: ale-bridge --listen 7700, see its --help).";
