@@ -14,6 +14,7 @@
 
 extern "C" {
 #include "store/map_file.h"
+#include "store/map_text.h"
 }
 
 namespace
@@ -92,7 +93,7 @@ TEST_F(MapFile, AMapComesBackAsItWas)
 TEST_F(MapFile, AMapMaySayWhereTheRobotWas)
 {
     const auto map = some_map(2, 1);
-    const ale_pose_t pose = {-1200345, ALE_MAP_FILE_FARTHEST_UM, 4294967295U};
+    const ale_pose_t pose = {-1200345, ALE_MAP_FARTHEST_UM, 4294967295U};
     ale_pose_t read = {1, 2, 3};
     bool known = true;
     saved(*map);
@@ -164,7 +165,7 @@ TEST_F(MapFile, NumbersThatNoMapHasAreRefusedThoughTheSumIsRight)
         return path_.string() + ": line " + std::to_string(line) + ": damaged or too large";
     };
     EXPECT_EQ(refusal([](ale_map_t &map) { map.line[0].start.y_um = INT32_MIN; }), at(4));
-    EXPECT_EQ(refusal([](ale_map_t &map) { map.line[1].end.x_um = ALE_MAP_FILE_FARTHEST_UM + 1; }), at(5));
+    EXPECT_EQ(refusal([](ale_map_t &map) { map.line[1].end.x_um = ALE_MAP_FARTHEST_UM + 1; }), at(5));
     EXPECT_EQ(refusal([](ale_map_t &map) { map.line[1].cov_alpha_rho = INT64_MIN; }), at(5));
     EXPECT_EQ(refusal([](ale_map_t &map) { map.line[1].cov_alpha_rho = -728838383837000; }), at(5));
     EXPECT_EQ(refusal([](ale_map_t &map) { map.line[1].var_rho_um2 = INT64_MAX; }), at(5));
