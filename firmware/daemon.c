@@ -10,6 +10,7 @@
 #include "mapping/mapper_thread.h"
 #include "mapping/persistence.h"
 #include "mapping/start_map.h"
+#include "mapping/tile_thread.h"
 #include "operator/drive.h"
 #include "operator/explore_thread.h"
 #include "realtime/rt.h"
@@ -30,6 +31,8 @@ struct ale_daemon {
     ale_bus_t *bus;
     ale_estimator_t *estimator;
     ale_rt_task_t *estimate;
+    ale_tile_loader_t *tile_loader; /* of a map of tiles; else NULL */
+    ale_tile_thread_t *tiles;
     ale_mapper_thread_t *mapper;
     ale_map_drawer_t *drawer;
     ale_acquire_t *acquire;
@@ -69,7 +72,11 @@ static int prepare(ale_daemon_t *daemon)
     if (!daemon->estimator) {
         return fail(2, "the configuration of [extract], [noise] or [odometry] is refused by the core");
     }
-    return ale_start_map_load(config, daemon->estimator) < 0 ? 2 : 0;
+    if (ale_start_map_load(config, daemon->estimator, &daemon->tile_loader) < 0) {
+        return 2;
+    }
+    daemon->exchange.has_tiles = daemon->tile_loader != NULL;
+    return 0;
 }
 
 /* What writes to disk, before those who tell it anything. */
@@ -105,7 +112,11 @@ static bool start_estimate_and_mapping(ale_daemon_t *daemon)
     }
     daemon->mapper = ale_mapper_thread_start(exchange);
     daemon->drawer = ale_map_drawer_start(exchange);
-    return daemon->mapper && daemon->drawer && (exchange->explore || !takes_commands(daemon));
+    if (daemon->tile_loader) {
+        daemon->tiles = ale_tile_thread_start(exchange, daemon->tile_loader);
+    }
+    return daemon->mapper && daemon->drawer && (daemon->tiles || !daemon->tile_loader) &&
+           (exchange->explore || !takes_commands(daemon));
 }
 
 /* What was got of real time, for people and for ALE_STATUS. */
@@ -199,11 +210,11 @@ static void tell_lost_realtime(const ale_daemon_t *daemon)
 static void tell_shortfall(const ale_daemon_t *daemon)
 {
     const ale_shortfall_t s = ale_estimator_shortfall(daemon->estimator);
-    if (s.overloaded > 0 || s.corrections_late > 0) {
+    if (s.overloaded > 0 || s.corrections_late > 0 || s.tiles_late > 0) {
         ale_log_line(
             "this computer did not keep up: %u of %u scans set aside for newer ones, %u corrections of the "
-            "map late",
-            s.overloaded, s.scans, s.corrections_late);
+            "map late, %u pieces of tiles late",
+            s.overloaded, s.scans, s.corrections_late, s.tiles_late);
     }
 }
 
@@ -213,6 +224,8 @@ void ale_daemon_stop(ale_daemon_t *daemon)
     ale_service_tell(&daemon->service, "STOPPING=1");
     ale_acquire_stop(daemon->acquire);
     stop_estimate(daemon);
+    ale_tile_thread_stop(daemon->tiles);
+    ale_tile_loader_close(daemon->tile_loader);
     ale_mapper_thread_stop(daemon->mapper);
     ale_map_drawer_stop(daemon->drawer);
     ale_telemetry_stop(daemon->telemetry);

@@ -123,7 +123,9 @@ const ale_config_key_t ale_config_keys[] = {
     {"realtime", "cpu", NUMBER(cpu, 0, -1, 1023), "Processor of the estimate task. -1: any."},
     {"realtime", "lock_memory", BOOL(lock_memory), "Keep all memory from being paged out."},
 
-    {"map", "file", TEXT(map), "Map to start from. Empty: none, the first scan is the origin."},
+    {"map", "file", TEXT(map),
+     "Map to start from, or one of tiles, which are loaded around the robot. Empty: none, the first scan\n"
+     "is the origin."},
     {"map", "folder", TEXT(map_folder),
      "Where maps are saved and loaded by name; made when it is not there."},
 
@@ -145,7 +147,7 @@ const ale_config_key_t ale_config_keys[] = {
 
     {"map", "keep", TEXT(keep),
      "Where map and pose are kept while running; the robot goes on from there at the next start,\n"
-     "after a power cut too. Goes before file. Empty: not kept."},
+     "after a power cut too. Goes before file; in a map of tiles the pose alone counts. Empty: not kept."},
     {"map", "keep_seconds", NUMBER(keep_seconds, 0, 1, 3600), "How often, seconds."},
 
     {"recorder", "folder", TEXT(recorder_folder),

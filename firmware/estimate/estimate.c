@@ -33,6 +33,8 @@ struct ale_estimator {
     uint32_t overloaded;
     uint32_t late;
     uint32_t corrections_late;
+    uint32_t tiles_late;
+    uint32_t tiles_waiting; /* pieces, that were counted */
     uint32_t answered;
     uint32_t next_scan; /* by the pipeline's count, which corrections go by */
     uint32_t odometry_taken;
@@ -111,7 +113,8 @@ ale_shortfall_t ale_estimator_shortfall(const ale_estimator_t *estimator)
 {
     return (ale_shortfall_t){.scans = estimator->answered,
                              .overloaded = estimator->overloaded,
-                             .corrections_late = estimator->corrections_late};
+                             .corrections_late = estimator->corrections_late,
+                             .tiles_late = estimator->tiles_late};
 }
 
 void ale_estimator_load_map(ale_estimator_t *estimator, const ale_map_t *map, const ale_pose_t *pose)
@@ -119,6 +122,13 @@ void ale_estimator_load_map(ale_estimator_t *estimator, const ale_map_t *map, co
     const ale_pose_t unknown = {0};
     ale_pipeline_load_map(estimator->pipeline, map, ale_exchange_know(estimator->exchange, map),
                           pose ? *pose : unknown, pose != NULL);
+    estimator->map_waits = true;
+}
+
+void ale_estimator_load_tiles(ale_estimator_t *estimator, const ale_pose_t *pose)
+{
+    const ale_pose_t unknown = {0};
+    ale_pipeline_load_tiles(estimator->pipeline, pose ? *pose : unknown, pose != NULL);
     estimator->map_waits = true;
 }
 
@@ -147,6 +157,32 @@ static void take_corrections(ale_estimator_t *estimator)
         estimator->map_moves++;
         estimator->map_waits = true;
         ale_ring_release(corrections);
+    }
+}
+
+/* Pieces of tiles, likewise; one a scan, so that a scan never waits for all that is loaded around the robot.
+ */
+static void take_tiles(ale_estimator_t *estimator)
+{
+    ale_ring_t *tiles = estimator->exchange->tiles;
+    const uint32_t ready = ale_ring_ready(tiles);
+    for (; estimator->tiles_waiting < ready; estimator->tiles_waiting++) {
+        const ale_tile_change_t *change = ale_ring_at(tiles, estimator->tiles_waiting);
+        estimator->tiles_late += change->due < estimator->next_scan;
+    }
+    if (ready > 0 && ale_pipeline_change_tiles(estimator->pipeline, ale_ring_at(tiles, 0))) {
+        estimator->map_waits = true;
+        estimator->tiles_waiting--;
+        ale_ring_release(tiles);
+    }
+}
+
+static void offer_whereabouts(ale_estimator_t *estimator)
+{
+    ale_whereabouts_t *slot =
+        estimator->exchange->has_tiles ? ale_ring_reserve(estimator->exchange->whereabouts) : NULL;
+    if (slot && ale_pipeline_whereabouts(estimator->pipeline, slot)) {
+        ale_ring_commit(estimator->exchange->whereabouts);
     }
 }
 
@@ -244,7 +280,9 @@ static void answer_oldest(ale_estimator_t *estimator, uint32_t waiting)
     ale_ring_release(exchange->scans);
     offer_keyframe(estimator);
     offer_observation(estimator, &estimate);
+    offer_whereabouts(estimator);
     take_corrections(estimator);
+    take_tiles(estimator);
 }
 
 /* Hands the map over when it has changed, once a second at most: it is large. */

@@ -27,6 +27,7 @@ typedef struct {
     uint32_t scans; /* answered in all */
     uint32_t overloaded;
     uint32_t corrections_late; /* of the map, taken at a later scan than the one that they name */
+    uint32_t tiles_late;       /* pieces of it that came after that */
 } ale_shortfall_t;
 
 ale_shortfall_t ale_estimator_shortfall(const ale_estimator_t *estimator);
@@ -34,6 +35,9 @@ ale_shortfall_t ale_estimator_shortfall(const ale_estimator_t *estimator);
 /* Before the task runs: a known map to start from. pose: where the robot is in it; NULL: that is to be found.
  */
 void ale_estimator_load_map(ale_estimator_t *estimator, const ale_map_t *map, const ale_pose_t *pose);
+
+/* The same for a map of tiles, which the tile loader reads as the robot says where it is. */
+void ale_estimator_load_tiles(ale_estimator_t *estimator, const ale_pose_t *pose);
 
 /* One release's work: all that lies in the rings now. Bounded by their capacities. */
 void ale_estimator_step(ale_estimator_t *estimator);

@@ -35,6 +35,9 @@ static const channel_t rings[] = {
     RING(corrections, ale_correction_t, ALE_CORRECTION_SLOTS),
     RING(grid_corrections, ale_correction_t, ALE_CORRECTION_SLOTS),
     RING(observations, ale_scan_observation_t, ALE_OBSERVATION_SLOTS),
+    RING(whereabouts, ale_whereabouts_t, ALE_WHEREABOUTS_SLOTS),
+    RING(tiles, ale_tile_change_t, ALE_TILE_SLOTS),
+    RING(tiles_to_mapper, ale_tile_change_t, ALE_TILE_SLOTS),
 };
 
 static const channel_t snapshots[] = {

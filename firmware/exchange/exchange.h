@@ -13,6 +13,7 @@
  *   estimate ── keyframes ──► mapper ── corrections ──► estimate, exploration
  *      └── scan observations ──► drawer ◄── keyframe poses (newest) ──┘
  *                                  └── drawn map (newest) ──► telemetry ◄── pose graph (newest) ── mapper
+ *   estimate ── whereabouts ──► tile loader ── tiles ──► estimate, mapper
  *
  * Rings and snapshots have one writer and one reader each. Times are of the clock inside (clock.h). */
 #ifndef ALE_FIRMWARE_EXCHANGE_EXCHANGE_H
@@ -25,6 +26,7 @@
 #include "exchange/ring.h"
 #include "exchange/snapshot.h"
 #include "exchange/thread_messages.h"
+#include "map/tile_change.h"
 #include "realtime/clock.h"
 #include "realtime/rt.h"
 #include "track/correction.h"
@@ -43,6 +45,10 @@ enum { ALE_KEYFRAME_SLOTS = 16, ALE_CORRECTION_SLOTS = 4 };
 
 /* Scan observations of several metres, should a large map be drawn just now. */
 enum { ALE_OBSERVATION_SLOTS = 32 };
+
+/* Whereabouts of eight seconds, should a disk be slow; pieces of tiles for so many scans: the loader waits
+ * for room. */
+enum { ALE_WHEREABOUTS_SLOTS = 16, ALE_TILE_SLOTS = 32 };
 
 typedef struct {
     ale_clock_t clock;
@@ -66,6 +72,9 @@ typedef struct {
     ale_snapshot_t *graph;           /* ale_mapper_graph_t: mapper to telemetry */
     ale_snapshot_t *drawn_map;       /* ale_drawn_map_t: drawer to telemetry */
     ale_snapshot_t *loaded_map;      /* ale_loaded_map_t: map storage to estimate */
+    ale_ring_t *whereabouts;         /* ale_whereabouts_t: estimate to tile loader, when there is one */
+    ale_ring_t *tiles;               /* ale_tile_change_t: tile loader to estimate */
+    ale_ring_t *tiles_to_mapper;     /* the same: to mapper */
     ale_snapshot_t *known_to_mapper; /* ale_loaded_map_t, the one that is or will be driven in: */
     ale_snapshot_t *known_to_drawer; /* map storage to both */
 
@@ -81,6 +90,7 @@ typedef struct {
     struct ale_recorder *recorder;       /* by acquire and telemetry */
     struct ale_persistence *persistence; /* by telemetry: map and pose */
     uint32_t maps_loaded;                /* so far */
+    bool has_tiles;                      /* there is a tile loader */
 } ale_exchange_t;
 
 /* Everything allocated and touched. 0, or -1: out of memory or descriptors (nothing is left open). */

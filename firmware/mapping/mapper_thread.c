@@ -61,8 +61,9 @@ static void show_graph(ale_mapper_thread_t *thread)
 /* Whether the map that the keyframe was taken in, if it was loaded, is known. */
 static bool knows_map_of(ale_mapper_thread_t *thread, const ale_keyframe_t *keyframe)
 {
-    if (keyframe->loaded == 0 || keyframe->epoch == thread->known_epoch) {
-        return true;
+    if (keyframe->loaded == 0 || keyframe->loaded == ALE_LOADED_TILES ||
+        keyframe->epoch == thread->known_epoch) {
+        return true; /* tiles the mapper knows as they come */
     }
     bool fresh = false;
     const ale_loaded_map_t *known = ale_snapshot_newest(thread->exchange->known_to_mapper, &fresh);
@@ -83,9 +84,20 @@ static void add(ale_mapper_thread_t *thread, const ale_keyframe_t *keyframe)
     }
 }
 
+/* Without memory for a piece there are fewer walls to be held by. */
+static void take_tiles(ale_mapper_thread_t *thread)
+{
+    ale_ring_t *tiles = thread->exchange->tiles_to_mapper;
+    for (uint32_t ready = ale_ring_ready(tiles); ready > 0; ready--) {
+        ale_mapper_change_tiles(thread->mapper, ale_ring_at(tiles, 0));
+        ale_ring_release(tiles);
+    }
+}
+
 static void work_off(ale_mapper_thread_t *thread)
 {
     ale_ring_t *keyframes = thread->exchange->keyframes;
+    take_tiles(thread);
     for (uint32_t ready = ale_ring_ready(keyframes); ready > 0; ready--) {
         const int64_t start_ns = ale_rt_now_ns();
         add(thread, ale_ring_at(keyframes, 0));

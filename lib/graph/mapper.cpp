@@ -46,6 +46,7 @@ struct ale_mapper {
     uint32_t joins_heard = 0;        // number of the tracker's last join
     uint32_t join_number = 0;        // of the correction under way that joins two maps; 0: none
     uint32_t refused = 0;
+    std::deque<ale_tile_change_t> tiles; // that wait for their scan
 };
 
 namespace
@@ -126,12 +127,28 @@ void reset(ale_mapper &mapper)
     mapper.pending_shifts.clear();
 }
 
+// Tiles that are due by the scan of the keyframe; those of an epoch that is over are void.
+void take_tiles(ale_mapper &mapper, const ale_keyframe_t &keyframe)
+{
+    while (!mapper.tiles.empty() && mapper.tiles.front().epoch <= keyframe.epoch) {
+        const bool ours = mapper.tiles.front().epoch == keyframe.epoch;
+        if (ours && mapper.tiles.front().due > keyframe.scan) {
+            return;
+        }
+        if (ours) {
+            mapper.closer.change_tiles(mapper.tiles.front());
+        }
+        mapper.tiles.pop_front();
+    }
+}
+
 void add(ale_mapper &mapper, const ale_keyframe_t &keyframe)
 {
     if (keyframe.epoch != mapper.epoch) {
         reset(mapper);
         mapper.epoch = keyframe.epoch;
     }
+    take_tiles(mapper, keyframe);
     forget_applied(mapper, keyframe);
     hear_of_join(mapper, keyframe);
     ale::Node node = ale::node_of(keyframe);
@@ -235,6 +252,16 @@ int ale_mapper_set_prior_map(ale_mapper_t *mapper, uint32_t epoch, const ale_map
     mapper->epoch = epoch;
     try {
         mapper->closer.set_prior_map(*map);
+        return 0;
+    } catch (const std::bad_alloc &) {
+        return -1;
+    }
+}
+
+int ale_mapper_change_tiles(ale_mapper_t *mapper, const ale_tile_change_t *change)
+{
+    try {
+        mapper->tiles.push_back(*change);
         return 0;
     } catch (const std::bad_alloc &) {
         return -1;

@@ -15,6 +15,7 @@
 #include <stdint.h>
 
 #include "graph/mapper_graph.h"
+#include "map/tile_change.h"
 #include "track/correction.h"
 #include "track/keyframe.h"
 
@@ -70,6 +71,11 @@ void ale_mapper_destroy(ale_mapper_t *mapper); /* NULL is allowed */
  * are. Before the first keyframe of the epoch; removes all others. The map is copied. 0, or -1: out of
  * memory; then the mapper works without a prior map. O(lines). */
 int ale_mapper_set_prior_map(ale_mapper_t *mapper, uint32_t epoch, const ale_map_t *map);
+
+/* The same for a drive through a map of tiles: a piece of what comes and goes. It counts for keyframes from
+ * the scan on that it is due at. Pieces of an epoch in order; copied. 0, or -1: out of memory; the piece is
+ * left out. O(1) here, and O(walls of the piece * walls) when its scan has come. */
+int ale_mapper_change_tiles(ale_mapper_t *mapper, const ale_tile_change_t *change);
 
 /* Adds a keyframe and searches for loops. One of a new epoch starts a new graph; one of the same epoch must
  * be of a later scan. 0, or -1: out of memory; it is counted in `refused`, and the graph starts anew with the

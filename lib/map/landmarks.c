@@ -87,6 +87,16 @@ void ale_landmarks_give_up(ale_landmarks_t *landmarks, uint8_t map)
     }
 }
 
+void ale_landmarks_keep_within(ale_landmarks_t *landmarks, uint8_t map, const ale_box_t *box)
+{
+    for (uint32_t i = 0; i < ALE_LANDMARK_SETS * ALE_LANDMARK_WAYS; i++) {
+        ale_landmark_t *landmark = &landmarks->landmark[i];
+        if (landmark->map == map && landmark->seen > 0 && !ale_box_has(box, landmark->p)) {
+            landmark->seen = 0;
+        }
+    }
+}
+
 void ale_landmark_observe(ale_landmark_t *landmark, ale_point_t p, uint32_t normal_bam, int64_t var_um2,
                           uint32_t scan)
 {

@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 #include "base/pose.h"
+#include "map/tile_grid.h"
 
 enum { ALE_LANDMARK_SETS = 2048, ALE_LANDMARK_WAYS = 4, ALE_NO_LANDMARK = -1 };
 
@@ -41,6 +42,9 @@ void ale_landmarks_add(ale_landmarks_t *landmarks, const ale_landmark_t *landmar
 
 /* Removes those of a map. O(capacity). */
 void ale_landmarks_give_up(ale_landmarks_t *landmarks, uint8_t map);
+
+/* Of a map, removes those outside a box. O(capacity). */
+void ale_landmarks_keep_within(ale_landmarks_t *landmarks, uint8_t map, const ale_box_t *box);
 
 /* Kalman update by an independent observation with its variance, no lower than (3 mm)^2. */
 void ale_landmark_observe(ale_landmark_t *landmark, ale_point_t p, uint32_t normal_bam, int64_t var_um2,

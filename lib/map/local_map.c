@@ -218,6 +218,18 @@ static bool are_apart(const ale_wall_t *a, const ale_wall_t *b)
     return ale_min64(start_um, end_um) > APART_UM || ale_max64(start_um, end_um) < -APART_UM;
 }
 
+/* Of the walls of a map of tiles each leaves by itself: none goes for another. */
+static bool are_of_tiles(const ale_wall_t *a, const ale_wall_t *b)
+{
+    return a->prior_id != 0 && b->prior_id != 0;
+}
+
+/* Of two walls that are one, the one that stays: that of tiles, else the older one. */
+static bool goes_first(const ale_wall_t *a, const ale_wall_t *b)
+{
+    return a->prior_id != 0 || (b->prior_id == 0 && a->id < b->id);
+}
+
 static void join(ale_wall_t *keep, const ale_wall_t *other, const ale_wall_error_t *e)
 {
     ale_wall_observe(keep, e, other->var_offset_um2, other->var_angle_urad2);
@@ -235,12 +247,13 @@ bool ale_local_map_merge_at(ale_local_map_t *map, uint16_t index, int32_t *work)
         ale_spend_work(&facing[r], work);
         for (uint16_t k = facing[r].first; k < facing[r].last; k++) {
             const uint16_t other = map->near[k];
-            if (other == index || are_apart(&map->wall[index], &map->wall[other])) {
+            if (other == index || are_apart(&map->wall[index], &map->wall[other]) ||
+                are_of_tiles(&map->wall[index], &map->wall[other])) {
                 continue;
             }
-            const bool older = map->wall[other].id < map->wall[index].id;
-            const uint16_t keep = older ? other : index;
-            const uint16_t gone = older ? index : other;
+            const bool first = goes_first(&map->wall[other], &map->wall[index]);
+            const uint16_t keep = first ? other : index;
+            const uint16_t gone = first ? index : other;
             const ale_wall_error_t e = between_walls(&map->wall[keep], &map->wall[gone]);
             if (is_same(&map->wall[keep], &map->wall[gone], &e)) {
                 join(&map->wall[keep], &map->wall[gone], &e);

@@ -1,5 +1,7 @@
 #include "map/map_corner.h"
 
+#include <stddef.h>
+
 #include "base/fixed.h"
 #include "base/trig.h"
 #include "observe/observation.h"
@@ -18,17 +20,23 @@ void ale_map_corners_clear(ale_map_corners_t *corners)
     corners->selected = 0;
 }
 
-void ale_map_corners_give_up(ale_map_corners_t *corners, uint8_t map)
+/* box NULL: none of the map is kept. */
+void ale_map_corners_keep_within(ale_map_corners_t *corners, uint8_t map, const ale_box_t *box)
 {
     uint16_t kept = 0;
     for (uint16_t i = 0; i < corners->count; i++) {
-        if (corners->map[i] != map) {
+        if (corners->map[i] != map || (box && ale_box_has(box, corners->corner[i].p))) {
             corners->corner[kept] = corners->corner[i];
             corners->born[kept] = corners->born[i];
             corners->map[kept++] = corners->map[i];
         }
     }
     corners->count = kept;
+}
+
+void ale_map_corners_give_up(ale_map_corners_t *corners, uint8_t map)
+{
+    ale_map_corners_keep_within(corners, map, NULL);
 }
 
 /* The corner in the map's frame; the covariance turned from the sensor's frame: R C R^T. */

@@ -11,6 +11,7 @@
 
 #include "extract/extract.h"
 #include "map/line_map.h"
+#include "map/tile_grid.h"
 #include "motion/motion.h"
 
 enum {
@@ -36,6 +37,9 @@ void ale_map_corners_clear(ale_map_corners_t *corners);
 
 /* Removes those of a map. O(corners). */
 void ale_map_corners_give_up(ale_map_corners_t *corners, uint8_t map);
+
+/* Of a map, removes those outside a box. O(corners). */
+void ale_map_corners_keep_within(ale_map_corners_t *corners, uint8_t map, const ale_box_t *box);
 
 /* Updates by the first ALE_CORNERS_PER_SCAN corners of a scan; sensor: its pose in the map. grow false: no
  * new corners. A full map replaces corners that were seen once, else the new one is refused. Returns how many

@@ -36,6 +36,7 @@ typedef struct {
     int32_t normal_y_q30;
     int32_t start_um;
     int32_t end_um;
+    uint32_t prior_id; /* its number in a map of tiles, see tile_change.h; 0: the drive has begun it */
     int64_t var_offset_um2;
     int64_t cov_um_urad;
     int64_t var_angle_urad2;

@@ -84,6 +84,8 @@ static void reset_map(ale_pipeline_t *p)
     p->map_uncertainty = (ale_map_uncertainty_t){0};
     p->drifted_um = 0;
     p->loaded = 0;
+    p->partial = false;
+    p->tile_waits = false;
     p->epoch++;
     p->corrections = 0;
     p->keyframes = 0;
@@ -181,7 +183,7 @@ static void observe(ale_pipeline_t *p, const ale_scan_t *scan, const int32_t vel
 {
     ale_step_observe(p, scan, velocity);
     ale_filter_begin(p);
-    p->voted = false;
+    p->searched = false;
     p->waited = p->waits;
     p->waits = 0;
     p->proposed = p->proposal;
@@ -285,6 +287,7 @@ void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estima
 {
     ale_wheel_motion_t wheels;
     pipeline->looked = false;
+    pipeline->searched = false;
     if (pipeline->started) {
         const ale_pose_t before = pipeline->motion.pose;
         const bool counted = ale_pipeline_predict_by_wheels(pipeline, &pipeline->motion, stamp_us, &wheels);
@@ -344,4 +347,14 @@ void ale_pipeline_load_map(ale_pipeline_t *pipeline, const ale_map_t *map, uint3
     place(pipeline, pose);
     ale_maps_lose(pipeline, known ? ALE_CLAIM_SAID : ALE_CLAIM_NONE);
     pipeline->started = pipeline->map.count > 0;
+}
+
+void ale_pipeline_load_tiles(ale_pipeline_t *pipeline, ale_pose_t pose, bool known)
+{
+    ale_pipeline_reset(pipeline);
+    pipeline->loaded = ALE_LOADED_TILES;
+    pipeline->partial = true;
+    place(pipeline, pose);
+    ale_maps_lose(pipeline, known ? ALE_CLAIM_SAID : ALE_CLAIM_NONE);
+    pipeline->started = true;
 }

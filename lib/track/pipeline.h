@@ -28,6 +28,11 @@ typedef struct ale_pipeline ale_pipeline_t;
 typedef struct ale_keyframe ale_keyframe_t;
 typedef struct ale_correction ale_correction_t;
 typedef struct ale_scan_observation ale_scan_observation_t;
+typedef struct ale_tile_change ale_tile_change_t;
+typedef struct ale_whereabouts ale_whereabouts_t;
+
+/* What keyframes and scan observations of a drive through a map of tiles say in `loaded`. */
+#define ALE_LOADED_TILES UINT32_MAX
 
 uint32_t ale_pipeline_size(void);
 
@@ -83,5 +88,19 @@ void ale_pipeline_copy_map(const ale_pipeline_t *pipeline, ale_map_t *out);
  * say in `loaded`, not 0; whoever loads more than one numbers them. */
 void ale_pipeline_load_map(ale_pipeline_t *pipeline, const ale_map_t *map, uint32_t number, ale_pose_t pose,
                            bool known);
+
+/* Starts in a map of tiles (map/tile_change.h), of which nothing is loaded yet; pose, known: as above, but
+ * where nothing is said of the robot's place it looks for it only once all of the map is loaded. */
+void ale_pipeline_load_tiles(ale_pipeline_t *pipeline, ale_pose_t pose, bool known);
+
+/* For the loader of tiles, after a scan: where the robot is. False: it need not know (no map of tiles, or it
+ * was told a few scans ago), and *out is untouched. */
+bool ale_pipeline_whereabouts(const ale_pipeline_t *pipeline, ale_whereabouts_t *out);
+
+/* From that loader, after a scan: one piece of what comes and goes; one a scan. False: not due yet, or the
+ * scan was searched elsewhere than it was tracked, which leaves no time for both; offer it again after the
+ * next, which is not searched then unless nobody watched it. One for another map (epoch) is ignored. See
+ * ale_tile_change_apply. */
+bool ale_pipeline_change_tiles(ale_pipeline_t *pipeline, const ale_tile_change_t *change);
 
 #endif

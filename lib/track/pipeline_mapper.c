@@ -1,9 +1,11 @@
-/* What passes between the pipeline and the mapper, and what puts the robot elsewhere in the map. */
+/* What passes between the pipeline, the mapper and the loader of tiles, and what puts the robot elsewhere in
+ * the map. */
 #include <stddef.h>
 #include <string.h>
 
 #include "base/fixed.h"
 #include "base/trig.h"
+#include "map/tile_change.h"
 #include "track/correction.h"
 #include "track/keyframe.h"
 #include "track/maps.h"
@@ -123,6 +125,35 @@ bool ale_pipeline_correct(ale_pipeline_t *p, const ale_correction_t *correction)
     correct_robot(p, ale_correction_in(correction, last->scan, &p->moved_map));
     if (correction->joins) {
         ale_maps_joined(p, correction->joined_map_id, correction->into_map_id);
+    }
+    return true;
+}
+
+bool ale_pipeline_whereabouts(const ale_pipeline_t *p, ale_whereabouts_t *out)
+{
+    if (p->loaded != ALE_LOADED_TILES || p->scans == 0 || (p->scans - 1) % ALE_WHEREABOUTS_SCANS != 0) {
+        return false;
+    }
+    out->epoch = p->epoch;
+    out->scan = p->scans - 1;
+    out->pose = p->motion.pose;
+    out->reach_um = (int64_t)p->observed.scan.range_max_um + ALE_TILE_MARGIN_UM;
+    return true;
+}
+
+bool ale_pipeline_change_tiles(ale_pipeline_t *p, const ale_tile_change_t *change)
+{
+    const bool ours = change->epoch == p->epoch && p->loaded == ALE_LOADED_TILES;
+    if (!ours || change->due > p->scans) {
+        return !ours;
+    }
+    p->tile_waits = p->searched;
+    if (p->tile_waits) {
+        return false;
+    }
+    ale_tile_change_apply(&p->map, change);
+    if (change->last) {
+        p->partial = !change->whole;
     }
     return true;
 }

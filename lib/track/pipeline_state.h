@@ -99,7 +99,7 @@ struct ale_pipeline {
     ale_scan_match_t scan_match;
     ale_fit_t other; /* of the same scan, from another pose */
     ale_pose_vote_t vote;
-    bool voted;     /* on the scan at hand: one vote a scan */
+    bool searched;  /* the scan at hand, elsewhere than it was tracked: once a scan */
     ale_fit_t best; /* of the places of the vote */
     ale_proposal_t proposal;
     ale_proposal_t proposed; /* by the scan before, where the prediction has led it */
@@ -159,6 +159,8 @@ struct ale_pipeline {
 
     /* commands, and what passes to the mapper: pipeline_mapper.c */
     bool frozen;     /* pure localisation: the map stays as it is */
+    bool partial;    /* not all of the map is in work: nowhere is the only place that looks like this */
+    bool tile_waits; /* a piece of one, that the last scan has left no time for */
     uint32_t loaded; /* number of the map when it was begun by somebody else, else 0 */
     uint32_t epoch;
     uint32_t corrections;

@@ -234,7 +234,7 @@ ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *predi
     const candidate_t given = {fit, evidence_um(p, fit)};
     candidate_t best = {&p->best, given.evidence_um};
     p->best = *fit;
-    p->voted = true;
+    p->searched = true;
     const int64_t rival_um = compare_region(p, &ways->believed, &region, &best);
     if (best.evidence_um <= rival_um + MARGIN_UM) {
         const bool more = best.evidence_um > given.evidence_um + MARGIN_UM;

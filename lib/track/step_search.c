@@ -134,7 +134,12 @@ static bool is_anywhere(ale_pipeline_t *p, ale_fit_t *fit)
 static bool is_found(ale_pipeline_t *p, search_t search, ale_fit_t *fit)
 {
     ale_pose_t at;
-    if (ale_relocation_recognised(&p->relocation, &at)) {
+    const bool recognised = ale_relocation_recognised(&p->relocation, &at);
+    if (search == ANYWHERE && !recognised && p->partial) {
+        return false; /* what is not in work may look alike */
+    }
+    p->searched = true;
+    if (recognised) {
         fit_at(p, at, fit);
         return ale_tracking_explains(fit) && p->surplus_um > DENIED_WEIGHT * denied_um(p, fit->motion.pose);
     }
@@ -156,9 +161,12 @@ void ale_step_search(ale_pipeline_t *p, const ale_prediction_t *prediction)
     const ale_pose_t displacement = ale_pose_between(prediction->before.pose, p->motion.pose);
     const bool followed = p->monitor.state != ALE_STATE_LOST && !p->monitor.contradicted;
     ale_relocation_follow(&p->relocation, displacement, followed || prediction->ways.counted);
+    if (p->tile_waits) {
+        return; /* for this scan, and the search for the next */
+    }
     const search_t search = next_search(p, displacement);
-    if (p->voted) {
-        return; /* on the robot's own map: that is enough for a scan */
+    if (p->searched) {
+        return; /* in the robot's own map: that is enough for a scan */
     }
     ale_local_map_select(&p->map, ALE_FIRST_MAP);
     const bool found = is_found(p, search, &p->other);

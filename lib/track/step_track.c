@@ -86,6 +86,12 @@ static bool is_refuted(ale_scene_verdict_t verdict, ale_recovery_t recovery, boo
     return recovery != ALE_RECOVER_CONFIRMED && (verdict == ALE_SCENE_CHANGED || others || unsure);
 }
 
+/* Another pose may be right, which the next scan must confirm. */
+static ale_scene_verdict_t leave_open(ale_scene_verdict_t verdict)
+{
+    return verdict == ALE_SCENE_CHANGED ? verdict : ALE_SCENE_UNDECIDED;
+}
+
 /* What a scan that the prediction does not explain, or that nobody watched, comes to. */
 static ale_scene_verdict_t recover(ale_pipeline_t *p, const ale_prediction_t *prediction,
                                    ale_scene_verdict_t verdict, ale_ways_t *ways, ale_fit_t *fit)
@@ -102,8 +108,15 @@ static ale_scene_verdict_t recover(ale_pipeline_t *p, const ale_prediction_t *pr
         p->waits = (uint8_t)(may_wait(p, recovery, ways->counted, p->driven) ? p->waited + 1 : 0);
         return p->waits > 0 ? ALE_SCENE_CHANGED : lose(p);
     }
-    const bool undecided = recovery == ALE_RECOVER_UNDECIDED && verdict != ALE_SCENE_CHANGED;
-    return undecided ? ALE_SCENE_UNDECIDED : verdict;
+    return recovery == ALE_RECOVER_UNDECIDED ? leave_open(verdict) : verdict;
+}
+
+/* A piece of a tile takes the time of the comparison with other poses: what the last scan has proposed stands
+ * for the next. */
+static ale_scene_verdict_t put_off(ale_pipeline_t *p, ale_scene_verdict_t verdict)
+{
+    p->proposal = p->proposed;
+    return p->proposal.advantage_um > 0 ? leave_open(verdict) : verdict;
 }
 
 /* The scan is believed where the prediction has led to, or where else it fits better; after a time in which
@@ -114,8 +127,8 @@ static ale_scene_verdict_t judge(ale_pipeline_t *p, const ale_prediction_t *pred
     p->driven = ale_recover_has_driven(p, prediction);
     const ale_scene_verdict_t verdict = ale_step_monitor(p, prediction, ways->counted, fit);
     p->next_claim = claim_of(p, prediction);
-    const bool doubtful =
-        ale_recover_is_unwatched(p, prediction) || ale_tracking_doubts(fit) || verdict == ALE_SCENE_CHANGED;
+    const bool unwatched = ale_recover_is_unwatched(p, prediction);
+    const bool doubtful = unwatched || ale_tracking_doubts(fit) || verdict == ALE_SCENE_CHANGED;
     if (p->observed.count == 0 || !doubtful) {
         return verdict;
     }
@@ -124,6 +137,9 @@ static ale_scene_verdict_t judge(ale_pipeline_t *p, const ale_prediction_t *pred
     }
     if (ale_recover_may_be_anywhere(p, prediction)) {
         p->led_by_wheels = p->scans;
+    }
+    if (p->tile_waits && !unwatched && p->waited == 0) {
+        return put_off(p, verdict);
     }
     return recover(p, prediction, verdict, ways, fit);
 }

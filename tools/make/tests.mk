@@ -304,6 +304,8 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	-@ALE_LONG_TESTS=1 $(SUB) system T="console_explores or test_console_access or test_console_recordings or ros2 or test_foxglove or test_bags"
 	@$(PHASE) "simulated scanners read by clients that are not ours, a minute each"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=independent_clients DIST=load
+	@$(PHASE) "a robot in a building of a square kilometre"
+	-@ALE_LONG_TESTS=1 $(SUB) system T=square_kilometre
 	@$(PHASE) "Python's wheel in an empty virtual environment"
 	-@ALE_LONG_TESTS=1 $(SUB) system T="test_python_wheel or test_python_types"
 	@$(PHASE) "explorations in a closed loop with the simulator and maps that join, more of them"

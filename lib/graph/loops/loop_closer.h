@@ -61,6 +61,15 @@ class LoopCloser
         prior_.emplace(map);
     }
 
+    // The same for a map of tiles, of which parts come and go.
+    void change_tiles(const ale_tile_change_t &change)
+    {
+        if (!prior_) {
+            prior_.emplace(ale_map_t{});
+        }
+        prior_->change(change);
+    }
+
     // Adds a node and searches for loops. `motion`: the node's pose as seen from the node before; of the
     // first one its pose in the map. True: earlier poses have moved. Work: three searches by match_submap,
     // two pairwise matches, one match with the prior map, 30 iterations of the graph; with several maps one

@@ -36,6 +36,23 @@ PriorMap::PriorMap(const ale_map_t &map)
     }
 }
 
+void PriorMap::change(const ale_tile_change_t &change)
+{
+    const auto goes = [&change](const ale_wall_t &wall) {
+        return std::binary_search(change.gone, change.gone + change.gone_count, wall.prior_id);
+    };
+    walls_.erase(std::remove_if(walls_.begin(), walls_.end(), goes), walls_.end());
+    for (int k = 0; k < change.line_count; k++) {
+        const uint32_t id = change.line[k].id;
+        const auto is_it = [id](const ale_wall_t &wall) { return wall.prior_id == id; };
+        ale_wall_t wall;
+        if (std::none_of(walls_.begin(), walls_.end(), is_it) && ale_map_line_wall(&change.line[k], &wall)) {
+            wall.prior_id = id;
+            walls_.push_back(wall);
+        }
+    }
+}
+
 // Points of the walls, node_point_spacing_m apart, in a square about the guess that a field holds.
 std::vector<SurfacePoint> PriorMap::points_around(const Pose &guess, double reach_m) const
 {

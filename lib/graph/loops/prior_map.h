@@ -13,6 +13,7 @@
 
 extern "C" {
 #include "map/line_map.h"
+#include "map/tile_change.h"
 #include "map/wall.h"
 }
 
@@ -24,6 +25,10 @@ class PriorMap
   public:
     // Copies the walls: less than 1 MB, however long they are. May throw std::bad_alloc.
     explicit PriorMap(const ale_map_t &map);
+
+    // Walls of tiles that come and go: one that is here already does not come again. O(walls that come or go
+    // * walls); may throw std::bad_alloc.
+    void change(const ale_tile_change_t &change);
 
     // The pose in the map from which these points, robot's frame, are seen near `guess`; see match_pair.
     // None: no match, or no walls near. O(walls) and one LikelihoodField; may throw std::bad_alloc.

@@ -189,6 +189,38 @@ TEST_F(Estimate, ACorrectionThatComesAfterItsScanIsTakenAndCounted)
     EXPECT_EQ(shortfall.corrections_late, 1u);
 }
 
+TEST_F(Estimate, PiecesOfTilesAreTakenOneAScanFromTheirScanOnAndThoseThatComeLaterAreCounted)
+{
+    exchange.has_tiles = true;
+    ale_estimator_load_tiles(estimator, nullptr);
+    uint32_t epoch = 0;
+    const auto comes = [&](uint32_t due) {
+        auto *piece = static_cast<ale_tile_change_t *>(ale_ring_reserve(exchange.tiles));
+        *piece = {};
+        piece->epoch = epoch;
+        piece->due = due;
+        piece->last = true;
+        ale_ring_commit(exchange.tiles);
+    };
+    const auto waiting_after = [&](uint32_t scan) {
+        push(kPeriod * (scan + 1));
+        ale_estimator_step(estimator);
+        return ale_ring_ready(exchange.tiles);
+    };
+    EXPECT_EQ(waiting_after(0), 0U);
+    ASSERT_EQ(ale_ring_ready(exchange.whereabouts), 1U);
+    epoch = static_cast<ale_whereabouts_t *>(ale_ring_at(exchange.whereabouts, 0))->epoch;
+    comes(3);
+    comes(3);
+    EXPECT_EQ(waiting_after(1), 2U);
+    EXPECT_EQ(waiting_after(2), 1U);
+    EXPECT_EQ(waiting_after(3), 0U);
+    EXPECT_EQ(ale_estimator_shortfall(estimator).tiles_late, 0U) << "the second one was there in time";
+    comes(4);
+    EXPECT_EQ(waiting_after(4), 0U);
+    EXPECT_EQ(ale_estimator_shortfall(estimator).tiles_late, 1U);
+}
+
 TEST_F(Estimate, WhatScansHaveShownIsToldWhenTheRobotHasGoneOnAndWhereItStaysNowAndThen)
 {
     const auto told_after = [&](int64_t stamp_us, double x) {

@@ -140,6 +140,43 @@ TEST_F(MapperThreadInALoadedMap, ItIsKnownAgainWhenThereIsMemoryAgain)
     EXPECT_TRUE(comes_true([&] { return ale_ring_ready(exchange.corrections) > 0; }));
 }
 
+// The same map by tiles: what is loaded around the robot, from the scan on that it is due at.
+class MapperThreadInAMapOfTiles : public MapperThreadInALoadedMap
+{
+  protected:
+    void hand_over_tiles(uint32_t due)
+    {
+        const auto map = map_of_the_corridor();
+        for (uint16_t first = 0; first < map->line_count; first += ALE_TILE_PIECE_WALLS) {
+            auto *piece = static_cast<ale_tile_change_t *>(ale_ring_reserve(exchange.tiles_to_mapper));
+            *piece = {};
+            piece->epoch = keyframes.front()->epoch;
+            piece->due = due;
+            piece->last = first + ALE_TILE_PIECE_WALLS >= map->line_count;
+            for (uint16_t k = first; k < map->line_count && piece->line_count < ALE_TILE_PIECE_WALLS; k++) {
+                piece->line[piece->line_count] = map->line[k];
+                piece->line[piece->line_count++].id = k + 1U;
+            }
+            ale_ring_commit(exchange.tiles_to_mapper);
+        }
+    }
+};
+
+TEST_F(MapperThreadInAMapOfTiles, KeyframesAreLaidOnThem)
+{
+    hand_over_tiles(0);
+    hand_over_in(ALE_LOADED_TILES, 0, keyframes.size());
+    EXPECT_TRUE(comes_true([&] { return ale_ring_ready(exchange.corrections) > 0; }));
+}
+
+TEST_F(MapperThreadInAMapOfTiles, NotOnThoseThatAreDueLater)
+{
+    hand_over_tiles(keyframes.back()->scan + 1);
+    hand_over_in(ALE_LOADED_TILES, 0, keyframes.size());
+    EXPECT_TRUE(are_all_taken());
+    EXPECT_EQ(ale_ring_ready(exchange.corrections), 0U);
+}
+
 TEST_F(MapperThread, ItEndsWhileKeyframesAreWaiting)
 {
     const auto keyframes = drifting_keyframes::walk(0.08, 0, 1);

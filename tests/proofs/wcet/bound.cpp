@@ -23,6 +23,8 @@ extern "C" {
 #include "extract/scan_noise.h"
 #include "extract/seam.h"
 #include "extract/segment.h"
+#include "map/map_exchange.h"
+#include "map/tile_change.h"
 #include "match/observability.h"
 #include "motion/deskew.h"
 #include "observe/short_segment.h"
@@ -504,7 +506,7 @@ void search(Parts &parts, Random &random, Lost &lost)
         for (const Known known : {Known::claimed, Known::nothing, Known::place}) {
             ale_pipeline_t *p = lost(views);
             own_map(p);
-            p->voted = false;
+            p->searched = false;
             p->claims = known == Known::claimed ? 2 : 0;
             places(&p->relocation, p, random, known);
             const ale_prediction_t prediction = lost.prediction(any_motion(random));
@@ -533,6 +535,55 @@ void joining(Parts &parts, Lost &lost)
             ale_way_back_denied_um(&p->way_back, &p->map, {0, 0, 0}, there.pose);
             ale_maps_join(p, ALE_FIRST_MAP, &p->other);
         });
+    }
+}
+
+/* On one line, aslant, whose whole length the edges of a box of tiles have to be compared with. */
+constexpr ale_point_t on_the_line(int32_t metres)
+{
+    return {metres * 100 * centimetre_um, -metres * 100 * centimetre_um};
+}
+
+std::unique_ptr<ale_tile_change_t> piece_of_a_tile()
+{
+    auto piece = std::make_unique<ale_tile_change_t>();
+    piece->last = true;
+    piece->gone_count = piece->line_count = ALE_TILE_PIECE_WALLS;
+    piece->corner_count = ALE_TILE_PIECE_CORNERS;
+    for (uint32_t k = 0; k < ALE_TILE_PIECE_WALLS; k++) {
+        piece->gone[k] = piece->line[k].id = k + 1;
+        piece->line[k].start = on_the_line(-3);
+        piece->line[k].end = on_the_line(-1);
+        piece->line[k].var_rho_um2 = 9000000;
+        piece->line[k].var_alpha_nrad2 = 9000000000000;
+    }
+    return piece;
+}
+
+/* The map is full of what the drive has seen, on the line of the walls that come, and facing as they do: none
+ * of it is dismissed before the last test, and none is a part of them. It stays, or leaves with the tiles
+ * around it, whose corner the line passes. */
+void tiles(Parts &parts)
+{
+    const auto piece = piece_of_a_tile();
+    auto map = std::make_unique<ale_local_map_t>();
+    ale_wall_t wall;
+    ale_map_line_wall(&piece->line[0], &wall);
+    wall.anchor = on_the_line(2);
+    for (const bool stays : {true, false}) {
+        for (const bool confirmed : {false, true}) {
+            wall.seen = confirmed ? ALE_MAP_CONFIRMED : 1;
+            ale_local_map_clear(map.get());
+            std::fill(std::begin(map->wall), std::end(map->wall), wall);
+            for (ale_landmark_t &mark : map->landmarks.landmark) {
+                mark.seen = 1;
+            }
+            map->count = ALE_MAP_MAX_LINES;
+            map->corners.count = ALE_MAP_MAX_CORNERS;
+            piece->window = {-100000000, -100000000, stays ? 100000000 : 1500000,
+                             stays ? 100000000 : -2500000};
+            parts.measure("a piece of a tile", 1, [&] { ale_tile_change_apply(map.get(), piece.get()); });
+        }
     }
 }
 
@@ -641,6 +692,7 @@ Bound bound_of_a_scan(InstructionCounter &counter)
     }
     Random random(5);
     corners(tracked, random);
+    tiles(one_of);
     return {any_scan.take(), tracked.take(), lost.take(), one_of.take()};
 }
 

@@ -20,7 +20,8 @@ struct BoundPart {
 
 /* What every scan asks for, what tracking adds, what is added where the robot is not where it should be, and
  * of what else may be done then the one that is: a scan that is compared with all poses within reach is not
- * searched for in an older map, and one that joins two maps is not searched for at all. */
+ * searched for in an older map, and one that joins two maps is not searched for at all; after a scan that
+ * does any of these the map takes no piece of a tile. */
 struct Bound {
     std::vector<BoundPart> any_scan;
     std::vector<BoundPart> tracked;

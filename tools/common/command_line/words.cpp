@@ -14,9 +14,8 @@ std::array<std::string, 3> three_of(const std::string &what, const std::string &
     return {word.substr(0, first), word.substr(first + 1, second - first - 1), word.substr(second + 1)};
 }
 
-Mounting mounting_of(const std::string &what, const std::string &word)
+Mounting mounting_of(const std::string &what, const std::string &word, double most_m)
 {
-    constexpr double most_m = 100;
     constexpr double most_rad = 3.141592654;
     const auto [x, y, theta] = three_of(what, word, "X,Y,THETA");
     const std::string where = what + " " + word + ":";

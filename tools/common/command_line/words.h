@@ -56,8 +56,8 @@ struct Mounting {
     double theta_rad;
 };
 
-/* "X,Y,THETA" in metres and radians: at most 100 m and half a turn. */
-Mounting mounting_of(const std::string &what, const std::string &word);
+/* "X,Y,THETA" in metres and radians: at most 100 m, or what is given, and half a turn. */
+Mounting mounting_of(const std::string &what, const std::string &word, double most_m = 100);
 
 } // namespace cli
 

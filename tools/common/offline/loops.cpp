@@ -55,6 +55,13 @@ Loops::Loops()
     }
 }
 
+void Loops::change_tiles(const ale_tile_change_t &change)
+{
+    if (ale_mapper_change_tiles(mapper_.get(), &change) < 0) {
+        throw std::bad_alloc();
+    }
+}
+
 void Loops::before_scan(ale_pipeline_t *pipeline, const Taken &taken)
 {
     while (!due_.empty() && ale_pipeline_correct(pipeline, due_.front().get())) {

@@ -30,6 +30,9 @@ class Loops
         known_ = std::make_unique<ale_map_t>(map);
     }
 
+    /* A piece of the tiles around the robot: see ale_mapper_change_tiles. */
+    void change_tiles(const ale_tile_change_t &change);
+
     using Taken = std::function<void(const ale_correction_t &)>;
 
     /* Before a scan is handed to the pipeline: corrections that are due take effect, and `taken` hears of

@@ -23,13 +23,20 @@ OfflineSlam::OfflineSlam(const ale_pipeline_config_t &config, Options options)
     }
 }
 
-void OfflineSlam::load_map(const ale_map_t &map)
+void OfflineSlam::load_map(const ale_map_t &map, const std::optional<ale_pose_t> &start)
 {
-    ale_pipeline_load_map(pipeline_.get(), &map, 1, ale_pose_t{}, false);
+    ale_pipeline_load_map(pipeline_.get(), &map, 1, start.value_or(ale_pose_t{}), start.has_value());
     if (loops_) {
         loops_->know(map);
     }
     known_ = std::make_unique<ale_map_t>(map);
+}
+
+void OfflineSlam::load_tiles(const std::string &path, const std::optional<ale_pose_t> &start)
+{
+    tiles_.emplace(path);
+    ale_pipeline_load_tiles(pipeline_.get(), start.value_or(ale_pose_t{}), start.has_value());
+    record_.reset(); /* a drawing would be of a part: the map is the tracker's */
 }
 
 void OfflineSlam::odometry(const ale_odometry_t &sample)
@@ -41,14 +48,23 @@ void OfflineSlam::odometry(const ale_odometry_t &sample)
 
 const ale_estimate_t &OfflineSlam::scan(const ale_scan_t &scan)
 {
-    if (loops_) {
-        loops_->before_scan(pipeline_.get());
-    }
+    before_scan();
     clock_.begin_scan();
     ale_pipeline_scan(pipeline_.get(), &scan, &estimate_);
     clock_.end_scan();
     take_answer();
     return estimate_;
+}
+
+/* What is due; in the order of the firmware's estimate task. */
+void OfflineSlam::before_scan()
+{
+    if (loops_) {
+        loops_->before_scan(pipeline_.get());
+    }
+    if (tiles_) {
+        tiles_->before_scan(pipeline_.get());
+    }
 }
 
 const ale_estimate_t &OfflineSlam::dropped(int64_t stamp_us)
@@ -62,6 +78,9 @@ void OfflineSlam::take_answer()
 {
     if (loops_) {
         loops_->after_scan(pipeline_.get(), estimate_);
+    }
+    if (tiles_) {
+        tiles_->after_scan(pipeline_.get(), loops_ ? &*loops_ : nullptr);
     }
     if (record_ && ale_pipeline_scan_observation(pipeline_.get(), observation_.get())) {
         if (known_) {

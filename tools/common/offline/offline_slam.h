@@ -13,12 +13,14 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/offline/core_object.h"
 #include "common/offline/loops.h"
 #include "common/offline/scan_pose.h"
 #include "common/offline/stage_clock.h"
+#include "common/offline/tiles.h"
 #include "graph/walls/observation_record.h"
 
 extern "C" {
@@ -40,8 +42,12 @@ class OfflineSlam
     /* Throws std::invalid_argument when the core refuses the configuration. */
     OfflineSlam(const ale_pipeline_config_t &config, Options options);
 
-    /* Before the first scan: starts in this map, lost until found. */
-    void load_map(const ale_map_t &map);
+    /* Before the first scan: starts in this map, lost until found: at `start`, if that is known. */
+    void load_map(const ale_map_t &map, const std::optional<ale_pose_t> &start = std::nullopt);
+
+    /* The same for a map of tiles, of which as much is in work as lies around the robot. Throws
+     * std::runtime_error with one line. */
+    void load_tiles(const std::string &path, const std::optional<ale_pose_t> &start);
 
     void odometry(const ale_odometry_t &sample);
 
@@ -77,11 +83,13 @@ class OfflineSlam
     }
 
   private:
+    void before_scan();
     void take_answer();
 
     ale_pipeline_config_t config_;
     CoreObject<ale_pipeline_t> pipeline_;
     std::optional<Loops> loops_;
+    std::optional<Tiles> tiles_;
     std::optional<ObservationRecord> record_;
     std::unique_ptr<ale_map_t> known_; /* loaded; until the record knows it */
     std::unique_ptr<ale_scan_observation_t> observation_ = std::make_unique<ale_scan_observation_t>();

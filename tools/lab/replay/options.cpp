@@ -43,15 +43,18 @@ constexpr char usage[] =
     "  --model NAME            preset of the scanner's noise, as [sensor] model (ld06, utm-30lx, ...); "
     "default: what\n"
     "                          --config or the recording says, else by the log's kind\n"
-    "  --load-map F            start with this map, the robot's place in it unknown\n"
+    "  --load-map F            start with this map, or one of tiles\n"
+    "  --start X,Y,THETA       where the robot is in it, within 0.4 m (default: unknown; it is then lost "
+    "until found)\n"
     "  --save-map F            write the map at the end\n"
     "  --lines-only            extract only: no poses, no map\n"
     "  --help, --version\n"
     "F.jsonl, F.tum and F.csv may be - for the standard output. Exit 0 fine, 1 failed, 2 wrong use.\n";
 
-ale_pose_t sensor_of(const std::string &word)
+constexpr double farthest_m = 1073; // of a map
+
+ale_pose_t pose_of(const cli::Mounting &at)
 {
-    const cli::Mounting at = cli::mounting_of("--sensor", word);
     return {static_cast<int32_t>(std::lround(at.x_m * 1e6)), static_cast<int32_t>(std::lround(at.y_m * 1e6)),
             static_cast<uint32_t>(ale_nrad_to_bam(std::llround(at.theta_rad * 1e9)))};
 }
@@ -81,10 +84,14 @@ void bind(cli::CommandLine &line, ReplayOptions &o)
     bind_results(line, o);
     line.choice("odometry", o.use_odometry, on_off);
     line.choice("loops", o.close_loops, on_off);
-    line.option("sensor", [&o](const std::string &word) { o.sensor = sensor_of(word); });
+    line.option("sensor",
+                [&o](const std::string &word) { o.sensor = pose_of(cli::mounting_of("--sensor", word)); });
     line.text("config", o.config);
     cli::scanner_model(line, "model", o.model);
     line.text("load-map", o.load_map);
+    line.option("start", [&o](const std::string &word) {
+        o.start = pose_of(cli::mounting_of("--start", word, farthest_m));
+    });
     line.flag("lines-only", o.lines_only);
 }
 
@@ -130,6 +137,9 @@ void check(const ReplayOptions &options)
     }
     if (options.map_cell_um != ScanCloud::usual_cell_um && !draws_grid(options)) {
         throw cli::WrongUse("--map-resolution is of a --map F.pgm");
+    }
+    if (options.start && options.load_map.empty()) {
+        throw cli::WrongUse("--start is a place in the map of --load-map");
     }
     if (options.save_map == "-" || options.load_map == "-" || options.lcm == "-") {
         throw cli::WrongUse("a saved map and an LCM log are files");

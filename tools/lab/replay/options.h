@@ -3,6 +3,7 @@
 #define ALE_LAB_REPLAY_OPTIONS_H
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct ReplayOptions : RobotOptions {
     std::string timing;
     std::string lcm;
     std::string load_map;
+    std::optional<ale_pose_t> start; /* in that map */
     std::string save_map;
     int32_t map_cell_um = ScanCloud::usual_cell_um; /* of .pgm */
     bool laser_frame = false;

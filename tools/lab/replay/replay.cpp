@@ -18,6 +18,7 @@
 
 extern "C" {
 #include "store/map_file.h"
+#include "store/tile_file.h"
 }
 
 namespace ale
@@ -132,12 +133,16 @@ bool Replay::wants_map() const
 
 void Replay::load_map()
 {
+    if (ale_tile_file_is(options_.load_map.c_str())) {
+        slam_->load_tiles(options_.load_map, options_.start);
+        return;
+    }
     auto map = std::make_unique<ale_map_t>();
     char error[ALE_MAP_FILE_ERROR];
     if (ale_map_file_load(options_.load_map.c_str(), map.get(), error) < 0) {
         throw std::runtime_error(error);
     }
-    slam_->load_map(*map);
+    slam_->load_map(*map, options_.start);
 }
 
 void Replay::extract(const ale_scan_t &scan)

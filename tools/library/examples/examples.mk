@@ -1,12 +1,12 @@
 # libale for those who link it alone: a shared library (for ctypes), its headers, a pkg-config file. ale.h is the extractor,
-# track/pipeline.h the tracker; what they include is installed with them.
+# track/pipeline.h the tracker, map/tile_change.h what it takes of a map of tiles; what they include is installed with them.
 #
 # The shared library shows what the installed headers declare, and nothing else; firmware/deploy/debian/libale0.symbols lists it.
 # SOVERSION changes with what makes programs that are linked already fail.
 SOVERSION = 0
 SHARED_LIBRARY = $(BUILD)/libale.so
 SONAME = libale.so.$(SOVERSION)
-PUBLIC_HEADERS = lib/ale.h $(wildcard lib/base/*.h) $(addprefix lib/track/,pipeline.h keyframe.h correction.h scan_observation.h)
+PUBLIC_HEADERS = lib/ale.h $(wildcard lib/base/*.h) $(addprefix lib/track/,pipeline.h keyframe.h correction.h scan_observation.h) lib/map/tile_change.h
 installed_headers = $$($(CC) -std=c11 -Ilib -MM $(PUBLIC_HEADERS) | tr ' ' '\n' | grep '^lib/' | LC_ALL=C sort -u)
 
 $(BUILD)/libale.map: $(wildcard lib/*.h lib/*/*.h lib/*/*/*.h) $(FLAGS_STAMP) tools/library/examples/examples.mk
