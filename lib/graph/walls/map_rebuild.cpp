@@ -4,7 +4,6 @@
 #include <numeric>
 #include <optional>
 
-#include "graph/walls/wall_corners.h"
 #include "graph/walls/wall_groups.h"
 #include "graph/walls/wall_spans.h"
 
@@ -73,7 +72,7 @@ ale_map_line_t line_of(const WallSpan &span)
 
 } // namespace
 
-void rebuild_map(const ObservationRecord &record, const PoseOfScan &pose_of, ale_map_t *out, PriorWalls prior)
+WallMap rebuild_walls(const ObservationRecord &record, const PoseOfScan &pose_of, PriorWalls prior)
 {
     std::vector<PlacedLine> lines;
     lines.reserve(
@@ -99,17 +98,26 @@ void rebuild_map(const ObservationRecord &record, const PoseOfScan &pose_of, ale
             lines.push_back(*line);
         }
     }
-    *out = {};
+    WallMap map;
     for (const WallSpan &span : spans_of(group_lines(lines), lines, scans)) {
-        if (out->line_count == ALE_MAP_MAX_LINES) {
-            out->refused++;
-            continue;
-        }
-        out->line[out->line_count] = line_of(span);
-        out->line[out->line_count].id = out->line_count;
-        out->line_count++;
+        map.lines.push_back(line_of(span));
     }
-    add_wall_corners(record, pose_of, out);
+    add_wall_corners(record, pose_of, &map);
+    return map;
+}
+
+void rebuild_map(const ObservationRecord &record, const PoseOfScan &pose_of, ale_map_t *out, PriorWalls prior)
+{
+    const WallMap map = rebuild_walls(record, pose_of, prior);
+    *out = {};
+    out->line_count = static_cast<uint16_t>(std::min<size_t>(map.lines.size(), ALE_MAP_MAX_LINES));
+    out->corner_count = static_cast<uint16_t>(std::min<size_t>(map.corners.size(), ALE_MAP_MAX_CORNERS));
+    out->refused = static_cast<uint32_t>(map.lines.size() - out->line_count);
+    std::copy_n(map.lines.begin(), out->line_count, out->line);
+    std::copy_n(map.corners.begin(), out->corner_count, out->corner);
+    for (uint16_t k = 0; k < out->line_count; k++) {
+        out->line[k].id = k;
+    }
 }
 
 } // namespace ale

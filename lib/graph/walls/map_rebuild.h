@@ -8,12 +8,18 @@
 #define ALE_GRAPH_WALLS_MAP_REBUILD_H
 
 #include "graph/walls/observation_record.h"
+#include "graph/walls/wall_corners.h"
 
 namespace ale
 {
 
 // The walls of the prior map are in the frame of the first map only.
 enum class PriorWalls { counted, left_out };
+
+// The map, whatever its size. May throw std::bad_alloc. O(lines * walls + cells of
+// walls * scans with beams).
+WallMap rebuild_walls(const ObservationRecord &record, const PoseOfScan &pose_of,
+                      PriorWalls prior = PriorWalls::counted);
 
 // Fills *out with ids from 0. Walls beyond ALE_MAP_MAX_LINES, the shortest, are counted in out->refused. May
 // throw std::bad_alloc; *out then holds anything. O(lines * walls + cells of walls * scans with beams).

@@ -24,7 +24,7 @@ constexpr int64_t least_opening_bam = int64_t{30} * ALE_BAM_PER_DEGREE;
 
 // An end of a line of the map, and the direction from there along the line.
 struct End {
-    uint16_t line;
+    size_t line;
     bool is_start;
     uint32_t inwards_bam;
 };
@@ -45,18 +45,18 @@ int64_t distance_um(ale_point_t a, ale_point_t b)
     return static_cast<int64_t>(ale_isqrt(static_cast<uint64_t>(x * x + y * y)));
 }
 
-ale_point_t point_of(const ale_map_t &map, const End &end)
+ale_point_t point_of(const WallMap &map, const End &end)
 {
-    const ale_map_line_t &line = map.line[end.line];
+    const ale_map_line_t &line = map.lines[end.line];
     return end.is_start ? line.start : line.end;
 }
 
 // Line ends within reach_um of a point.
-std::vector<End> ends_near(const ale_map_t &map, ale_point_t p)
+std::vector<End> ends_near(const WallMap &map, ale_point_t p)
 {
     std::vector<End> ends;
-    for (uint16_t k = 0; k < map.line_count; k++) {
-        const ale_map_line_t &line = map.line[k];
+    for (size_t k = 0; k < map.lines.size(); k++) {
+        const ale_map_line_t &line = map.lines[k];
         const ale_point_t d = ale_minus(line.end, line.start);
         const uint32_t along_bam = ale_atan2_bam(d.y_um, d.x_um);
         const bool at_start = distance_um(line.start, p) <= distance_um(line.end, p);
@@ -76,7 +76,7 @@ ale_point_t crossing(ale_point_t a, uint32_t u_bam, ale_point_t b, uint32_t v_ba
     return ale_plus(a, ale_polar(ale_clamp64(t_um, -2 * reach_um, 2 * reach_um), u_bam));
 }
 
-std::optional<Junction> junction(const ale_map_t &map, const End &a, const End &b,
+std::optional<Junction> junction(const WallMap &map, const End &a, const End &b,
                                  const ale_map_corner_t &corner)
 {
     const int64_t opening_bam = ale_abs64(ale_bam_diff(a.inwards_bam, b.inwards_bam));
@@ -94,7 +94,7 @@ std::optional<Junction> junction(const ale_map_t &map, const End &a, const End &
     return Junction{a, b, p, distance_um(p, corner.p)};
 }
 
-std::optional<Junction> nearest_junction(const ale_map_t &map, const ale_map_corner_t &corner)
+std::optional<Junction> nearest_junction(const WallMap &map, const ale_map_corner_t &corner)
 {
     std::optional<Junction> best;
     const std::vector<End> ends = ends_near(map, corner.p);
@@ -107,10 +107,10 @@ std::optional<Junction> nearest_junction(const ale_map_t &map, const ale_map_cor
     return best;
 }
 
-void move_ends_to(ale_map_t *map, const Junction &m)
+void move_ends_to(WallMap *map, const Junction &m)
 {
     for (const End &end : {m.a, m.b}) {
-        ale_map_line_t &line = map->line[end.line];
+        ale_map_line_t &line = map->lines[end.line];
         (end.is_start ? line.start : line.end) = m.p;
     }
 }
@@ -139,7 +139,7 @@ std::unique_ptr<ale_map_corners_t> averaged(const ObservationRecord &record, con
 
 } // namespace
 
-void add_wall_corners(const ObservationRecord &record, const PoseOfScan &pose_of, ale_map_t *map)
+void add_wall_corners(const ObservationRecord &record, const PoseOfScan &pose_of, WallMap *map)
 {
     const std::unique_ptr<ale_map_corners_t> seen = averaged(record, pose_of);
     std::stable_sort(seen->corner, seen->corner + seen->count,
@@ -148,12 +148,12 @@ void add_wall_corners(const ObservationRecord &record, const PoseOfScan &pose_of
         ale_map_corner_t corner = seen->corner[k];
         const std::optional<Junction> m = nearest_junction(*map, corner);
         const auto is_here = [&m](const ale_map_corner_t &other) { return distance_um(other.p, m->p) == 0; };
-        if (!m || std::any_of(map->corner, map->corner + map->corner_count, is_here)) {
+        if (!m || std::any_of(map->corners.begin(), map->corners.end(), is_here)) {
             continue;
         }
         move_ends_to(map, *m);
         corner.p = m->p;
-        map->corner[map->corner_count++] = corner;
+        map->corners.push_back(corner);
     }
 }
 

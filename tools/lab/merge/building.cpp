@@ -51,6 +51,11 @@ void Building::draw(ale_map_t *out) const
         record_, [this](const ale::RecordedScan &scan) { return pose_of(scan); }, out);
 }
 
+ale::WallMap Building::draw_all() const
+{
+    return ale::rebuild_walls(record_, [this](const ale::RecordedScan &scan) { return pose_of(scan); });
+}
+
 void Building::draw_first(size_t drives, ale_map_t *out) const
 {
     const size_t last = drives < first_scan_.size() ? first_scan_[drives] : poses_.size();

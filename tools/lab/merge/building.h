@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/export/scan_cloud.h"
+#include "graph/walls/wall_corners.h"
 #include "lab/merge/drive.h"
 
 extern "C" {
@@ -26,6 +27,9 @@ class Building
 
     /* Fills *out with ids from 0. See rebuild_map. */
     void draw(ale_map_t *out) const;
+
+    /* The whole of it, where that is more than a map holds. See rebuild_walls. */
+    ale::WallMap draw_all() const;
 
     /* The same of the first so many drives alone, and what was before them. */
     void draw_first(size_t drives, ale_map_t *out) const;

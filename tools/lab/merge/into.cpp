@@ -122,6 +122,7 @@ void make_version(const Options &options, std::vector<Drive> drives, const std::
     next.earlier = earlier.get();
     draw_maps(options, *map, building);
     kept->commit(next);
+    save_tiles(options, building);
 }
 
 } // namespace

@@ -48,6 +48,7 @@ int merge(const Options &options)
     if (!options.out.empty()) {
         save_map(options.out, *map);
     }
+    save_tiles(options, building);
     draw_maps(options, *map, building);
     return all ? 0 : 1;
 }

@@ -24,6 +24,8 @@ constexpr char usage[] =
     "the walls\n"
     "  --versions            lists the versions of a kept map\n"
     "  --out F               the map, as ale-slamd and ale-replay --load-map load it\n"
+    "  --tiles F             the same by tiles, of a building of any size: the robot loads those around it\n"
+    "  --tile-side M         their side, whole metres (default 10, 1 to 1000)\n"
     "  --map F               the same drawn: .svg, .png, .dxf, or .pgm with .yaml; may be repeated\n"
     "  --points              draw the points of the scans faintly behind the map (.svg, .png)\n"
     "  --trajectories FOLDER a file NAME.tum for each drive: its poses in the map\n"
@@ -36,6 +38,10 @@ constexpr char usage[] =
 void bind(cli::CommandLine &line, Options &o)
 {
     line.text("out", o.out);
+    line.text("tiles", o.tiles);
+    line.option("tile-side", [&o](const std::string &word) {
+        o.tile_side_um = 1000000 * cli::number_of<int32_t>("--tile-side", word, 1, 1000);
+    });
     line.text("into", o.into);
     line.number<size_t>("keep", o.keep, 1, 1000);
     line.flag("versions", o.versions);
@@ -48,23 +54,29 @@ void bind(cli::CommandLine &line, Options &o)
     line.arguments("LOG", o.drives);
 }
 
-void check(const Options &o)
+void check_maps(const Options &o)
 {
-    if (o.out == "-" || o.into == "-") {
+    if (o.out == "-" || o.into == "-" || o.tiles == "-") {
         throw cli::WrongUse("a saved map is a file");
     }
     if (!o.into.empty() && !o.out.empty()) {
         throw cli::WrongUse("--out and --into: the map is in one of them");
     }
-    if (o.versions && (o.drives.size() != 1 || !o.into.empty() || !o.out.empty())) {
+    const bool writes = !o.into.empty() || !o.out.empty() || !o.tiles.empty();
+    if (o.versions && (o.drives.size() != 1 || writes)) {
         throw cli::WrongUse("--versions: one kept map, and nothing else");
     }
+}
+
+void check_files(const Options &o)
+{
     cli::Files files;
     for (const std::string &path : o.drives) {
         files.reads("LOG", path);
     }
     files.reads("--config", o.config);
     files.writes("--out", o.out);
+    files.writes("--tiles", o.tiles);
     files.writes("--into", o.into);
     for (const std::string &path : o.maps) {
         files.writes("--map", path);
@@ -79,7 +91,8 @@ int with_options(int argc, char **argv, const std::function<int(const Options &)
     cli::CommandLine line("ale-merge", usage);
     bind(line, options);
     return line.run(argc, argv, [&] {
-        check(options);
+        check_maps(options);
+        check_files(options);
         return work(options);
     });
 }

@@ -8,12 +8,18 @@
 
 #include "common/log/robot_config.h"
 
+extern "C" {
+#include "store/tile_file.h"
+}
+
 namespace merge
 {
 
 struct Options : ale::RobotOptions {
     std::vector<std::string> drives;
     std::string out;
+    std::string tiles;
+    int32_t tile_side_um = ALE_TILE_SIDE_UM;
     std::string into;
     bool versions = false; /* of the one file that `drives` names */
     size_t keep = 20;

@@ -9,6 +9,7 @@
 
 extern "C" {
 #include "store/map_file.h"
+#include "store/tile_file.h"
 }
 
 namespace merge
@@ -18,6 +19,20 @@ void save_map(const std::string &path, const ale_map_t &map)
 {
     char error[ALE_MAP_FILE_ERROR];
     if (ale_map_file_save(path.c_str(), &map, error) < 0) {
+        throw std::runtime_error(error);
+    }
+}
+
+void save_tiles(const Options &options, const Building &building)
+{
+    if (options.tiles.empty()) {
+        return;
+    }
+    const ale::WallMap map = building.draw_all();
+    const ale_whole_map_t whole = {map.lines.data(), map.lines.size(), map.corners.data(),
+                                   map.corners.size()};
+    char error[ALE_MAP_FILE_ERROR];
+    if (ale_tile_file_save(options.tiles.c_str(), &whole, options.tile_side_um, error) < 0) {
         throw std::runtime_error(error);
     }
 }

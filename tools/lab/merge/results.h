@@ -12,6 +12,9 @@ namespace merge
 
 void save_map(const std::string &path, const ale_map_t &map);
 
+/* By tiles, where that is asked for. */
+void save_tiles(const Options &options, const Building &building);
+
 /* Where they are asked for: NAME.tum of what is in this frame, and where several logs are called that,
  * NAME-2.tum ... in the order of their dates. */
 void write_trajectories(const Options &options, const std::vector<Drive> &drives, uint32_t frame);

@@ -44,6 +44,19 @@ def test_two_drives_of_one_home_are_one_map_in_any_order(tmp_path):
     assert "not joined" not in alone.stderr
 
 
+def test_tiles_hold_the_walls_of_the_map_and_a_robot_drives_in_them(tmp_path):
+    log, truth = drive(tmp_path, "home", WORLDS / "home.world", 1, 0)
+    merge(tmp_path, log, "--out", "home.map", "--tiles", "home.tiles", "--tile-side", "3")
+    numbered = {line.split(maxsplit=2)[2] for line in (tmp_path / "home.map").read_text().splitlines() if line.startswith("wall ")}
+    tiled = {line.split(maxsplit=2)[2] for line in (tmp_path / "home.tiles").read_text().splitlines() if line.startswith("wall ")}
+    assert numbered == tiled
+    assert (tmp_path / "home.tiles").read_text().count("\ntile ") > 8
+    live = tmp_path / "live.tum"
+    subprocess.run([BINARIES / "ale-replay", log, "--load-map", tmp_path / "home.tiles", "--start", "0,0,0", "--trajectory-live", live],
+                   capture_output=True, check=True)
+    assert np.sqrt(np.mean(aligned_errors(read_tum(live)[1], at_times(read_tum(live)[0], read_tum(truth))[0]) ** 2)) < MOST_ERROR_M
+
+
 def test_drives_of_two_buildings_stay_apart_and_that_is_said(tmp_path):
     (home, _), (arena, _) = (drive(tmp_path, name, WORLDS / f"{name}.world", 1, 0) for name in ("home", "arena"))
     said = merge(tmp_path, home, arena, "--out", "one.map", code=1)
