@@ -28,7 +28,7 @@ RESULTS = pathlib.Path(os.environ.get("ALE_RESULTS", BUILD / "test-results.txt")
 
 BEGUN = RESULTS.with_suffix(".begun")
 FAILED = RESULTS.with_suffix(".failed")
-LIMIT_S = 1200  # of one step: what hangs is a failure, not a wait
+LIMIT_S = 1800  # of one step: what hangs is a failure, not a wait
 
 
 def record(kind, passed, failed, skipped, names=()):
