@@ -232,21 +232,33 @@ const char *ale_bytes_read_file(ale_bytes_t *out, const char *path)
     return wrong;
 }
 
-const char *ale_bytes_read_regular(ale_bytes_t *out, const char *path, const ale_bytes_rule_t *rule,
+const char *ale_bytes_open_regular(int *file, const char *path, const ale_bytes_rule_t *rule,
                                    struct stat *status)
 {
-    buffer_t raw = {.most = rule->most + 1, .too_much = TOO_LARGE};
-    *out = (ale_bytes_t){0};
     /* What is opened is looked at before it is read: a pipe without a writer must not hold us up. */
-    const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | (rule->follow_links ? 0 : O_NOFOLLOW));
-    if (file < 0) {
+    *file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | (rule->follow_links ? 0 : O_NOFOLLOW));
+    if (*file < 0) {
         return errno == ELOOP && !rule->follow_links ? "a symbolic link, which is not followed"
                                                      : strerror(errno);
     }
-    const char *wrong = check_regular(file, rule->most, status);
-    if (!wrong) {
-        wrong = read_all(file, &raw);
+    const char *wrong = check_regular(*file, rule->most, status);
+    if (wrong) {
+        close(*file);
     }
+    return wrong;
+}
+
+const char *ale_bytes_read_regular(ale_bytes_t *out, const char *path, const ale_bytes_rule_t *rule,
+                                   struct stat *status)
+{
+    int file;
+    buffer_t raw = {.most = rule->most + 1, .too_much = TOO_LARGE};
+    *out = (ale_bytes_t){0};
+    const char *wrong = ale_bytes_open_regular(&file, path, rule, status);
+    if (wrong) {
+        return wrong;
+    }
+    wrong = read_all(file, &raw);
     close(file);
     if (wrong) {
         free(raw.at);

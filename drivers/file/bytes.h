@@ -39,10 +39,15 @@ typedef struct {
     bool follow_links;
 } ale_bytes_rule_t;
 
-/* Reads a regular file as it is, and *status says whose the very file is that was read. NULL and *out, the
- * caller's to give back; or what is wrong: the system's words, "is a directory", "no regular file" (a pipe, a
- * device), "a symbolic link, ..." (the last part of the path, where links are not followed), "too large"
- * (told before it is read), "not enough memory". Never waits for a pipe. */
+/* Opens a regular file to be read, and *status says whose the very file is. NULL and *file, the caller's to
+ * close; or what is wrong: the system's words, "is a directory", "no regular file" (a pipe, a device), "a
+ * symbolic link, ..." (the last part of the path, where links are not followed), "too large". Never waits for
+ * a pipe. */
+const char *ale_bytes_open_regular(int *file, const char *path, const ale_bytes_rule_t *rule,
+                                   struct stat *status);
+
+/* Reads it as it is. NULL and *out, the caller's to give back; or what is wrong: as above, or "not enough
+ * memory". */
 const char *ale_bytes_read_regular(ale_bytes_t *out, const char *path, const ale_bytes_rule_t *rule,
                                    struct stat *status);
 

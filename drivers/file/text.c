@@ -172,6 +172,17 @@ bool ale_text_decimal32(ale_span_t word, unsigned decimals, int32_t *out)
     return true;
 }
 
+bool ale_text_numbers(ale_span_t line, int64_t *numbers, uint32_t count)
+{
+    ale_span_t word;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!ale_text_word(&line, &word) || !ale_text_decimal(word, 0, &numbers[i])) {
+            return false;
+        }
+    }
+    return !ale_text_word(&line, &word);
+}
+
 bool ale_text_angle(ale_span_t word, uint32_t *angle_bam)
 {
     int64_t nrad = 0;

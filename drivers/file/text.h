@@ -43,6 +43,9 @@ bool ale_text_decimal(ale_span_t word, unsigned decimals, int64_t *out);
 /* The same for a value that must fit int32; false also when it does not. */
 bool ale_text_decimal32(ale_span_t word, unsigned decimals, int32_t *out);
 
+/* The words of a line as `count` numbers, and no more. False: others, and *numbers then holds anything. */
+bool ale_text_numbers(ale_span_t line, int64_t *numbers, uint32_t count);
+
 /* Radians to BAM, any number of turns up to 10^8 rad. False, and *angle_bam untouched: no number, or beyond.
  */
 bool ale_text_angle(ale_span_t word, uint32_t *angle_bam);

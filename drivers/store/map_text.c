@@ -62,18 +62,6 @@ char *ale_map_text_print(const ale_map_t *map, const ale_pose_t *pose, size_t *c
     return text;
 }
 
-/* Takes `count` whole numbers that end the line. */
-static bool take_numbers(ale_span_t line, int64_t *numbers, uint32_t count)
-{
-    ale_span_t word;
-    for (uint32_t i = 0; i < count; i++) {
-        if (!ale_text_word(&line, &word) || !ale_text_decimal(word, 0, &numbers[i])) {
-            return false;
-        }
-    }
-    return !ale_text_word(&line, &word);
-}
-
 /* The distance of any two points of a map fits 32 bits. */
 static bool is_length(int64_t value)
 {
@@ -102,8 +90,8 @@ static bool is_word32(int64_t value)
 static bool take_wall(ale_span_t line, ale_map_t *map)
 {
     int64_t n[WALL_NUMBERS];
-    if (map->line_count >= ALE_MAP_MAX_LINES || !take_numbers(line, n, WALL_NUMBERS) || !is_word32(n[0]) ||
-        !is_length(n[1]) || !is_length(n[2]) || !is_length(n[3]) || !is_length(n[4]) ||
+    if (map->line_count >= ALE_MAP_MAX_LINES || !ale_text_numbers(line, n, WALL_NUMBERS) ||
+        !is_word32(n[0]) || !is_length(n[1]) || !is_length(n[2]) || !is_length(n[3]) || !is_length(n[4]) ||
         !is_covariance(n[5], n[6], n[7]) || !is_word32(n[8])) {
         return false;
     }
@@ -120,7 +108,7 @@ static bool take_wall(ale_span_t line, ale_map_t *map)
 static bool take_corner(ale_span_t line, ale_map_t *map)
 {
     int64_t n[CORNER_NUMBERS];
-    if (map->corner_count >= ALE_MAP_MAX_CORNERS || !take_numbers(line, n, CORNER_NUMBERS) ||
+    if (map->corner_count >= ALE_MAP_MAX_CORNERS || !ale_text_numbers(line, n, CORNER_NUMBERS) ||
         !is_length(n[0]) || !is_length(n[1]) || !is_covariance(n[2], n[3], n[4]) ||
         !is_covariance(n[4], n[3], n[2]) || !is_word32(n[5]) || !is_word32(n[6]) || !is_word32(n[7]) ||
         n[8] < ALE_CORNER_CONVEX || n[8] > ALE_CORNER_CONCAVE) {
@@ -138,8 +126,8 @@ static bool take_corner(ale_span_t line, ale_map_t *map)
 static bool take_pose(ale_span_t line, ale_map_text_t *content)
 {
     int64_t n[POSE_NUMBERS];
-    if (content->pose_known || !take_numbers(line, n, POSE_NUMBERS) || !is_length(n[0]) || !is_length(n[1]) ||
-        !is_word32(n[2])) {
+    if (content->pose_known || !ale_text_numbers(line, n, POSE_NUMBERS) || !is_length(n[0]) ||
+        !is_length(n[1]) || !is_word32(n[2])) {
         return false;
     }
     content->pose = (ale_pose_t){(int32_t)n[0], (int32_t)n[1], (uint32_t)n[2]};

@@ -1,7 +1,6 @@
 #include "store/tile_file.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +9,7 @@
 #include <zlib.h>
 
 #include "base/fixed.h"
+#include "file/bytes.h"
 #include "file/text.h"
 
 static const char HEAD[] = "ALE-SLAM tiles 1";
@@ -22,47 +22,43 @@ static int fail(char error[ALE_MAP_FILE_ERROR], const char *path, const char *re
     return -1;
 }
 
-bool ale_tile_file_is(const char *path)
-{
-    char head[sizeof HEAD] = "";
-    const int descriptor = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    const ssize_t count = descriptor < 0 ? -1 : read(descriptor, head, sizeof head);
-    if (descriptor >= 0) {
-        close(descriptor);
-    }
-    return count == (ssize_t)sizeof head && memcmp(head, HEAD, sizeof HEAD - 1) == 0 &&
-           head[sizeof HEAD - 1] == '\n';
-}
-
 /* NULL, or what is wrong. */
-static const char *open_regular(FILE **in, const char *path)
+static const char *open_tiles(FILE **in, const char *path)
 {
+    const ale_bytes_rule_t rule = {.most = SIZE_MAX, .follow_links = false};
     struct stat status;
-    const int descriptor = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (descriptor < 0) {
-        return errno == ELOOP ? "a symbolic link, which is not followed" : strerror(errno);
+    int descriptor;
+    const char *wrong = ale_bytes_open_regular(&descriptor, path, &rule, &status);
+    if (wrong) {
+        return wrong;
     }
-    const char *wrong = fstat(descriptor, &status) < 0 ? strerror(errno)
-                        : S_ISREG(status.st_mode)      ? NULL
-                                                       : "no regular file";
-    *in = wrong ? NULL : fdopen(descriptor, "rb");
+    *in = fdopen(descriptor, "rb");
     if (!*in) {
         close(descriptor);
-        return wrong ? wrong : "not enough memory";
+        return "not enough memory";
     }
     return NULL;
 }
 
-/* Takes `count` whole numbers that end the line. */
-static bool take_numbers(ale_span_t line, int64_t *numbers, uint32_t count)
+/* From the first byte on, and back to it. */
+static bool has_head(FILE *in)
 {
-    ale_span_t word;
-    for (uint32_t i = 0; i < count; i++) {
-        if (!ale_text_word(&line, &word) || !ale_text_decimal(word, 0, &numbers[i])) {
-            return false;
-        }
+    char head[sizeof HEAD];
+    const bool is_head = fread(head, 1, sizeof head, in) == sizeof head &&
+                         memcmp(head, HEAD, sizeof HEAD - 1) == 0 && head[sizeof HEAD - 1] == '\n';
+    rewind(in);
+    return is_head;
+}
+
+bool ale_tile_file_is(const char *path)
+{
+    FILE *in;
+    if (open_tiles(&in, path)) {
+        return false;
     }
-    return !ale_text_word(&line, &word);
+    const bool is_head = has_head(in);
+    fclose(in);
+    return is_head;
 }
 
 static bool is_within(int64_t value, int64_t least, int64_t most)
@@ -73,7 +69,7 @@ static bool is_within(int64_t value, int64_t least, int64_t most)
 static bool take_map(ale_tile_file_t *file, ale_span_t line)
 {
     int64_t n[MAP_NUMBERS];
-    if (file->side_um != 0 || !take_numbers(line, n, MAP_NUMBERS) ||
+    if (file->side_um != 0 || !ale_text_numbers(line, n, MAP_NUMBERS) ||
         !is_within(n[0], ALE_TILE_SIDE_LEAST_UM, ALE_TILE_SIDE_MOST_UM) || n[0] % 1000 != 0 ||
         !is_within(n[1], 0, UINT32_MAX) || !is_within(n[2], 0, UINT32_MAX)) {
         return false;
@@ -107,7 +103,7 @@ static bool take_tile(ale_tile_file_t *file, ale_span_t line)
 {
     int64_t n[TILE_NUMBERS];
     const int32_t farthest = ALE_MAP_FARTHEST_UM / ALE_TILE_SIDE_LEAST_UM + 1;
-    if (file->count == ALE_TILES_MOST || !take_numbers(line, n, TILE_NUMBERS) ||
+    if (file->count == ALE_TILES_MOST || !ale_text_numbers(line, n, TILE_NUMBERS) ||
         !is_within(n[0], -farthest, farthest) || !is_within(n[1], -farthest, farthest) ||
         !is_within(n[2], 0, ALE_MAP_MAX_LINES) || !is_within(n[3], 0, ALE_MAP_MAX_CORNERS) ||
         !is_within(n[4], 0, INT64_MAX / 2) || !is_within(n[5], 1, ALE_MAP_TEXT_MOST)) {
@@ -154,7 +150,7 @@ static line_outcome_t take_line(ale_tile_file_t *file, ale_span_t line, uint32_t
     return ale_text_is(word, "end") && is_right_end(file, line, crc) ? LINE_ENDS_INDEX : LINE_WRONG;
 }
 
-/* NULL, or what is wrong. The first line was told by ale_tile_file_is. */
+/* NULL, or what is wrong. The first line is known. */
 static const char *read_index(ale_tile_file_t *file, uint64_t *line_number)
 {
     char text[LINE_BYTES];
@@ -181,8 +177,8 @@ int ale_tile_file_open(ale_tile_file_t *file, const char *path, char error[ALE_M
 {
     uint64_t line_number = 0;
     *file = (ale_tile_file_t){0};
-    const char *wrong = open_regular(&file->in, path);
-    if (!wrong && !ale_tile_file_is(path)) {
+    const char *wrong = open_tiles(&file->in, path);
+    if (!wrong && !has_head(file->in)) {
         wrong = "not a map of tiles of version 1";
     }
     if (!wrong) {

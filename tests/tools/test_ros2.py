@@ -126,45 +126,48 @@ def test_frames_lead_from_map_to_laser_and_there_is_one_parent_for_each(bridge, 
 def test_who_comes_late_gets_the_map_and_the_mounting_at_once_though_nothing_new_is_sent(bridge, peer, robot):
     early = peer.reader("map", OccupancyGrid, LATCHED)
     bridge()
-    end = time.monotonic() + 120
-    while not any(shows_the_rooms(grid) for grid in early.poll()):
-        assert time.monotonic() < end
-        robot.publish_map()
-        robot.drive(3)
-    newest = None
-    while newest != len(early.poll()):  # until none comes any more
-        newest = len(early.poll())
-        time.sleep(2.5)
+    shown = the_rooms_are_shown(robot, early)
     late = peer.another()
     grid = late.reader("map", OccupancyGrid, LATCHED).wait()
     assert late.reader("tf_static", TFMessage, LATCHED).wait().transforms[0].child_frame_id == "laser"
     assert grid.header.frame_id == "map" and grid.info.resolution == pytest.approx(0.05)
     assert len(grid.data) == grid.info.width * grid.info.height and set(grid.data) == {-1, 0, 100}
-    assert shows_the_rooms(grid) and grid.data == early.poll()[-1].data
+    assert shows_the_rooms(grid) and grid.data == shown.data
     assert cells_at(grid, -2.3, 2.3) == {-1}
-
-
-def known(grid):
-    return sum(cell >= 0 for cell in grid.data)
 
 
 @LONG
 def test_of_a_map_that_the_robot_has_forgotten_nothing_is_shown_any_more(bridge, peer, robot):
     grids = peer.reader("map", OccupancyGrid, LATCHED)
     bridge()
-    end = time.monotonic() + 120
-    while not any(shows_the_rooms(grid) for grid in grids.poll()):
-        assert time.monotonic() < end
-        robot.drive(3)
+    the_rooms_are_shown(robot, grids)
     robot.drive(60)
-    time.sleep(2.5)  # the map goes out every second or so
-    most = known(grids.poll()[-1])
+    most = known(the_rooms_are_shown(robot, grids))
     robot.drive(2)
     robot.scan = 0  # where it began: nobody drives there in a moment
+    end = time.monotonic() + 120
     while known(grids.poll()[-1]) >= most:
         assert time.monotonic() < end
         robot.drive(1)
         time.sleep(0.2)
+
+
+def the_rooms_are_shown(robot, grids):
+    """The newest of the grids, when they have shown the rooms and no other comes any more."""
+    end = time.monotonic() + 120
+    while not any(shows_the_rooms(grid) for grid in grids.poll()):
+        assert time.monotonic() < end
+        robot.publish_map()
+        robot.drive(3)
+    newest = None
+    while newest != len(grids.poll()):
+        newest = len(grids.poll())
+        time.sleep(2.5)
+    return grids.messages[-1]
+
+
+def known(grid):
+    return sum(cell >= 0 for cell in grid.data)
 
 
 def shows_the_rooms(grid):

@@ -66,6 +66,20 @@ TEST(Text, WhatIsNoNumberIsRefused)
     EXPECT_EQ(small, INT32_MAX);
 }
 
+TEST(Text, ALineOfNumbersHasAllOfThemAndNoMore)
+{
+    const std::string text = " 7 -12\t0 \r";
+    int64_t n[4] = {};
+    ASSERT_TRUE(ale_text_numbers(span(text), n, 3));
+    EXPECT_EQ(n[0], 7);
+    EXPECT_EQ(n[1], -12);
+    EXPECT_EQ(n[2], 0);
+    EXPECT_FALSE(ale_text_numbers(span(text), n, 2));
+    EXPECT_FALSE(ale_text_numbers(span(text), n, 4));
+    const std::string word = "7 x 0";
+    EXPECT_FALSE(ale_text_numbers(span(word), n, 3));
+}
+
 TEST(Text, DecimalsAgreeWithTheLongDoubleOfTheLibrary)
 {
     std::mt19937_64 random(1);

@@ -94,6 +94,13 @@ struct Robot {
         }
         return good;
     }
+    bool is_good_in_all()
+    {
+        put_walls(0, all);
+        const bool taken = change();
+        good_scans(30);
+        return taken && last.state == ALE_STATE_GOOD;
+    }
     /* A piece is there after every scan. It waits for one that was not searched, which is the next; how often
      * it has. */
     int waits(int scans)
@@ -137,10 +144,7 @@ TEST(Tiles, ARobotThatIsSaidToBeSomewhereIsFoundThereWhenTheTilesHaveCome)
 TEST(Tiles, ATileThatComesLateDoublesNoWallAndLosesNobody)
 {
     Robot robot(true);
-    robot.put_walls(0, all);
-    ASSERT_TRUE(robot.change());
-    robot.good_scans(30);
-    ASSERT_EQ(robot.last.state, ALE_STATE_GOOD);
+    ASSERT_TRUE(robot.is_good_in_all());
     for (uint32_t id = 1; id <= 8; id++) { // four sides of the room
         robot.piece->gone[robot.piece->gone_count++] = id;
     }
@@ -193,10 +197,7 @@ TEST(Tiles, AScanThatIsSearchedTakesNoPieceAndALostRobotIsFoundMeanwhile)
 TEST(Tiles, AScanThatTheMapDoesNotExplainTakesNoPieceButTheNextOneDoes)
 {
     Robot robot(true);
-    robot.put_walls(0, all);
-    ASSERT_TRUE(robot.change());
-    robot.good_scans(30);
-    ASSERT_EQ(robot.last.state, ALE_STATE_GOOD);
+    ASSERT_TRUE(robot.is_good_in_all());
     ale_pipeline_freeze_map(robot.p.get(), true);
     for (uint32_t id = 1; id <= 12; id++) { // most of the room
         robot.piece->gone[robot.piece->gone_count++] = id;
@@ -212,10 +213,7 @@ TEST(Tiles, AScanThatTheMapDoesNotExplainTakesNoPieceButTheNextOneDoes)
 TEST(Tiles, WhatAScanHasProposedStandsWhileAPieceIsTaken)
 {
     Robot robot(true);
-    robot.put_walls(0, all);
-    ASSERT_TRUE(robot.change());
-    robot.good_scans(30);
-    ASSERT_EQ(robot.last.state, ALE_STATE_GOOD);
+    ASSERT_TRUE(robot.is_good_in_all());
     robot.carry(2);
     EXPECT_GT(robot.waits(30), 0);
     EXPECT_EQ(robot.last.state, ALE_STATE_GOOD);
