@@ -13,8 +13,8 @@ Q = $(if $(filter 0,$(V)),@)
 say = $(if $(filter 0,$(V)),@echo "  $(1)	$(2)")
 
 SANITIZER_FLAGS = $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-omit-frame-pointer -fno-sanitize-recover=all $(SANITIZER_SCOPE))
-# `make test` is content with what stack traces need (-g1): it compiles in three quarters of the time.
-DEBUG ?= -g
+# What stack traces need: it compiles in three quarters of the time that a debugger's (`make DEBUG=-g`) takes.
+DEBUG ?= -g1
 COMMON_FLAGS = $(DEBUG) $(OPT) $(WARNINGS) $(SANITIZER_FLAGS) -MMD -MP
 C_FLAGS = -std=c11 -D_GNU_SOURCE $(COMMON_FLAGS) $(CFLAGS)
 # Generated LCM types read floats through pointers to integers. clang 19 warns of what libstdc++ 12 itself calls in its sort;

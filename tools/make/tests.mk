@@ -211,7 +211,7 @@ docs-check: programs ## what the READMEs name is there, and their figures are wh
 SHORT_FUZZ = --seconds 5 --inputs 50000
 export ALE_RESULTS ?= $(ALE_BUILD)/test-results.txt
 PHASE = $(PYTHON) tools/make/run_tests.py phase
-SUB = $(MAKE) --no-print-directory -s DEBUG=-g1
+SUB = $(MAKE) --no-print-directory -s
 # By clang, which can be told in whose code to look for undefined behaviour: in Eigen's it doubles what the mapper costs. With -O1 clang puts
 # no function into its caller, of which the mapper is made: it gets -O2.
 CHECKED = $(SUB) CC=$(CCACHE)clang CXX=$(CCACHE)clang++ BUILD=$(BUILD)/asan TEST_BUILD=$(BUILD) SANITIZE=address,undefined OPT=-O1 \
