@@ -202,12 +202,12 @@ class RobotDouble:
         pieces.num_lines = len(walls)
         self.bus.publish("ALE_MAP_PIECES", pieces.encode())
 
-    def publish_graph(self, apart=0, loops=((0, 20, 1), (1, 18, 0)), left_out=0):
+    def publish_graph(self, apart=0, loops=((0, 20, 1), (1, 18, 0)), left_out=0, first_scan=0):
         """Keyframes around its circle, the last `apart` of them in another map; loops as (from, to, kind)."""
         graph = ale.graph_t()
         graph.version, graph.keyframes_left_out = 1, left_out
         graph.num_keyframes = len(GRAPH)
-        graph.scan = [10 * k for k in range(len(GRAPH))]
+        graph.scan = [first_scan + 10 * k for k in range(len(GRAPH))]
         graph.x, graph.y, graph.theta = ([place[k] for place in GRAPH] for k in range(3))
         graph.map_id = [0] * (len(GRAPH) - apart) + [1] * apart
         graph.tied = [int(k > 0 and k != len(GRAPH) - apart) for k in range(len(GRAPH))]

@@ -154,6 +154,39 @@ def test_what_is_shown_is_recorded_and_is_what_the_robot_said(bridge, robot, tmp
     assert found["/health"][-1][2]["counters"]["bad_checksum"] == 3
 
 
+def test_one_robot_among_several_has_topics_frames_and_commands_of_its_own(bridge, robot, pulse, commands, alice, tmp_path):
+    running = bridge("--namespace", "rover1", "--record", tmp_path / "live.mcap", "--keys", alice)
+    client = FoxgloveClient(running.url)
+    client.subscribe("/rover1/tf")
+    client.wait_for("/rover1/tf")
+    for topic, frame in (("/goal_pose", "rover1/map"), ("/rover1/goal_pose", "map")):
+        client.publish(topic, "geometry_msgs/PoseStamped", pose_message(1, 1, 0, frame=frame))
+    end = time.monotonic() + 120
+    while not any(each.verb == "goto" for each in commands(0)):
+        assert time.monotonic() < end
+        client.publish("/rover1/goal_pose", "geometry_msgs/PoseStamped", pose_message(2, 1, 0, frame="rover1/map"))
+        commands(lambda so_far: any(each.verb == "goto" for each in so_far), seconds=0.2)
+    assert all(each.args == ["2.000000", "1.000000"] for each in commands(0) if each.verb == "goto")
+    robot.publish_map()
+    assert "/rover1/ale/command" in client.services
+    client.close()
+    assert running.end() == 0
+    assert '/rover1/goal_pose: refused: a pose in the frame "map": only those in "rover1/map" are understood' in running.said
+    found = messages(tmp_path / "live.mcap")
+    assert {topic[:8] for topic in found} == {"/rover1/"}
+    frames = {(each.parent_frame_id, each.child_frame_id) for _, _, message in found["/rover1/tf"] for each in message.transforms}
+    assert frames == {("rover1/map", "rover1/odom"), ("rover1/odom", "rover1/base_link"), ("rover1/base_link", "rover1/laser")}
+    for topic in ("/rover1/lines", "/rover1/corners"):
+        assert {each.frame_id for _, _, message in found[topic] for each in message.entities} == {"rover1/laser"}
+    assert found["/rover1/scan"][0][2].frame_id == "rover1/laser" and found["/rover1/pose"][0][2].frame_id == "rover1/map"
+
+
+@pytest.mark.parametrize("words", [["--namespace", "a b"], ["--namespace", "/a"], ["layout", "--namespace", "a/", "F"], ["layout"], ["--port", "x"]])
+def test_wrong_use_ends_with_2_and_one_line(words):
+    done = run(*words)
+    assert done.returncode == 2 and done.stderr.count("\n") == 1
+
+
 def test_what_was_recorded_live_comes_back_as_the_robot_said_it_and_replays_the_same(bridge, lcm_url, tmp_path):
     """A log is played on the bus, each scan when the one before has been shown."""
     log = converted(LOG, tmp_path / "log.lcm")
@@ -313,15 +346,18 @@ def test_what_cannot_be_converted_is_told_in_one_line_and_leaves_nothing(source,
     assert list(tmp_path.iterdir()) == []
 
 
-def test_the_layout_names_only_what_the_bridge_sends_and_takes(tmp_path):
-    assert run("layout", tmp_path / "ale.json").returncode == 0
+@pytest.mark.parametrize("words, space", [([], ""), (["--namespace", "rover1"], "/rover1")])
+def test_the_layout_names_only_what_the_bridge_sends_and_takes(words, space, tmp_path):
+    assert run("layout", *words, tmp_path / "ale.json").returncode == 0
     layout = json.loads((tmp_path / "ale.json").read_text(encoding="utf-8"))
     panels = layout["configById"]
     topics = {"/map", "/graph", "/plan", "/scan", "/lines", "/corners", "/pose", "/odometry"}
-    assert set(panels["3D!robot"]["topics"]) == topics
+    assert set(panels["3D!robot"]["topics"]) == {space + topic for topic in topics}
+    assert panels["3D!robot"]["followTf"] == f"{space}/map".lstrip("/") and panels["Teleop!drive"]["topic"] == f"{space}/cmd_vel"
+    assert panels["CallService!command"]["serviceName"] == f"{space}/ale/command"
 
     def named(tree):
         return [tree] if isinstance(tree, str) else named(tree["first"]) + named(tree["second"])
     assert sorted(named(layout["layout"])) == sorted(panels)
     for each in panels["Plot!pose"]["paths"] + panels["Plot!stages"]["paths"]:
-        assert each["value"].startswith("/signals.")
+        assert each["value"].startswith(f"{space}/signals.")

@@ -6,6 +6,7 @@ import time
 import pytest
 
 from at_hand import BINARIES, LONG
+from robot_double import GRAPH, WALLS
 from watching import commands, lcm_url, pulse, robot  # noqa: F401 (fixtures)
 
 pytest.importorskip("cyclonedds", reason="PyPI's cyclonedds is not here")
@@ -20,7 +21,11 @@ from ros_types import (DiagnosticArray, Header, LaserScan, MarkerArray, Occupanc
 TOPICS = {  # as nav2, RViz2 and tf2 subscribe
     "scan": (LaserScan, BEST_EFFORT), "odom": (Odometry, BEST_EFFORT), "pose": (PoseWithCovarianceStamped, RELIABLE),
     "tf": (TFMessage, RELIABLE), "tf_static": (TFMessage, LATCHED), "map": (OccupancyGrid, LATCHED),
-    "ale/lines": (MarkerArray, RELIABLE), "diagnostics": (DiagnosticArray, RELIABLE)}
+    "ale/lines": (MarkerArray, RELIABLE), "ale/walls": (MarkerArray, LATCHED), "ale/graph": (MarkerArray, LATCHED),
+    "ale/plan": (MarkerArray, RELIABLE), "diagnostics": (DiagnosticArray, RELIABLE)}
+
+
+WAY = [(0.5, -0.6), (1.0, 0.0), (2.0, 1.0)]
 
 
 @pytest.fixture
@@ -71,15 +76,28 @@ def heading(turn):
     return 2 * math.atan2(turn.z, turn.w)
 
 
-def test_every_topic_comes_to_who_subscribes_as_nav2_and_rviz_do_and_in_the_very_bytes_of_rosbags(bridge, peer, pulse):
+def test_every_topic_comes_to_who_subscribes_as_nav2_and_rviz_do_and_in_the_very_bytes_of_rosbags(bridge, peer, robot, pulse):
     typesys = pytest.importorskip("rosbags.typesys", reason="PyPI's rosbags is not here")
     store = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE)
     heard = {name: peer.reader(name, *how) for name, how in TOPICS.items()}
     bridge()
     for name, (kind, _) in TOPICS.items():
-        message = heard[name].wait()
+        message = shown(robot, heard[name])
         theirs = store.deserialize_cdr(message.raw, kind.ros_name)
         assert bytes(store.serialize_cdr(theirs, kind.ros_name)) == b"\0\1\0\0" + payload(message.raw), name
+
+
+def shown(robot, reader, condition=lambda _: True):
+    """The first message that meets it, while the robot tells its map, graph and plan again and again."""
+    end = time.monotonic() + 120
+    while not any(condition(message) for message in reader.poll()):
+        assert time.monotonic() < end
+        robot.publish_pieces([5, 6])
+        robot.publish_map()
+        robot.publish_graph(apart=4)
+        robot.publish_plan(3, "drives to 2.00 1.00", place=(2, 1), path=WAY)
+        time.sleep(0.1)
+    return next(message for message in reader.messages if condition(message))
 
 
 def payload(raw):
@@ -137,14 +155,20 @@ def test_who_comes_late_gets_the_map_and_the_mounting_at_once_though_nothing_new
 
 
 @LONG
-def test_of_a_map_that_the_robot_has_forgotten_nothing_is_shown_any_more(bridge, peer, robot):
+@pytest.mark.parametrize("leaps", [True, False])
+def test_of_a_map_that_the_robot_has_forgotten_nothing_is_shown_any_more(bridge, peer, robot, leaps):
+    """One that stands where its map began when it forgets it is told by its keyframes, which are other scans."""
     grids = peer.reader("map", OccupancyGrid, LATCHED)
     bridge()
+    robot.publish_graph()
     the_rooms_are_shown(robot, grids)
     robot.drive(60)
     most = known(the_rooms_are_shown(robot, grids))
     robot.drive(2)
-    robot.scan = 0  # where it began: nobody drives there in a moment
+    if leaps:
+        robot.scan = 0  # where it began: nobody drives there in a moment
+    else:
+        robot.publish_graph(first_scan=robot.scan)
     end = time.monotonic() + 120
     while known(grids.poll()[-1]) >= most:
         assert time.monotonic() < end
@@ -210,6 +234,31 @@ def test_topics_may_stand_in_a_namespace(bridge, peer, pulse):
     scans = peer.reader("rover1/scan", LaserScan, BEST_EFFORT)
     bridge("--namespace", "rover1")
     assert scans.wait().header.frame_id == "laser"
+
+
+def drawn(message):
+    """{name: its points}; what has none is taken away."""
+    assert {marker.header.frame_id for marker in message.markers} == {"map"}
+    assert all(marker.action == (0 if marker.points else 2) and marker.scale.x > 0 and marker.color.a == 1 for marker in message.markers)
+    return {marker.ns: [(point.x, point.y) for point in marker.points] for marker in message.markers}
+
+
+def test_rviz_is_shown_walls_keyframes_loops_and_the_way_and_what_is_not_joined_by_itself(bridge, peer, robot):
+    bridge()
+    walls = shown(robot, peer.reader("ale/walls", MarkerArray, LATCHED), lambda message: drawn(message)["walls apart"])
+    ends = [place for wall in WALLS for place in (wall[:2], wall[2:])]
+    assert drawn(walls)["walls"] == [pytest.approx(place) for place in ends[:10] + ends[14:]]
+    assert drawn(walls)["walls apart"] == [pytest.approx(place) for place in ends[10:14]]
+    graph = drawn(shown(robot, peer.reader("ale/graph", MarkerArray, LATCHED)))
+    assert graph["keyframes"] + graph["keyframes apart"] == [pytest.approx(place[:2]) for place in GRAPH] and len(graph["keyframes apart"]) == 4
+    assert [len(graph[name]) // 2 for name in ("ties", "ties apart", "recognised", "closed", "joined")] == [17, 3, 1, 1, 0]
+    assert graph["closed"] == [pytest.approx(GRAPH[k][:2]) for k in (0, 20)]
+    plan = shown(robot, peer.reader("ale/plan", MarkerArray, RELIABLE))
+    assert drawn(plan) == {"way": [pytest.approx(place) for place in WAY], "place": [(2, 1)]}
+    assert plan.markers[0].lifetime.sec == 3 and walls.markers[0].lifetime.sec == 0
+    late = peer.another()
+    assert drawn(late.reader("ale/walls", MarkerArray, LATCHED).wait()) == drawn(walls)
+    assert drawn(late.reader("ale/graph", MarkerArray, LATCHED).wait()) == graph
 
 
 def publish_until(writer, message, condition):

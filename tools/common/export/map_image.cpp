@@ -41,17 +41,9 @@ const Kind *kind_of(const std::string &path)
     return nullptr;
 }
 
-void include(Extent &extent, const ale_point_t &p)
-{
-    extent.left_um = std::min(extent.left_um, p.x_um);
-    extent.bottom_um = std::min(extent.bottom_um, p.y_um);
-    extent.right_um = std::max(extent.right_um, p.x_um);
-    extent.top_um = std::max(extent.top_um, p.y_um);
-}
-
 Extent extent_without_points(const MapScene &scene)
 {
-    Extent extent = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
+    Extent extent = no_extent;
     for (int i = 0; i < scene.map->line_count; i++) {
         include(extent, scene.map->line[i].start);
         include(extent, scene.map->line[i].end);
@@ -131,10 +123,9 @@ void write_map_image(const std::string &path, const MapScene &scene)
 Extent extent_of(const MapScene &scene)
 {
     Extent extent = extent_without_points(scene);
-    if (scene.draw_points && scene.cloud) {
-        for (const ale_point_t &p : scene.cloud->points()) {
-            include(extent, p);
-        }
+    if (scene.draw_points && scene.cloud && !scene.cloud->empty()) {
+        include(extent, {scene.cloud->extent().left_um, scene.cloud->extent().bottom_um});
+        include(extent, {scene.cloud->extent().right_um, scene.cloud->extent().top_um});
     }
     return or_a_metre(extent);
 }

@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "common/export/extent.h"
 #include "common/export/scan_cloud.h"
 #include "common/export/trajectory.h"
 
@@ -66,12 +67,6 @@ bool is_map_image_name(const std::string &path);
 void write_map_image(const std::string &path, const MapScene &scene);
 
 /* Smallest rectangle of all that is drawn; a metre square about the origin when there is nothing. */
-struct Extent {
-    int32_t left_um;
-    int32_t bottom_um;
-    int32_t right_um;
-    int32_t top_um;
-};
 Extent extent_of(const MapScene &scene);
 
 /* The same for pictures: the last half per cent of the points on each side, glimpses far away, widens

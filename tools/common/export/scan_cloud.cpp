@@ -70,7 +70,10 @@ void ScanCloud::add(const ale_seen_copy_t &seen, const ale_pose_t &sensor)
 void ScanCloud::add_beam(const ale_pose_t &laser, int32_t range_um, uint32_t bearing_bam)
 {
     const ale_point_t end = ale_pose_apply(laser, ale_rotate({range_um, 0}, bearing_bam));
-    add_point(end);
+    include(extent_, end);
+    if (keeps_points_) {
+        add_point(end);
+    }
     if (range_um <= longest_ray_um) {
         add_ray({laser.x_um, laser.y_um}, end);
     }

@@ -4,8 +4,9 @@
  *   cloud.add(scan, pose, sensor);       every scan, with its pose in the map
  *
  * Points are kept one a cell of 20 mm; free and occupied are counted in cells of 50 mm, or another side: a
- * cell is free when beams passed it, occupied when they ended in it. Memory grows with the area seen, not
- * with the time. */
+ * cell is free when beams passed it, occupied when they ended in it. Memory of cells grows with the area seen,
+ * not with the time; that of points slowly with the time, too, as noise finds cells about a wall that are free
+ * yet: who runs for days and draws no points leaves them out. */
 #ifndef ALE_COMMON_EXPORT_SCAN_CLOUD_H
 #define ALE_COMMON_EXPORT_SCAN_CLOUD_H
 
@@ -16,6 +17,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "common/export/extent.h"
 #include "common/offline/scan_pose.h"
 
 extern "C" {
@@ -33,8 +35,11 @@ class ScanCloud
     static constexpr int32_t usual_cell_um = 50000;
     enum class Cell { unknown, free, occupied };
 
+    enum class Points { kept, left_out };
+
     /* cell_um: 1000 to 1000000. */
-    explicit ScanCloud(int32_t cell_um = usual_cell_um) : cell_um_(cell_um)
+    explicit ScanCloud(int32_t cell_um = usual_cell_um, Points points = Points::kept)
+        : cell_um_(cell_um), keeps_points_(points == Points::kept)
     {
     }
 
@@ -44,6 +49,20 @@ class ScanCloud
     const std::vector<ale_point_t> &points() const
     {
         return points_;
+    }
+    bool empty() const
+    {
+        return extent_.left_um > extent_.right_um;
+    }
+    /* Of all ends of beams; no_extent when empty. */
+    const Extent &extent() const
+    {
+        return extent_;
+    }
+    /* Cells that there is memory for: 4 bytes each. */
+    size_t cells() const
+    {
+        return tiles_.size() * std::tuple_size_v<Tile>;
     }
     int32_t cell_um() const
     {
@@ -66,6 +85,8 @@ class ScanCloud
     Count &count(int32_t column, int32_t row);
 
     int32_t cell_um_;
+    bool keeps_points_;
+    Extent extent_ = no_extent;
     std::vector<ale_point_t> points_;
     std::unordered_set<uint64_t> point_cells_;
     std::unordered_map<uint64_t, std::unique_ptr<Tile>> tiles_;

@@ -11,6 +11,7 @@ from foxglove import websocket
 
 from . import bus as lcm_bus
 from . import orders, scene
+from .names import Names
 from .near import program
 from .recording import Recording
 
@@ -27,8 +28,9 @@ def say(text):
 class Desk:
     """What clients publish, one after the other; of set points only the newest, since older ones are of no use."""
 
-    def __init__(self, given):
+    def __init__(self, given, names):
         self.given = given  # Orders
+        self.names = names
         self.waiting = queue.Queue(16)
         self.drive = None
         self.told = {}
@@ -37,7 +39,7 @@ class Desk:
 
     def take(self, topic, data):
         try:
-            line = orders.command_of(topic, data)
+            line = orders.command_of(self.names.plain(topic), data, self.names.frame("map"))
         except orders.Refused as refusal:
             self.tell(topic, False, str(refusal))
             return
@@ -54,7 +56,7 @@ class Desk:
             try:
                 topic, line = self.waiting.get(timeout=1 / DRIVES_A_SECOND)
             except queue.Empty:
-                topic, line, self.drive = "/cmd_vel", self.drive, None
+                topic, line, self.drive = self.names.topic("/cmd_vel"), self.drive, None
             if line:
                 self.tell(topic, *self.given.give(line))
 
@@ -71,8 +73,11 @@ class Listener(websocket.ServerListener):
         self.desk = desk
         self.topics = {}
 
+    def _is_order(self, topic):
+        return self.desk.names.plain(topic) in orders.TOPICS
+
     def on_client_advertise(self, client, channel):
-        if channel.topic in orders.TOPICS and channel.encoding != "json":
+        if self._is_order(channel.topic) and channel.encoding != "json":
             self.desk.tell(channel.topic, False, f"only JSON is understood, not {channel.encoding}")
         self.topics[client.id, channel.id] = (channel.topic, channel.encoding)
 
@@ -81,11 +86,11 @@ class Listener(websocket.ServerListener):
 
     def on_message_data(self, client, client_channel_id, data):
         topic, encoding = self.topics.get((client.id, client_channel_id), ("", ""))
-        if topic in orders.TOPICS and encoding == "json":
+        if self._is_order(topic) and encoding == "json":
             self.desk.take(topic, data)
 
 
-def service(given):
+def service(given, names):
     """/ale/command: any verb that the robot knows, as ale-send takes it."""
     def handle(request):
         try:
@@ -98,7 +103,7 @@ def service(given):
     def described(schema):
         return foxglove.MessageSchema(encoding="json", schema=foxglove.Schema(
             name=schema["title"], encoding="jsonschema", data=json.dumps(schema).encode()))
-    return foxglove.Service("/ale/command", schema=foxglove.ServiceSchema("ale.command", request=described(SCHEMA),
+    return foxglove.Service(names.topic("/ale/command"), schema=foxglove.ServiceSchema("ale.command", request=described(SCHEMA),
                                                                           response=described(ANSWER)), handler=handle)
 
 
@@ -115,14 +120,15 @@ def orders_of(options):
 def run(options):
     foxglove.set_log_level("WARN")
     context = foxglove.Context()
-    shown = scene.Scene(context)
+    names = Names(options.namespace)
+    shown = scene.Scene(context, names)
     heard = lcm_bus.Bus(options.lcm_url, [*shown.takers, *(ONLY_RECORDED if options.record else [])])
     given = orders_of(options)
-    desk = Desk(given)
+    desk = Desk(given, names)
     server = foxglove.start_server(
         name="ALE-SLAM", host=options.host, port=options.port, context=context, server_listener=Listener(desk),
         capabilities=[websocket.Capability.ClientPublish, websocket.Capability.Services], supported_encodings=["json"],
-        services=[service(given)], message_backlog_size=256)
+        services=[service(given, names)], message_backlog_size=256)
     recording = Recording(options.record, context) if options.record else contextlib.nullcontext()
     stopping = threading.Event()
     for number in (signal.SIGINT, signal.SIGTERM):

@@ -33,39 +33,39 @@ def heading(turn):
     return 2 * math.atan2(z, w)
 
 
-def pose_of(message):
+def pose_of(message, map_frame):
     """x, y, theta in the map."""
     frame = message.get("header", {}).get("frame_id", "").lstrip("/")
-    if frame != "map":
-        raise Refused(f'a pose in the frame "{frame[:32]}": only those in "map" are understood')
+    if frame != map_frame:
+        raise Refused(f'a pose in the frame "{frame[:32]}": only those in "{map_frame}" are understood')
     pose = message["pose"].get("pose", message["pose"])
     position = pose["position"]
     return number(position["x"]), number(position["y"]), number(heading(pose["orientation"]))
 
 
-def drive_command(message):
+def drive_command(message, _map_frame):
     twist = message.get("twist", message)
     if abs(float(twist["linear"].get("y", 0))) > 0.001:
         raise Refused("this robot does not go sideways (linear.y)")
     return f"drive {number(twist['linear']['x'])} {number(twist['angular']['z'])}"
 
 
-def place_command(message):
-    return " ".join(("relocate", *pose_of(message)))
+def place_command(message, map_frame):
+    return " ".join(("relocate", *pose_of(message, map_frame)))
 
 
-def goal_command(message):
+def goal_command(message, map_frame):
     """How it stands there is left to the robot."""
-    return " ".join(("goto", *pose_of(message)[:2]))
+    return " ".join(("goto", *pose_of(message, map_frame)[:2]))
 
 
 TOPICS = {"/cmd_vel": drive_command, "/initialpose": place_command, "/goal_pose": goal_command, "/move_base_simple/goal": goal_command}
 
 
-def command_of(topic, data):
-    """A line for ale-send. Raises Refused."""
+def command_of(topic, data, map_frame="map"):
+    """A line for ale-send. topic: one of TOPICS. Raises Refused."""
     try:
-        return TOPICS[topic](json.loads(data))
+        return TOPICS[topic](json.loads(data), map_frame)
     except Refused:
         raise
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:

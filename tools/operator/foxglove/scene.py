@@ -1,6 +1,6 @@
 """Messages of the robot as Foxglove shows them. One call a message of LCM; to every sink of the context: a live server, a file.
 
-    scene = Scene(context)
+    scene = Scene(context)                # Scene(context, Names("rover1")): topics and frames of one robot among several
     scene.take("ALE_POSE", data)          # what is no such message is counted: scene.malformed
 
 Frames as in ROS (REP 105): map -> odom -> base_link -> laser. Times are the robot's.
@@ -13,6 +13,8 @@ from foxglove import Channel, channels
 from foxglove.messages import (Color, Duration, FrameTransform, FrameTransforms, LaserScan, LinePrimitive, LinePrimitiveLineType, Log,
                                LogLevel, Point3, Pose, PoseInFrame, Quaternion, SceneEntity, SceneUpdate, SpherePrimitive, Timestamp,
                                Vector3)
+
+from .names import Names
 
 STATES = ("lost", "weak", "good")
 NO_RETURN, TOO_NEAR = 0x81, 0x85  # codes of beams without a range
@@ -79,9 +81,10 @@ def entity(name, frame, utime, seconds, lines=(), spheres=()):
 
 
 class Scene:
-    def __init__(self, context):
+    def __init__(self, context, names=Names()):
         def made(kind, topic):
-            return kind(topic, context=context)
+            return kind(names.topic(topic), context=context)
+        self.frame = names.frame
         self.scan = made(channels.LaserScanChannel, "/scan")
         self.lines = made(channels.SceneUpdateChannel, "/lines")
         self.corners = made(channels.SceneUpdateChannel, "/corners")
@@ -92,8 +95,8 @@ class Scene:
         self.wheels = made(channels.PoseInFrameChannel, "/odometry")
         self.tf = made(channels.FrameTransformsChannel, "/tf")
         self.log = made(channels.LogChannel, "/log")
-        self.signals = Channel("/signals", schema={"type": "object", "title": "ale.signals"}, context=context)
-        self.health = Channel("/health", schema={"type": "object", "title": "ale.health"}, context=context)
+        self.signals = Channel(names.topic("/signals"), schema={"type": "object", "title": "ale.signals"}, context=context)
+        self.health = Channel(names.topic("/health"), schema={"type": "object", "title": "ale.health"}, context=context)
         self.takers = {"ALE_SCAN": (ale.scan_t, self.take_scan), "ALE_POSE": (ale.pose_t, self.take_pose),
                        "ALE_TRACKING": (ale.tracking_t, self.take_tracking), "ALE_FEATURES": (ale.features_t, self.take_features),
                        "ALE_MAP": (ale.map_t, self.take_map), "ALE_MAP_PIECES": (ale.map_pieces_t, self.take_pieces),
@@ -117,19 +120,21 @@ class Scene:
         if scan.num_ranges != scan.num_codes or scan.num_ranges == 0:
             raise ValueError
         first = scan.first_bearing
-        self.scan.log(LaserScan(timestamp=stamp(scan.utime), frame_id="laser", pose=pose_of(0.0, 0.0, 0.0), start_angle=first,
+        self.scan.log(LaserScan(timestamp=stamp(scan.utime), frame_id=self.frame("laser"), pose=pose_of(0.0, 0.0, 0.0), start_angle=first,
                                 end_angle=first + scan.step * (scan.num_ranges - 1), ranges=ranges_of(scan), intensities=[]),
                       log_time=scan.utime * 1000)
         self.mount(scan)
 
     def mount(self, message):
-        self.tf.log(FrameTransforms(transforms=[transform(message.utime, "base_link", "laser", message.sensor_x, message.sensor_y,
-                                                          message.sensor_theta)]), log_time=message.utime * 1000)
+        self.link(message.utime, "base_link", "laser", message.sensor_x, message.sensor_y, message.sensor_theta)
+
+    def link(self, utime, parent, child, x, y, theta):
+        self.tf.log(FrameTransforms(transforms=[transform(utime, self.frame(parent), self.frame(child), x, y, theta)]), log_time=utime * 1000)
 
     def take_pose(self, pose):
         at = pose.utime * 1000
         self.newest = pose
-        self.tf.log(FrameTransforms(transforms=[transform(pose.utime, "odom", "base_link", pose.x, pose.y, pose.theta)]), log_time=at)
+        self.link(pose.utime, "odom", "base_link", pose.x, pose.y, pose.theta)
         self.signals.log({
             "scan": pose.scan, "state": pose.state, "predicted": bool(pose.predicted),
             "smooth": {"x": pose.x, "y": pose.y, "theta": pose.theta},
@@ -144,20 +149,19 @@ class Scene:
         pose = self.newest
         if pose is None or pose.scan != tracking.scan or tracking.map_id != 0:
             return
-        at = pose.utime * 1000
-        self.tf.log(FrameTransforms(transforms=[transform(pose.utime, "map", "odom", *correction(pose))]), log_time=at)
-        self.pose.log(PoseInFrame(timestamp=stamp(pose.utime), frame_id="map", pose=pose_of(pose.map_x, pose.map_y, pose.map_theta)),
-                      log_time=at)
+        self.link(pose.utime, "map", "odom", *correction(pose))
+        self.pose.log(PoseInFrame(timestamp=stamp(pose.utime), frame_id=self.frame("map"), pose=pose_of(pose.map_x, pose.map_y, pose.map_theta)),
+                      log_time=pose.utime * 1000)
 
     def take_odometry(self, sample):
-        self.wheels.log(PoseInFrame(timestamp=stamp(sample.utime), frame_id="wheels", pose=pose_of(sample.x, sample.y, sample.theta)),
+        self.wheels.log(PoseInFrame(timestamp=stamp(sample.utime), frame_id=self.frame("wheels"), pose=pose_of(sample.x, sample.y, sample.theta)),
                         log_time=sample.utime * 1000)
 
     def take_features(self, features):
         at = features.utime * 1000
-        self.lines.log(entity("lines", "laser", features.utime, 0.5, [segments(features.lines, LINE, 0.03)]), log_time=at)
+        self.lines.log(entity("lines", self.frame("laser"), features.utime, 0.5, [segments(features.lines, LINE, 0.03)]), log_time=at)
         spheres = [ball(corner.x, corner.y, 0.08, CORNER) for corner in features.corners]
-        self.corners.log(entity("corners", "laser", features.utime, 0.5, spheres=spheres), log_time=at)
+        self.corners.log(entity("corners", self.frame("laser"), features.utime, 0.5, spheres=spheres), log_time=at)
 
     def take_map(self, part):
         whole = gathered(self.parts, part)
@@ -167,7 +171,7 @@ class Scene:
             elsewhere = [line for line in walls if version == part.version and line.id in apart]
             here = [line for line in walls if line not in elsewhere]
             primitives = [segments(here, WALL, 0.05), segments(elsewhere, APART, 0.05) if elsewhere else None]
-            self.walls.log(entity("walls", "map", part.utime, 0, primitives), log_time=part.utime * 1000)
+            self.walls.log(entity("walls", self.frame("map"), part.utime, 0, primitives), log_time=part.utime * 1000)
 
     def take_pieces(self, part):
         whole = gathered(self.pieces, part)
@@ -184,12 +188,12 @@ class Scene:
         lines = [edges(graph, [tie for tie in ties if colours[tie[1]] is colour], colour, 0.02) for colour in (KEYFRAME, APART)]
         lines += [edges(graph, [(a, b) for a, b, of in loops if of == kind], LOOP, 0.01 * (1 + kind)) for kind in range(RECOGNISED, JOINS + 1)]
         dots = [ball(x, y, 0.08, colour) for x, y, colour in zip(graph.x, graph.y, colours)]
-        self.graph.log(entity("graph", "map", graph.utime, 0, lines, dots), log_time=graph.utime * 1000)
+        self.graph.log(entity("graph", self.frame("map"), graph.utime, 0, lines, dots), log_time=graph.utime * 1000)
 
     def take_plan(self, plan):
         """The robot repeats it every second while there is one."""
         place = [ball(plan.place_x, plan.place_y, 0.2, PLAN)] if plan.has_place else []
-        self.plan.log(entity("plan", "map", plan.utime, 3, [way(plan)], place), log_time=plan.utime * 1000)
+        self.plan.log(entity("plan", self.frame("map"), plan.utime, 3, [way(plan)], place), log_time=plan.utime * 1000)
 
     def take_status(self, status):
         at = status.utime * 1000

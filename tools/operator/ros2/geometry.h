@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geometry_msgs.h"
 
@@ -16,6 +17,15 @@ struct Pose2 {
     double y;
     double theta;
 };
+
+/* A sequence whose elements live elsewhere. */
+template <class Sequence, class Element> Sequence sequence_of(std::vector<Element> &elements)
+{
+    Sequence out{};
+    out._length = out._maximum = static_cast<uint32_t>(elements.size());
+    out._buffer = elements.data();
+    return out;
+}
 
 /* The pose that b is, seen from the frame that a is seen from. */
 Pose2 compose(const Pose2 &a, const Pose2 &b);

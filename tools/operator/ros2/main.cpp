@@ -26,8 +26,8 @@ constexpr char usage[] =
     "usage: ale-ros2 [--lcm-url URL] [--domain N] [--local] [--namespace NAME] [--stamped]\n"
     "                [--keys FILE [--robots FILE] [--robot NAME]]\n"
     "The robot on topics of ROS 2, over DDS: RViz2 and nav2 see it; ROS is not needed on this computer.\n"
-    "Out: /scan /odom /pose /tf /tf_static /map /ale/lines /diagnostics; frames map, odom, base_link, "
-    "laser.\n"
+    "Out: /scan /odom /pose /tf /tf_static /map /ale/lines /ale/walls /ale/graph /ale/plan /diagnostics;\n"
+    "frames map, odom, base_link, laser.\n"
     "In, with a key: /initialpose /cmd_vel /goal_pose; whoever is on the DDS domain then commands with it.\n"
     "  --lcm-url URL     where the robot is (default: LCM_DEFAULT_URL, else LCM's own default)\n"
     "  --domain N        DDS domain (default: ROS_DOMAIN_ID, else 0)\n"
@@ -156,7 +156,17 @@ class Bridge
             feed::check(message);
             if (parts_.add(message)) {
                 occupancy_.take(parts_.whole(), pieces_);
+                topics_.send(parts_.whole(), pieces_);
             }
+        });
+        feed_.on<ale::graph_t>("ALE_GRAPH", [this](const ale::graph_t &message) {
+            feed::check(message);
+            topics_.send(message);
+            occupancy_.take(message);
+        });
+        feed_.on<ale::plan_t>("ALE_PLAN", [this](const ale::plan_t &message) {
+            feed::check(message);
+            topics_.send(message);
         });
     }
 

@@ -12,7 +12,6 @@ namespace
 
 /* A grid of 200 m by 200 m goes out; memory does not grow without end. */
 constexpr int64_t most_cells = 16000000;
-constexpr size_t most_points = 2000000;
 constexpr double step_m = 0.1;
 constexpr double step_rad = 0.05;
 /* More than robots speed up, slow down or begin to turn. */
@@ -68,7 +67,7 @@ void Occupancy::take(const ale::scan_t &scan)
 void Occupancy::take(const ale::pose_t &pose)
 {
     if (pose_ && steps(pose)) {
-        cloud_ = std::make_unique<ale::ScanCloud>();
+        forget();
     }
     pose_ = pose;
     add_scan();
@@ -80,12 +79,30 @@ void Occupancy::take(const ale::tracking_t &tracking)
     add_scan();
 }
 
+/* A robot that stands where its map began when it forgets it does not leap. */
+void Occupancy::take(const ale::graph_t &graph)
+{
+    if (graph.scan.empty()) {
+        return;
+    }
+    if (first_scan_ && *first_scan_ != graph.scan.front()) {
+        forget();
+        changed_ = true;
+    }
+    first_scan_ = graph.scan.front();
+}
+
 void Occupancy::take(const ale::map_t &map, const feed::MapPieces &pieces)
 {
     map_ = feed::core_map(map, pieces);
     const auto end = std::remove_if(map_->line, map_->line + map_->line_count, ale::is_apart);
     map_->line_count = static_cast<uint16_t>(end - map_->line);
     changed_ = true;
+}
+
+void Occupancy::forget()
+{
+    cloud_ = std::make_unique<ale::ScanCloud>(ale::ScanCloud::usual_cell_um, ale::ScanCloud::Points::left_out);
 }
 
 void Occupancy::add_scan()
@@ -99,8 +116,8 @@ void Occupancy::add_scan()
         changed_ = true;
     }
     scan_.reset();
-    if (cloud_->points().size() > most_points) {
-        cloud_ = std::make_unique<ale::ScanCloud>();
+    if (static_cast<int64_t>(cloud_->cells()) > most_cells) {
+        forget();
     }
 }
 
@@ -113,7 +130,7 @@ ale::OccupancyGrid Occupancy::grid()
     try {
         return ale::occupancy_of(scene, most_cells);
     } catch (const std::runtime_error &) {
-        cloud_ = std::make_unique<ale::ScanCloud>();
+        forget();
         throw;
     }
 }

@@ -27,15 +27,6 @@ std_msgs_msg_dds__Header_ header(int64_t utime, std::string &frame)
     return {ros_time(utime), frame.data()};
 }
 
-/* A sequence whose elements live elsewhere. */
-template <class Sequence, class Element> Sequence sequence_of(std::vector<Element> &elements)
-{
-    Sequence out{};
-    out._length = out._maximum = static_cast<uint32_t>(elements.size());
-    out._buffer = elements.data();
-    return out;
-}
-
 /* REP 117: nothing in reach, too near, no measurement. */
 float without_range(unsigned code)
 {
@@ -86,36 +77,6 @@ Pose2 pose2(float x, float y, float theta)
     return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(theta)};
 }
 
-geometry_msgs_msg_dds__Point_ point(float x, float y)
-{
-    return {static_cast<double>(x), static_cast<double>(y), 0};
-}
-
-enum class Shape : int32_t { spheres = 7, lines = 5 }; /* SPHERE_LIST, LINE_LIST */
-
-/* Gone when nothing new has come for half a second, and at once when there is none: RViz2 takes no empty
- * list.
- */
-visualization_msgs_msg_dds__Marker_ marker(Shape shape, std::string &name, double size,
-                                           const std_msgs_msg_dds__ColorRGBA_ &colour,
-                                           std::vector<geometry_msgs_msg_dds__Point_> &points)
-{
-    constexpr int32_t remove_marker = 2; /* DELETE */
-    static std::string none;
-    visualization_msgs_msg_dds__Marker_ out{};
-    out.ns = name.data();
-    out.type = static_cast<int32_t>(shape);
-    out.action = points.empty() ? remove_marker : 0;
-    out.pose = ros_pose({0, 0, 0});
-    out.scale = {size, size, size};
-    out.color = colour;
-    out.lifetime = {0, 500000000};
-    out.points = sequence_of<decltype(out.points)>(points);
-    out.texture_resource = out.text = out.mesh_resource = none.data();
-    out.texture.header.frame_id = out.texture.format = out.mesh_file.filename = none.data();
-    return out;
-}
-
 int8_t ros_cell(ale::OccupancyGrid::Cell cell)
 {
     constexpr int8_t unknown = -1;
@@ -136,7 +97,11 @@ RobotTopics::RobotTopics(const Participant &participant)
       tf_static_(participant, "tf_static", tf2_msgs_msg_dds__TFMessage__desc, Quality::latched, 1),
       map_(participant, "map", nav_msgs_msg_dds__OccupancyGrid__desc, Quality::latched, 1),
       lines_(participant, "ale/lines", visualization_msgs_msg_dds__MarkerArray__desc, Quality::stream,
-             stream_depth)
+             stream_depth),
+      walls_(participant, "ale/walls", visualization_msgs_msg_dds__MarkerArray__desc, Quality::latched, 1),
+      graph_(participant, "ale/graph", visualization_msgs_msg_dds__MarkerArray__desc, Quality::latched, 1),
+      plan_(participant, "ale/plan", visualization_msgs_msg_dds__MarkerArray__desc, Quality::stream,
+            stream_depth)
 {
 }
 
@@ -218,27 +183,38 @@ void RobotTopics::send_mounting(int64_t utime, const std::array<float, 3> &mount
 
 void RobotTopics::send(const ale::features_t &features)
 {
-    constexpr double line_m = 0.03;
-    constexpr double corner_m = 0.08;
-    std::string frame = laser_frame;
-    std::string line_name = "lines";
-    std::string corner_name = "corners";
-    std::vector<geometry_msgs_msg_dds__Point_> ends;
-    for (const ale::line_t &line : features.lines) {
-        ends.push_back(point(line.x1, line.y1));
-        ends.push_back(point(line.x2, line.y2));
-    }
-    std::vector<geometry_msgs_msg_dds__Point_> corners(features.corners.size());
-    std::transform(features.corners.begin(), features.corners.end(), corners.begin(),
-                   [](const ale::corner_t &corner) { return point(corner.x, corner.y); });
-    std::vector<visualization_msgs_msg_dds__Marker_> markers = {
-        marker(Shape::lines, line_name, line_m, {0.1F, 0.5F, 1, 1}, ends),
-        marker(Shape::spheres, corner_name, corner_m, {1, 0.4F, 0.1F, 1}, corners)};
-    for (visualization_msgs_msg_dds__Marker_ &each : markers) {
-        each.header = header(features.utime, frame);
-    }
-    write(lines_, {sequence_of<decltype(visualization_msgs_msg_dds__MarkerArray_::markers)>(markers)});
+    constexpr int64_t half_a_second_us = 500000;
+    std::vector<Drawing> drawings = drawings_of(features);
+    send_drawings(lines_, drawings, {features.utime, half_a_second_us}, laser_frame);
     send_mounting(features.utime, {features.sensor_x, features.sensor_y, features.sensor_theta});
+}
+
+void RobotTopics::send(const ale::map_t &map, const feed::MapPieces &pieces)
+{
+    std::vector<Drawing> drawings = drawings_of(map, pieces);
+    send_drawings(walls_, drawings, {map.utime, 0}, map_frame);
+}
+
+void RobotTopics::send(const ale::graph_t &graph)
+{
+    std::vector<Drawing> drawings = drawings_of(graph);
+    send_drawings(graph_, drawings, {graph.utime, 0}, map_frame);
+}
+
+/* The robot repeats it every second while there is one. */
+void RobotTopics::send(const ale::plan_t &plan)
+{
+    constexpr int64_t three_seconds_us = 3000000;
+    std::vector<Drawing> drawings = drawings_of(plan);
+    send_drawings(plan_, drawings, {plan.utime, three_seconds_us}, map_frame);
+}
+
+void RobotTopics::send_drawings(Writer<visualization_msgs_msg_dds__MarkerArray_> &writer,
+                                std::vector<Drawing> &drawings, const Shown &shown, const char *frame_name)
+{
+    std::string frame = frame_name;
+    std::vector<visualization_msgs_msg_dds__Marker_> markers = markers_of(drawings, shown, frame);
+    write(writer, {sequence_of<decltype(visualization_msgs_msg_dds__MarkerArray_::markers)>(markers)});
 }
 
 void RobotTopics::send(const ale::OccupancyGrid &grid, int64_t utime)

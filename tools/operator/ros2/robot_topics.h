@@ -1,7 +1,7 @@
 /* What the robot publishes, on the topics of ROS 2: one call a message of LCM, checked before
  * (feed/checks.h).
  *
- *   /scan /odom /pose /tf /tf_static /map /ale/lines
+ *   /scan /odom /pose /tf /tf_static /map /ale/lines /ale/walls /ale/graph /ale/plan
  *
  * map -> odom goes out while the robot is in its first map only: in another one, which is not joined with it
  * yet, nobody knows where in `map` it is. One thread. */
@@ -10,16 +10,16 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
-#include "ale/features_t.hpp"
 #include "ale/scan_t.hpp"
 #include "ale/tracking_t.hpp"
 #include "nav_msgs.h"
 #include "operator/ros2/dds.h"
+#include "operator/ros2/markers.h"
 #include "operator/ros2/occupancy.h"
 #include "sensor_msgs.h"
 #include "tf2_msgs.h"
-#include "visualization_msgs.h"
 
 namespace ros2
 {
@@ -33,6 +33,10 @@ class RobotTopics
     void send(const ale::pose_t &pose);
     void send(const ale::tracking_t &tracking);
     void send(const ale::features_t &features);
+    /* A whole map. */
+    void send(const ale::map_t &map, const feed::MapPieces &pieces);
+    void send(const ale::graph_t &graph);
+    void send(const ale::plan_t &plan);
     void send(const ale::OccupancyGrid &grid, int64_t utime);
 
     /* Messages that a reliable reader was too slow for. */
@@ -46,6 +50,8 @@ class RobotTopics
     {
         lost_ += writer.write(message) ? 0 : 1;
     }
+    void send_drawings(Writer<visualization_msgs_msg_dds__MarkerArray_> &writer,
+                       std::vector<Drawing> &drawings, const Shown &shown, const char *frame_name);
     void send_mounting(int64_t utime, const std::array<float, 3> &mounting);
 
     Writer<sensor_msgs_msg_dds__LaserScan_> scan_;
@@ -55,6 +61,9 @@ class RobotTopics
     Writer<tf2_msgs_msg_dds__TFMessage_> tf_static_;
     Writer<nav_msgs_msg_dds__OccupancyGrid_> map_;
     Writer<visualization_msgs_msg_dds__MarkerArray_> lines_;
+    Writer<visualization_msgs_msg_dds__MarkerArray_> walls_;
+    Writer<visualization_msgs_msg_dds__MarkerArray_> graph_;
+    Writer<visualization_msgs_msg_dds__MarkerArray_> plan_;
     std::optional<ale::pose_t> newest_;
     std::optional<ale::scan_t> before_;
     std::optional<std::array<float, 3>> mounting_; /* as it was sent last */
