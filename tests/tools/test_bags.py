@@ -40,8 +40,8 @@ def drive(tmp_path_factory):
 class Maker:
     """Messages of one generation of ROS."""
 
-    def __init__(self, store):
-        self.store, self.types = store, store.types
+    def __init__(self, store, frames="tf2_msgs/msg/TFMessage"):
+        self.store, self.types, self.frames = store, store.types, frames
 
     def header(self, utime, frame):
         kind = self.types["std_msgs/msg/Header"]
@@ -74,22 +74,29 @@ class Maker:
             pose=self.types["geometry_msgs/msg/PoseWithCovariance"](pose=pose, covariance=nothing),
             twist=self.types["geometry_msgs/msg/TwistWithCovariance"](twist=still, covariance=nothing))
 
+    def link(self, utime, parent, child, x, y, theta):
+        move = self.types["geometry_msgs/msg/Vector3"](x=x, y=y, z=0.1)
+        return self.types["geometry_msgs/msg/TransformStamped"](
+            header=self.header(utime, parent), child_frame_id=child,
+            transform=self.types["geometry_msgs/msg/Transform"](translation=move, rotation=self.turn(theta)))
+
     def mounting(self, utime, mounted):
         """base_footprint -> base_link -> laser."""
-        def link(parent, child, x, y, theta):
-            move = self.types["geometry_msgs/msg/Vector3"](x=x, y=y, z=0.1)
-            return self.types["geometry_msgs/msg/TransformStamped"](
-                header=self.header(utime, parent), child_frame_id=child,
-                transform=self.types["geometry_msgs/msg/Transform"](translation=move, rotation=self.turn(theta)))
-        return "tf2_msgs/msg/TFMessage", self.types["tf2_msgs/msg/TFMessage"](
-            transforms=[link("base_footprint", "base_link", 0.0, 0.0, 0.0), link("base_link", "laser", *mounted)])
+        return self.frames, self.types[self.frames](transforms=[self.link(utime, "base_footprint", "base_link", 0.0, 0.0, 0.0),
+                                                                self.link(utime, "base_link", "laser", *mounted)])
 
-    def messages(self, drive, echoes=False, mounted=(0.0, 0.0, 0.0)):
-        """(topic, type, utime, message)"""
-        yield "/tf_static", *self.stamped(drive[0][1].utime, self.mounting(drive[0][1].utime, mounted))
+    def moved(self, sample):
+        return self.frames, self.types[self.frames](transforms=[self.link(sample.utime, "odom", "base_footprint", sample.x, sample.y, sample.theta)])
+
+    def messages(self, drive, echoes=False, mounted=(0.0, 0.0, 0.0), late=False, by_tf=False):
+        """(topic, type, utime, message). late: the mounting is told at the end; by_tf: odometry by /tf alone."""
+        static = ("/tf_static", *self.stamped(drive[-1 if late else 0][1].utime, self.mounting(drive[0][1].utime, mounted)))
+        yield from () if late else (static,)
         for name, message in drive:
-            made = self.scan(message, echoes) if name == "ALE_SCAN" else self.odometry(message)
-            yield "/scan" if name == "ALE_SCAN" else "/odom", *self.stamped(message.utime, made)
+            topic, make = ("/scan", lambda scan: self.scan(scan, echoes)) if name == "ALE_SCAN" else (
+                ("/tf", self.moved) if by_tf else ("/odom", self.odometry))
+            yield topic, *self.stamped(message.utime, make(message))
+        yield from (static,) if late else ()
 
     @staticmethod
     def stamped(utime, made):
@@ -99,16 +106,16 @@ class Maker:
 TF_OF_ROS1 = "geometry_msgs/TransformStamped[] transforms\n"
 
 
-def ros1_store():
+def ros1_store(frames):
     from rosbags.typesys import get_types_from_msg
     store = get_typestore(Stores.ROS1_NOETIC)
-    if "tf2_msgs/msg/TFMessage" not in store.types:
-        store.register(get_types_from_msg(TF_OF_ROS1, "tf2_msgs/msg/TFMessage"))
+    if frames not in store.types:
+        store.register(get_types_from_msg(TF_OF_ROS1, frames))
     return store
 
 
-def write_ros1(path, drive, **how):
-    maker = Maker(ros1_store())
+def write_ros1(path, drive, frames="tf2_msgs/msg/TFMessage", **how):
+    maker = Maker(ros1_store(frames), frames)
     with rosbag1.Writer(path) as bag:
         connections = {}
         for topic, kind, utime, message in maker.messages(drive, **how):
@@ -177,9 +184,26 @@ def test_of_messages_of_one_time_odometry_counts_before_the_scan(drive, tmp_path
     assert before == after
 
 
+def write_old_ros1(path, drive, **how):
+    return write_ros1(path, drive, frames="tf/msg/tfMessage", **how)
+
+
+@pytest.mark.parametrize("write, name", [(write_ros1, "drive.bag"), pytest.param(write_ros2, "drive", marks=LONG),
+                                         pytest.param(write_old_ros1, "drive.bag", marks=LONG)])
+def test_where_a_bag_has_no_odometry_the_way_is_that_of_tf(write, name, drive, tmp_path):
+    by_tf, told = tmp_path / "tf", tmp_path / "told"
+    by_tf.mkdir()
+    told.mkdir()
+    was = poses(write(told / name, drive, mounted=MOUNTED), told)
+    assert poses(write(by_tf / name, drive, mounted=MOUNTED, by_tf=True), by_tf) == was
+    wheels = [ale.odometry_t.decode(data) for _, channel, data in events(converted(by_tf / name, by_tf / "bag.lcm")) if channel == "ALE_ODOMETRY"]
+    assert len(wheels) == len(drive) - scans_in(drive)
+
+
 @LONG
-def test_the_mounting_of_the_laser_is_that_of_tf(drive, tmp_path):
-    bag = write_ros2(tmp_path / "bag", drive[:6], mounted=MOUNTED)
+@pytest.mark.parametrize("how", [{}, {"late": True}, {"by_tf": True}])
+def test_the_mounting_of_the_laser_is_that_of_tf(drive, how, tmp_path):
+    bag = write_ros2(tmp_path / "bag", drive[:6], mounted=MOUNTED, **how)
     assert run("ale-foxglove", "convert", bag, tmp_path / "bag.lcm").returncode == 0
     scan = next(ale.scan_t.decode(data) for _, name, data in events(tmp_path / "bag.lcm") if name == "ALE_SCAN")
     assert (scan.sensor_x, scan.sensor_y, scan.sensor_theta) == pytest.approx(MOUNTED)

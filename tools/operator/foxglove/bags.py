@@ -3,7 +3,8 @@
     for event in bags.events(path): ...           # lcm_log.Event
 
 Read by PyPI's `rosbags` without ROS; MCAP without a bag's folder about it by `mcap`. LaserScan, MultiEchoLaserScan (first echo),
-Odometry; the mounting of the laser from /tf_static or /tf, as far as it is a turn about the vertical.
+Odometry, or /tf from `odom` to the robot where there is none; the mounting of the laser from /tf_static or /tf, as far as it is a turn
+about the vertical.
 """
 import itertools
 import json
@@ -20,7 +21,8 @@ MOST_BEAMS = 1081
 ROS1, MCAP = b"#ROSBAG V2.0", b"\x89MCAP0\r\n"
 LASER, ECHOES, ODOMETRY, FRAMES = ("sensor_msgs/msg/LaserScan", "sensor_msgs/msg/MultiEchoLaserScan", "nav_msgs/msg/Odometry",
                                    "tf2_msgs/msg/TFMessage")
-WANTED = (LASER, ECHOES, ODOMETRY, FRAMES)
+OLD_FRAMES = "tf/msg/tfMessage"  # the same, of ROS 1 before 2013
+WANTED = (LASER, ECHOES, ODOMETRY, FRAMES, OLD_FRAMES)
 NO_RETURN, UNKNOWN, TOO_NEAR = 0x81, 0x82, 0x85
 
 
@@ -46,6 +48,10 @@ def needed(name):
         raise Missing(f"bags and MCAP are read by Python's package {package}: pip install {package}") from error
 
 
+def kind_of(name):
+    return FRAMES if name == OLD_FRAMES else name
+
+
 def ros_messages(path):
     """(type, topic, nanoseconds, message) of a bag."""
     reader_module = needed("rosbags.highlevel")
@@ -53,7 +59,7 @@ def ros_messages(path):
     with reader_module.AnyReader([pathlib.Path(path)], default_typestore=stores.get_typestore(stores.Stores.ROS2_HUMBLE)) as reader:
         connections = [connection for connection in reader.connections if connection.msgtype in WANTED]
         for connection, at, raw in reader.messages(connections=connections):
-            yield connection.msgtype, connection.topic, at, reader.deserialize(raw, connection.msgtype)
+            yield kind_of(connection.msgtype), connection.topic, at, reader.deserialize(raw, connection.msgtype)
 
 
 def mcap_messages(path):
@@ -67,7 +73,7 @@ def mcap_messages(path):
             if name in WANTED and channel.message_encoding in store:
                 types = store[channel.message_encoding]
                 decode = types.deserialize_cdr if channel.message_encoding == "cdr" else types.deserialize_ros1
-                yield name, channel.topic, message.log_time, decode(message.data, name)
+                yield kind_of(name), channel.topic, message.log_time, decode(message.data, name)
             elif schema and schema.name == "foxglove.LaserScan":
                 yield LASER, channel.topic, message.log_time, foxglove_scan(schema, channel, message)
 
@@ -75,7 +81,7 @@ def mcap_messages(path):
 def odometry_first(messages):
     """Of messages of the same time, whose order a bag does not tell, odometry before the scan that it leads to."""
     for _, together in itertools.groupby(messages, key=lambda message: message[2]):
-        yield from sorted(together, key=lambda message: message[0] != ODOMETRY)
+        yield from sorted(together, key=lambda message: message[0] in (LASER, ECHOES))
 
 
 class Fields:
@@ -160,11 +166,9 @@ def lcm_scan(scan, ranges, number, mounting):
     return out
 
 
-def lcm_odometry(message):
+def lcm_odometry(utime, x, y, theta):
     out = ale.odometry_t()
-    at = message.pose.pose
-    out.utime = utime_of(message.header)
-    out.x, out.y, out.theta = at.position.x, at.position.y, heading(at.orientation)
+    out.utime, out.x, out.y, out.theta = utime, x, y, theta
     return out
 
 
@@ -172,23 +176,48 @@ def bam(theta):
     return (round(theta / (2 * math.pi) * 2**32) + 2**31) % 2**32 - 2**31
 
 
-def lcm_exact(message):
+def lcm_exact(utime, x, y, theta):
     """The same place, to the last bit (ALE_ODOMETRY_EXACT goes before it)."""
     out = ale.odometry_exact_t()
-    at = message.pose.pose
-    out.utime = utime_of(message.header)
-    out.x_um, out.y_um, out.theta_bam = round(at.position.x * 1e6), round(at.position.y * 1e6), bam(heading(at.orientation))
+    out.utime = utime
+    out.x_um, out.y_um, out.theta_bam = round(x * 1e6), round(y * 1e6), bam(theta)
     return out
 
 
-class Converter:
-    """One laser, that of the first scan; one odometry."""
+class Survey:
+    """What must be known of a bag before its first scan: who is mounted where may be told late; how far a scanner sees that does
+    not say so, by its scans alone; what the robot's frame is called, and whether there are messages of odometry or /tf alone."""
 
-    def __init__(self, frames):
-        self.frames = frames
+    def __init__(self, messages):
+        self.frames, self.furthest, self.robot, self.moved = Frames(), 0.0, None, None
+        for kind, topic, _, message in messages:
+            if kind == FRAMES:
+                self.frames.take(message)
+                self.moved = self.moved or next((name_of(each.child_frame_id) for each in moves(topic, message)), None)
+            elif kind == ODOMETRY:
+                self.robot = self.robot or name_of(message.child_frame_id) or "base_link"
+            elif kind == LASER and message.range_max is None:
+                self.furthest = max([self.furthest, *(r for r in message.ranges if math.isfinite(r))])
+        self.has_odometry = self.robot is not None
+        self.robot = self.robot or self.moved or "base_link"
+
+    def mounting(self, frame):
+        return self.frames.mounting(name_of(frame), self.robot) or (0.0, 0.0, 0.0)
+
+
+def moves(topic, message):
+    """Where the robot is in the frame of its wheels, of transforms that change."""
+    changing = not topic.endswith("tf_static")
+    return [each for each in message.transforms if changing and name_of(each.header.frame_id).split("/")[-1].startswith("odom")]
+
+
+class Converter:
+    """One laser, that of the first scan; one odometry: the first, or what /tf says of it where there is none."""
+
+    def __init__(self, survey):
+        self.survey = survey
         self.topics = {}
         self.scans = 0
-        self.robot = "base_link"
         self.ignored = set()
 
     def wants(self, kind, topic):
@@ -200,31 +229,39 @@ class Converter:
         return chosen
 
     def events(self, kind, topic, message):
-        if kind == FRAMES or not self.wants(kind, topic):
-            return
-        at = utime_of(message.header)
-        if kind == ODOMETRY:
-            self.robot = name_of(message.child_frame_id) or self.robot
-            yield Event(at, "ALE_ODOMETRY_EXACT", lcm_exact(message).encode())
-            yield Event(at, "ALE_ODOMETRY", lcm_odometry(message).encode())
-            return
+        if kind == FRAMES:
+            yield from self.moved(moves(topic, message))
+        elif self.wants(kind, topic):
+            yield from self.wheels(message) if kind == ODOMETRY else self.scan(kind, message)
+
+    def moved(self, transforms):
+        for each in transforms if not self.survey.has_odometry else ():
+            if name_of(each.child_frame_id) == self.survey.robot:
+                move = each.transform
+                yield from placed(utime_of(each.header), move.translation, move.rotation)
+
+    def wheels(self, message):
+        return placed(utime_of(message.header), message.pose.pose.position, message.pose.pose.orientation)
+
+    def scan(self, kind, message):
         ranges = message.ranges if kind == LASER else [r.echoes[0] if len(r.echoes) else math.nan for r in message.ranges]
-        mounting = self.frames.mounting(name_of(message.header.frame_id), self.robot) or (0.0, 0.0, 0.0)
-        yield Event(at, "ALE_SCAN", lcm_scan(message, ranges, self.scans, mounting).encode())
+        made = lcm_scan(message, ranges, self.scans, self.survey.mounting(message.header.frame_id))
         self.scans += 1
+        yield Event(utime_of(message.header), "ALE_SCAN", made.encode())
+
+
+def placed(utime, position, rotation):
+    place = (utime, position.x, position.y, heading(rotation))
+    yield Event(utime, "ALE_ODOMETRY_EXACT", lcm_exact(*place).encode())
+    yield Event(utime, "ALE_ODOMETRY", lcm_odometry(*place).encode())
 
 
 def events(path):
-    """The bag is read twice: who is mounted where may be told late, and how far a scanner sees that does not say so, by its scans alone."""
+    """The bag is read twice (Survey)."""
     messages = mcap_messages if is_mcap(path) else ros_messages
-    frames, furthest = Frames(), 0.0
-    for kind, _, _, message in messages(path):
-        if kind == FRAMES:
-            frames.take(message)
-        elif kind == LASER and message.range_max is None:
-            furthest = max([furthest, *(r for r in message.ranges if math.isfinite(r))])
-    converter = Converter(frames)
+    survey = Survey(messages(path))
+    converter = Converter(survey)
     for kind, topic, _, message in odometry_first(messages(path)):
         if kind == LASER and message.range_max is None:
-            message.range_max = furthest + 0.001
+            message.range_max = survey.furthest + 0.001
         yield from converter.events(kind, topic, message)
