@@ -38,6 +38,7 @@ class Bus:
         group, port, ttl, self.prefix = parse(url)
         self.only_here = ttl == 0
         self.channels = {(self.prefix + name).encode(): name for name in channels}
+        self.buffer = memoryview(bytearray(MOST_BYTES))  # one for all: a new one for each datagram scatters what the heap holds
         self.begun = {}
         self.here = {}
         self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
@@ -53,8 +54,8 @@ class Bus:
     def receive(self, seconds):
         """What has come, after at most so many seconds."""
         if select.select([self.socket], [], [], seconds)[0]:
-            datagram, (host, _) = self.socket.recvfrom(MOST_BYTES)
-            message = None if self.only_here and not self._is_here(host) else self._message(datagram)
+            size, (host, _) = self.socket.recvfrom_into(self.buffer)
+            message = None if self.only_here and not self._is_here(host) else self._message(bytes(self.buffer[:size]))
             if message:
                 yield message
 
