@@ -13,13 +13,15 @@ import pytest
 
 from at_hand import BINARIES, BUILD, ROOT
 
-sys.path.append(str(ROOT / "tools/make"))
+sys.path[:0] = [str(ROOT / "tests/system"), str(ROOT / "tools/make")]
 import docs_check  # noqa: E402
+from hosts import two_separate_hosts  # noqa: E402
+from site_robot import SiteRobot  # noqa: E402
 
 SITE = ROOT / "tools/library/site"
 PAGES = sorted(path.name for path in (SITE / "pages").glob("*.md"))
 BLOCK = re.compile(r'^```(\w+)(?: title="([^"]+)")?\n(.*?)^```', re.MULTILINE | re.DOTALL)
-MARKS = ("", "fails", "needs a robot", "builds for minutes")
+MARKS = ("", "fails", "needs a robot", "needs a network", "changes the system", "builds for minutes")
 
 
 def blocks(page, language):
@@ -50,6 +52,20 @@ def tree(tmp_path):
     return tmp_path
 
 
+@pytest.fixture
+def computer():
+    """One of its own, as far as networks go: nothing is up."""
+    with two_separate_hosts() as (here, _):
+        yield here
+
+
+@pytest.fixture
+def robot(tree, computer):
+    with SiteRobot(tree, computer) as standing:
+        standing.network()
+        yield standing
+
+
 def shell(code, folder):
     """What it leaves running is ended with it."""
     path = f"{BINARIES}:{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}"
@@ -71,7 +87,7 @@ def test_every_mark_is_one_that_is_known(page):
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_every_command_of_a_page_runs(page, tree):
+def test_every_command_of_a_page_runs(page, tree, robot):
     (tree / "build/bin").mkdir(parents=True)
     ran = 0
     for mark, code in blocks(page, "sh"):
@@ -83,6 +99,8 @@ def test_every_command_of_a_page_runs(page, tree):
             code_of_end, said = shell(code, tree)
             assert (code_of_end != 0) == (mark == "fails"), f"{code}\n{said}"
             ran += 1
+        elif mark == "needs a robot":
+            robot.run(code)
     assert ran >= {"log.md": 8, "troubleshooting.md": 4, "bridges.md": 2}.get(page, 0)
     if page == "log.md":
         pictures_and_files_are_there(tree / "build/first")
@@ -94,6 +112,23 @@ def pictures_and_files_are_there(folder):
     for name in ("error.html", "noise.svg"):
         assert "<svg" in (folder / name).read_text(encoding="utf-8")
     assert "resolution: 0.025" in (folder / "map.yaml").read_text(encoding="utf-8")
+
+
+def test_what_gives_multicast_a_way_does(tree, computer):
+    code, = (code for mark, code in blocks("troubleshooting.md", "sh") if mark == "needs a network")
+    with SiteRobot(tree, computer) as robot:
+        before = robot.shell("ale-watch --once", robot.environment)
+        assert before.returncode == 1 and "no route for multicast" in before.stdout
+        done = robot.shell(code, robot.environment)
+        assert done.returncode == 0, done.stdout
+        robot.run("ale-watch\n")
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_only_what_changes_the_system_is_not_run(page):
+    for mark, code in blocks(page, "sh"):
+        lines = code.splitlines()
+        assert (mark == "changes the system") == all(re.match(r"sudo (apt|systemctl) ", line) for line in lines), code
 
 
 @pytest.mark.parametrize("page", PAGES)
