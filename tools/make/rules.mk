@@ -189,6 +189,7 @@ endef
 $(foreach tool,$(TOOL_FOLDERS),$(eval $(call program,$(tool))))
 
 PACKED_foxglove = $(BUILD)/python/ale
+PACKED_plot = $(BUILD)/python/ale
 INTERPRETER_foxglove = /usr/bin/env
 
 define python_program

@@ -6,17 +6,18 @@ import sys
 USAGE = """usage: ale-plot RUN... [options]
 Draws runs: trajectories, errors against a truth, stated uncertainty, stage times, what was dropped.
 RUN: files of one run with commas between them (.tum, .jsonl of --poses, .csv of --timing), a folder that holds
-trajectory.tum, poses.jsonl, timing.csv, or a log (.scip, LCM, text), which goes through ale-replay.
+trajectory.tum, poses.jsonl, timing.csv, or a log (.scip, LCM, text), which goes through ale-replay; of a log of
+LCM with ALE_STATUS also what the robot counted.
 NAME=RUN names it in the picture. The numbers go to the standard output.
   --out F              picture: .png, or a page: .html (default run.png)
   --truth F.tum        the true poses, by their stamps
   --align all|first|none  laid onto the truth by all poses, by the first common one, or not at all (default all)
-  --only NAMES         panels, with commas between them: trajectory, error, honesty, covariance, dropped, timing, table
+  --only NAMES         panels, with commas between them: trajectory, error, honesty, covariance, dropped, counters, timing, table
   --title TEXT         above the picture
   --help, --version
 Needs python3-matplotlib. Exit 0 fine, 1 failed, 2 wrong use.
 """
-PANELS = ("trajectory", "error", "honesty", "covariance", "dropped", "timing", "table")
+PANELS = ("trajectory", "error", "honesty", "covariance", "dropped", "counters", "timing", "table")
 
 
 class WrongUse(Exception):
@@ -73,7 +74,7 @@ def draw(options):
     except runs.Trouble as trouble:
         print(f"ale-plot: {trouble}", file=sys.stderr)
         return 1
-    return say(text_of(rows))
+    return say(text_of(rows) + counted_text(loaded))
 
 
 def judged(loaded, truth, options, modules):
@@ -110,6 +111,12 @@ def text_of(rows):
     lines = ["  ".join(word.ljust(width) if k == 0 else word.rjust(width) for k, (word, width) in enumerate(zip(row, widths)))
              for row in rows]
     return "".join(f"{line.rstrip()}\n" for line in lines)
+
+
+def counted_text(loaded):
+    """What the robots counted, one a line; empty: nothing is known of it."""
+    rows = [(run.name, name, str(growth[-1])) for run in loaded if run.counted for name, growth in run.counted.grown.items()]
+    return "\n" + text_of([("run", "counted", "times"), *rows]) if rows else ""
 
 
 def say(text):

@@ -11,11 +11,11 @@ from .runs import LOST, STAGES, WEAK  # noqa: E402
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")  # told apart by everybody (Okabe, Ito)
 STAGE_COLOURS = ("#56b4e9", "#009e73", "#0072b2", "#e69f00", "#cc79a7")
 BINS = 25
+STYLES = ("-", "--", ":", "-.")
 
 
 def colour(number):
     return COLOURS[number % len(COLOURS)]
-
 
 
 def trajectories(axes, runs, shown, truth):
@@ -136,6 +136,24 @@ def dropped(axes, runs):
     axes.set_title("what was dropped or doubtful")
 
 
+def counters(axes, runs):
+    """What the robot itself counted as dropped, late or at fault (ALE_STATUS), summed up over time."""
+    for number, run in enumerate(runs):
+        grown = run.counted.grown if run.counted else {}
+        for place, (name, growth) in enumerate(sorted(grown.items(), key=lambda each: -each[1][-1])):
+            axes.step(run.counted.t - run.start, growth, STYLES[place % len(STYLES)], where="post", color=colour(number + place // len(STYLES)),
+                      label=f"{run.name}: {name} ({growth[-1]})")
+    if axes.lines:
+        axes.legend(loc="upper left", fontsize="small", framealpha=0.8)
+        axes.set_ylim(bottom=0)
+    else:
+        axes.text(0.5, 0.5, "nothing was dropped, late or at fault", ha="center", va="center", transform=axes.transAxes)
+        axes.set_yticks([])
+    axes.set_xlabel("time, s")
+    axes.set_ylabel("so often")
+    axes.set_title("what the robot counted (ALE_STATUS)")
+
+
 def summary(axes, rows):
     """The table of numbers."""
     axes.axis("off")
@@ -160,6 +178,8 @@ def panels_of(runs, shown, of_runs, truth, ratios, rows):
     if any(run.poses for run in runs):
         chosen.append(("covariance", lambda axes: covariance(axes, runs)))
         chosen.append(("dropped", lambda axes: dropped(axes, runs)))
+    if any(run.counted for run in runs):
+        chosen.append(("counters", lambda axes: counters(axes, runs)))
     if any(run.timing for run in runs):
         chosen.append(("timing", lambda axes: stage_times(axes, runs)))
     chosen.append(("table", lambda axes: summary(axes, rows)))

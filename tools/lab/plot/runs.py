@@ -10,6 +10,8 @@ import tempfile
 
 import numpy as np
 
+from .counters import read as read_counters
+
 STAGES = ("deskew", "smooth", "extract", "match", "map")
 FILES_OF_FOLDER = ("trajectory.tum", "poses.jsonl", "timing.csv")
 LOST, WEAK = 0, 1
@@ -20,13 +22,15 @@ class Trouble(Exception):
 
 
 class Run:
-    """trajectory: rows t, x, y, theta. poses: columns by name, or None. timing: milliseconds by stage and "total", or None."""
+    """trajectory: rows t, x, y, theta. poses: columns by name, or None. timing: milliseconds by stage and "total", or None.
+    counted: counters.Counted, of logs of LCM, or None."""
 
     def __init__(self, name):
         self.name = name
         self.trajectory = None
         self.poses = None
         self.timing = None
+        self.counted = None
 
     @property
     def live(self):
@@ -35,7 +39,9 @@ class Run:
 
     @property
     def start(self):
-        return self.trajectory[0, 0] if self.trajectory is not None else self.poses["t"][0] if self.poses else 0.0
+        if self.trajectory is not None:
+            return self.trajectory[0, 0]
+        return self.poses["t"][0] if self.poses else self.counted.t[0] if self.counted else 0.0
 
 
 def load(words):
@@ -107,7 +113,8 @@ def _read_timing(run, path):
 
 
 def _replay(run, log):
-    """A log goes through ale-replay, beside this program or in the PATH."""
+    """A log goes through ale-replay, beside this program or in the PATH. One without scans may have counters all the same."""
+    run.counted = read_counters(log)
     beside = pathlib.Path(sys.argv[0]).resolve().parent / "ale-replay"
     replay = str(beside) if beside.exists() else shutil.which("ale-replay")
     if replay is None:
@@ -117,6 +124,9 @@ def _replay(run, log):
         done = subprocess.run([replay, str(log), "--trajectory", str(place / FILES_OF_FOLDER[0]), "--poses",
                                str(place / FILES_OF_FOLDER[1]), "--timing", str(place / FILES_OF_FOLDER[2])],
                               stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+        if done.returncode != 0 and run.counted:
+            print(f"ale-plot: {log}: counters only: {done.stderr.strip()}", file=sys.stderr)
+            return
         if done.returncode != 0:
             raise Trouble(done.stderr.strip().splitlines()[-1] if done.stderr.strip() else f"{log}: ale-replay failed")
         _load_folder(run, place)

@@ -1,7 +1,10 @@
 """ale-plot: numbers against an independent computation, panels for what there is, trouble in one line."""
+import gzip
 import json
+import struct
 import subprocess
 
+import ale
 import numpy as np
 import pytest
 
@@ -85,6 +88,52 @@ def test_a_page_has_every_panel_for_which_there_is_something(drive, tmp_path):
     assert column(done.stdout, "weak") == ["0", "200"] and column(done.stdout, "mean ms") == ["1.500", "-"]
     plot(tmp_path / "a.csv", "--out", out)
     assert '<figure id="timing"' in out.read_text() and '<figure id="trajectory"' not in out.read_text()
+
+
+def statuses(path, rows, more=()):
+    """An event log of LCM: (second, {counter: value}, deadlines missed) of a robot, and other events."""
+    events = list(more)
+    for second, counted, misses in rows:
+        status = ale.status_t()
+        status.utime, status.robot, status.deadline_misses = int(second * 1e6), "rover", misses
+        status.counter_name, status.counter_value = list(counted), list(counted.values())
+        status.num_counters = len(counted)
+        events.append((status.utime, b"ALE_STATUS", status.encode()))
+    with open(path, "wb") as file:
+        for number, (utime, name, data) in enumerate(sorted(events)):
+            file.write(struct.pack(">IqqII", 0xEDA1DA01, number, utime, len(name), len(data)) + name + data)
+    return path
+
+
+COUNTED = [(0, {"bad_checksum": 5, "odometry": 0, "repeated": 1}, 0), (1, {"bad_checksum": 7, "odometry": 20, "repeated": 1}, 0),
+           (2, {"bad_checksum": 1, "odometry": 3, "repeated": 0}, 0), (3, {"bad_checksum": 4, "odometry": 9, "repeated": 0}, 1)]
+
+
+def test_what_the_robot_counted_is_drawn_and_told_also_of_a_log_without_scans(tmp_path):
+    """It starts anew after the second status, and counts from nothing."""
+    done = plot(f"drive={statuses(tmp_path / 'drive.lcm', COUNTED)}", "--out", tmp_path / "p.html")
+    told = [line.split() for line in done.stdout.splitlines() if line.startswith("drive ")][1:]
+    assert sorted(told) == [["drive", "bad_checksum", "6"], ["drive", "deadline_misses", "1"]]
+    page = (tmp_path / "p.html").read_text(encoding="utf-8")
+    assert '<figure id="counters"' in page and '<figure id="trajectory"' not in page and "counters only" in done.stderr
+    quiet = plot(statuses(tmp_path / "quiet.lcm", COUNTED[:1]), "--out", tmp_path / "p.html", "--only", "counters")
+    assert "counted" not in quiet.stdout and "nothing was dropped" in (tmp_path / "p.html").read_text(encoding="utf-8")
+
+
+def test_a_log_with_scans_and_counters_has_both(tmp_path):
+    subprocess.run([BINARIES / "ale-replay", LOG, "--lcm", tmp_path / "scans.lcm"], check=True, capture_output=True, timeout=170)
+    data, at, events = (tmp_path / "scans.lcm").read_bytes(), 0, []
+    while at < len(data):
+        _, _, utime, name, size = struct.unpack_from(">IqqII", data, at)
+        events.append((utime, data[at + 28:at + 28 + name], data[at + 28 + name:at + 28 + name + size]))
+        at += 28 + name + size
+    begin = events[0][0] * 1e-6
+    log = statuses(tmp_path / "both.lcm", [(begin + second, counted, misses) for second, counted, misses in COUNTED], events)
+    (tmp_path / "both.lcm.gz").write_bytes(gzip.compress(log.read_bytes()))
+    done = plot(tmp_path / "both.lcm.gz", "--out", tmp_path / "p.html")
+    page = (tmp_path / "p.html").read_text(encoding="utf-8")
+    assert all(f'<figure id="{name}"' in page for name in ("trajectory", "dropped", "counters", "timing"))
+    assert "bad_checksum" in done.stdout and column(done.stdout.partition("\n\n")[0], "scans") == ["120"]
 
 
 def test_a_log_goes_through_ale_replay(tmp_path):
