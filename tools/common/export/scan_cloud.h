@@ -4,9 +4,9 @@
  *   cloud.add(scan, pose, sensor);       every scan, with its pose in the map
  *
  * Points are kept one a cell of 20 mm; free and occupied are counted in cells of 50 mm, or another side: a
- * cell is free when beams passed it, occupied when they ended in it. Memory of cells grows with the area seen,
- * not with the time; that of points slowly with the time, too, as noise finds cells about a wall that are free
- * yet: who runs for days and draws no points leaves them out. */
+ * cell is free when beams passed it, occupied when they ended in it. Memory of cells grows with the area
+ * seen, not with the time; that of points slowly with the time, too, as noise finds cells about a wall that
+ * are free yet: who runs for days and draws no points leaves them out. */
 #ifndef ALE_COMMON_EXPORT_SCAN_CLOUD_H
 #define ALE_COMMON_EXPORT_SCAN_CLOUD_H
 

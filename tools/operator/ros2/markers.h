@@ -1,4 +1,5 @@
-/* What the robot sees, knows and plans as lists of lines and balls, and these as markers for RViz2. Pure functions.
+/* What the robot sees, knows and plans as lists of lines and balls, and these as markers for RViz2. Pure
+ * functions.
  *
  *   std::vector<Drawing> drawings = drawings_of(features);
  *   std::vector<...Marker_> markers = markers_of(drawings, {features.utime, lifetime_us}, frame);
@@ -45,8 +46,8 @@ struct Shown {
     int64_t lifetime_us; /* gone then; 0: it stays until the next of its name */
 };
 
-/* One a drawing: gone at once where it has no points, since RViz2 takes no empty list. They live no longer than
- * drawings and frame. */
+/* One a drawing: gone at once where it has no points, since RViz2 takes no empty list. They live no longer
+ * than drawings and frame. */
 std::vector<visualization_msgs_msg_dds__Marker_> markers_of(std::vector<Drawing> &drawings,
                                                             const Shown &shown, std::string &frame);
 

@@ -102,7 +102,8 @@ void Occupancy::take(const ale::map_t &map, const feed::MapPieces &pieces)
 
 void Occupancy::forget()
 {
-    cloud_ = std::make_unique<ale::ScanCloud>(ale::ScanCloud::usual_cell_um, ale::ScanCloud::Points::left_out);
+    cloud_ =
+        std::make_unique<ale::ScanCloud>(ale::ScanCloud::usual_cell_um, ale::ScanCloud::Points::left_out);
 }
 
 void Occupancy::add_scan()

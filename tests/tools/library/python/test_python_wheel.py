@@ -2,6 +2,7 @@
 map there by the notebook. Long: with ALE_LONG_TESTS alone, and where PyPI can be had."""
 import json
 import os
+import resource
 import sys
 import tarfile
 import time
@@ -14,7 +15,7 @@ from empty_environment import alone, environment, run
 PYTHON = ROOT / "tools/library/python"
 LOG = ROOT / "tests/digest/apartment.log.gz"
 WRITER = ROOT / "tests/tools/library/python/bag_of_log.py"
-MOST_S = 60  # of CPU and waiting, once the wheel is there
+MOST_S = 60  # of processor time, once the wheel is there; what a clock says hangs on the network and on who else computes
 
 
 @pytest.fixture(scope="module")
@@ -36,9 +37,14 @@ def test_the_sdist_carries_what_it_builds_from(built):
     assert not (PYTHON / "sources").exists(), "nothing is left in the tree"
 
 
+def processor_s():
+    """Of all that this process has run and waited for."""
+    return sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
+
+
 def test_the_notebook_makes_a_map_of_a_bag_in_an_empty_environment(built, tmp_path):
     wheel = next(built.glob("*.whl"))
-    started = time.monotonic()
+    started, worked = time.monotonic(), processor_s()
     python = environment(tmp_path / "venv", f"{wheel}[bags,plot]")
     for bag in ("drive", "drive.bag"):
         run(python, WRITER, LOG, tmp_path / bag)
@@ -52,7 +58,9 @@ def test_the_notebook_makes_a_map_of_a_bag_in_an_empty_environment(built, tmp_pa
     assert maps[0] == maps[1] and maps[0].count(b"\nwall ") > 10
     assert (tmp_path / "map.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
     assert len((tmp_path / "drive.tum").read_text().splitlines()) == 120
-    assert time.monotonic() - started < MOST_S * (1 + (os.getloadavg()[0] > (os.cpu_count() or 1)) * 9)
+    worked = processor_s() - worked
+    print(f"wheel, notebook and plot in an empty environment: {time.monotonic() - started:.0f} s, {worked:.0f} s of a processor")
+    assert worked < MOST_S
 
 
 def test_a_bag_that_is_none_is_refused_in_words(built, tmp_path):
