@@ -339,6 +339,26 @@ TEST_F(MapImage, TheGridHasTheCellsOfTheCloud)
     EXPECT_EQ(grid.at(1.01, 0.51), 254) << "inside";
 }
 
+TEST_F(MapImage, ACloudThatKeepsNoPointsShowsTheSameGrid)
+{
+    ScanCloud whole;
+    ScanCloud cells(ScanCloud::usual_cell_um, ScanCloud::Points::left_out);
+    EXPECT_TRUE(cells.empty());
+    for (ScanCloud *cloud : {&whole, &cells}) {
+        for (int i = 0; i < 4; i++) {
+            cloud->add(scan_of_room(i * 0.3, 0.1), {0, {i * 300000, 100000, 0}, 0, 0, 0, true}, {});
+        }
+    }
+    EXPECT_TRUE(cells.points().empty());
+    EXPECT_FALSE(cells.empty());
+    EXPECT_EQ(cells.cells(), whole.cells());
+    scene_.cloud = &whole;
+    const std::string with_points = content(write("whole.pgm"));
+    scene_.cloud = &cells;
+    EXPECT_EQ(content(write("cells.pgm")), with_points);
+    EXPECT_NEAR(cells.extent().right_um, 3 * metre, 1000) << "the right wall";
+}
+
 TEST_F(MapImage, WithoutScansOnlyWallsAreKnown)
 {
     const Grid grid = read_grid(write("map.pgm"));

@@ -50,8 +50,8 @@ def scanner_of(message: Any) -> Scanner:
 
 
 def read(path: str | os.PathLike[str], scan_topic: str | None = None, odometry_topic: str | None = None) -> Iterator[Event]:
-    """Scans (of several echoes the first) and odometry of a bag (.bag file, folder of a ROS 2 bag) by their stamps. Without topics
-    the only ones of their types; where there is no Odometry, what /tf says from `odom` to the robot."""
+    """Scans (of several echoes the first) and odometry of a bag (.bag file, folder of a ROS 2 bag, .mcap file) by their
+    stamps. Without topics the only ones of their types; where there is no Odometry, what /tf says from `odom` to the robot."""
     with _opened(path) as reader:
         scans = _topic(reader, SCANS, scan_topic, path)
         wheels = _topic(reader, (ODOMETRY,), odometry_topic, path, needed=odometry_topic is not None)
