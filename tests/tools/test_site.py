@@ -24,6 +24,12 @@ BLOCK = re.compile(r'^```(\w+)(?: title="([^"]+)")?\n(.*?)^```', re.MULTILINE | 
 MARKS = ("", "fails", "needs a robot", "needs a network", "changes the system", "builds for minutes")
 
 
+BUILDS = {  # what runs it
+    "make deb": "tools/make/test_deb.py", "make run": "tests/tools/test_run.py", "make explore": "tests/tools/test_explore.py",
+    "make library": "tests/tools/test_library.py", "make install-library": "tests/tools/test_library.py",
+    "pip install": "tests/tools/library/python/test_python_wheel.py"}
+
+
 def blocks(page, language):
     """(mark, text) of each fenced block of a language."""
     text = (SITE / "pages" / page).read_text(encoding="utf-8")
@@ -140,6 +146,12 @@ def test_only_what_changes_the_system_is_not_run(page):
     for mark, code in blocks(page, "sh"):
         lines = code.splitlines()
         assert (mark == "changes the system") == all(re.match(r"sudo (apt|systemctl) ", line) for line in lines), code
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_what_builds_for_minutes_is_run_by_a_test_of_its_own(page):
+    for line in (line for mark, code in blocks(page, "sh") if mark == "builds for minutes" for line in code.splitlines()):
+        assert (ROOT / BUILDS[" ".join(line.split()[:2])]).exists(), line
 
 
 @pytest.mark.parametrize("page", PAGES)
