@@ -6,7 +6,6 @@
 #include <cstdint>
 
 extern "C" {
-#include "base/fixed.h"
 #include "base/pose.h"
 }
 
