@@ -53,7 +53,7 @@ class SiteRobot:
     def __init__(self, folder, host):
         """folder: where the commands run; host: a hosts.Host with nothing up yet."""
         self.folder, self.host = folder, host
-        self.standing = []
+        self.started, self.stands = [], False
         self.environment = {**os.environ, "PATH": f"{folder / 'as-root'}:{BINARIES}:{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}",
                             "HOME": str(folder), "LCM_DEFAULT_URL": URL, "ROS_LOCALHOST_ONLY": "1", "PYTHONPATH": str(BUILD / "python")}
 
@@ -65,7 +65,7 @@ class SiteRobot:
         return self
 
     def __exit__(self, *_):
-        for each in reversed(self.standing):
+        for each in reversed(self.started):
             each.end(signal.SIGKILL)
 
     def network(self):
@@ -73,10 +73,9 @@ class SiteRobot:
         for words in (("link", "set", "lo", "up", "multicast", "on"), ("route", "replace", "224.0.0.0/4", "dev", "lo")):
             self.host.run("ip", *words)
 
-    def start(self, *words):
-        running = Running(words, self.folder, self.environment, self.host.prefix)
-        self.standing.append(running)
-        return running
+    def start(self, *words, environment=None):
+        self.started.append(Running(words, self.folder, environment or self.environment, self.host.prefix))
+        return self.started[-1]
 
     def shell(self, line, environment):
         return subprocess.run([*self.host.prefix, "sh", "-ec", line], cwd=self.folder, env=environment, stdin=subprocess.DEVNULL,
@@ -89,6 +88,7 @@ class SiteRobot:
 
     def stand(self):
         """Scanner, wheels and firmware."""
+        self.stands = True
         (self.folder / "robot.ini").write_text("[lcm]\npublish_scan = yes\n[recorder]\nfolder =\n", encoding="ascii")
         simulator = self.start("ale-sim", "--world", WORLDS / "home.world", "--pty", "urg", "--lcm-url", WHEELS)
         simulator.wait_for((self.folder / "urg").exists, "scanner")
@@ -101,7 +101,7 @@ class SiteRobot:
         if "/dev/ale-scanner" in block:
             self.record(lines)
             return
-        if not self.standing:
+        if not self.stands:
             self.stand()
         if "--keys" in block:
             self.keys()
@@ -114,7 +114,7 @@ class SiteRobot:
             line = line.replace("robot.local", "127.0.0.1").replace("/dev/ttyUSB0", "board")
             program = line.split()[0]
             if program in LASTING:
-                lasting.append(Running(line.split(), self.folder, environment, self.host.prefix))
+                lasting.append(self.start(*line.split(), environment=environment))
                 lasting[-1].wait_for(lambda: re.search(LASTING[program], lasting[-1].said()), LASTING[program])
             else:
                 done = self.shell(line, environment)
@@ -139,7 +139,6 @@ class SiteRobot:
             assert done.returncode == 0, f"{line}\n{done.stdout}"
             if simulator:
                 simulator.end()
-                self.standing.remove(simulator)
 
     def world(self, moves):
         text = (WORLDS / "home.world").read_text(encoding="ascii")
