@@ -10,8 +10,8 @@
 #define ALE_COMMON_EXPORT_SCAN_CLOUD_H
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -45,6 +45,11 @@ class ScanCloud
     {
         return points_;
     }
+    /* Squares of 64 x 64 cells in which something was seen. */
+    size_t tiles() const
+    {
+        return tiles_.size();
+    }
     int32_t cell_um() const
     {
         return cell_um_;
@@ -68,7 +73,7 @@ class ScanCloud
     int32_t cell_um_;
     std::vector<ale_point_t> points_;
     std::unordered_set<uint64_t> point_cells_;
-    std::unordered_map<uint64_t, std::unique_ptr<Tile>> tiles_;
+    std::unordered_map<uint64_t, Tile> tiles_;
 };
 
 } // namespace ale

@@ -1,0 +1,54 @@
+/* What the scans of a robot saw, laid out in its first map as they come over LCM.
+ *
+ *   space.take(scan); space.take(pose); space.take(tracking);     (as they come, checked)
+ *   scene.cloud = &space.cloud();
+ *
+ * A scan is laid out at its own map pose. When the map pose takes a step (a loop was closed, another map, one
+ * that was forgotten) what was seen before lies wrong, and is begun anew. Of a place where the robot stands a
+ * few scans tell all. */
+#ifndef ALE_COMMON_FEED_SEEN_SPACE_H
+#define ALE_COMMON_FEED_SEEN_SPACE_H
+
+#include <optional>
+
+#include "ale/pose_t.hpp"
+#include "ale/scan_t.hpp"
+#include "ale/tracking_t.hpp"
+#include "common/export/scan_cloud.h"
+
+namespace feed
+{
+
+class SeenSpace
+{
+  public:
+    /* True: something was laid out. */
+    bool take(const ale::scan_t &scan);
+    bool take(const ale::pose_t &pose);
+    bool take(const ale::tracking_t &tracking);
+
+    const ale::ScanCloud &cloud() const
+    {
+        return cloud_;
+    }
+    void forget()
+    {
+        cloud_ = ale::ScanCloud();
+        scans_here_ = 0;
+    }
+
+  private:
+    bool lay_out();
+    bool is_new_here();
+
+    std::optional<ale::scan_t> scan_; /* waits for its pose and its map, or these for it */
+    std::optional<ale::pose_t> pose_;
+    std::optional<ale::tracking_t> tracking_;
+    ale::pose_t here_{}; /* where the robot stands, or last stood */
+    int scans_here_ = 0;
+    ale::ScanCloud cloud_;
+};
+
+} // namespace feed
+
+#endif
