@@ -301,7 +301,7 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	@$(CHECKED) -j2 $(HOSTILE_PROGRAMS) lcm-types
 	-@ALE_LONG_TESTS=1 $(CHECKED) VENV=$(abspath $(VENV)) SYSTEM_PROGRAMS= T="$(HOSTILE_TESTS)" system
 	@$(PHASE) "the robot explores at a click in the browser; the console's page in every size, theme and layer; all tests of the bridges"
-	-@ALE_LONG_TESTS=1 $(SUB) system T="console_explores or test_console_access or test_console_fleet or test_console_recordings or test_tiles or ros2 or test_foxglove or test_bags"
+	-@ALE_LONG_TESTS=1 $(SUB) system T="console_explores or test_console_access or test_console_controls or test_console_fleet or test_console_flights or test_console_recordings or test_tiles or ros2 or test_foxglove or test_bags"
 	@$(PHASE) "simulated scanners read by clients that are not ours, a minute each"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=independent_clients DIST=load
 	@$(PHASE) "a robot in a building of a square kilometre"
