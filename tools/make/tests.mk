@@ -122,6 +122,10 @@ hil-vm: programs lcm-types venv deb ## virtual robot PCs in qemu: a drive under 
 endurance: programs lcm-types venv ## 20,000 scans at ten times the speed, and latency under load: minutes, on an idle machine
 	@PYTHONPATH=$(BUILD)/python PYTHONDONTWRITEBYTECODE=1 $(VENV)/bin/python -m pytest -q -rP -p no:cacheprovider tests/system/endurance.py
 
+.PHONY: screenshots
+screenshots: programs lcm-types venv ## pictures of the console for its README, of the real programs in Chromium: look at each
+	@PYTHONPATH=$(BUILD)/python PYTHONDONTWRITEBYTECODE=1 $(VENV)/bin/python -m pytest -q -p no:cacheprovider tests/system/screenshots.py
+
 .PHONY: soak
 soak: programs lcm-types venv ## a day at ten times the speed: nothing grows, no deadline is missed (SOAK_HOURS=1: an hour), on an idle machine
 	@PYTHONPATH=$(BUILD)/python PYTHONDONTWRITEBYTECODE=1 $(VENV)/bin/python -m pytest -q -rP -p no:cacheprovider tests/system/soak.py
