@@ -119,9 +119,21 @@ class Browser:
         x, y = self._middle(element_id)
         self._pointer([self._to(x, y), {"type": "pointerDown", "button": 0}, {"type": "pointerUp", "button": 0}], "touch")
 
+    def fingers(self, *paths, held_ms=0):
+        """So many fingers at once, each along its path of [x, y]; they rest for so long before they are lifted."""
+        def actions(path):
+            moves = [{"type": "pointerMove", "duration": 40, "x": round(x), "y": round(y)} for x, y in path]
+            return [moves[0], {"type": "pointerDown", "button": 0}, *moves[1:], {"type": "pause", "duration": held_ms}, {"type": "pointerUp", "button": 0}]
+        self._call("POST", f"{self.session}/actions", {"actions": [
+            {"type": "pointer", "id": f"finger {k}", "parameters": {"pointerType": "touch"}, "actions": actions(path)} for k, path in enumerate(paths)]})
+
+    def turn_wheel(self, x, y, by):
+        self._call("POST", f"{self.session}/actions", {"actions": [
+            {"type": "wheel", "id": "wheel", "actions": [{"type": "scroll", "x": x, "y": y, "deltaX": 0, "deltaY": by}]}]})
+
     def press(self, *keys):
         """One key after the other; names of keys as the browser has them."""
-        codes = {"Enter": "\ue007", "Escape": "\ue00c", "Tab": "\ue004", "ArrowLeft": "\ue012", "ArrowUp": "\ue013",
+        codes = {"Enter": "\ue007", "Escape": "\ue00c", "Tab": "\ue004", "Backspace": "\ue003", "Home": "\ue011", "End": "\ue010", "ArrowLeft": "\ue012", "ArrowUp": "\ue013",
                  "ArrowRight": "\ue014", "ArrowDown": "\ue015"}
         actions = [{"type": way, "value": codes.get(key, key)} for key in keys for way in ("keyDown", "keyUp")]
         self._call("POST", f"{self.session}/actions", {"actions": [{"type": "key", "id": "keyboard", "actions": actions}]})

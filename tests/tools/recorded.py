@@ -1,12 +1,19 @@
-"""Files that a console lists: a recording of the robot double, and a map that a robot has saved."""
-import lcm
+"""Files that a console lists: a recording of the robot double, a flight of it, and a map that a robot has saved."""
+import importlib.util
+import types
 import zlib
 
+import ale
+import lcm
+
+from at_hand import ROOT
 from robot_double import WALLS, RobotDouble
 
 RECORDED = "2026-01-02-030405"
 BEGIN_US = 1_767_323_045_000_000  # of the recording
 PERIOD_US = 100_000
+FLIGHT = "flight-00000003-20260102T030500.000Z-fault"  # when it was written
+SWITCHED_ON_US = 50_000_000  # before the flight begins: its clock knows no date
 
 
 class LogBus:
@@ -30,6 +37,31 @@ def write_recording(path, scans=30, change=lambda robot: None):
         robot.step()
         robot.bus.now_us += PERIOD_US
     robot.bus.log.close()
+
+
+class ScanBus:
+    """Keeps the scans that are published, at times of a robot's own clock."""
+
+    def __init__(self):
+        self.events = []
+
+    def publish(self, channel, data):
+        scan = ale.scan_t.decode(data)
+        scan.utime = SWITCHED_ON_US + len(self.events) * PERIOD_US
+        self.events.append(types.SimpleNamespace(channel=channel, data=scan.encode()))
+
+
+def write_flight(path, scans=40):
+    """The bytes of the robot double's scanner, ten scans a second."""
+    spec = importlib.util.spec_from_file_location("scip_file", ROOT / "tools/operator/foxglove/scip_file.py")
+    scip_file = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(scip_file)
+    robot = RobotDouble("memq://")
+    robot.bus = ScanBus()
+    for robot.scan in range(scans):
+        robot.publish_scan()
+    path.parent.mkdir(exist_ok=True)
+    scip_file.write(robot.bus.events, path)
 
 
 def write_map(path):

@@ -70,6 +70,7 @@ class RobotDouble:
         self.observability = [0.0] * 6
         self.blind_beams = 0  # so many from the first on see nothing
         self.wheel_scale = None  # what the wheels say of the way, 1: the truth; None: there are none
+        self.flights = 0  # that it has written
         self.answer = ("", 0, "")  # operator, counter and result of the last command
 
     @property
@@ -253,9 +254,9 @@ class RobotDouble:
         status.driver_state = self.driver
         status.device = "URG-04LX H0000001"
         status.scan_rate_hz = 10.0
-        status.counter_name = ["bad_checksum", "scans_lost", "odometry", "resets"]
-        status.counter_value = [3, self.lost_scans, 200, 0]
-        status.num_counters = 4
+        status.counter_name = ["bad_checksum", "scans_lost", "odometry", "resets", "flight_recordings"]
+        status.counter_value = [3, self.lost_scans, 200, 0, self.flights]
+        status.num_counters = 5
         status.robot, status.takes_commands = self.name, True
         status.who_drives, status.exploration, status.command_obeyed = self.who_drives, self.exploration, not self.refused
         status.command_operator, status.command_counter, status.command_result = self.answer

@@ -6,7 +6,7 @@ import browser
 from at_hand import LONG
 from console_page import LINK, STATE, chromium, cockpit, let_the_camera_glide, middle, page, pixels  # noqa: F401 (fixtures)
 from recorded import RECORDED
-from waiting import Pulse
+from waiting import Pulse, wait_until
 from watching import alice, commands, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
 
 pytestmark = pytest.mark.skipif(bool(browser.missing()), reason=f"no browser test: {browser.missing()}")
@@ -107,7 +107,7 @@ def test_every_text_can_be_read_in_every_state(cockpit, robot, theme):
     assert_readable(cockpit, "while it records")
     cockpit.run("document.getElementById('recordings-note').className = 'bad'")
     assert_readable(cockpit, "with what the disk says")
-    cockpit.click(f"open-{RECORDED}")
+    cockpit.click(f"open-{RECORDED}.lcm")
     cockpit.wait_for("document.body.dataset.time === 'recording'")
     assert_readable(cockpit, "in a recording")
 
@@ -179,7 +179,7 @@ def test_on_a_phone_each_control_is_in_reach_and_none_covers_another(phone, cock
     assert cockpit.run("return document.documentElement.scrollWidth - innerWidth") <= 0
     assert cockpit.run("return document.documentElement.scrollHeight - innerHeight") <= 0
     in_sight = cockpit.run(IN_SIGHT)
-    assert {"stop", "stick", "explore", "zoom-in", "layers", "theme", "set", "record", f"open-{RECORDED}", "live-map", "map-maps-flat"} <= {entry[0] for entry in in_sight}
+    assert {"stop", "stick", "explore", "zoom-in", "layers", "theme", "set", "record", f"open-{RECORDED}.lcm", "live-map", "map-maps-flat"} <= {entry[0] for entry in in_sight}
     for name, left, top, right, bottom, met in in_sight:
         assert 0 <= left < right <= width + 0.5 and 0 <= top < bottom <= height + 0.5, name
         assert met, f"something lies over {name}"
@@ -247,14 +247,16 @@ def test_when_the_link_is_lost_everything_stays_in_its_place(alice, chromium, ro
 
 
 def test_every_control_is_reached_by_the_tabulator(cockpit):
-    reached = set()
+    """Round and round: on a busy machine a link is lost for a moment, and what cannot be pressed then is passed by."""
     cockpit.run("document.activeElement.blur()")
     cockpit.wait_for(LISTED)
-    for _ in range(75):
+    missing = set(cockpit.run(f"return [...document.querySelectorAll('{CONTROLS}')].filter((e) => e.checkVisibility()).map((e) => e.id || e.dataset.layer)"))
+
+    def tab():
         cockpit.press("Tab")
-        reached.add(cockpit.run("const e = document.activeElement; return e.id || e.dataset.layer || ''"))
-    wanted = cockpit.run(f"return [...document.querySelectorAll('{CONTROLS}')].filter((e) => e.checkVisibility()).map((e) => e.id || e.dataset.layer)")
-    assert set(wanted) <= reached
+        missing.discard(cockpit.run("const e = document.activeElement; return e.id || e.dataset.layer"))
+        return not missing
+    wait_until(tab, 180, missing)
 
 
 def test_the_stick_drives_by_arrow_keys_while_it_has_the_focus(cockpit, commands):

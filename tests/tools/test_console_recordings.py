@@ -163,6 +163,21 @@ def test_recordings_and_every_map_in_every_format_are_downloaded(library):
             assert packed.read(f"{name}.pgm").startswith(b"P5") and f"image: {name}.pgm" in packed.read(f"{name}.yaml").decode()
 
 
+def test_a_pgm_has_what_scans_left_free_where_there_are_any(library):
+    page = WebSocket(library.console.url)
+    library.robot.drive(12)
+    page.wait_for("scan", lambda scan: scan["scan"] == library.robot.scan - 1)
+    free = {}
+    for stem in ("live/map", f"recordings/{RECORDED}", "maps/flat"):
+        with zipfile.ZipFile(io.BytesIO(fetch(library.console, f"{stem}.zip"))) as packed:
+            cells = packed.read(f"{stem.rpartition('/')[2]}.pgm").split(b"\n255\n", 1)[1]
+            free[stem], walls = cells.count(254), cells.count(0)
+            assert 200 < walls < 2000, stem
+    room = 5 * 3.6 / 0.05 ** 2
+    assert 0.5 * room < free["live/map"] < 1.2 * room and 0.5 * room < free[f"recordings/{RECORDED}"] < 1.2 * room
+    assert free["maps/flat"] == 0, "its file has no scans"
+
+
 PATHS = [f"recordings/{RECORDED}.lcm", f"recordings/{RECORDED}.png", "maps/flat.png", "live/map.png"]
 
 
@@ -271,24 +286,24 @@ def test_a_download_that_nobody_takes_holds_up_nobody(alice, robot, folder):
 
 def test_a_recording_is_looked_at_by_one_page_and_others_go_on(library):
     here, other = WebSocket(library.console.url), WebSocket(library.console.url)
-    here.send(json.dumps({"type": "open", "name": RECORDED}))
+    here.send(json.dumps({"type": "open", "name": f"{RECORDED}.lcm"}))
     past = here.wait_for("past")
-    assert past["recording"] == RECORDED and past["kept"][1] - past["kept"][0] == 2900 and past["at"] == past["kept"][0]
+    assert past["recording"] == f"{RECORDED}.lcm" and past["kept"][1] - past["kept"][0] == 2900 and past["at"] == past["kept"][0]
     assert here.wait_for("map")["lines"] and here.wait_for("link")["kept"] == past["kept"]
     here.send(json.dumps({"type": "look", "at": past["kept"][1]}))
     assert here.wait_for("pose")["scan"] == 29
     library.robot.scan += 100
     library.robot.publish_pose()
-    assert other.wait_for("pose")["scan"] == library.robot.scan
+    other.wait_for("pose", lambda pose: pose["scan"] == library.robot.scan)
     here.send(json.dumps({"type": "look", "at": None}))
     assert here.wait_for("past")["recording"] is None
-    assert here.wait_for("pose")["scan"] == library.robot.scan
+    here.wait_for("pose", lambda pose: pose["scan"] == library.robot.scan)
 
 
 def test_a_recording_that_is_none_is_refused_in_words(library):
     page = WebSocket(library.console.url)
     (library.folder / "none.lcm").write_bytes(b"nothing " * 100)
-    for name, words in (("absent", "no recording of that name"), ("../x", "no recording of that name"), ("none", "no message of a robot")):
+    for name, words in (("absent.lcm", "no recording of that name"), ("../x.lcm", "no recording of that name"), ("none.lcm", "no message of a robot")):
         assert words in ask(page, type="open", name=name)["refusal"]
     (library.folder / "none.lcm").unlink()
 
@@ -314,7 +329,7 @@ def test_a_flood_of_requests_ends_its_connection_and_nobody_elses(library):
         while True:
             rude.next()
     robot.publish_pose()
-    assert other.wait_for("pose")["scan"] == robot.scan
+    other.wait_for("pose", lambda pose: pose["scan"] == robot.scan)
     assert ask(other, type="shelf")["refusal"] is None
 
 

@@ -6,7 +6,7 @@ import pytest
 import browser
 from at_hand import LONG
 from console_page import STATE, cells, chromium, cockpit, page, pixels, show_only  # noqa: F401 (fixtures)
-from recorded import RECORDED, write_recording
+from recorded import FLIGHT, RECORDED, write_flight, write_recording
 from waiting import Pulse, wait_until
 from watching import Console, alice, commands, console, lcm_url, pulse, robot  # noqa: F401 (fixtures)
 
@@ -42,7 +42,7 @@ def test_a_recording_is_made_by_mouse_finger_and_keys(cockpit, press, tmp_path):
 def test_links_lead_to_the_files_and_a_press_brings_them(cockpit, tmp_path):
     cockpit.wait_for(f"{ROWS} === 3 && document.getElementById('live-map').href")
     cockpit.devtools("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(tmp_path / "got"))
-    cockpit.click(f"log-{RECORDED}")
+    cockpit.click(f"log-{RECORDED}.lcm")
     cockpit.run("const kind = document.getElementById('map-ending'); kind.value = 'zip'; kind.dispatchEvent(new Event('change'))")
     cockpit.click("map-maps-flat")
     cockpit.run("document.getElementById('live-map').focus()")
@@ -96,13 +96,20 @@ def test_a_map_that_the_robot_saves_comes_into_the_list(cockpit, robot, tmp_path
     cockpit.wait_for(f"{ROWS} === 4 && document.getElementById('map-maps-hall') !== null")
 
 
+def test_a_flight_that_the_robot_writes_comes_into_the_list(cockpit, robot, tmp_path):
+    cockpit.wait_for(f"{ROWS} === 3")
+    write_flight(tmp_path / f"recordings/{FLIGHT}.scip", scans=3)
+    robot.flights += 1
+    cockpit.wait_for(f"{ROWS} === 4 && document.getElementById('open-{FLIGHT}.scip') !== null")
+
+
 def test_a_recording_is_opened_scrubbed_played_and_left(cockpit, commands):
     """By mouse and keys; marked as what it is, and nothing but STOP is sent meanwhile."""
     cockpit.wait_for(f"{ROWS} === 3")
-    cockpit.click(f"open-{RECORDED}")
+    cockpit.click(f"open-{RECORDED}.lcm")
     cockpit.wait_for("document.body.dataset.time === 'recording' && document.getElementById('scan').textContent === '0'")
     assert cockpit.text("past-word") == "recording" and cockpit.text("past-text").endswith("0:00 of 0:03")
-    assert cockpit.run(f"return document.getElementById('open-{RECORDED}').ariaPressed") == "true"
+    assert cockpit.run(f"return document.getElementById('open-{RECORDED}.lcm').ariaPressed") == "true"
     cockpit.wait_for("document.getElementById('map-lines').textContent === '12' && document.body.dataset.control === 'off'")
     assert "a recording" in cockpit.text("control-note")
     cockpit.run("const when = document.getElementById('when'); when.value = Number(when.min) + 1500; when.dispatchEvent(new Event('input'))")
@@ -115,13 +122,13 @@ def test_a_recording_is_opened_scrubbed_played_and_left(cockpit, commands):
     assert [c.verb for c in commands(1)] == ["stop"]
     cockpit.press("n")
     cockpit.wait_for("document.body.dataset.time === 'now' && document.body.dataset.control === 'yes'")
-    assert cockpit.run(f"return document.getElementById('open-{RECORDED}').ariaPressed") == "false"
+    assert cockpit.run(f"return document.getElementById('open-{RECORDED}.lcm').ariaPressed") == "false"
 
 
 def test_a_recording_is_looked_at_without_a_robot(alice, chromium):
     chromium.open(alice.url)
     chromium.wait_for(f"{ROWS} === 3 && document.body.dataset.link === 'waiting'")
-    chromium.click(f"open-{RECORDED}")
+    chromium.click(f"open-{RECORDED}.lcm")
     chromium.wait_for(f"document.body.dataset.link === 'recording' && {STATE} === 'good'")
     assert not chromium.run("return document.getElementById('when').disabled")
     show_only(chromium, "occupancy")
@@ -153,7 +160,7 @@ def test_cells_are_those_of_what_is_shown(cockpit, pulse):
     cockpit.press("n")
     cockpit.wait_for("document.body.dataset.time === 'now'")
     assert cells(cockpit)[1] > 0.8 * live
-    cockpit.click(f"open-{RECORDED}")
+    cockpit.click(f"open-{RECORDED}.lcm")
     cockpit.wait_for("document.body.dataset.time === 'recording' && document.getElementById('scan').textContent === '0'")
     assert cells(cockpit) == pytest.approx([past_free, past], rel=0.1), "the same scan in the recording"
     cockpit.press("p")

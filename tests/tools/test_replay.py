@@ -88,6 +88,14 @@ def test_results_that_cannot_be_written_end_with_1(room_log, tmp_path):
     assert "No space left" in replay(room_log, "--features", "/dev/full", code=1).stderr
 
 
+def test_a_log_that_the_disk_did_not_take_whole_ends_with_1(room_log, tmp_path):
+    """A limit on the size of files takes the place of a full disk."""
+    out = tmp_path / "sent.lcm"
+    done = subprocess.run(["sh", "-c", 'trap "" XFSZ; ulimit -f 20; exec "$@"', "sh", REPLAY, room_log, "--lcm", out], capture_output=True, text=True,
+                          timeout=180, check=False)
+    assert done.returncode == 1 and done.stderr == f"ale-replay: {out}: not all of it could be written; is the disk full?\n"
+
+
 def test_a_bad_configuration_ends_with_2_and_names_file_and_key(room_log, tmp_path):
     config = tmp_path / "robot.ini"
     config.write_text("[sensor]\nnonsense = 1\n")

@@ -122,6 +122,10 @@ hil-vm: programs lcm-types venv deb ## virtual robot PCs in qemu: a drive under 
 endurance: programs lcm-types venv ## 20,000 scans at ten times the speed, and latency under load: minutes, on an idle machine
 	@PYTHONPATH=$(BUILD)/python PYTHONDONTWRITEBYTECODE=1 $(VENV)/bin/python -m pytest -q -rP -p no:cacheprovider tests/system/endurance.py
 
+.PHONY: screenshots
+screenshots: programs lcm-types venv ## pictures of the console for its README, of the real programs in Chromium: look at each
+	@PYTHONPATH=$(BUILD)/python PYTHONDONTWRITEBYTECODE=1 $(VENV)/bin/python -m pytest -q -p no:cacheprovider tests/system/screenshots.py
+
 .PHONY: soak
 soak: programs lcm-types venv ## a day at ten times the speed: nothing grows, no deadline is missed (SOAK_HOURS=1: an hour), on an idle machine
 	@PYTHONPATH=$(BUILD)/python PYTHONDONTWRITEBYTECODE=1 $(VENV)/bin/python -m pytest -q -rP -p no:cacheprovider tests/system/soak.py
@@ -301,7 +305,7 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	@$(CHECKED) -j2 $(HOSTILE_PROGRAMS) lcm-types
 	-@ALE_LONG_TESTS=1 $(CHECKED) VENV=$(abspath $(VENV)) SYSTEM_PROGRAMS= T="$(HOSTILE_TESTS)" system
 	@$(PHASE) "the robot explores at a click in the browser; the console's page in every size, theme and layer; all tests of the bridges"
-	-@ALE_LONG_TESTS=1 $(SUB) system T="console_explores or test_console_access or test_console_fleet or test_console_recordings or test_tiles or ros2 or test_foxglove or test_bags"
+	-@ALE_LONG_TESTS=1 $(SUB) system T="console_explores or test_console_access or test_console_controls or test_console_fleet or test_console_flights or test_console_recordings or test_tiles or ros2 or test_foxglove or test_bags"
 	@$(PHASE) "simulated scanners read by clients that are not ours, a minute each"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=independent_clients DIST=load
 	@$(PHASE) "a robot in a building of a square kilometre"

@@ -90,12 +90,9 @@ ScanCloud::Count &ScanCloud::count(int32_t column, int32_t row)
 {
     const int32_t tile_column = floor_div(column, tile_side);
     const int32_t tile_row = floor_div(row, tile_side);
-    std::unique_ptr<Tile> &tile = tiles_[key(tile_column, tile_row)];
-    if (!tile) {
-        tile = std::make_unique<Tile>();
-    }
+    Tile &tile = tiles_[key(tile_column, tile_row)];
     const int32_t within = (row - tile_row * tile_side) * tile_side + (column - tile_column * tile_side);
-    return (*tile)[static_cast<size_t>(within)];
+    return tile[static_cast<size_t>(within)];
 }
 
 /* One cell a step along the longer axis. */
@@ -130,7 +127,7 @@ ScanCloud::Cell ScanCloud::cell(int32_t column, int32_t row) const
         return Cell::unknown;
     }
     const int32_t within = (row - tile_row * tile_side) * tile_side + (column - tile_column * tile_side);
-    const Count &seen = (*tile->second)[static_cast<size_t>(within)];
+    const Count &seen = tile->second[static_cast<size_t>(within)];
     if (seen.ended > 1 && seen.ended * passed_per_ended >= seen.passed) {
         return Cell::occupied;
     }

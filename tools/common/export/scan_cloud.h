@@ -11,8 +11,8 @@
 #define ALE_COMMON_EXPORT_SCAN_CLOUD_H
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -59,10 +59,10 @@ class ScanCloud
     {
         return extent_;
     }
-    /* Cells that there is memory for: 4 bytes each. */
-    size_t cells() const
+    /* Squares of 64 x 64 cells in which something was seen. */
+    size_t tiles() const
     {
-        return tiles_.size() * std::tuple_size_v<Tile>;
+        return tiles_.size();
     }
     int32_t cell_um() const
     {
@@ -89,7 +89,7 @@ class ScanCloud
     Extent extent_ = no_extent;
     std::vector<ale_point_t> points_;
     std::unordered_set<uint64_t> point_cells_;
-    std::unordered_map<uint64_t, std::unique_ptr<Tile>> tiles_;
+    std::unordered_map<uint64_t, Tile> tiles_;
 };
 
 } // namespace ale

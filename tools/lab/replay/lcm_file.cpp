@@ -35,12 +35,13 @@ uint32_t length_at(const Header &header, size_t at)
     return be32toh(value);
 }
 
-/* liblcm stamps an event with the present; here it is the time of the message. */
-void stamp_events(std::fstream &file)
+/* liblcm stamps an event with the present; here it is the time of the message. How many there are. */
+uint64_t stamp_events(std::fstream &file)
 {
     constexpr uint32_t stamp_bytes = 8;
     std::array<char, stamp_bytes> utime{};
     Header header{};
+    uint64_t events = 0;
     std::streamoff at = 0;
     while (file.seekg(at).read(header.data(), header.size())) {
         const std::streamoff data =
@@ -48,7 +49,10 @@ void stamp_events(std::fstream &file)
         file.seekg(data + static_cast<std::streamoff>(utime_at)).read(utime.data(), stamp_bytes);
         file.seekp(at + static_cast<std::streamoff>(stamp_at)).write(utime.data(), stamp_bytes);
         at = data + static_cast<std::streamoff>(length_at(header, data_length_at));
+        events += file.seekg(at - 1).get() != std::fstream::traits_type::eof();
     }
+    file.clear();
+    return events;
 }
 
 std::string url_of(const std::string &path)
@@ -67,11 +71,17 @@ LcmFile::LcmFile(const std::string &path) : path_(path), bus_(nullptr, ale_bus_c
     }
 }
 
+void LcmFile::fail() const
+{
+    throw std::runtime_error(path_ + ": not all of it could be written; is the disk full?");
+}
+
 void LcmFile::took(int result)
 {
     if (result < 0) {
-        throw std::runtime_error(path_ + ": cannot be written");
+        fail();
     }
+    sent_++;
 }
 
 void LcmFile::put_scan(const ale_scan_t &scan, uint32_t number, const ale_pose_t &sensor)
@@ -151,11 +161,10 @@ void LcmFile::close(const OfflineSlam &slam)
     }
     bus_.reset();
     std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
-    stamp_events(file);
-    file.clear();
+    const uint64_t events = stamp_events(file);
     file.close();
-    if (!file) {
-        throw std::runtime_error(path_ + ": cannot be written");
+    if (!file || events != sent_) { /* liblcm has no word for a disk that is full */
+        fail();
     }
 }
 

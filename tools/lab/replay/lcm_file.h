@@ -37,11 +37,13 @@ class LcmFile
 
   private:
     void took(int result);
+    [[noreturn]] void fail() const;
     void send_graph(const Loops &loops, int64_t stamp_us);
 
     std::string path_;
     std::unique_ptr<ale_bus_t, decltype(&ale_bus_close)> bus_;
     std::unique_ptr<ale_map_t> map_ = std::make_unique<ale_map_t>();
+    uint64_t sent_ = 0; /* messages */
     uint32_t sent_version_ = 0;
     uint32_t scans_without_map_ = 0;
     std::unique_ptr<ale_mapper_graph_t> graph_ = std::make_unique<ale_mapper_graph_t>();

@@ -106,8 +106,18 @@ void Board::halve_trail()
     trail_epoch_++;
 }
 
+ale::ScanCloud Board::seen() const
+{
+    const std::lock_guard<std::mutex> lock(seeing_);
+    return seen_.cloud();
+}
+
 void Board::clear()
 {
+    {
+        const std::lock_guard<std::mutex> lock(seeing_);
+        seen_ = feed::SeenSpace();
+    }
     const std::lock_guard<std::mutex> lock(mutex_);
     for (Pinned &pinned : pinned_) {
         pinned.text.reset();

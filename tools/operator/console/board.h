@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "common/feed/seen_space.h"
 #include "operator/console/history.h"
 #include "operator/console/topic.h"
 
@@ -74,6 +75,15 @@ class Board
     void keep_map(std::shared_ptr<const ale_map_t> map);
     std::shared_ptr<const ale_map_t> map() const;
 
+    /* What scans saw, of scan, pose, tracking and graph as they come. Who asks for it has a copy, and the LCM thread
+     * waits while it is made: some milliseconds. */
+    template <class Message> void see(const Message &message)
+    {
+        const std::lock_guard<std::mutex> lock(seeing_);
+        seen_.take(message);
+    }
+    ale::ScanCloud seen() const;
+
     void extend_trail(TrailPoint point);
     /* The robot started anew: its trail and what was pinned belong to a former life. */
     void clear();
@@ -113,6 +123,8 @@ class Board
     uint64_t malformed_ = 0;
     int state_ = 0;
     History history_;
+    mutable std::mutex seeing_;
+    feed::SeenSpace seen_;
 };
 
 } // namespace console

@@ -149,6 +149,9 @@ std::vector<History::Text> Client::sample(Topic topic) const
 void Client::show(std::shared_ptr<const OpenRecording> recording, const std::string &name)
 {
     answered();
+    if (name != wanted_name_) {
+        return;
+    }
     recording_ = std::move(recording);
     recording_name_ = name;
     look(recording_->span().from_ms);
@@ -167,6 +170,7 @@ bool Client::look(std::optional<int64_t> at_ms)
     } else {
         recording_.reset();
         recording_name_.clear();
+        wanted_name_.clear();
         past_ = {past_message(std::nullopt, board_.span())};
         seen_.fill(0);
         trail_epoch_ = 0;
@@ -190,6 +194,9 @@ bool Client::ask(const PageMessage &message)
         return false;
     }
     asked_++;
+    if (message.kind == PageMessage::Kind::open) {
+        wanted_name_ = message.name;
+    }
     return true;
 }
 

@@ -64,7 +64,7 @@ class Client
     bool heard(const std::string &text);
 
     /* What has come of something that the page asked for: a message, or a recording, which is shown from its
-     * beginning on until the page asks for now again. */
+     * beginning on until the page asks for now again; not where it has asked for something else since. */
     void answer(std::string message);
     void show(std::shared_ptr<const OpenRecording> recording, const std::string &name);
 
@@ -107,6 +107,7 @@ class Client
     size_t asked_ = 0;                               /* what the page asked for, and has no answer yet */
     std::shared_ptr<const OpenRecording> recording_; /* that is shown; nullptr: the robot is */
     std::string recording_name_;
+    std::string wanted_name_; /* that the page asked for last; empty: it asked for now since */
     bool looks_back_ = false;
     std::deque<std::string> past_; /* what is still to be sent of where he looks */
     uint64_t life_ = 0;            /* the robot's life that the page was told of */

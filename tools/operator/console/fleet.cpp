@@ -96,6 +96,7 @@ std::vector<RobotSettings> settings_of(const FleetOptions &options)
     const size_t count = std::max<size_t>(1, options.lcm_urls.size());
     check_count("--robot", options.robots, count);
     check_count("--recordings", options.recordings, count);
+    check_count("--flights", options.flights, count);
     check_count("--maps", options.maps, count);
     std::vector<RobotSettings> settings;
     Taken places;
@@ -116,6 +117,7 @@ std::vector<RobotSettings> settings_of(const FleetOptions &options)
         settings.push_back({name,
                             {url, options.key_file, options.robots_file, robot},
                             recordings,
+                            word_of(options.flights, k),
                             word_of(options.maps, k)});
     }
     return settings;

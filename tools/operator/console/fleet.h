@@ -27,6 +27,7 @@ struct FleetOptions {
     std::vector<std::string> lcm_urls;
     std::vector<std::string> robots; /* names that they have themselves */
     std::vector<std::string> recordings;
+    std::vector<std::string> flights;
     std::vector<std::string> maps;
     std::string key_file;
     std::string robots_file;

@@ -24,18 +24,23 @@ namespace
 
 constexpr char usage[] =
     "usage: ale-console [--lcm-url URL]... [--http ADDR:PORT] [--keys FILE] [--robots FILE]\n"
-    "                   [--robot NAME]... [--recordings DIR]... [--maps DIR]...\n"
+    "                   [--robot NAME]... [--recordings DIR]... [--flights DIR]... [--maps DIR]...\n"
     "                   [--token-file FILE] [--cert FILE --key FILE] [--origin URL]\n"
     "The operator's console: serves a web page that shows what the robot publishes over LCM and commands "
     "it.\n"
     "  --lcm-url URL     where the robot publishes (default: LCM_DEFAULT_URL, else LCM's own default); for\n"
-    "                    several robots once for each, and --robot, --recordings, --maps in the same order\n"
+    "                    several robots once for each, and --robot, --recordings and so on in the same "
+    "order\n"
     "  --http ADDR:PORT  where the page is served (default 127.0.0.1:8080; port 0: any free one)\n"
     "  --keys FILE       the operator's key (ale-keys makes it); without it the page only watches\n"
     "  --robots FILE     the robots whose word is believed (default: the file of --keys with .robots "
     "behind)\n"
     "  --robot NAME      which robot is shown and commanded; needed where more than one is heard\n"
     "  --recordings DIR  where the page's recordings are written (LCM logs); without it none are made\n"
+    "  --flights DIR     flight recordings that the page shows: [recorder] folder of the robot; others "
+    "(.scip) "
+    "may\n"
+    "                    lie in the folder of --recordings\n"
     "  --maps DIR        saved maps that the page shows: [map] folder of the robot, where the console runs "
     "on it\n"
     "  --token-file FILE the token: who has it in the address may open the page. Made when it is not there\n"
@@ -179,6 +184,7 @@ int main(int argc, char **argv)
     line.text("key", options.key);
     line.text("origin", options.proxy);
     line.texts("recordings", options.fleet.recordings);
+    line.texts("flights", options.fleet.flights);
     line.texts("maps", options.fleet.maps);
     line.text("keys", options.fleet.key_file);
     line.text("robots", options.fleet.robots_file);

@@ -106,7 +106,7 @@ std::string hello_message(const std::string &operator_name, const std::string &r
                           const std::vector<RobotTold> &robots)
 {
     return text_of({{"type", "hello"},
-                    {"protocol", 5},
+                    {"protocol", 6},
                     {"operator", operator_name.empty() ? json(nullptr) : json(operator_name)},
                     {"robot", robot},
                     {"robots", list_of(robots)}});

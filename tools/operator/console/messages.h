@@ -82,7 +82,7 @@ std::string sent_message(const std::string &verb, const Sent &sent);
 
 /* What a page says: {"type":"got","count":n}; {"type":"command","words":["drive","0.2","0"]};
  * {"type":"look","at":ms}, null for now; {"type":"series"}; {"type":"shelf"}; {"type":"record","on":true};
- * {"type":"open","name":"..."}, a recording without its ending; {"type":"stop_all"}.
+ * {"type":"open","name":"..."}, the file of a recording; {"type":"stop_all"}.
  * Nothing when the text is anything else. */
 struct PageMessage {
     enum class Kind { got, command, stop_all, look, series, shelf, record, open } kind = Kind::got;

@@ -19,8 +19,11 @@ constexpr const char *common_channels[] = {"ALE_ODOMETRY", "ALE_ODOMETRY_EXACT",
  * recording on a robot's bus must not move it. */
 Robot::Robot(const RobotSettings &settings)
     : name_(settings.name), feed_(settings.credentials.lcm_url), commander_(settings.credentials),
-      watch_(board_, commander_), recordings_(settings.recordings, ".lcm"), maps_(settings.maps, ".map"),
-      recorder_(recordings_), archive_(board_, recordings_, maps_), desk_(archive_, recorder_)
+      watch_(board_, commander_), shelves_{{settings.recordings, ".lcm"},
+                                           {settings.recordings, ".scip"},
+                                           {settings.flights, ".scip"},
+                                           {settings.maps, ".map"}},
+      recorder_(shelves_.recordings), archive_(board_, shelves_), desk_(archive_, recorder_)
 {
     for (const char *channel : own_channels) {
         record(channel, false);

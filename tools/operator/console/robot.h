@@ -27,6 +27,7 @@ struct RobotSettings {
     std::string name; /* by which pages ask for it */
     Credentials credentials;
     std::string recordings;
+    std::string flights;
     std::string maps;
 };
 
@@ -69,8 +70,7 @@ class Robot
     feed::LcmFeed feed_;
     Commander commander_;
     RobotWatch watch_;
-    Shelf recordings_;
-    Shelf maps_;
+    Archive::Shelves shelves_;
     Recorder recorder_;
     Archive archive_;
     Desk desk_;

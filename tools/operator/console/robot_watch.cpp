@@ -119,6 +119,7 @@ void RobotWatch::pose(const ale::pose_t &pose)
     extend_trail(pose);
     board_.note_pose(Board::Clock::now(), static_cast<uint64_t>(gap), pose.state);
     board_.pin(Topic::pose, pose_message(pose));
+    board_.see(pose);
     wheels_.pose(pose);
     show_wheels();
     last_pose_ = pose;
@@ -135,6 +136,7 @@ void RobotWatch::tracking(const ale::tracking_t &tracking)
 {
     feed::check(tracking);
     board_.pin(Topic::tracking, tracking_message(tracking));
+    board_.see(tracking);
 }
 
 void RobotWatch::plan(const ale::plan_t &plan)
@@ -147,6 +149,7 @@ void RobotWatch::graph(const ale::graph_t &graph)
 {
     feed::check(graph);
     board_.pin(Topic::graph, graph_message(graph));
+    board_.see(graph);
 }
 
 void RobotWatch::odometry(const ale::odometry_t &sample)
@@ -176,6 +179,7 @@ void RobotWatch::scan(const ale::scan_t &scan)
         window_.scan(scan, static_cast<double>(last_pose_->theta));
     }
     board_.pin(Topic::scan, scan_message(scan, window_.stain()), scan_brief(scan));
+    board_.see(scan);
 }
 
 void RobotWatch::map(const ale::map_t &part)

@@ -353,6 +353,8 @@ TEST(Client, AnOpenedRecordingIsShownUntilNowIsAskedForWhateverTheRobotDoes)
     EXPECT_EQ(asked, std::vector<std::string>{"a"});
     client.show(std::make_shared<console::OpenRecording>(console::Descriptor(open(path.c_str(), O_RDONLY))),
                 "a");
+    client.show(std::make_shared<console::OpenRecording>(console::Descriptor(open(path.c_str(), O_RDONLY))),
+                "asked for before");
     const auto past = next(client);
     EXPECT_EQ((*past)["recording"], "a");
     EXPECT_EQ((*past)["at"], 1000);

@@ -1,7 +1,7 @@
 // The web socket to ale-console: opens it, opens it again, tells it what has been drawn, and knows how old
 // the news is. Pacing: the console keeps at most a few messages on their way, so a slow page sees the newest.
 
-const PROTOCOL = 5;
+const PROTOCOL = 6;
 const SILENCE_MS = 800; // the console speaks four times a second
 const POSE_SILENCE_MS = 700; // a pose comes with every scan, ten a second from a URG
 const STATUS_SILENCE_MS = 1600; // a status comes every second

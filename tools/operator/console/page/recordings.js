@@ -1,8 +1,10 @@
 // Recordings of what the console hears, and saved maps: made, listed with a drawing of their map, and downloaded. The
 // files lie with the console; the page only asks for them.
 
-import { bytesInWords, dateInWords, lengthInWords } from "./words.js";
+import { bytesInWords, dateInWords, flightInWords, lengthInWords } from "./words.js";
 
+const ENDINGS = { recordings: ".lcm", flights: ".scip", maps: ".map" };
+const KINDS = Object.keys(ENDINGS);
 const FEW = 3; // what is shown of a long list at first
 const DUMB = ["gone", "connecting"]; // links on which nothing can be asked
 const SVG = "http://www.w3.org/2000/svg";
@@ -43,7 +45,8 @@ export class Recordings {
     this.shelf = null;
     this.recorder = null;
     this.hasMap = false;
-    this.opened = null; // the recording that is shown
+    this.opened = null; // the file of the recording that is shown
+    this.awaited = null; // of one that was asked for, and is being replayed
     this.all = false; // of a long list
     this.mute = true;
     element("record").addEventListener("click", () => this.#record());
@@ -58,30 +61,32 @@ export class Recordings {
   take(message) {
     switch (message.type) {
       case "hello":
-        this.opened = null;
+        this.opened = this.awaited = null;
         this.hasMap = false;
-        this.saved = undefined;
+        this.known = undefined;
         this.#ask();
         this.#showLinks();
         break;
       case "past":
         this.opened = message.recording;
+        if (message.recording || message.at === null) this.#await(null);
         this.#showOpened();
         break;
       case "map": if (!this.opened) this.#mapCame(message.lines); break;
       case "link": this.#recorderTold(message.recorder); break;
       case "shelf":
         this.shelf = message;
+        if (message.refusal) this.awaited = null;
         this.#showShelf();
         this.#showRecorder();
         break;
-      case "status": this.#lookForSaved(message.command); break;
+      case "status": this.#lookForNew(message); break;
     }
   }
 
   // Another robot is shown, which has recordings and a map of its own.
   leave() {
-    this.shelf = this.recorder = null;
+    this.shelf = this.recorder = this.awaited = null;
     this.hasMap = this.all = false;
     document.querySelector("#shelf .thumbnail").replaceWith(made("span", { className: "thumbnail" }));
     element("shelf").replaceChildren(element("shelf").firstElementChild);
@@ -97,6 +102,12 @@ export class Recordings {
     this.mute = mute;
     this.#showRecorder();
     this.#showLinks();
+  }
+
+  // A flight is replayed before it can be shown: that takes its time.
+  #await(file) {
+    this.awaited = file;
+    this.#showRecorder();
   }
 
   #ask() {
@@ -115,12 +126,14 @@ export class Recordings {
     this.#showLinks();
   }
 
-  // A map that the robot has saved may lie in the console's folder.
-  #lookForSaved(command) {
+  // A map that the robot has saved, or a flight that it has written, may lie in the console's folders.
+  #lookForNew({ command, counters }) {
     if (this.opened) return;
     const saved = /^saved /.test(command.result) ? command.number : null;
-    if (saved !== null && this.saved !== undefined && saved !== this.saved) this.#ask();
-    this.saved = saved;
+    const flights = counters.find(({ name }) => name === "flight_recordings")?.value ?? 0;
+    const known = this.known;
+    if (known && ((saved !== null && saved !== known.saved) || flights !== known.flights)) this.#ask();
+    this.known = { saved, flights };
   }
 
   #recorderTold(recorder) {
@@ -148,9 +161,10 @@ export class Recordings {
 
   #words(recorder) {
     if (!this.shelf) return ["", ""];
-    const { recordings, maps, refusal } = this.shelf;
+    const { recordings, flights, maps, refusal } = this.shelf;
+    if (this.awaited) return [`replaying ${this.awaited}: it is shown when that is done`, ""];
     if (recorder.name) return [`recording ${recorder.name}`, ""];
-    const trouble = refusal ?? recorder.trouble ?? recordings.trouble ?? maps.trouble;
+    const trouble = refusal ?? recorder.trouble ?? recordings.trouble ?? flights.trouble ?? maps.trouble;
     if (trouble) return [`${trouble[0].toUpperCase()}${trouble.slice(1)}.`, "bad"];
     if (!recordings.folder) return ["No folder for recordings: start ale-console with --recordings DIR.", ""];
     if (recorder.messages) return [`${recorder.messages} messages recorded${recorder.dropped ? `, ${recorder.dropped} dropped` : ""}`, ""];
@@ -158,29 +172,29 @@ export class Recordings {
   }
 
   #showShelf() {
-    const { recordings, maps } = this.shelf;
-    const pieces = [...recordings.pieces.map((piece) => ({ ...piece, kind: "recordings" })),
-                    ...maps.pieces.map((piece) => ({ ...piece, kind: "maps" }))].sort((a, b) => b.at - a.at);
+    const pieces = KINDS.flatMap((kind) => this.shelf[kind].pieces.map((piece) => ({ ...piece, kind }))).sort((a, b) => b.at - a.at);
     const shown = this.all ? pieces : pieces.slice(0, FEW);
     const list = element("shelf");
     list.replaceChildren(list.firstElementChild, ...shown.map((piece) => this.#row(piece)));
     const more = element("shelf-more");
     const left = pieces.length - FEW;
-    const older = recordings.more + maps.more;
+    const older = KINDS.reduce((sum, kind) => sum + this.shelf[kind].more, 0);
     more.hidden = left <= 0;
     more.textContent = this.all ? `fewer${older ? ` (${older} older ones in the folders)` : ""}` : `${left} more`;
     more.setAttribute("aria-expanded", String(this.all));
     this.#showLinks();
   }
 
-  #row({ kind, name, at, length_ms: length, bytes, scans, walls, drawing: lines }) {
-    const recorded = kind === "recordings";
-    const what = recorded ? "recording" : "saved map";
+  #row({ kind, name, at, length_ms: length, bytes, scans, walls, reason, drawing: lines }) {
+    const file = `${name}${ENDINGS[kind]}`;
+    const recorded = kind !== "maps";
+    const flight = kind === "flights";
+    const what = flight ? "flight" : recorded ? "recording" : "saved map";
     const facts = [recorded ? lengthInWords(length) : name, bytesInWords(bytes), recorded && !scans ? "no scans" : "",
-                   walls === null ? "no map" : `${walls} walls`];
+                   flight ? flightInWords(reason) : walls === null ? "no map" : `${walls} walls`];
     const buttons = made("span", { className: "buttons" });
-    if (recorded) buttons.append(this.#link(`log-${name}`, "log", `download the recording ${name}`, `/recordings/${name}.lcm`));
-    if (walls !== null) {
+    if (recorded) buttons.append(this.#link(`log-${file}`, "log", `download the ${what} ${name}`, `/${kind}/${file}`));
+    if (flight || walls !== null) {
       const link = this.#link(`map-${kind}-${name}`, "map", `download the map of the ${what} ${name}`);
       link.dataset.path = `/${kind}/${name}`;
       buttons.append(link);
@@ -188,16 +202,19 @@ export class Recordings {
     const picture = drawing(lines, `map of the ${what} ${name}`);
     const text = [made("strong", { textContent: recorded ? dateInWords(at) : `map ${dateInWords(at)}` }),
                   made("span", { textContent: facts.filter(Boolean).join(", ") })];
-    return recorded ? made("li", {}, this.#opener(name, picture, text), buttons)
+    return recorded ? made("li", {}, this.#opener(what, file, picture, text), buttons)
       : made("li", {}, picture, made("span", { className: "piece" }, ...text), buttons);
   }
 
   // A press on a recording shows it.
-  #opener(name, picture, text) {
-    const opener = made("button", { id: `open-${name}`, type: "button", className: "piece", title: "show this recording" }, picture,
+  #opener(what, file, picture, text) {
+    const opener = made("button", { id: `open-${file}`, type: "button", className: "piece", title: "show this recording" }, picture,
                         made("span", {}, ...text));
-    opener.setAttribute("aria-label", `show the recording ${name}, ${text.map((part) => part.textContent).join(", ")}`);
-    opener.addEventListener("click", () => this.link.send({ type: "open", name }));
+    opener.setAttribute("aria-label", `show the ${what} ${file}, ${text.map((part) => part.textContent).join(", ")}`);
+    opener.addEventListener("click", () => {
+      this.#await(what === "flight" && file !== this.opened ? file : null);
+      this.link.send({ type: "open", name: file });
+    });
     return opener;
   }
 

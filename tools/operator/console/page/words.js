@@ -26,6 +26,13 @@ export function lengthInWords(ms) {
   return hours ? `${hours}:${two(minutes)}:${two(seconds % 60)}` : `${minutes}:${two(seconds % 60)}`;
 }
 
+const FLIGHTS = { fault: "flight, written at a fault", deadline: "flight, a deadline was missed", command: "flight, as asked for" };
+
+// What a recording of the scanner's bytes is, by the reason for which the robot wrote it.
+export function flightInWords(reason) {
+  return FLIGHTS[reason] ?? "bytes of the scanner";
+}
+
 // Milliseconds since 1970, by the clock on the wall.
 export function dateInWords(ms) {
   const time = new Date(ms);

@@ -1,17 +1,22 @@
-/* The console's folders as its pages see them: recordings that it made, maps that the robot saved, and the
- * map of now. One thread at a time (errands.h); it may wait for the disk.
+/* The console's folders as its pages see them: recordings that it made, recordings of the scanner's bytes
+ * (flights, .scip), maps that the robot saved, and the map of now. It may wait for the disk: for errands
+ * (errands.h), of any thread.
  *
- * What a file is, is looked up once for as long as it does not change. */
+ * What a file is, is looked up once for as long as it does not change. A flight is replayed to be looked at
+ * (replayed.h). */
 #ifndef CONSOLE_ARCHIVE_H
 #define CONSOLE_ARCHIVE_H
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "common/export/map_image.h"
 #include "operator/console/board.h"
 #include "operator/console/recordings/descriptor.h"
 #include "operator/console/recordings/open_recording.h"
@@ -23,14 +28,15 @@
 namespace console
 {
 
-/* A recording or a saved map in the list. */
+/* A recording, a flight or a saved map in the list. */
 struct Piece {
     std::string name; /* without its ending */
     int64_t at_ms = 0;
     int64_t length_ms = 0;
     uint64_t bytes = 0;
     bool has_scans = false;
-    int walls = -1; /* of its map; -1: there is none that can be read */
+    int walls = -1;     /* of its map; -1: there is none that can be read, or it is a flight */
+    std::string reason; /* why the robot wrote a flight; empty: its name does not tell */
     Thumbnail thumbnail;
 };
 
@@ -55,22 +61,38 @@ class Archive
     /* Of older ones a list tells the number. */
     static constexpr size_t most_listed = 100;
 
-    /* Empty folders: there are none. The board must outlive it. */
-    Archive(const Board &board, const Shelf &recordings, const Shelf &maps)
-        : board_(board), recordings_(recordings), maps_(maps)
+    /* Flights lie in two folders: beside the recordings, and where the robot writes them. */
+    struct Shelves {
+        Shelf recordings;
+        Shelf flights_beside;
+        Shelf flights;
+        Shelf maps;
+    };
+    /* The board and the shelves must outlive it. */
+    Archive(const Board &board, const Shelves &shelves) : board_(board), shelves_(shelves)
     {
     }
 
     /* making: a recording that is being made, which is not listed. */
     Contents recordings(const std::string &making);
+    /* One that lies in both folders is listed once. */
+    Contents flights();
     Contents maps();
 
     /* Nothing: there is no such thing. Throws std::runtime_error in words for people. */
-    std::optional<Content> fetch(const Wanted &wanted) const;
+    std::optional<Content> fetch(const Wanted &wanted);
 
-    /* For looking at; one for all who look at the same. Throws as fetch(); also where there is none, or eight
-     * are looked at. */
-    std::shared_ptr<const OpenRecording> open(const std::string &stem);
+    /* For looking at; one for all who look at the same. name: with its ending. Throws as fetch(); also where
+     * there is none, or eight are looked at. A flight takes as long as its replay, a name one thread at a
+     * time. */
+    std::shared_ptr<const OpenRecording> open(const std::string &name);
+    static bool is_flight(const std::string &name);
+
+    /* Replays that are under way end, with words. */
+    void stop_replays()
+    {
+        stopping_ = true;
+    }
 
   private:
     struct Opened {
@@ -82,17 +104,28 @@ class Archive
         uint64_t bytes;
         Piece piece;
     };
+    struct Drawn {
+        std::shared_ptr<const ale_map_t> map; /* nullptr: there is none */
+        ale::ScanCloud seen = ale::ScanCloud();
+        ale::Trajectory way = {};
+    };
     template <class Describe>
-    Contents list(const Shelf &shelf, const std::string &left_out, Describe describe);
+    void list(Contents &contents, const Shelf &shelf, const std::string &left_out, Describe describe);
+    Descriptor open_file(const std::string &name) const;
+    std::shared_ptr<const OpenRecording> known(const std::string &name, int64_t changed_ns);
+    std::shared_ptr<const OpenRecording> replay(const Descriptor &file, const std::string &name) const;
     std::optional<Content> recording(const Wanted &wanted) const;
-    std::optional<Content> map(const Wanted &wanted) const;
+    Drawn drawn(const Wanted &wanted);
+    std::optional<Content> map(const Wanted &wanted);
     std::shared_ptr<const ale_map_t> saved_map(const std::string &name) const;
 
     const Board &board_;
-    const Shelf &recordings_;
-    const Shelf &maps_;
-    std::map<std::string, Known> known_; /* by folder and name */
-    std::map<std::string, Opened> opened_;
+    const Shelves &shelves_;
+    std::mutex listing_;
+    std::map<std::string, Known> known_; /* by folder and name; who lists has it */
+    std::mutex opening_;
+    std::map<std::string, Opened> opened_; /* by name */
+    std::atomic<bool> stopping_{false};
 };
 
 } // namespace console

@@ -25,17 +25,21 @@ struct Found {
 
 void Desk::open(std::function<void()> wake)
 {
-    errands_ = std::make_unique<Errands>(std::move(wake));
+    errands_ = std::make_unique<Errands>(wake);
+    long_errands_ = std::make_unique<Errands>(std::move(wake));
 }
 
 void Desk::close()
 {
+    archive_.stop_replays();
+    long_errands_.reset();
     errands_.reset();
 }
 
 std::string Desk::list(const std::string &refusal)
 {
-    return shelf_message(archive_.recordings(recorder_.state().name), archive_.maps(), refusal);
+    return shelf_message(archive_.recordings(recorder_.state().name), archive_.flights(), archive_.maps(),
+                         refusal);
 }
 
 std::string Desk::record(bool on)
@@ -62,7 +66,8 @@ bool Desk::ask(const PageMessage &message, Tell tell)
 
 bool Desk::open_recording(const std::string &name, Tell tell)
 {
-    return errands_ && errands_->run([this, name, tell = std::move(tell)]() -> Errands::Done {
+    const auto &errands = Archive::is_flight(name) ? long_errands_ : errands_;
+    return errands && errands->run([this, name, tell = std::move(tell)]() -> Errands::Done {
         try {
             auto recording = archive_.open(name);
             return [tell, recording = std::move(recording), name] { tell.recording(recording, name); };
@@ -78,7 +83,8 @@ bool Desk::fetch(lws *connection, const Wanted &wanted)
         return false;
     }
     const uint64_t ticket = downloads_.expect(connection);
-    return errands_->run([this, ticket, wanted] {
+    const auto &errands = wanted.takes_long() ? long_errands_ : errands_;
+    return errands->run([this, ticket, wanted] {
         const auto found = std::make_shared<Found>();
         try {
             found->content = archive_.fetch(wanted);
@@ -98,9 +104,11 @@ bool Desk::fetch(lws *connection, const Wanted &wanted)
 
 void Desk::hand_out()
 {
-    if (errands_) {
-        for (const auto &done : errands_->done()) {
-            done();
+    for (const auto *errands : {&long_errands_, &errands_}) {
+        if (*errands) {
+            for (const auto &done : (*errands)->done()) {
+                done();
+            }
         }
     }
 }

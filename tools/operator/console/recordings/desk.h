@@ -1,5 +1,6 @@
 /* Where pages ask for what lies in the console's folders: lists, the recorder's button, downloads. What may
- * wait for a disk is done by another thread. The serving thread only. */
+ * wait for a disk is done by another thread, and what takes as long as a replay by a third. The serving
+ * thread only. */
 #ifndef CONSOLE_DESK_H
 #define CONSOLE_DESK_H
 
@@ -61,6 +62,7 @@ class Desk
     Recorder &recorder_;
     Downloads downloads_;
     std::unique_ptr<Errands> errands_;
+    std::unique_ptr<Errands> long_errands_;
 };
 
 } // namespace console

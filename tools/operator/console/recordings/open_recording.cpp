@@ -48,7 +48,7 @@ template <class Entry> const Entry *newest(const std::vector<Entry> &entries, in
 
 } // namespace
 
-OpenRecording::OpenRecording(Descriptor file) : file_(std::move(file))
+OpenRecording::OpenRecording(Descriptor file, int64_t later_ms) : file_(std::move(file))
 {
     EventReader reader(file_);
     EventPlace event;
@@ -59,7 +59,7 @@ OpenRecording::OpenRecording(Descriptor file) : file_(std::move(file))
             throw std::runtime_error("the recording is too long to be shown: more than " +
                                      std::to_string(most_messages) + " messages");
         }
-        at_ms = std::max(at_ms, event.received_us / 1000);
+        at_ms = std::max(at_ms, event.received_us / 1000 + later_ms);
         take(event, at_ms);
     }
     if (to_ms_ == 0) {

@@ -30,8 +30,13 @@ class OpenRecording
     static constexpr size_t most_messages = 2000000;
 
     /* Reads the file through. Throws std::runtime_error in words for people: the system's, no message of a
-     * robot in it, too many. */
-    explicit OpenRecording(Descriptor file);
+     * robot in it, too many. later_ms: added to its times, where its clock knows no date. */
+    explicit OpenRecording(Descriptor file, int64_t later_ms = 0);
+
+    const Descriptor &file() const
+    {
+        return file_;
+    }
 
     History::Span span() const;
 

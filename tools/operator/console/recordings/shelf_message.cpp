@@ -25,6 +25,7 @@ json contents_of(const Contents &contents)
                           {"bytes", piece.bytes},
                           {"scans", piece.has_scans},
                           {"walls", piece.walls < 0 ? json(nullptr) : json(piece.walls)},
+                          {"reason", text_or_null(piece.reason)},
                           {"drawing", piece.thumbnail}});
     }
     return {{"folder", text_or_null(contents.folder)},
@@ -35,10 +36,12 @@ json contents_of(const Contents &contents)
 
 } // namespace
 
-std::string shelf_message(const Contents &recordings, const Contents &maps, const std::string &refusal)
+std::string shelf_message(const Contents &recordings, const Contents &flights, const Contents &maps,
+                          const std::string &refusal)
 {
     const json message = {{"type", "shelf"},
                           {"recordings", contents_of(recordings)},
+                          {"flights", contents_of(flights)},
                           {"maps", contents_of(maps)},
                           {"refusal", text_or_null(refusal)}};
     return message.dump(-1, ' ', false, json::error_handler_t::replace);

@@ -10,7 +10,8 @@ namespace console
 {
 
 /* refusal: why what the page asked for was not done; empty: it was. */
-std::string shelf_message(const Contents &recordings, const Contents &maps, const std::string &refusal);
+std::string shelf_message(const Contents &recordings, const Contents &flights, const Contents &maps,
+                          const std::string &refusal);
 
 } // namespace console
 

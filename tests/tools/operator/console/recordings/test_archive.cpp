@@ -58,7 +58,7 @@ class ArchiveOfTwo : public testing::Test
   protected:
     ArchiveOfTwo()
     {
-        for (const std::string &folder : {recordings_, maps_}) {
+        for (const std::string &folder : {recordings_, flights_, maps_}) {
             std::filesystem::create_directory(folder);
         }
     }
@@ -98,9 +98,10 @@ class ArchiveOfTwo : public testing::Test
     const std::string recordings_ = (root_ / "recordings").string();
     const std::string maps_ = (root_ / "maps").string();
     Board board_;
-    const Shelf shelf_{recordings_, ".lcm"};
-    const Shelf map_shelf_{maps_, ".map"};
-    Archive archive_{board_, shelf_, map_shelf_};
+    const std::string flights_ = (root_ / "flights").string();
+    const Archive::Shelves shelves_{
+        {recordings_, ".lcm"}, {recordings_, ".scip"}, {flights_, ".scip"}, {maps_, ".map"}};
+    Archive archive_{board_, shelves_};
 };
 
 } // namespace
@@ -189,8 +190,10 @@ TEST(Archive, FoldersThatAreNotGivenAreEmpty)
 {
     const Board board;
     const Shelf none("", ".lcm");
-    Archive archive(board, none, none);
+    const Archive::Shelves nothing{none, none, none, none};
+    Archive archive(board, nothing);
     EXPECT_TRUE(archive.recordings("").folder.empty());
+    EXPECT_TRUE(archive.flights().pieces.empty());
     EXPECT_TRUE(archive.maps().pieces.empty());
 }
 
@@ -201,7 +204,8 @@ TEST(Archive, AFolderThatCannotBeReadIsTold)
     files::write(file, "");
     const Board board;
     const Shelf shelf(file, ".lcm");
-    Archive archive(board, shelf, shelf);
+    const Archive::Shelves shelves{shelf, shelf, shelf, shelf};
+    Archive archive(board, shelves);
     EXPECT_EQ(archive.recordings("").trouble, file + ": Not a directory");
 }
 

@@ -16,14 +16,18 @@ TEST(Wanted, RecordingsMapsAndTheMapOfNow)
     EXPECT_EQ(wanted_of("/maps/a.b.geojson")->kind, Wanted::Kind::saved_map);
     EXPECT_EQ(wanted_of("/maps/a.b.geojson")->stem, "a.b");
     EXPECT_EQ(wanted_of("/live/map.zip")->kind, Wanted::Kind::live_map);
+    EXPECT_EQ(wanted_of("/flights/a.scip")->kind, Wanted::Kind::flight);
+    EXPECT_EQ(wanted_of("/flights/a.zip")->kind, Wanted::Kind::flight_map);
+    EXPECT_TRUE(wanted_of("/flights/a.svg")->takes_long());
+    EXPECT_FALSE(wanted_of("/recordings/a.svg")->takes_long());
 }
 
 TEST(Wanted, NothingElse)
 {
-    for (const char *path :
-         {"", "/", "/index.html", "/console.js", "/recordings", "/recordings/", "/recordings/a",
-          "/recordings/.lcm", "/recordings/a.exe", "/maps/a.lcm", "/maps/a.map", "/live/other.png",
-          "/live/map.lcm", "recordings/a.lcm", "//recordings/a.lcm", "/recordings.lcm"}) {
+    for (const char *path : {"", "/", "/index.html", "/console.js", "/recordings", "/recordings/",
+                             "/recordings/a", "/recordings/.lcm", "/recordings/a.exe", "/recordings/a.scip",
+                             "/flights/a.lcm", "/maps/a.lcm", "/maps/a.map", "/live/other.png",
+                             "/live/map.lcm", "recordings/a.lcm", "//recordings/a.lcm", "/recordings.lcm"}) {
         EXPECT_FALSE(wanted_of(path)) << path;
     }
     EXPECT_EQ(wanted_of("/recordings/../x.lcm")->stem, "../x") << "which is no name of a file";
