@@ -18,6 +18,7 @@
 #define ALE_BAM_PER_MRAD 683565
 
 /* a - b, -half..half turn. */
+/*@ assigns \nothing; */
 static inline int32_t ale_bam_diff(uint32_t a_bam, uint32_t b_bam)
 {
     return (int32_t)(a_bam - b_bam);

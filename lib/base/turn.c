@@ -46,15 +46,19 @@ typedef struct {
 } turned_t;
 
 /* How far the mirror had turned since the first point. */
+/*@ assigns \nothing; */
 static uint32_t turned_by(const turned_t *t, uint32_t bearing_bam)
 {
     return t->clockwise ? t->origin_bam - bearing_bam : bearing_bam - t->origin_bam;
 }
 
+/*@ requires turn->count <= ALE_MAX_TURN_POINTS;
+  @ assigns \nothing; */
 static bool is_clockwise(const ale_turn_t *turn)
 {
     int32_t steps_back = 0;
-    //@ loop invariant -ALE_MAX_TURN_POINTS <= steps_back <= ALE_MAX_TURN_POINTS;
+    /*@ loop invariant 1 <= k <= ALE_MAX_TURN_POINTS + 1 && -k < steps_back && steps_back < k;
+      @ loop assigns k, steps_back; */
     for (uint32_t k = 1; k < turn->count; k++) {
         const int32_t step_bam = ale_bam_diff(turn->point[k].bearing_bam, turn->point[k - 1].bearing_bam);
         steps_back += (step_bam < 0) - (step_bam > 0);
@@ -100,19 +104,25 @@ static void sort(ale_turn_t *turn, const turned_t *t)
 }
 
 /* From point k to the next. */
+/*@ assigns \nothing;
+  @ ensures -4294967296 < \result < 4294967296; */
 static int64_t gap_bam(const turned_t *t, int32_t k)
 {
     return (int64_t)turned_by(t, t->point[k + 1].bearing_bam) - turned_by(t, t->point[k].bearing_bam);
 }
 
 /* The mean step where no points are missing. */
+/*@ requires t->count <= ALE_MAX_TURN_POINTS; */
 static int64_t step_of(const turned_t *t)
 {
     int64_t step_bam = (int64_t)turned_by(t, t->point[t->count - 1].bearing_bam) / (t->count - 1);
+    //@ loop assigns round, step_bam;
     for (int32_t round = 0; round < STEP_ROUNDS; round++) {
         int64_t sum_bam = 0;
         int32_t steps = 0;
-        //@ loop invariant -17592186044416 <= sum_bam <= 17592186044416 && 0 <= steps <= ALE_MAX_TURN_POINTS;
+        /*@ loop invariant 0 <= k <= ALE_MAX_TURN_POINTS && 0 <= steps <= k;
+          @ loop invariant -(k * 4294967296) <= sum_bam <= k * 4294967296;
+          @ loop assigns k, steps, sum_bam; */
         for (int32_t k = 0; k + 1 < t->count; k++) {
             const int64_t gap = gap_bam(t, k);
             if (2 * gap <= GAP_HALVES * step_bam) {
@@ -183,13 +193,16 @@ static void add_beam(ale_scan_t *scan, uint32_t bearing_bam, int32_t range_um, u
 }
 
 /* The mean of the points first..last. */
+/*@ requires 0 <= first < ALE_MAX_TURN_POINTS && last < ALE_MAX_TURN_POINTS; */
 static void add_joined(const turned_t *t, int32_t first, int32_t last, ale_scan_t *scan)
 {
     const ale_turn_point_t *p = &t->point[first];
     int64_t range_um = 0;
     int64_t ahead_bam = 0;
-    /*@ loop invariant -8796093022208 <= range_um <= 8796093022208;
-      @ loop invariant -8796093022208 <= ahead_bam <= 8796093022208; */
+    /*@ loop invariant first <= k;
+      @ loop invariant -((k - first) * 2147483648) <= range_um <= (k - first) * 2147483648;
+      @ loop invariant -((k - first) * 2147483648) <= ahead_bam <= (k - first) * 2147483648;
+      @ loop assigns k, range_um, ahead_bam; */
     for (int32_t k = first; k <= last; k++) {
         range_um += t->point[k].range_um;
         ahead_bam += ale_bam_diff(t->point[k].bearing_bam, p->bearing_bam);

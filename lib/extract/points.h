@@ -58,6 +58,14 @@ static inline uint16_t ale_points_beam(const ale_points_t *points, int32_t i)
     return (uint16_t)(beam - (beyond_seam ? points->turn_beams : 0));
 }
 
+/* Beams between two points i <= j, of those that a row of beams, which ascends, is of. */
+/*@ assigns \nothing;
+  @ ensures j - i <= \result; */
+static inline int32_t ale_beams_between(const uint16_t *beam, int32_t i, int32_t j)
+{
+    return beam[j] - beam[i];
+}
+
 /* Lists the valid beams of a scan: all but x_q4, y_q4, frame_bam. bearing_bam as in ale_extract_scan.
  * O(beams). */
 void ale_points_list(ale_points_t *points, const ale_scan_t *scan, const uint32_t *bearing_bam);

@@ -18,6 +18,7 @@ typedef struct {
     int64_t incidence_q20; /* part of the range that one beam advances at 45 degrees of incidence */
 } jump_limit_t;
 
+/*@ assigns \nothing; */
 static jump_limit_t jump_limit(const ale_scan_noise_t *noise, int64_t step_nrad)
 {
     const int64_t shared_um = ((int64_t)ale_isqrt((uint64_t)noise->shared_mm2_q36) * 1000) >> 18;
@@ -36,12 +37,15 @@ static inline int64_t slope_um(const ale_points_t *p, int32_t i)
         return 0;
     }
     const int32_t change_um = p->range_um[i + 1] - p->range_um[i];
-    return (change_um < 0 ? -change_um : change_um) / (p->beam[i + 1] - p->beam[i]);
+    const int32_t gap = ale_beams_between(p->beam, i, i + 1);
+    //@ assert gap >= 1;
+    return (change_um < 0 ? -change_um : change_um) / gap;
 }
 
 /* From point i over `gap` beams to the next point. A change of range that noise and 45 degrees of incidence
  * do not explain is a jump, unless both neighbouring changes show that the surface is steeper than that; so
  * is a wide gap. */
+/*@ assigns \nothing; */
 static inline bool is_jump(const ale_points_t *p, const jump_limit_t *limit, int32_t i, int32_t next,
                            int64_t gap)
 {
@@ -57,12 +61,24 @@ static inline bool is_jump(const ale_points_t *p, const jump_limit_t *limit, int
            beyond_um > 3 * gap * slope_um(p, next);
 }
 
+/*@ assigns \nothing; */
 static bool is_jump_at_seam(const ale_points_t *p, const jump_limit_t *limit)
 {
     const int32_t last = p->count - 1;
     return p->turn_beams == 0 || is_jump(p, limit, last, 0, p->beam[0] + p->turn_beams - p->beam[last]);
 }
 
+/* After which point the range changes: never the last one. */
+/*@ assigns \nothing;
+  @ ensures 0 <= \result < ALE_MAX_BEAMS - 1; */
+static inline int32_t suspect_of(const ale_segments_t *s, int32_t k)
+{
+    return s->suspect[k];
+}
+
+/*@ requires s->count < ALE_MAX_BEAMS;
+  @ assigns s->count, s->segment[s->count];
+  @ ensures s->count == \old(s->count) + 1; */
 static void end_segment(ale_segments_t *s, int32_t first, int32_t last)
 {
     s->segment[s->count].first = (uint16_t)first;
@@ -72,6 +88,9 @@ static void end_segment(ale_segments_t *s, int32_t first, int32_t last)
 
 /* Adds the suspects among first..last - 1: a change is suspicious when it is more than a constant and a part
  * of the sum of both ranges. Then the larger one less its part is more than the other with its own. */
+/*@ requires 0 <= first < ALE_MAX_BEAMS && last < ALE_MAX_BEAMS && s->suspect_count <= first;
+  @ assigns s->suspect_count, s->suspect[0 .. ALE_MAX_BEAMS - 1];
+  @ ensures s->suspect_count <= (first < last ? last : first); */
 static void add_suspects(ale_segments_t *s, const ale_points_t *points, const ale_scan_noise_t *noise,
                          int32_t first, int32_t last)
 {
@@ -82,6 +101,8 @@ static void add_suspects(ale_segments_t *s, const ale_points_t *points, const al
     uint32_t suspects = s->suspect_count;
     int64_t here_less = points->range_um[first] * less_q20;
     int64_t here_more = points->range_um[first] * more_q20 + constant_q20;
+    /*@ loop invariant first <= i && suspects <= i && (i == first || i <= last);
+      @ loop assigns i, suspects, here_less, here_more, s->suspect[0 .. ALE_MAX_BEAMS - 1]; */
     for (int32_t i = first; i < last; i++) {
         const int64_t next_um = points->range_um[i + 1];
         const int64_t next_less = next_um * less_q20;
@@ -96,6 +117,7 @@ static void add_suspects(ale_segments_t *s, const ale_points_t *points, const al
 }
 
 /* In a sparse scan the points lie farther apart: each stands for the beams to the next one. */
+/*@ assigns \nothing; */
 static int32_t beams_looked_at(const ale_points_t *points)
 {
     return points->sparse && points->count > 0 ? points->beam[points->count - 1] + 1 - points->beam[0]
@@ -104,15 +126,29 @@ static int32_t beams_looked_at(const ale_points_t *points)
 
 void ale_segment_suspect(ale_segments_t *s, const ale_points_t *points, const ale_scan_noise_t *noise)
 {
+    const int32_t count = points->count;
     int32_t first = 0;
     s->suspect_count = 0;
-    for (int32_t k = 0; k < points->gap_count && points->gap_after[k] + 1 < points->count; k++) {
-        add_suspects(s, points, noise, first, points->gap_after[k]);
-        s->suspect[s->suspect_count++] = points->gap_after[k];
-        first = points->gap_after[k] + 1;
+    /*@ loop invariant 0 <= first < ALE_MAX_BEAMS && s->suspect_count <= first;
+      @ loop assigns k, first, s->suspect_count, s->suspect[0 .. ALE_MAX_BEAMS - 1]; */
+    for (int32_t k = 0; k < points->gap_count; k++) {
+        const int32_t last = (int32_t)ale_max64(points->gap_after[k], first);
+        if (last + 1 >= count) {
+            break;
+        }
+        add_suspects(s, points, noise, first, last);
+        s->suspect[s->suspect_count++] = (uint16_t)last;
+        first = last + 1;
     }
-    add_suspects(s, points, noise, first, points->count - 1);
+    add_suspects(s, points, noise, first, count - 1);
     s->unruly = s->suspect_count * 100 > beams_looked_at(points) * UNRULY_PERCENT;
+}
+
+/*@ requires points <= ALE_MAX_BEAMS;
+  @ assigns s->jump_after[0 .. ALE_MAX_BEAMS - 1]; */
+static void forget_jumps(ale_segments_t *s, uint32_t points)
+{
+    memset(s->jump_after, 0, points * sizeof *s->jump_after);
 }
 
 void ale_segment_cut(ale_segments_t *s, const ale_points_t *points, const ale_scan_noise_t *noise)
@@ -123,9 +159,13 @@ void ale_segment_cut(ale_segments_t *s, const ale_points_t *points, const ale_sc
     }
     const jump_limit_t limit = jump_limit(noise, points->step_nrad);
     int32_t first = 0;
-    memset(s->jump_after, 0, points->count * sizeof *s->jump_after);
-    for (int32_t k = 0; k < s->suspect_count; k++) {
-        const int32_t i = s->suspect[k];
+    const int32_t suspects = s->suspect_count;
+    forget_jumps(s, points->count);
+    /*@ loop invariant 0 <= k <= suspects && s->count <= k && 0 <= first;
+      @ loop assigns k, first, s->count, s->segment[0 .. ALE_MAX_BEAMS - 1],
+      @     s->jump_after[0 .. ALE_MAX_BEAMS - 1]; */
+    for (int32_t k = 0; k < suspects; k++) {
+        const int32_t i = suspect_of(s, k);
         if (is_jump(points, &limit, i, i + 1, points->beam[i + 1] - points->beam[i])) {
             s->jump_after[i] = true;
             end_segment(s, first, i);

@@ -27,12 +27,16 @@ typedef struct {
 /* Lists the suspects: points i whose range differs from the next one's by more than noise, or that are
  * followed by many beams without a value. Only there can a jump or a stray point be. Sets unruly. O(points).
  */
+/*@ requires points->count <= ALE_MAX_BEAMS && \separated(segments, points);
+  @ ensures segments->suspect_count < ALE_MAX_BEAMS; */
 void ale_segment_suspect(ale_segments_t *segments, const ale_points_t *points, const ale_scan_noise_t *noise);
 
 /* Cuts the points into segments, and sets jump_after for every point: the last point of a segment has it. A
  * jump is a change of range that neither the noise nor the incidence (the neighbouring changes) explains, or
  * many beams without a value. Looks at the suspects only. Local and the same in both directions. O(points).
  */
+/*@ requires segments->suspect_count < ALE_MAX_BEAMS && points->count <= ALE_MAX_BEAMS;
+  @ requires \separated(segments, points); */
 void ale_segment_cut(ale_segments_t *segments, const ale_points_t *points, const ale_scan_noise_t *noise);
 
 /* What lies beyond a point on one side. */

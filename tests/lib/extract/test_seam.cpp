@@ -11,6 +11,7 @@
 extern "C" {
 #include "base/trig.h"
 #include "base/turn.h"
+#include "extract/workspace.h"
 }
 
 namespace
@@ -71,6 +72,10 @@ Found extract(const ale_scan_t &scan, const uint32_t *bearing_bam = nullptr,
     config.noise = noise ? *noise : config.noise;
     EXPECT_EQ(ale_extractor_init(e, &config), 0);
     ale_extract_scan(e, &scan, bearing_bam, &out);
+    const ale_points_t &points = e->runs.scan.points;
+    for (int i = 0; i + 1 < points.count; i++) {
+        EXPECT_LT(points.beam[i], points.beam[i + 1]); // the proofs rest on it
+    }
     for (int k = 0; k + 1 < out.line_count; k++) {
         EXPECT_LT(out.line[k].first, out.line[k + 1].first);
         EXPECT_LE(out.line[k].first, out.line[k].last) << "only the last line goes over the seam";

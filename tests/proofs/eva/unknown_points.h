@@ -73,13 +73,13 @@ static inline void unknown_noise(ale_scan_noise_t *noise)
 
 static inline void unknown_segments(ale_segments_t *segments)
 {
-    segments->suspect_count = (uint16_t)unknown(0, ALE_MAX_BEAMS);
+    segments->suspect_count = (uint16_t)unknown(0, ALE_MAX_BEAMS - 1); /* the last point is none */
     segments->unruly = unknown(0, 1);
     segments->jump_at_seam = unknown(0, 1);
     segments->count = (uint16_t)unknown(0, ALE_MAX_BEAMS);
     //@ loop unroll 1;
     for (uint32_t k = 0; k < ALE_MAX_BEAMS; k++) {
-        segments->suspect[k] = (uint16_t)unknown(0, ALE_MAX_BEAMS - 1);
+        segments->suspect[k] = (uint16_t)unknown(0, ALE_MAX_BEAMS - 2);
         segments->jump_after[k] = unknown(0, 1);
         segments->segment[k].first = (uint16_t)unknown(0, ALE_MAX_BEAMS - 1);
         segments->segment[k].last = (uint16_t)unknown(0, ALE_MAX_BEAMS - 1);
