@@ -9,7 +9,9 @@ enum {
     EVEN_US = 2000,          /* stamps that jitter less than this are right as they are */
     PERIOD_PARTS = 4,        /* and beyond a quarter of the period there is no pace, */
     PERIOD_MOST_US = 250000, /* nor in a log that holds but some of the mirror's turns */
-    USUAL_SCANS = 16
+    USUAL_SCANS = 16,
+    UNEVEN_SCANS = 64,
+    UNEVEN_SIGMAS = 4
 };
 
 void ale_timestamp_filter_init(ale_timestamp_filter_t *timestamp_filter)
@@ -23,7 +25,9 @@ static void restart(ale_timestamp_filter_t *p, int64_t stamp_us)
                                   .stamp_us = stamp_us,
                                   .even_us = stamp_us,
                                   .usual_us = p->usual_us,
-                                  .usual_before_us = p->usual_before_us};
+                                  .usual_before_us = p->usual_before_us,
+                                  .uneven2_us2 = p->uneven2_us2,
+                                  .off_us = p->off_us};
 }
 
 /* First scans: the period is their mean distance, the instants are the stamps. */
@@ -49,15 +53,21 @@ static void follow(ale_timestamp_filter_t *p, int64_t stamp_us)
     p->jitter2_us2 += ale_round_div(error_us * error_us - p->jitter2_us2, weight);
 }
 
+static void note_gap(ale_timestamp_filter_t *p, int64_t dt_us)
+{
+    p->uneven2_us2 += (p->off_us * p->off_us - p->uneven2_us2) / UNEVEN_SCANS;
+    p->usual_before_us = p->usual_us;
+    if (p->scans > 0 && dt_us > 0) {
+        const int64_t gap_us = ale_min64(dt_us, STEP_MAX_US);
+        p->off_us = p->usual_us > 0 ? gap_us - p->usual_us : 0;
+        p->usual_us += p->usual_us > 0 ? p->off_us / USUAL_SCANS : gap_us;
+    }
+}
+
 int64_t ale_timestamp_filter_instant(ale_timestamp_filter_t *timestamp_filter, int64_t stamp_us)
 {
     const int64_t dt_us = stamp_us - timestamp_filter->stamp_us;
-    timestamp_filter->usual_before_us = timestamp_filter->usual_us;
-    if (timestamp_filter->scans > 0 && dt_us > 0) {
-        const int64_t gap_us = ale_min64(dt_us, STEP_MAX_US);
-        timestamp_filter->usual_us +=
-            timestamp_filter->usual_us > 0 ? (gap_us - timestamp_filter->usual_us) / USUAL_SCANS : gap_us;
-    }
+    note_gap(timestamp_filter, dt_us);
     if (timestamp_filter->scans == 0 || dt_us <= 0 || dt_us > STEP_MAX_US) {
         restart(timestamp_filter, stamp_us);
         return stamp_us;
@@ -74,6 +84,17 @@ int64_t ale_timestamp_filter_instant(ale_timestamp_filter_t *timestamp_filter, i
                          timestamp_filter->jitter2_us2 < loose_us * loose_us;
     const bool jitters = timestamp_filter->jitter2_us2 > (int64_t)EVEN_US * EVEN_US;
     return is_even && jitters ? timestamp_filter->even_us : stamp_us;
+}
+
+bool ale_timestamp_filter_is_dense(const ale_timestamp_filter_t *timestamp_filter)
+{
+    return timestamp_filter->usual_us > 0 && timestamp_filter->usual_us < PERIOD_MOST_US;
+}
+
+int64_t ale_timestamp_filter_usual_most_us(const ale_timestamp_filter_t *timestamp_filter)
+{
+    const int64_t uneven_us = (int64_t)ale_isqrt((uint64_t)timestamp_filter->uneven2_us2);
+    return timestamp_filter->usual_us + UNEVEN_SIGMAS * uneven_us;
 }
 
 bool ale_timestamp_filter_accepts(const ale_timestamp_filter_t *timestamp_filter, int64_t step_us)

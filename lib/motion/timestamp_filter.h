@@ -19,6 +19,8 @@ typedef struct {
     int64_t jitter2_us2;     /* mean square of stamp minus loop */
     int64_t usual_us;        /* mean time between scans, even or not; 0: unknown */
     int64_t usual_before_us; /* and before the last one came */
+    int64_t off_us;          /* what the last of these times was off, */
+    int64_t uneven2_us2;     /* and the mean square of that, of many scans before it */
 } ale_timestamp_filter_t;
 
 void ale_timestamp_filter_init(ale_timestamp_filter_t *timestamp_filter);
@@ -26,6 +28,13 @@ void ale_timestamp_filter_init(ale_timestamp_filter_t *timestamp_filter);
 /* Instant of the next scan, on the clock of its stamp. A step back, or of more than two seconds, restarts the
  * loop. */
 int64_t ale_timestamp_filter_instant(ale_timestamp_filter_t *timestamp_filter, int64_t stamp_us);
+
+/* Whether scans come as the mirror turns, not only some of them. */
+bool ale_timestamp_filter_is_dense(const ale_timestamp_filter_t *timestamp_filter);
+
+/* Up to which time between scans says nothing: four times what stamps are off, which a busy computer writes
+ * as it comes to. */
+int64_t ale_timestamp_filter_usual_most_us(const ale_timestamp_filter_t *timestamp_filter);
 
 /* Whether the time between two scans is plausible: not if it is less than a quarter of the mean, as in logs
  * whose stamps were taken when a queue was emptied. */

@@ -68,6 +68,7 @@ static void reset_motion(ale_pipeline_t *p)
     p->scale_error = (ale_scale_error_t){0, 0};
     p->slips = false;
     p->speed_known = false;
+    p->step = (ale_pose_t){0, 0, 0};
 }
 
 static void place(ale_pipeline_t *p, ale_pose_t pose)
@@ -164,6 +165,7 @@ static void advance_smooth(ale_pipeline_t *p, const ale_prediction_t *prediction
 
 static void conclude(ale_pipeline_t *p, const ale_tracked_t *tracked)
 {
+    p->step = ale_pose_between(p->motion.pose, tracked->fit.motion.pose);
     p->motion = tracked->fit.motion;
     p->fit = tracked->fit;
     p->matched_corners = tracked->matched_corners;

@@ -75,7 +75,8 @@ typedef enum {
 /* Another pose of a scan, that explains it better than the one that is followed: believed when the next scan
  * confirms it. */
 typedef struct {
-    ale_pose_t pose;
+    ale_pose_t pose;      /* where the prediction has led it since, */
+    ale_pose_t found;     /* and where it was found: the prediction may be wrong on and on */
     int64_t advantage_um; /* of surface that it explains more, in scans that confirm each other; 0: none */
 } ale_proposal_t;
 
@@ -145,6 +146,7 @@ struct ale_pipeline {
 
     /* conclude: what a scan came to */
     ale_motion_t motion;
+    ale_pose_t step; /* from the scan before the last one to the last one */
     ale_smooth_t smooth;
     ale_fit_t fit; /* of the last scan that was fitted */
     uint16_t matched_corners;

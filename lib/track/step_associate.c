@@ -43,15 +43,26 @@ typedef struct {
     int64_t sigma_urad;
 } ale_registered_t;
 
+/* Where the robot would be if it went on as before: as its velocity says or, where that is not known, by as
+ * much as from scan to scan before. In a log that holds but some of the scans that says nothing. */
+static ale_pose_t going_on(const ale_pipeline_t *p, const ale_ways_t *ways, ale_pose_t before)
+{
+    if (ways->part) {
+        return ways->rival.pose;
+    }
+    const bool dense = ale_timestamp_filter_is_dense(&p->timestamp_filter);
+    return dense ? ale_pose_compose(before, p->step) : ways->believed.pose;
+}
+
 /* Where the last scan says that the robot is, to be fitted from there; where it says nothing, the
- * prediction.
- */
+ * prediction. Looked for up to where the robot would be if it went on as before. */
 static ale_registered_t register_to_scan(ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
     const ale_ways_t *ways = &prediction->ways;
     const ale_motion_t *predicted = &ways->believed;
     const ale_pose_t before = prediction->before.pose;
-    const ale_apart_t apart = ways->part ? ale_apart(predicted->pose, ways->rival.pose) : (ale_apart_t){0, 0};
+    const ale_pose_t as_before = going_on(p, ways, before);
+    const ale_apart_t apart = ale_apart(predicted->pose, as_before);
     const int64_t sigma_um =
         ale_max64(ale_matrix_sigma(&predicted->cov, 0), ale_matrix_sigma(&predicted->cov, 1));
     const int64_t sigma_urad = ale_matrix_sigma(&predicted->cov, 2);
@@ -119,7 +130,7 @@ static second_start_t second_start(const ale_pipeline_t *p, const ale_prediction
 
 /* Fits once more: from where the last scan says that the robot is or, since wide gates may have caught the
  * wrong walls, with narrow ones. If wheels may have slipped, the last scan decides which hypothesis is
- * selected; when it says nothing, the map does. */
+ * selected, or the map, where it holds more of the scan. */
 static void associate_again(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_ways_t *ways,
                             ale_fit_t *fit)
 {
@@ -141,7 +152,8 @@ static void associate_again(ale_pipeline_t *p, const ale_prediction_t *predictio
                                      .gate = registered.found ? &register_gate : unguided,
                                      .most_work = most_work};
     ale_register_again(&scene, &second, &p->other, fit);
-    if (turns && fit->matched_um > found_um) {
+    if (turns && (fit->matched_um > found_um ||
+                  is_preferred(p, prediction->before.pose, ways->rival.pose, ways->believed.pose))) {
         ale_ways_swap(ways);
     }
 }

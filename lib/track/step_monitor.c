@@ -62,5 +62,5 @@ ale_scene_verdict_t ale_step_monitor(ale_pipeline_t *p, const ale_prediction_t *
 
 void ale_monitor_judge(ale_pipeline_t *p, const ale_fit_t *fit, const ale_visibility_counts_t *counts)
 {
-    ale_tracking_judge(&p->monitor, fit, counts);
+    ale_tracking_judge(&p->monitor, fit, counts, p->proposal.advantage_um > 0);
 }

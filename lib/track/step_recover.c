@@ -12,7 +12,7 @@ enum {
     UNWATCHED_PERIODS = 3,
     ANYWHERE_US = 5000000, /* and for so long that it may have been carried to any place */
     ANYWHERE_PERIODS = 60,
-    CANDIDATES = 4, /* places of the vote that are fitted */
+    CANDIDATES = 4, /* poses that are fitted: those proposed, and places of the vote */
     START_SIGMA_UM = 150000,
     START_SIGMA_URAD = 60000,
     MARGIN_UM = 1500000, /* surface by which a pose must explain more than another one */
@@ -64,7 +64,8 @@ bool ale_recover_has_driven(const ale_pipeline_t *p, const ale_prediction_t *pre
 bool ale_recover_is_unwatched(const ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
     const int64_t t_us = since_watched_us(p, prediction);
-    return t_us > UNWATCHED_US && t_us > UNWATCHED_PERIODS * p->timestamp_filter.usual_us;
+    return t_us > UNWATCHED_US && t_us > UNWATCHED_PERIODS * p->timestamp_filter.usual_us &&
+           t_us > ale_timestamp_filter_usual_most_us(&p->timestamp_filter);
 }
 
 static int32_t halfway(int32_t from_um, int32_t to_um)
@@ -72,17 +73,22 @@ static int32_t halfway(int32_t from_um, int32_t to_um)
     return (int32_t)(from_um + ((int64_t)to_um - from_um) / 2);
 }
 
-/* All that the robot can have reached since it was last watched. */
+/* All that the robot can have reached since it was last watched. A prediction that it cannot have reached
+ * says nothing of where that is. */
 static ale_vote_region_t region_of(const ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
-    const ale_pose_t from = prediction->before.pose;
-    const ale_pose_t to = prediction->ways.believed.pose;
     const int64_t t_ms = ale_min64(since_watched_us(p, prediction) / 1000, 1000000);
+    const int64_t way_um = t_ms * p->config.max_speed_mm_s + SAME_UM;
+    const int64_t turn_urad = t_ms * p->config.max_turn_mrad_s + (int64_t)2 * START_SIGMA_URAD;
+    const ale_pose_t from = prediction->before.pose;
+    const ale_pose_t predicted = prediction->ways.believed.pose;
+    const ale_apart_t told = ale_apart(from, predicted);
+    const bool possible = told.way_um <= way_um && told.turn_urad <= turn_urad;
+    const ale_pose_t to = possible ? predicted : from;
     return (ale_vote_region_t){
         .centre = {halfway(from.x_um, to.x_um), halfway(from.y_um, to.y_um), to.theta_bam},
-        .reach_um = (int32_t)ale_min64(t_ms * p->config.max_speed_mm_s + SAME_UM, ALE_VOTE_REACH_UM),
-        .reach_urad = (int32_t)ale_min64(t_ms * p->config.max_turn_mrad_s + (int64_t)2 * START_SIGMA_URAD,
-                                         ANY_HEADING_URAD)};
+        .reach_um = (int32_t)ale_min64(way_um, ALE_VOTE_REACH_UM),
+        .reach_urad = (int32_t)ale_min64(turn_urad, ANY_HEADING_URAD)};
 }
 
 /* A fit and what speaks for it. */
@@ -134,22 +140,39 @@ static int64_t compare(candidate_t *best, const candidate_t *candidate, int64_t 
     return rival_um;
 }
 
-/* Votes on the region, fits the best places, and takes them in. */
-static int64_t compare_region(ale_pipeline_t *p, const ale_motion_t *predicted,
-                              const ale_vote_region_t *region, candidate_t *best)
+/* Fits from a pose, and takes in what is found within the region. */
+static int64_t compare_from(ale_pipeline_t *p, const ale_motion_t *predicted, ale_pose_t pose,
+                            const ale_vote_region_t *region, candidate_t *best, int64_t rival_um)
 {
     const ale_scene_t scene = ale_observed_scene(p);
+    const ale_motion_t start = start_at(predicted, pose);
+    ale_register_pose(&start, &scene, &start_gate, &p->other);
+    ale_register_associate(&scene, &p->other);
+    if (!is_in_region(region, p->other.motion.pose)) {
+        return rival_um;
+    }
+    const candidate_t candidate = {&p->other, evidence_um(p, &p->other)};
+    return compare(best, &candidate, rival_um);
+}
+
+/* Fits what the scan before has proposed, where it was found and where the prediction has led it, and the
+ * best places of the vote on the region, and takes them in. */
+static int64_t compare_region(ale_pipeline_t *p, const ale_motion_t *predicted,
+                              const ale_vote_region_t *region, const ale_proposal_t *proposed,
+                              candidate_t *best)
+{
+    const ale_pose_t stays[2] = {proposed->found, proposed->pose};
+    const uint32_t apart = ale_are_near(stays[0], stays[1], SAME_UM, SAME_BAM) ? 1 : 2;
+    const uint32_t again = proposed->advantage_um > 0 ? apart : 0;
     int64_t rival_um = INT64_MIN / 2;
     ale_pipeline_approach(p, region->centre, p->observed.scan.range_max_um);
     ale_pose_vote(&p->vote, &p->map, p->observed.observation, p->observed.count, region);
-    for (uint32_t k = 0; k < CANDIDATES && k < p->vote.places; k++) {
-        const ale_motion_t start = start_at(predicted, p->vote.place[k].pose);
-        ale_register_pose(&start, &scene, &start_gate, &p->other);
-        ale_register_associate(&scene, &p->other);
-        if (is_in_region(region, p->other.motion.pose)) {
-            const candidate_t candidate = {&p->other, evidence_um(p, &p->other)};
-            rival_um = compare(best, &candidate, rival_um);
-        }
+    for (uint32_t k = 0; k < again; k++) {
+        const ale_vote_region_t around = {stays[k], SAME_UM, 0};
+        rival_um = compare_from(p, predicted, stays[k], &around, best, rival_um);
+    }
+    for (uint32_t k = 0; k + again < CANDIDATES && k < p->vote.places; k++) {
+        rival_um = compare_from(p, predicted, p->vote.place[k].pose, region, best, rival_um);
     }
     return rival_um;
 }
@@ -160,7 +183,8 @@ bool ale_recover_in_region(ale_pipeline_t *p, ale_pose_t centre)
     candidate_t best = {&p->best, INT64_MIN / 2};
     const ale_scene_t scene = ale_observed_scene(p);
     ale_register_reject(&p->motion, &scene, &p->best);
-    const int64_t rival_um = compare_region(p, &p->motion, &region, &best);
+    const ale_proposal_t none = {.advantage_um = 0};
+    const int64_t rival_um = compare_region(p, &p->motion, &region, &none, &best);
     if (!ale_tracking_accepts(&p->best) || best.evidence_um < rival_um + MARGIN_UM) {
         return false;
     }
@@ -203,7 +227,9 @@ static int64_t gain_um(const ale_motion_t *predicted, const candidate_t *best, c
 /* What the scan before has found for a pose, where it has proposed it; else 0. */
 static int64_t proposed_um(const ale_pipeline_t *p, ale_pose_t pose)
 {
-    return ale_are_near(p->proposed.pose, pose, CONFIRM_UM, SAME_BAM) ? p->proposed.advantage_um : 0;
+    const bool again = ale_are_near(p->proposed.found, pose, CONFIRM_UM, SAME_BAM) ||
+                       ale_are_near(p->proposed.pose, pose, CONFIRM_UM, SAME_BAM);
+    return again ? p->proposed.advantage_um : 0;
 }
 
 /* A pose that explains clearly more than any other is taken where it is beside the given one, or was proposed
@@ -221,7 +247,7 @@ static ale_recovery_t take_or_propose(ale_pipeline_t *p, const candidate_t *give
         return near ? ALE_RECOVER_NEAR : ALE_RECOVER_MOVED;
     }
     if (enough || more_um > MARGIN_UM) {
-        p->proposal = (ale_proposal_t){pose, before_um + ale_max64(more_um, 1)};
+        p->proposal = (ale_proposal_t){pose, pose, before_um + ale_max64(more_um, 1)};
         return ALE_RECOVER_UNDECIDED;
     }
     return ALE_RECOVER_STAYS;
@@ -235,7 +261,7 @@ ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *predi
     candidate_t best = {&p->best, given.evidence_um};
     p->best = *fit;
     p->searched = true;
-    const int64_t rival_um = compare_region(p, &ways->believed, &region, &best);
+    const int64_t rival_um = compare_region(p, &ways->believed, &region, &p->proposed, &best);
     if (best.evidence_um <= rival_um + MARGIN_UM) {
         const bool more = best.evidence_um > given.evidence_um + MARGIN_UM;
         const bool open = (more || !ways->counted) && ale_tracking_accepts(best.fit);

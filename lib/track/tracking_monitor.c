@@ -140,7 +140,7 @@ static void count_empty_scans(ale_tracking_monitor_t *monitor, const ale_fit_t *
 }
 
 ale_state_t ale_tracking_judge(ale_tracking_monitor_t *monitor, const ale_fit_t *fit,
-                               const ale_visibility_counts_t *visibility)
+                               const ale_visibility_counts_t *visibility, bool proposed)
 {
     const bool out_of_reach = is_out_of_reach(monitor, fit);
     count_empty_scans(monitor, fit);
@@ -149,13 +149,13 @@ ale_state_t ale_tracking_judge(ale_tracking_monitor_t *monitor, const ale_fit_t 
     } else if (monitor->misfits > 0) {
         monitor->misfits--;
     }
-    if (out_of_reach || monitor->misfits >= MISFITS_UNTIL_LOST) {
+    if (monitor->misfits >= MISFITS_UNTIL_LOST || (out_of_reach && !proposed)) {
         monitor->state = ALE_STATE_LOST;
     } else if (position_var(&fit->motion) < square(WEAK_SIGMA_UM) &&
                ale_information_determines(&fit->information, DETERMINED_UM)) {
         monitor->state = ALE_STATE_GOOD;
     } else {
-        monitor->state = by_variance(&fit->motion);
+        monitor->state = proposed ? ALE_STATE_WEAK : by_variance(&fit->motion);
     }
     return monitor->state;
 }

@@ -43,9 +43,10 @@ bool ale_tracking_denies(const ale_testimony_t *testimony);
 void ale_tracking_notice(ale_tracking_monitor_t *monitor, const ale_testimony_t *testimony, bool counted,
                          bool mapped);
 
-/* Judges a fitted scan and what it says of the walls that were not matched; returns the new state. */
+/* Judges a fitted scan and what it says of the walls that were not matched; returns the new state. proposed:
+ * another pose waits for the next scan to confirm it; that this one may be anywhere is no loss until then. */
 ale_state_t ale_tracking_judge(ale_tracking_monitor_t *monitor, const ale_fit_t *fit,
-                               const ale_visibility_counts_t *visibility);
+                               const ale_visibility_counts_t *visibility, bool proposed);
 
 /* Whether the map explains a scan at a fit: most of what is shown lies on walls, and enough is shown. */
 bool ale_tracking_explains(const ale_fit_t *fit);

@@ -127,3 +127,32 @@ TEST(Pace, AGapIsJudgedByWhatWasUsualBefore)
     ale_timestamp_filter_instant(&timestamp_filter, 12100000);
     EXPECT_GT(timestamp_filter.usual_before_us, 200000);
 }
+
+TEST(Pace, StampsThatComeThreeAtOnceMakeASecondWithoutAScanUsualAndOneOutageDoesNot)
+{
+    ale_timestamp_filter_t crowded;
+    ale_timestamp_filter_t even;
+    ale_timestamp_filter_init(&crowded);
+    ale_timestamp_filter_init(&even);
+    for (int k = 0; k < 200; k++) {
+        ale_timestamp_filter_instant(&crowded, 600000 * (k / 3) + 1000 * (k % 3));
+        ale_timestamp_filter_instant(&even, 200000 * k);
+    }
+    EXPECT_GT(ale_timestamp_filter_usual_most_us(&crowded), 1000000);
+    EXPECT_LT(ale_timestamp_filter_usual_most_us(&even), 210000);
+    ale_timestamp_filter_instant(&even, 44000000);
+    EXPECT_LT(ale_timestamp_filter_usual_most_us(&even), 400000) << "it is judged by what was usual before";
+}
+
+TEST(Pace, ALogOfEveryFifthScanIsNotDense)
+{
+    for (const bool dense : {true, false}) {
+        ale_timestamp_filter_t timestamp_filter;
+        ale_timestamp_filter_init(&timestamp_filter);
+        EXPECT_FALSE(ale_timestamp_filter_is_dense(&timestamp_filter));
+        for (int k = 0; k < 40; k++) {
+            ale_timestamp_filter_instant(&timestamp_filter, int64_t{k} * (dense ? 100000 : 500000));
+        }
+        EXPECT_EQ(ale_timestamp_filter_is_dense(&timestamp_filter), dense);
+    }
+}

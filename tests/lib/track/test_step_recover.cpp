@@ -1,4 +1,7 @@
 // lib/track/step_recover.c: whether wheels have told of a way through a time that no scan watched.
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "room_pipeline.h"
@@ -66,6 +69,69 @@ TEST(StepRecover, WhatTheyCountAtBothEndsOfTheTimeIsNoWayThroughIt)
 TEST(StepRecover, WheelsThatStandHaveToldOfNone)
 {
     EXPECT_FALSE(has_driven([](double) -> std::optional<double> { return 0; }));
+}
+
+/* Stamps as of a busy computer, three at once: how fast the robot goes is not known from them. */
+double crowded(int scan)
+{
+    return 0.6 * (scan / 3) + 0.001 * (scan % 3);
+}
+
+/* A robot that stands in the room for fifty scans; what its wheels tell before each of them. Returns how far
+ * it is off in the end, m and rad together, or 1000 if it was ever lost. */
+template <typename Told> double off_after(const Told &told)
+{
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    std::mt19937 rng(1);
+    const reference::Pose place(1, 0, 0.4);
+    ale_estimate_t e = {};
+    bool lost = false;
+    for (int k = 0; k < 50; k++) {
+        const ale_odometry_t sample = {std::llround(crowded(k) * 1e6), told(k)};
+        ale_pipeline_odometry(p.get(), &sample);
+        const ale_scan_t scan = room::scan_at(
+            room::l_shape(), room::Sensor(), [&](double) { return place; }, crowded(k), rng);
+        ale_pipeline_scan(p.get(), &scan, &e);
+        lost = lost || e.state == ALE_STATE_LOST;
+    }
+    const double turned = std::abs(static_cast<int32_t>(e.map.theta_bam)) * 2 * reference::pi / 4294967296.0;
+    return lost ? 1000 : std::hypot(e.map.x_um, e.map.y_um) * 1e-6 + turned;
+}
+
+TEST(StepRecover, WheelsThatTurnOnAndOnWhereTheRobotStandsAreNotFollowed)
+{
+    for (const double degrees : {-30.0, -21.0, 12.0, 30.0, 60.0}) {
+        EXPECT_LT(off_after([&](int k) {
+                      const double turn = std::clamp(k - 20, 0, 12) * degrees * reference::pi / 180;
+                      return ale_pose_t{0, 0, convert::bam(turn)};
+                  }),
+                  0.03)
+            << degrees << " degrees a scan";
+    }
+}
+
+TEST(StepRecover, WheelsThatGoOnAndOnWhereTheRobotStandsAreNotFollowed)
+{
+    for (const int32_t step_um : {-300000, 150000, 400000}) {
+        EXPECT_LT(off_after([&](int k) {
+                      return ale_pose_t{std::clamp(k - 20, 0, 12) * step_um, 0, 0};
+                  }),
+                  0.03)
+            << step_um << " um a scan";
+    }
+}
+
+TEST(StepRecover, OneStepThatNoRobotCanGoMovesNothing)
+{
+    for (const double degrees : {-120.0, 70.0, 119.0}) {
+        EXPECT_LT(
+            off_after([&](int k) {
+                const ale_pose_t jumped = {1060000, -960000, convert::bam(degrees * reference::pi / 180)};
+                return k < 21 ? ale_pose_t{0, 0, 0} : jumped;
+            }),
+            0.03)
+            << degrees << " degrees";
+    }
 }
 
 } // namespace

@@ -48,7 +48,7 @@ struct Monitor {
     ale_state_t judge(const ale_fit_t &fit, uint16_t supported = 0, uint16_t violated = 0)
     {
         const ale_visibility_counts_t counts = {supported, violated};
-        return ale_tracking_judge(&m, &fit, &counts);
+        return ale_tracking_judge(&m, &fit, &counts, false);
     }
     bool contradicted(const ale_testimony_t *testimony, bool counted = true)
     {
@@ -233,17 +233,17 @@ TEST(TrackingMonitor, GoesFromGoodToWeakToLostAndBackByWhatScansShow)
     fit.matched_um = 3800000;
     EXPECT_FALSE(ale_tracking_doubts(&fit));
     ale_tracking_notice(&t, nullptr, true, true);
-    EXPECT_EQ(ale_tracking_judge(&t, &fit, &fine), ALE_STATE_GOOD);
+    EXPECT_EQ(ale_tracking_judge(&t, &fit, &fine, false), ALE_STATE_GOOD);
     EXPECT_TRUE(ale_tracking_may_map(&t, &fit));
     fit.information.matrix.m[0][0] = 0;
-    EXPECT_EQ(ale_tracking_judge(&t, &fit, &fine), ALE_STATE_WEAK);
+    EXPECT_EQ(ale_tracking_judge(&t, &fit, &fine, false), ALE_STATE_WEAK);
     const ale_visibility_counts_t violated = {0, 12};
     fit.matched = 0;
     for (int k = 0; k < 7; k++) {
-        EXPECT_EQ(ale_tracking_judge(&t, &fit, &violated), ALE_STATE_WEAK);
+        EXPECT_EQ(ale_tracking_judge(&t, &fit, &violated, false), ALE_STATE_WEAK);
         EXPECT_FALSE(ale_tracking_may_map(&t, &fit));
     }
-    EXPECT_EQ(ale_tracking_judge(&t, &fit, &violated), ALE_STATE_LOST);
+    EXPECT_EQ(ale_tracking_judge(&t, &fit, &violated, false), ALE_STATE_LOST);
     EXPECT_EQ(ale_tracking_skip(&t, &fit.motion), ALE_STATE_LOST);
     ale_tracking_found(&t);
     EXPECT_EQ(t.state, ALE_STATE_WEAK);
@@ -300,8 +300,26 @@ TEST(TrackingMonitor,
         fit.shown_um = c.shown_um;
         ale_tracking_notice(&t, nullptr, c.counted, c.mapped);
         EXPECT_EQ(ale_tracking_may_reanchor(&t, &fit), c.shown_um > 2000000 && !c.lost);
-        EXPECT_EQ(ale_tracking_judge(&t, &fit, &none), c.lost ? ALE_STATE_LOST : ALE_STATE_WEAK);
+        EXPECT_EQ(ale_tracking_judge(&t, &fit, &none, false), c.lost ? ALE_STATE_LOST : ALE_STATE_WEAK);
     }
+}
+
+TEST(TrackingMonitor, APositionThatMayBeAnywhereIsNoLossWhileAnotherPoseWaitsForTheNextScan)
+{
+    const ale_visibility_counts_t none = {0, 0};
+    const ale_visibility_counts_t violated = {0, 12};
+    ale_fit_t fit = {};
+    ale_motion_init(&fit.motion, 0, {0, 0, 0}, 1, 1);
+    fit.motion.cov.m[0][0] = square(2 * metre_um);
+    ale_tracking_monitor_t t;
+    ale_tracking_init(&t);
+    EXPECT_EQ(ale_tracking_judge(&t, &fit, &none, true), ALE_STATE_WEAK);
+    EXPECT_EQ(ale_tracking_judge(&t, &fit, &none, false), ALE_STATE_LOST);
+    ale_tracking_init(&t);
+    for (int k = 0; k < 7; k++) {
+        EXPECT_EQ(ale_tracking_judge(&t, &fit, &violated, true), ALE_STATE_WEAK);
+    }
+    EXPECT_EQ(ale_tracking_judge(&t, &fit, &violated, true), ALE_STATE_LOST);
 }
 
 } // namespace
