@@ -50,8 +50,8 @@ static ale_pose_t going_on(const ale_pipeline_t *p, const ale_ways_t *ways, ale_
     if (ways->part) {
         return ways->rival.pose;
     }
-    const bool dense = ale_timestamp_filter_is_dense(&p->timestamp_filter);
-    return dense ? ale_pose_compose(before, p->step) : ways->believed.pose;
+    const bool steps = ways->unrivalled && ale_timestamp_filter_is_dense(&p->timestamp_filter);
+    return steps ? ale_pose_compose(before, p->step) : ways->believed.pose;
 }
 
 /* Where the last scan says that the robot is, to be fitted from there; where it says nothing, the

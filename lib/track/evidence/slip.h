@@ -17,7 +17,8 @@ typedef struct {
     ale_motion_t believed;
     ale_motion_t rival; /* holds when they part */
     bool part;
-    bool counted; /* what is believed is by wheels */
+    bool counted;    /* what is believed is by wheels */
+    bool unrivalled; /* it is, and how fast the robot went before is hardly known */
 } ale_ways_t;
 
 /* How far two poses lie apart. */
