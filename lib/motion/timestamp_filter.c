@@ -9,6 +9,7 @@ enum {
     EVEN_US = 2000,          /* stamps that jitter less than this are right as they are */
     PERIOD_PARTS = 4,        /* and beyond a quarter of the period there is no pace, */
     PERIOD_MOST_US = 250000, /* nor in a log that holds but some of the mirror's turns */
+    DENSE_MOST_US = 500000,  /* scanners turn at 5 Hz and more; computers miss some */
     USUAL_SCANS = 16,
     UNEVEN_SCANS = 64,
     UNEVEN_SIGMAS = 4
@@ -88,7 +89,7 @@ int64_t ale_timestamp_filter_instant(ale_timestamp_filter_t *timestamp_filter, i
 
 bool ale_timestamp_filter_is_dense(const ale_timestamp_filter_t *timestamp_filter)
 {
-    return timestamp_filter->usual_us > 0 && timestamp_filter->usual_us < PERIOD_MOST_US;
+    return timestamp_filter->usual_us > 0 && timestamp_filter->usual_us < DENSE_MOST_US;
 }
 
 int64_t ale_timestamp_filter_usual_most_us(const ale_timestamp_filter_t *timestamp_filter)

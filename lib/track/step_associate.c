@@ -104,6 +104,12 @@ static bool is_preferred(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t 
            there.shown_um;
 }
 
+/* Whether so little of the scan is found in the map that it may be found by chance. */
+static bool is_by_chance(const ale_fit_t *fit)
+{
+    return fit->matched_um * CHANCE_PARTS < fit->shown_um;
+}
+
 /* What the last scan says instead of the prediction. */
 static ale_motion_t registered_motion(const ale_motion_t *predicted, const ale_registered_t *registered)
 {
@@ -129,8 +135,8 @@ static second_start_t second_start(const ale_pipeline_t *p, const ale_prediction
 }
 
 /* Fits once more: from where the last scan says that the robot is or, since wide gates may have caught the
- * wrong walls, with narrow ones. If wheels may have slipped, the last scan decides which hypothesis is
- * selected, or the map, where it holds more of the scan. */
+ * wrong walls, with narrow ones. If wheels may have slipped, the map decides which hypothesis is selected or,
+ * where it holds nothing of the scan, the last scan. */
 static void associate_again(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_ways_t *ways,
                             ale_fit_t *fit)
 {
@@ -152,8 +158,9 @@ static void associate_again(ale_pipeline_t *p, const ale_prediction_t *predictio
                                      .gate = registered.found ? &register_gate : unguided,
                                      .most_work = most_work};
     ale_register_again(&scene, &second, &p->other, fit);
-    if (turns && (fit->matched_um > found_um ||
-                  is_preferred(p, prediction->before.pose, ways->rival.pose, ways->believed.pose))) {
+    const bool by_last_scan =
+        is_by_chance(fit) && is_preferred(p, prediction->before.pose, ways->rival.pose, ways->believed.pose);
+    if (turns && (fit->matched_um > found_um || by_last_scan)) {
         ale_ways_swap(ways);
     }
 }
@@ -167,7 +174,7 @@ ale_ways_t ale_step_associate(ale_pipeline_t *p, const ale_prediction_t *predict
     ale_register_associate(&scene, fit);
     if (ale_tracking_doubts(fit)) {
         associate_again(p, prediction, &ways, fit);
-        if (fit->matched_um * CHANCE_PARTS < fit->shown_um) {
+        if (is_by_chance(fit)) {
             ale_register_reject(&ways.believed, &scene, fit);
         }
     }

@@ -57,11 +57,12 @@ bench-faults: ## drives on which something goes wrong, as tables: long (FAULTS_S
 LOG ?=
 RELATIONS ?=
 JITTER ?=
+OFTEN ?=
 .PHONY: bench-published
-bench-published: ## the published benchmark, all relations, beside others (ONLY=aces; LOG=path RELATIONS=path: your own recording; JITTER=1,2: also with noise of these seeds)
+bench-published: ## the published benchmark, all relations, beside others (ONLY=aces; LOG=path RELATIONS=path: your own recording; JITTER=1,2: also with noise of these seeds; OFTEN=1,2: with wheels that go wrong)
 	@tools/make/deps.sh tools/make/packages-build.txt tools/make/packages-test.txt
 	@$(MAKE) --no-print-directory -s $(BUILD)/bin/ale-replay $(BUILD)/bin/ale-sim
-	@$(PYTHON) tools/lab/bench/published_table.py --build $(BUILD) $(addprefix --only ,$(ONLY)) $(addprefix --log ,$(LOG)) $(addprefix --relations ,$(RELATIONS)) $(addprefix --jitter ,$(JITTER))
+	@$(PYTHON) tools/lab/bench/published_table.py --build $(BUILD) $(addprefix --only ,$(ONLY)) $(addprefix --log ,$(LOG)) $(addprefix --relations ,$(RELATIONS)) $(addprefix --jitter ,$(JITTER)) $(addprefix --often ,$(OFTEN))
 
 # Buildings of five drives each, Intel in six drives, and a hall driven twice.
 MERGE_SEEDS ?= 1

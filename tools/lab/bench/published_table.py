@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 """The published benchmark (Kümmerle et al. 2009) as Markdown tables on stdout: error over all relations, beside what others reached.
 
-    published_table.py --build build [--shared FOLDER] [--only aces] [--log LOG --relations FILE] [--jitter 1,2,3]
+    published_table.py --build build [--shared FOLDER] [--only aces] [--log LOG --relations FILE] [--jitter 1,2,3] [--often 1,2,3]
 
 The logs of ACES and Intel as everybody downloads them and the Killian Court lie in the project's shared data (ALE_SHARED). Any other
 log with its relations is measured by --log and --relations: `.relations` lines are `t1 t2 x y z roll pitch yaw`, `.relidx` lines
 `i j x y yaw`, where i and j count laser lines from 0.
 
 With --jitter each recording is replayed once more with each of these seeds of noise on its ranges (faults/spoil.py): what of a result
-is luck.
+is luck. With --often, with wheels that go wrong once a minute.
 
 The error of a relation is true relation^-1 * estimated one; m (degrees for turns). Every relation counts, also where scans were lost.
 """
@@ -76,17 +76,17 @@ def as_carmen(bench, log):
     return carmen
 
 
-def with_jitter(bench, log, seed):
-    noisy = bench.folder / "jitter.clf"
-    subprocess.run([sys.executable, pathlib.Path(__file__).with_name("faults") / "spoil.py", log, "jitter", str(seed), noisy], check=True)
-    return noisy
+def spoilt(bench, log, kind, seed):
+    changed = bench.folder / "spoilt.clf"
+    subprocess.run([sys.executable, pathlib.Path(__file__).with_name("faults") / "spoil.py", log, kind, seed, changed], check=True)
+    return changed
 
 
-def measured(bench, log, relations, seed=None):
-    """The cells of a recording, as it is or with noise of this seed."""
+def measured(bench, log, relations, *fault):
+    """The cells of a recording, as it is or with a fault: kind and seed."""
     log = as_carmen(bench, log)
-    if seed is not None:
-        log = with_jitter(bench, log, seed)
+    if fault:
+        log = spoilt(bench, log, *fault)
     _, final, time_ms = bench.replay(log, "--frame", "laser")
     ends, true = read_relations(relations)
     metres, turns = relation_errors(read_tum(final), ends, true)
@@ -113,6 +113,7 @@ def parsed():
     parser.add_argument("--log", help="another recording, in any format that ale-replay reads ..")
     parser.add_argument("--relations", help=".. and its relations")
     parser.add_argument("--jitter", default="", metavar="SEEDS", help="also with noise of these seeds on the ranges")
+    parser.add_argument("--often", default="", metavar="SEEDS", help="also with wheels that go wrong once a minute")
     options = parser.parse_args()
     if bool(options.log) != bool(options.relations):
         parser.error("--log and --relations go together")
@@ -137,9 +138,10 @@ def main():
         for name, log, relations in recordings:
             progress(f"{name} ...")
             ours[name] = measured(bench, log, relations)
-            for seed in filter(None, options.jitter.split(",")):
-                progress(f"{name}, noise of seed {seed} ...")
-                ours[f"{name}, noise of seed {seed}"] = measured(bench, log, relations, int(seed))
+            for kind, seeds in (("jitter", options.jitter), ("often", options.often)):
+                for seed in filter(None, seeds.split(",")):
+                    progress(f"{name}, {kind} {seed} ...")
+                    ours[f"{name}, {kind} {seed}"] = measured(bench, log, relations, kind, seed)
     titled_table("Error over all relations, m:",
                  ["recording", "mean (deviation)", "median", "worst", "turn, degrees", "relations", "scans lost", "ms a scan: mean, longest"],
                  [[name, *cells] for name, cells in ours.items()])

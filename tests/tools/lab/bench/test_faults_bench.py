@@ -126,6 +126,14 @@ def test_the_sign_of_ahead_is_wrong_for_three_seconds(log, clean):
     assert np.allclose(log.steps()[steps], (-AHEAD, ASIDE, TURN), atol=1e-4)
 
 
+def test_wheels_go_wrong_again_and_again(log, clean):
+    left = spoil.spoil(log, "often", 1)
+    wrong = changed(log, clean)
+    assert len(wrong) and left.after >= wrong[-1]
+    apart = np.flatnonzero(np.diff(wrong) * STEP_S > spoil.OFTEN_S[0] - 5) + 1
+    assert 1 <= len(apart) <= 4, "in 150 s, 30 to 90 s apart"
+
+
 def test_one_wheel_slips(log, clean):
     spoil.spoil(log, "slip", 1)
     steps = changed(log, clean)

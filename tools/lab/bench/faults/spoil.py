@@ -14,6 +14,7 @@ wheels     stall        no counts for 1 to 2 s, then all of them at once
            late         all poses are 0.4 s old
            track        all turns are told 25 % too large, all ways 15 % too short
            noise        every step is off by 30 % and 0.03 rad
+           often        stall, swallow, jump, sign and slip in turn, one every minute, while the robot moves
 wheels lie frozen       x, y and theta are 0 for the whole drive
            mirrored     y and theta have the wrong sign
            degrees      theta is told in degrees
@@ -34,6 +35,7 @@ otherwise  every-other  every other beam without an echo  near      no echo beyo
 """
 import argparse
 import dataclasses
+import itertools
 import math
 import random
 
@@ -41,7 +43,7 @@ import numpy as np
 
 from carmen import CarmenLog, seen_from, wrapped
 
-PASSING = ("stall", "swallow", "jump", "reset", "sign", "slip", "late", "track", "noise")
+PASSING = ("stall", "swallow", "jump", "reset", "sign", "slip", "late", "track", "noise", "often")
 LYING = ("frozen", "mirrored", "degrees", "millimetres", "stale")
 SCANS = ("blind", "gap", "dark", "half")
 OUTAGES = tuple(f"{kind}-{seconds}" for kind in ("gap", "dark") for seconds in (4, 6, 8, 10, 12))
@@ -56,6 +58,8 @@ SLIPS = 2  # times its way that a slipping wheel counts too much
 LATE_S, STALE_S = 0.4, 100
 STALE_NEEDS_S = 120  # a shorter drive is as if frozen
 HANGS_M, HANGS_SIGMA_M = 0.3, 0.004
+OFTEN = ("stall", "swallow", "jump", "sign", "slip")
+OFTEN_S = (30, 90)  # from one to the next
 NEAR_M = 8
 CROP_RAD = math.radians(60)
 NOISE = {"rough": (0.01, 0.01), "jitter": (0.004, 0)}  # m, and share of the range
@@ -74,6 +78,12 @@ class Spoilt:
         return (places.conj(), -headings) if self.mirrored else (places, headings)
 
 
+def scans_in(times, begin_s, long_s):
+    """First scan of a time, and the first one after it, two later at least."""
+    first, last = np.searchsorted(times, [begin_s, begin_s + long_s])
+    return int(first), max(int(last), int(first) + 2)
+
+
 def window(log, chance, least_s, most_s):
     """Scans of a time in which the robot moves, not in the first 5 s nor near the end."""
     times = log.stamps - log.stamps[0]
@@ -81,11 +91,10 @@ def window(log, chance, least_s, most_s):
     for _ in range(200):
         long_s = chance.uniform(least_s, most_s)
         begin_s = chance.uniform(5, max(6, times[-1] - long_s - 5))
-        first, last = np.searchsorted(times, [begin_s, begin_s + long_s])
-        last = max(last, first + 2)
+        first, last = scans_in(times, begin_s, long_s)
         if last < len(times) and moved[first:last].sum() > MOVES * long_s:
             break
-    return int(first), int(last)
+    return first, last
 
 
 def older(log, seconds):
@@ -150,6 +159,31 @@ def spoil_poses(log, kind, first, last):
     elif kind in LYING:
         log.odometry = log.odometry * {"frozen": (0, 0, 0), "mirrored": (1, -1, -1), "degrees": (1, 1, math.degrees(1)),
                                        "millimetres": (1e3, 1e3, 1)}[kind]
+
+
+def often(log, chance):
+    """One fault of the wheels after another: the first scan after the last of them."""
+    times = log.stamps - log.stamps[0]
+    moved = np.abs(log.steps()).sum(axis=1)
+    kinds, begin_s, after = itertools.cycle(OFTEN), 5 + chance.uniform(0, OFTEN_S[0]), 0
+    kind = next(kinds)
+    while begin_s < times[-1] - 5:
+        long_s = chance.uniform(*LASTS_S.get(kind, (1, 2)))
+        first, last = scans_in(times, begin_s, long_s)
+        if last < len(times) and moved[first:last].sum() > MOVES * long_s:
+            spoil_wheels(log, kind, chance, first, last)
+            kind, begin_s, after = next(kinds), begin_s + chance.uniform(*OFTEN_S), last
+        else:
+            begin_s += 1
+    return after
+
+
+def spoil_wheels(log, kind, chance, first, last):
+    """What they tell of their way, or of where they are."""
+    if kind in ("stall", "reset", "late") + LYING:
+        spoil_poses(log, kind, first, last)
+    else:
+        spoil_steps(log, kind, chance, first, last)
 
 
 def cover(log, kind, chance, first, last):
@@ -240,12 +274,12 @@ def spoil(log, kind, seed):
     first, last = window(log, chance, *lasts_s)
     if kind == "carried":
         return carry(log, first, last)
-    if kind in ("stall", "reset", "late") + LYING:
-        spoil_poses(log, kind, first, last)
-    elif kind in ("blind", "half"):
+    if kind == "often":
+        return Spoilt(np.arange(len(log.scans)), after=often(log, chance))
+    if kind in ("blind", "half"):
         cover(log, kind, chance, first, last)
     elif kind != "gap":
-        spoil_steps(log, kind, chance, first, last)
+        spoil_wheels(log, kind, chance, first, last)
     if kind not in ("gap", "dark"):
         return Spoilt(np.arange(len(log.scans)), after=last)
     index = np.r_[0:first, last:len(log.scans)]
