@@ -75,8 +75,8 @@ class Board
     void keep_map(std::shared_ptr<const ale_map_t> map);
     std::shared_ptr<const ale_map_t> map() const;
 
-    /* What scans saw, of scan, pose, tracking and graph as they come. Who asks for it has a copy, and the LCM thread
-     * waits while it is made: some milliseconds. */
+    /* What scans saw, of scan, pose, tracking and graph as they come. Who asks for it has a copy, and the LCM
+     * thread waits while it is made: some milliseconds. */
     template <class Message> void see(const Message &message)
     {
         const std::lock_guard<std::mutex> lock(seeing_);
