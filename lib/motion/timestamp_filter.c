@@ -54,6 +54,7 @@ static void follow(ale_timestamp_filter_t *p, int64_t stamp_us)
     p->jitter2_us2 += ale_round_div(error_us * error_us - p->jitter2_us2, weight);
 }
 
+/* What is usual between scans, and how even it is; the last time counts for that with the next one. */
 static void note_gap(ale_timestamp_filter_t *p, int64_t dt_us)
 {
     p->uneven2_us2 += (p->off_us * p->off_us - p->uneven2_us2) / UNEVEN_SCANS;

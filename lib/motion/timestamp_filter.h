@@ -32,8 +32,8 @@ int64_t ale_timestamp_filter_instant(ale_timestamp_filter_t *timestamp_filter, i
 /* Whether scans come as the mirror turns, not only some of them. */
 bool ale_timestamp_filter_is_dense(const ale_timestamp_filter_t *timestamp_filter);
 
-/* Up to which time between scans says nothing: four times what stamps are off, which a busy computer writes
- * as it comes to. */
+/* Up to which time between scans says nothing: the usual one and four times what stamps are off it, which a
+ * busy computer writes as it comes to. */
 int64_t ale_timestamp_filter_usual_most_us(const ale_timestamp_filter_t *timestamp_filter);
 
 /* Whether the time between two scans is plausible: not if it is less than a quarter of the mean, as in logs

@@ -47,11 +47,10 @@ typedef struct {
  * much as from scan to scan before. In a log that holds but some of the scans that says nothing. */
 static ale_pose_t going_on(const ale_pipeline_t *p, const ale_ways_t *ways, ale_pose_t before)
 {
-    if (ways->part) {
-        return ways->rival.pose;
-    }
-    const bool steps = ways->unrivalled && ale_timestamp_filter_is_dense(&p->timestamp_filter);
-    return steps ? ale_pose_compose(before, p->step) : ways->believed.pose;
+    const bool by_wheels_alone = ways->counted && !ale_ways_rival_is_known(ways);
+    const bool steps = by_wheels_alone && ale_timestamp_filter_is_dense(&p->timestamp_filter);
+    const ale_pose_t one_step_on = steps ? ale_pose_compose(before, p->step) : ways->believed.pose;
+    return ways->part ? ways->rival.pose : one_step_on;
 }
 
 /* Where the last scan says that the robot is, to be fitted from there; where it says nothing, the
@@ -110,6 +109,14 @@ static bool is_by_chance(const ale_fit_t *fit)
     return fit->matched_um * CHANCE_PARTS < fit->shown_um;
 }
 
+/* Whether the last scan says so of the other tale of the way, where the map says nothing. */
+static bool is_rival_preferred(const ale_pipeline_t *p, const ale_prediction_t *prediction,
+                               const ale_ways_t *ways, const ale_fit_t *fit)
+{
+    return is_by_chance(fit) &&
+           is_preferred(p, prediction->before.pose, ways->rival.pose, ways->believed.pose);
+}
+
 /* What the last scan says instead of the prediction. */
 static ale_motion_t registered_motion(const ale_motion_t *predicted, const ale_registered_t *registered)
 {
@@ -158,9 +165,7 @@ static void associate_again(ale_pipeline_t *p, const ale_prediction_t *predictio
                                      .gate = registered.found ? &register_gate : unguided,
                                      .most_work = most_work};
     ale_register_again(&scene, &second, &p->other, fit);
-    const bool by_last_scan =
-        is_by_chance(fit) && is_preferred(p, prediction->before.pose, ways->rival.pose, ways->believed.pose);
-    if (turns && (fit->matched_um > found_um || by_last_scan)) {
+    if (turns && (fit->matched_um > found_um || is_rival_preferred(p, prediction, ways, fit))) {
         ale_ways_swap(ways);
     }
 }

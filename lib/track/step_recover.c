@@ -140,7 +140,7 @@ static int64_t compare(candidate_t *best, const candidate_t *candidate, int64_t 
     return rival_um;
 }
 
-/* Fits from a pose, and takes in what is found within the region. */
+/* Fits from a pose, and takes in what is found within the region; returns as compare(). */
 static int64_t compare_from(ale_pipeline_t *p, const ale_motion_t *predicted, ale_pose_t pose,
                             const ale_vote_region_t *region, candidate_t *best, int64_t rival_um)
 {
@@ -148,11 +148,21 @@ static int64_t compare_from(ale_pipeline_t *p, const ale_motion_t *predicted, al
     const ale_motion_t start = start_at(predicted, pose);
     ale_register_pose(&start, &scene, &start_gate, &p->other);
     ale_register_associate(&scene, &p->other);
-    if (!is_in_region(region, p->other.motion.pose)) {
-        return rival_um;
+    int64_t explained_um = rival_um;
+    if (is_in_region(region, p->other.motion.pose)) {
+        const candidate_t candidate = {&p->other, evidence_um(p, &p->other)};
+        explained_um = compare(best, &candidate, rival_um);
     }
-    const candidate_t candidate = {&p->other, evidence_um(p, &p->other)};
-    return compare(best, &candidate, rival_um);
+    return explained_um;
+}
+
+/* The same of a pose that was proposed, and stays within that. */
+static int64_t compare_again(ale_pipeline_t *p, const ale_motion_t *predicted, ale_pose_t pose,
+                             candidate_t *best, int64_t rival_um)
+{
+    ale_vote_region_t around = {.reach_um = SAME_UM};
+    around.centre = pose;
+    return compare_from(p, predicted, pose, &around, best, rival_um);
 }
 
 /* Fits what the scan before has proposed, where it was found and where the prediction has led it, and the
@@ -161,15 +171,17 @@ static int64_t compare_region(ale_pipeline_t *p, const ale_motion_t *predicted,
                               const ale_vote_region_t *region, const ale_proposal_t *proposed,
                               candidate_t *best)
 {
-    const ale_pose_t stays[2] = {proposed->found, proposed->pose};
-    const uint32_t apart = ale_are_near(stays[0], stays[1], SAME_UM, SAME_BAM) ? 1 : 2;
-    const uint32_t again = proposed->advantage_um > 0 ? apart : 0;
     int64_t rival_um = INT64_MIN / 2;
+    uint32_t again = 0;
     ale_pipeline_approach(p, region->centre, p->observed.scan.range_max_um);
     ale_pose_vote(&p->vote, &p->map, p->observed.observation, p->observed.count, region);
-    for (uint32_t k = 0; k < again; k++) {
-        const ale_vote_region_t around = {stays[k], SAME_UM, 0};
-        rival_um = compare_from(p, predicted, stays[k], &around, best, rival_um);
+    if (proposed->advantage_um > 0) {
+        rival_um = compare_again(p, predicted, proposed->found, best, rival_um);
+        again++;
+        if (!ale_are_near(proposed->found, proposed->pose, SAME_UM, SAME_BAM)) {
+            rival_um = compare_again(p, predicted, proposed->pose, best, rival_um);
+            again++;
+        }
     }
     for (uint32_t k = 0; k + again < CANDIDATES && k < p->vote.places; k++) {
         rival_um = compare_from(p, predicted, p->vote.place[k].pose, region, best, rival_um);

@@ -3,6 +3,7 @@
 
     tick_board.py LINK URL TICKS_A_METRE TRACK
 """
+import binascii
 import math
 import os
 import pty
@@ -12,16 +13,6 @@ import tty
 
 import ale
 import lcm
-
-
-def checksum(text):
-    total = 0xFFFF
-    for byte in text.encode():
-        total ^= byte << 8
-        for _ in range(8):
-            total = (total << 1) ^ 0x1021 if total & 0x8000 else total << 1
-            total &= 0xFFFF
-    return total
 
 
 class Board:
@@ -41,7 +32,8 @@ class Board:
             self.right += ahead + turn * self.track / 2
         self.before = now
         body = f"TICKS,{round(self.left * self.ticks)},{round(self.right * self.ticks)},{time.monotonic_ns() // 1000 % 2**32}"
-        os.write(self.descriptor, f"${body}*{checksum(body):04X}\r\n".encode())
+        checksum = binascii.crc_hqx(body.encode(), 0xFFFF)
+        os.write(self.descriptor, f"${body}*{checksum:04X}\r\n".encode())
 
 
 def main():

@@ -66,14 +66,19 @@ static void widen(ale_motion_t *believed, const ale_motion_t *rival)
 
 ale_ways_t ale_ways_of(const ale_motion_t *by_wheels, const ale_motion_t *as_before, bool slips)
 {
-    ale_ways_t ways = {*by_wheels, *as_before, false, true, !is_known(as_before)};
-    ways.part = !ways.unrivalled && are_apart(by_wheels, as_before);
+    ale_ways_t ways = {*by_wheels, *as_before, false, true};
+    ways.part = is_known(as_before) && are_apart(by_wheels, as_before);
     if (ways.part && slips) {
         ale_ways_swap(&ways);
     } else if (ways.part && distance(as_before->pose, by_wheels) <= WIDEN_MOST) {
         widen(&ways.believed, &ways.rival);
     }
     return ways;
+}
+
+bool ale_ways_rival_is_known(const ale_ways_t *ways)
+{
+    return is_known(&ways->rival);
 }
 
 void ale_ways_swap(ale_ways_t *ways)

@@ -17,8 +17,7 @@ typedef struct {
     ale_motion_t believed;
     ale_motion_t rival; /* holds when they part */
     bool part;
-    bool counted;    /* what is believed is by wheels */
-    bool unrivalled; /* it is, and how fast the robot went before is hardly known */
+    bool counted; /* what is believed is by wheels */
 } ale_ways_t;
 
 /* How far two poses lie apart. */
@@ -36,6 +35,9 @@ bool ale_ways_rival_is_nearer(const ale_ways_t *ways, ale_pose_t pose);
  * what ale_ways_slip said the last time. Wheels that are believed where they part have their covariance
  * widened towards the rival, which is two sigmas off then, unless it lies further than 0.15 m and rad. */
 ale_ways_t ale_ways_of(const ale_motion_t *by_wheels, const ale_motion_t *as_before, bool slips);
+
+/* Whether it is known how fast the robot went before: else there is no rival. */
+bool ale_ways_rival_is_known(const ale_ways_t *ways);
 
 /* The rival is right. */
 void ale_ways_swap(ale_ways_t *ways);

@@ -17,6 +17,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -117,6 +118,9 @@ def parsed():
     options = parser.parse_args()
     if bool(options.log) != bool(options.relations):
         parser.error("--log and --relations go together")
+    for seeds in filter(None, (options.jitter, options.often)):
+        if not re.fullmatch(r"\d+(,\d+)*", seeds):
+            parser.error(f"{seeds}: not numbers with commas between them")
     for path in filter(None, (options.log, options.relations)):
         if not pathlib.Path(path).exists():
             sys.exit(f"published_table.py: {path}: no such file")
