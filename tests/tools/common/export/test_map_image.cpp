@@ -351,7 +351,7 @@ TEST_F(MapImage, ACloudThatKeepsNoPointsShowsTheSameGrid)
     }
     EXPECT_TRUE(cells.points().empty());
     EXPECT_FALSE(cells.empty());
-    EXPECT_EQ(cells.cells(), whole.cells());
+    EXPECT_EQ(cells.tiles(), whole.tiles());
     scene_.cloud = &whole;
     const std::string with_points = content(write("whole.pgm"));
     scene_.cloud = &cells;
