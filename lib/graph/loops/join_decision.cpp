@@ -23,7 +23,7 @@ struct Support {
     size_t nodes;
     double apart_m;
 };
-constexpr Support as_predicted{3, 1.0};
+constexpr Support as_predicted{JoinDecision::least_nodes, 1.0};
 constexpr Support elsewhere{12, 8.0};
 constexpr double predicted_m = 3.0;
 constexpr double predicted_rad = 0.8;

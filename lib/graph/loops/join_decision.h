@@ -34,6 +34,9 @@ struct FoundJoin {
 class JoinDecision
 {
   public:
+    // Of a map that may join another.
+    static constexpr size_t least_nodes = 3;
+
     // Nodes and poses stay the caller's and must outlive this. matches: from a place of one map to a node of
     // another, each with its overlap; queries: the nodes to compare: those that were searched for,
     // of drives all.

@@ -27,7 +27,7 @@ constexpr double same_m = 0.30;
 
 using Queries = std::map<uint32_t, std::vector<int>>;
 
-// Every node, or every second, third.. of each map.
+// Every node, or every second, third.. of each map that may join another.
 Queries queries_of_maps(const std::vector<Node> &nodes)
 {
     Queries all;
@@ -36,6 +36,9 @@ Queries queries_of_maps(const std::vector<Node> &nodes)
     }
     Queries some;
     for (const auto &[map_id, of_map] : all) {
+        if (of_map.size() < JoinDecision::least_nodes) {
+            continue;
+        }
         const size_t stride = 1 + (of_map.size() - 1) / most_of_a_map;
         for (size_t k = 0; k < of_map.size(); k += stride) {
             some[map_id].push_back(of_map[k]);

@@ -166,24 +166,14 @@ void LikelihoodField::set_likelihoods(const std::vector<double> &distance2)
     }
 }
 
-LikelihoodField LikelihoodField::pooled(int stride) const
+LikelihoodField::Cell LikelihoodField::cell_at(const Eigen::Vector2d &p) const
 {
-    LikelihoodField field = *this;
-    const auto best_of_two = [&field](int first, int second) {
-        float &best = field.likelihood_[static_cast<size_t>(first)];
-        best = std::max(best, at(field.likelihood_, second));
+    const Eigen::Vector2d cell = (p - origin_) * cells_per_m;
+    const auto whole = [](double x) {
+        const double far = static_cast<double>(max_cells);
+        return static_cast<int>(std::floor(std::min(std::max(x, -far), 2 * far)));
     };
-    for (int r = 0; r < height_; r++) { // from the near end: what is farther is not pooled yet
-        for (int c = 0; c + stride < width_; c++) {
-            best_of_two(r * width_ + c, r * width_ + c + stride);
-        }
-    }
-    for (int r = 0; r + stride < height_; r++) {
-        for (int c = 0; c < width_; c++) {
-            best_of_two(r * width_ + c, (r + stride) * width_ + c);
-        }
-    }
-    return field;
+    return {whole(cell.x()), whole(cell.y())};
 }
 
 void LikelihoodField::add_likelihoods_around(const Eigen::Vector2d &p, int steps, int stride,

@@ -42,9 +42,25 @@ class LikelihoodField
         return cell < 0 ? 0 : static_cast<double>(at(likelihood_, cell));
     }
 
-    // The same with the best likelihood of each cell, the one `stride` cells farther along each axis and
-    // both: a bound for the four. Where no cell is farther, the cell's own. O(cells).
-    LikelihoodField pooled(int stride) const;
+    struct Cell {
+        int column;
+        int row;
+    };
+    int width() const
+    {
+        return width_;
+    }
+    int height() const
+    {
+        return height_;
+    }
+    // That p lies in, also outside of the field; what is farther than any position can be is far outside.
+    Cell cell_at(const Eigen::Vector2d &p) const;
+    // Of a cell of the field.
+    double likelihood_of(const Cell &cell) const
+    {
+        return static_cast<double>(at(likelihood_, cell.row * width_ + cell.column));
+    }
 
     // Adds to (2 steps + 1)^2 sums, row by row, the likelihood of p displaced by -steps..steps times
     // `stride` cells along each axis. O(steps^2).

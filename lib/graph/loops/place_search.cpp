@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace ale
 {
@@ -9,9 +10,10 @@ namespace ale
 namespace
 {
 
-constexpr int step_cells = 2;
-constexpr double step_m = step_cells * LikelihoodField::cell_m;
-constexpr int block_cells = 2 * step_cells; // two positions along each axis
+constexpr int step_log2 = 1;
+constexpr int step_cells = 1 << step_log2;
+constexpr int block_log2 = step_log2 + 1; // two positions along each axis
+constexpr int block_cells = 1 << block_log2;
 constexpr double block_m = block_cells * LikelihoodField::cell_m;
 constexpr int blocks_each_way = static_cast<int>(PlaceSearch::half_m / block_m + 0.5);
 constexpr int side = 2 * blocks_each_way + 1;
@@ -20,16 +22,13 @@ constexpr double heading_step = 2 * pi / headings;
 constexpr size_t searched_headings = 40; // the four of a room, each with some beside it
 constexpr size_t searched_blocks = 2000;
 constexpr size_t scored_positions = 400;
-constexpr size_t coarse_points = 32;
+constexpr size_t coarse_points = 32; // thinned() keeps up to twice as many
 constexpr size_t scored_points = 120;
 
-// Positions are whole cells apart, so that the bound of a block holds.
-Pose block_pose(size_t k, const std::vector<size_t> &turns)
+// How far along each axis.
+int displacement(int k)
 {
-    const auto places = static_cast<size_t>(side) * side;
-    const int place = static_cast<int>(k % places);
-    return {(place % side - blocks_each_way) * block_m, (place / side - blocks_each_way) * block_m,
-            wrapped(static_cast<double>(turns[k / places]) * heading_step)};
+    return (k - blocks_each_way) * block_cells;
 }
 
 // How many normals point which way; each counts beside its own direction, too.
@@ -48,24 +47,38 @@ std::vector<double> histogram_of(const std::vector<SurfacePoint> &points)
     return histogram;
 }
 
-std::vector<Pose> chosen(const std::vector<Pose> &poses, const std::vector<double> &scores, size_t count)
+// Indices of the `count` best sums, ascending; of equals the first.
+std::vector<size_t> best_sums(const std::vector<uint16_t> &sums, size_t count)
 {
-    std::vector<Pose> best;
-    for (const size_t k : best_of(scores, count)) {
-        best.push_back(poses[k]);
+    std::vector<size_t> of_sum(size_t{UINT16_MAX} + 1, 0);
+    for (const uint16_t sum : sums) {
+        of_sum[sum]++;
+    }
+    size_t least = UINT16_MAX;
+    size_t above = 0; // sums above the least
+    while (least > 0 && above + of_sum[least] < count) {
+        above += of_sum[least--];
+    }
+    size_t equal_left = count - std::min(count, above);
+    std::vector<size_t> best;
+    for (size_t k = 0; k < sums.size(); k++) {
+        if (sums[k] > least || (sums[k] == least && equal_left > 0)) {
+            equal_left -= sums[k] == least;
+            best.push_back(k);
+        }
     }
     return best;
 }
 
-// The first poses that are different places.
-std::vector<Pose> first_distinct(const std::vector<Pose> &poses)
+// The best that are different places.
+std::vector<Pose> first_distinct(const std::vector<Pose> &poses, const std::vector<double> &scores)
 {
     std::vector<Pose> distinct;
-    for (const Pose &pose : poses) {
+    for (const size_t k : best_of(scores, scores.size())) {
         const bool is_new = std::all_of(distinct.begin(), distinct.end(),
-                                        [&](const Pose &other) { return are_distinct(pose, other); });
+                                        [&](const Pose &other) { return are_distinct(poses[k], other); });
         if (is_new && distinct.size() < PlaceSearch::most_found) {
-            distinct.push_back(pose);
+            distinct.push_back(poses[k]);
         }
     }
     return distinct;
@@ -74,7 +87,8 @@ std::vector<Pose> first_distinct(const std::vector<Pose> &poses)
 } // namespace
 
 PlaceSearch::PlaceSearch(const Place &place)
-    : field_(place.field()), pooled_(field_.pooled(step_cells)), normals_(histogram_of(place.points()))
+    : field_(place.field()), blocks_(field_, block_log2, step_cells), positions_(field_, step_log2, 0),
+      normals_(histogram_of(place.points()))
 {
 }
 
@@ -91,52 +105,70 @@ std::vector<size_t> PlaceSearch::best_turns(const std::vector<SurfacePoint> &poi
     return best_of(scores, searched_headings);
 }
 
-std::vector<Pose> PlaceSearch::best_blocks(const std::vector<SurfacePoint> &few,
-                                           const std::vector<size_t> &turns) const
+PlaceSearch::Turned PlaceSearch::turned(const std::vector<SurfacePoint> &few,
+                                        const std::vector<size_t> &turns) const
 {
-    std::vector<double> scores;
-    scores.reserve(turns.size() * side * side);
-    std::vector<double> sums;
+    Turned all;
     for (const size_t turn : turns) {
         const Eigen::Matrix2d r = rotation(wrapped(static_cast<double>(turn) * heading_step));
-        sums.assign(static_cast<size_t>(side) * side, 0);
+        std::vector<LikelihoodField::Cell> &cells = all.emplace_back();
         for (const SurfacePoint &point : few) {
-            pooled_.add_likelihoods_around(r * point.p, blocks_each_way, block_cells, &sums);
+            cells.push_back(field_.cell_at(r * point.p));
         }
-        scores.insert(scores.end(), sums.begin(), sums.end());
     }
-    std::vector<Pose> blocks;
-    for (const size_t k : best_of(scores, searched_blocks)) {
-        blocks.push_back(block_pose(k, turns));
+    return all;
+}
+
+std::vector<PlaceSearch::Position> PlaceSearch::best_blocks(const Turned &points) const
+{
+    constexpr size_t places = static_cast<size_t>(side) * side;
+    constexpr int first = -blocks_each_way * block_cells;
+    std::vector<uint16_t> sums(points.size() * places, 0);
+    for (size_t turn = 0; turn < points.size(); turn++) {
+        for (const LikelihoodField::Cell &cell : points[turn]) {
+            blocks_.add({cell.column + first, cell.row + first}, side, &sums[turn * places]);
+        }
+    }
+    std::vector<Position> blocks;
+    for (const size_t k : best_sums(sums, searched_blocks)) {
+        const int place = static_cast<int>(k % places);
+        blocks.push_back({k / places, displacement(place % side), displacement(place / side)});
     }
     return blocks;
 }
 
-std::vector<Pose> PlaceSearch::best_positions(const std::vector<SurfacePoint> &few,
-                                              const std::vector<Pose> &blocks) const
+std::vector<PlaceSearch::Position> PlaceSearch::best_positions(const Turned &points,
+                                                               const std::vector<Position> &blocks) const
 {
-    std::vector<Pose> poses;
-    std::vector<double> scores;
-    for (const Pose &block : blocks) {
-        for (int k = 0; k < 4; k++) {
-            poses.push_back({block.x + (k % 2) * step_m, block.y + (k / 2) * step_m, block.theta});
-            scores.push_back(score_of(poses.back(), few, field_));
+    std::vector<uint16_t> sums(4 * blocks.size(), 0);
+    for (size_t k = 0; k < blocks.size(); k++) {
+        for (const LikelihoodField::Cell &cell : points[blocks[k].turn]) {
+            positions_.add({cell.column + blocks[k].x, cell.row + blocks[k].y}, 2, &sums[4 * k]);
         }
     }
-    return chosen(poses, scores, scored_positions);
+    std::vector<Position> best;
+    for (const size_t k : best_sums(sums, scored_positions)) {
+        const Position &block = blocks[k / 4];
+        const int along = static_cast<int>(k % 4);
+        best.push_back({block.turn, block.x + along % 2 * step_cells, block.y + along / 2 * step_cells});
+    }
+    return best;
 }
 
 std::vector<LoopMatch> PlaceSearch::find(const std::vector<SurfacePoint> &points) const
 {
-    const std::vector<SurfacePoint> few = thinned(points, coarse_points);
+    const std::vector<size_t> turns = best_turns(points);
+    const Turned few = turned(thinned(points, coarse_points), turns);
     const std::vector<SurfacePoint> more = thinned(points, scored_points);
-    const std::vector<Pose> positions = best_positions(few, best_blocks(few, best_turns(points)));
+    std::vector<Pose> poses;
     std::vector<double> scores;
-    for (const Pose &pose : positions) {
-        scores.push_back(score_of(pose, more, field_));
+    for (const Position &position : best_positions(few, best_blocks(few))) {
+        poses.push_back({position.x * LikelihoodField::cell_m, position.y * LikelihoodField::cell_m,
+                         wrapped(static_cast<double>(turns[position.turn]) * heading_step)});
+        scores.push_back(score_of(poses.back(), more, field_));
     }
     std::vector<LoopMatch> found;
-    for (const Pose &pose : first_distinct(chosen(positions, scores, positions.size()))) {
+    for (const Pose &pose : first_distinct(poses, scores)) {
         const LoopMatch match = match_locally(points, field_, pose);
         const bool is_new = std::all_of(found.begin(), found.end(), [&](const LoopMatch &other) {
             return are_distinct(match.pose, other.pose);

@@ -13,6 +13,7 @@
 
 #include "graph/loops/loop_match.h"
 #include "graph/loops/place.h"
+#include "graph/loops/position_grid.h"
 
 namespace ale
 {
@@ -32,14 +33,23 @@ class PlaceSearch
     std::vector<LoopMatch> find(const std::vector<SurfacePoint> &points) const;
 
   private:
+    // Some of the points, turned each way that is searched, as cells of the field.
+    using Turned = std::vector<std::vector<LikelihoodField::Cell>>;
+    // A turn of those, and how many cells from the anchor.
+    struct Position {
+        size_t turn;
+        int x;
+        int y;
+    };
+
     std::vector<size_t> best_turns(const std::vector<SurfacePoint> &points) const;
-    std::vector<Pose> best_blocks(const std::vector<SurfacePoint> &few,
-                                  const std::vector<size_t> &turns) const;
-    std::vector<Pose> best_positions(const std::vector<SurfacePoint> &few,
-                                     const std::vector<Pose> &blocks) const;
+    Turned turned(const std::vector<SurfacePoint> &few, const std::vector<size_t> &turns) const;
+    std::vector<Position> best_blocks(const Turned &points) const;
+    std::vector<Position> best_positions(const Turned &points, const std::vector<Position> &blocks) const;
 
     const LikelihoodField &field_;
-    LikelihoodField pooled_;
+    PositionGrid blocks_;
+    PositionGrid positions_;
     std::vector<double> normals_; // how many point which way
 };
 
