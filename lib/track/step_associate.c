@@ -53,35 +53,52 @@ static ale_pose_t going_on(const ale_pipeline_t *p, const ale_ways_t *ways, ale_
     return ways->part ? ways->rival.pose : one_step_on;
 }
 
+/* Around the prediction, up to where the robot would be if it went on as before. Where the prediction is too
+ * far from that, the last scan can at most say that it is wrong: then around where the robot would be. */
+typedef struct {
+    ale_pose_t centre;
+    int32_t reach_um;
+    int32_t reach_urad;
+} window_t;
+
+static window_t window_of(const ale_pipeline_t *p, const ale_ways_t *ways, ale_pose_t before,
+                          int64_t sigma_um, int64_t sigma_urad)
+{
+    const ale_pose_t predicted = ways->believed.pose;
+    const ale_pose_t as_before = going_on(p, ways, before);
+    const ale_apart_t apart = ale_apart(predicted, as_before);
+    const bool far = apart.way_um > REGISTER_MOST_UM || apart.turn_urad > REGISTER_MOST_URAD;
+    const int64_t reach_um = REGISTER_UM + ale_max64(5 * sigma_um, far ? 0 : apart.way_um);
+    const int64_t reach_urad = REGISTER_URAD + ale_max64(5 * sigma_urad, far ? 0 : apart.turn_urad);
+    return (window_t){.centre = far ? as_before : predicted,
+                      .reach_um = (int32_t)ale_min64(reach_um, REGISTER_MOST_UM),
+                      .reach_urad = (int32_t)ale_min64(reach_urad, REGISTER_MOST_URAD)};
+}
+
 /* Where the last scan says that the robot is, to be fitted from there; where it says nothing, the
- * prediction. Looked for up to where the robot would be if it went on as before. */
+ * prediction. */
 static ale_registered_t register_to_scan(ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
-    const ale_ways_t *ways = &prediction->ways;
-    const ale_motion_t *predicted = &ways->believed;
+    const ale_motion_t *predicted = &prediction->ways.believed;
     const ale_pose_t before = prediction->before.pose;
-    const ale_pose_t as_before = going_on(p, ways, before);
-    const ale_apart_t apart = ale_apart(predicted->pose, as_before);
     const int64_t sigma_um =
         ale_max64(ale_matrix_sigma(&predicted->cov, 0), ale_matrix_sigma(&predicted->cov, 1));
     const int64_t sigma_urad = ale_matrix_sigma(&predicted->cov, 2);
-    const int64_t reach_um = ale_min64(REGISTER_UM + ale_max64(5 * sigma_um, apart.way_um), REGISTER_MOST_UM);
-    const int64_t reach_urad =
-        ale_min64(REGISTER_URAD + ale_max64(5 * sigma_urad, apart.turn_urad), REGISTER_MOST_URAD);
+    const window_t window = window_of(p, &prediction->ways, before, sigma_um, sigma_urad);
     const ale_seen_t last = ale_witness_seen(&p->witness);
     const ale_observations_t then = {last.observation, last.observation_count};
     const ale_observations_t now = {p->observed.observation, p->observed.count};
     ale_pose_t displacement =
-        ale_pose_between(last.robot, ale_pipeline_smooth_pose(p, before, predicted->pose));
-    if (!ale_match_scans(&p->scan_match, then, now, (int32_t)reach_um, (int32_t)reach_urad, &displacement)) {
+        ale_pose_between(last.robot, ale_pipeline_smooth_pose(p, before, window.centre));
+    if (!ale_match_scans(&p->scan_match, then, now, window.reach_um, window.reach_urad, &displacement)) {
         return (ale_registered_t){.pose = predicted->pose};
     }
     const ale_pose_t smooth = ale_pose_compose(last.robot, displacement);
     return (ale_registered_t){
         .found = true,
         .pose = ale_pose_compose(before, ale_pose_between(p->smooth.pose, smooth)),
-        .sigma_um = ale_max64(sigma_um, ale_scan_match_cell_um(reach_um)),
-        .sigma_urad = ale_max64(sigma_urad, ale_scan_match_step_urad(reach_urad)),
+        .sigma_um = ale_max64(sigma_um, ale_scan_match_cell_um(window.reach_um)),
+        .sigma_urad = ale_max64(sigma_urad, ale_scan_match_step_urad(window.reach_urad)),
     };
 }
 

@@ -134,4 +134,44 @@ TEST(StepRecover, OneStepThatNoRobotCanGoMovesNothing)
     }
 }
 
+/* A robot with a narrow view turns towards what no scan has shown; its wheels, once, jump on there. Returns
+ * how far it is off in the end, as off_after(). */
+double off_after_a_jump(double jumped_degrees, int at_scan)
+{
+    const double a_scan = 7 * reference::pi / 180;
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    room::Sensor narrow;
+    narrow.beams = 342;
+    narrow.first = -171 * narrow.step;
+    narrow.beam_time_ns = 0;
+    std::mt19937 rng(1);
+    ale_estimate_t e = {};
+    bool lost = false;
+    double turned = 0;
+    for (int k = 0; k < at_scan + 10; k++) {
+        turned = std::max(0, k - 20) * a_scan;
+        const bool has_jumped = k >= at_scan;
+        const double told = turned + (has_jumped ? jumped_degrees * reference::pi / 180 : 0);
+        const ale_odometry_t sample = {std::llround(crowded(k) * 1e6),
+                                       {0, has_jumped ? -850000 : 0, convert::bam(told)}};
+        ale_pipeline_odometry(p.get(), &sample);
+        const reference::Pose place(1, 0, turned);
+        const ale_scan_t scan = room::scan_at(
+            room::l_shape(), narrow, [&](double) { return place; }, crowded(k), rng);
+        ale_pipeline_scan(p.get(), &scan, &e);
+        lost = lost || e.state == ALE_STATE_LOST;
+    }
+    const double off = std::remainder(convert::radians(e.map.theta_bam) - turned, 2 * reference::pi);
+    return lost ? 1000 : std::hypot(e.map.x_um, e.map.y_um) * 1e-6 + std::abs(off);
+}
+
+TEST(StepRecover, AJumpOfTheWheelsToWhatTheMapDoesNotHoldIsNotFollowed)
+{
+    for (const int scan : {22, 23, 24}) {
+        for (const double degrees : {-70.0, 60.0, 90.0, 130.0}) {
+            EXPECT_LT(off_after_a_jump(degrees, scan), 0.01) << degrees << " degrees before scan " << scan;
+        }
+    }
+}
+
 } // namespace
