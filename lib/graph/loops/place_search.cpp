@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace ale
 {
@@ -14,8 +15,9 @@ constexpr int step_log2 = 1;
 constexpr int step_cells = 1 << step_log2;
 constexpr int block_log2 = step_log2 + 1; // two positions along each axis
 constexpr int block_cells = 1 << block_log2;
-constexpr double block_m = block_cells * LikelihoodField::cell_m;
-constexpr int blocks_each_way = static_cast<int>(PlaceSearch::half_m / block_m + 0.5);
+constexpr int blocks_each_way = 16;
+static_assert(blocks_each_way * block_cells * LikelihoodField::cell_m > PlaceSearch::half_m - 1e-9,
+              "half_m is searched");
 constexpr int side = 2 * blocks_each_way + 1;
 constexpr int headings = 180;
 constexpr double heading_step = 2 * pi / headings;
@@ -111,10 +113,12 @@ PlaceSearch::Turned PlaceSearch::turned(const std::vector<SurfacePoint> &few,
     Turned all;
     for (const size_t turn : turns) {
         const Eigen::Matrix2d r = rotation(wrapped(static_cast<double>(turn) * heading_step));
-        std::vector<LikelihoodField::Cell> &cells = all.emplace_back();
+        std::vector<LikelihoodField::Cell> cells;
+        cells.reserve(few.size());
         for (const SurfacePoint &point : few) {
             cells.push_back(field_.cell_at(r * point.p));
         }
+        all.push_back(std::move(cells));
     }
     return all;
 }

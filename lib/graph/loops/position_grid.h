@@ -29,7 +29,8 @@ class PositionGrid
     size_t index_of(int column, int row) const
     {
         const int plane = row * stride_ + (column & (stride_ - 1));
-        return static_cast<size_t>(plane * columns_ + (column >> stride_log2_));
+        const int cell = plane * columns_ + (column >> stride_log2_);
+        return static_cast<size_t>(cell);
     }
 
     int width_;
