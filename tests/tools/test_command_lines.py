@@ -17,6 +17,7 @@ MISSING_FILE = {
     "ale-explore": (f"--world {ABSENT}", 1),
     "ale-fleet": (f"replay {ABSENT} --out table.csv --program ale-replay", 1),
     "ale-foxglove": (f"convert {ABSENT} out.mcap", 1),
+    "ale-grid": ("", 0),
     "ale-inspect": (f"{ABSENT} 0", 1),
     "ale-keys": (f"--list {ABSENT}", 1),
     "ale-latency": (ABSENT, 1),

@@ -116,7 +116,7 @@ def pose_message(x, y, theta, frame="map"):
 def test_a_client_gets_scan_lines_map_frames_and_plots_live(bridge, pulse):
     client = FoxgloveClient(bridge().url)
     wanted = {"/scan": "foxglove.LaserScan", "/lines": "foxglove.SceneUpdate", "/corners": "foxglove.SceneUpdate",
-              "/tf": "foxglove.FrameTransforms", "/pose": "foxglove.PoseInFrame", "/signals": "ale.signals"}
+              "/tf": "foxglove.FrameTransforms", "/pose": "foxglove.PoseInFrame", "/signals": "ale.signals", "/occupancy": "foxglove.Grid"}
     for topic, schema in wanted.items():
         client.subscribe(topic)
         assert client.channels[topic]["schemaName"] == schema
@@ -152,6 +152,24 @@ def test_what_is_shown_is_recorded_and_is_what_the_robot_said(bridge, robot, tmp
     assert (graph.lines[3].points[1].x, graph.lines[3].points[1].y) == pytest.approx(GRAPH[20][:2]) and graph.frame_id == "map"
     assert "streaming" in {message.message for _, _, message in found["/log"]}
     assert found["/health"][-1][2]["counters"]["bad_checksum"] == 3
+    assert {schema for schema, _, _ in found["/occupancy"]} == {"foxglove.Grid"}
+    check_cells(found["/occupancy"][-1][2])
+
+
+def check_cells(grid):
+    """Of the double's two rooms: walls, what it stands in, what lies behind a wall."""
+    assert grid.frame_id == "map" and (grid.cell_size.x, grid.cell_size.y) == (0.05, 0.05)
+    assert [(field.name, field.offset) for field in grid.fields] == [("red", 0), ("green", 1), ("blue", 2), ("alpha", 3), ("occupancy", 4)]
+    assert grid.cell_stride == 5 and grid.row_stride == 5 * grid.column_count and len(grid.data) % grid.row_stride == 0
+
+    def at(x, y):
+        column, row = (math.floor((to - of) / 0.05) for to, of in ((x, grid.pose.position.x), (y, grid.pose.position.y)))
+        return grid.data[row * grid.row_stride + column * 5:][:5]
+    for x1, y1, x2, y2 in WALLS:  # on the border of two cells
+        about = [at((x1 + x2) / 2 + dx, (y1 + y2) / 2 + dy) for dx in (-0.02, 0.02) for dy in (-0.02, 0.02)]
+        assert bytes((235, 235, 235, 255, 100)) in about, "a wall is bright"
+    assert at(0.5, 0.2) == bytes((110, 125, 140, 90, 0)), "free is faint"
+    assert at(0.05, 0.95) == at(-2.3, 0) == bytes((0, 0, 0, 0, 255)), "within the pillar, and outside: nothing is drawn"
 
 
 def test_one_robot_among_several_has_topics_frames_and_commands_of_its_own(bridge, robot, pulse, commands, alice, tmp_path):
@@ -179,6 +197,7 @@ def test_one_robot_among_several_has_topics_frames_and_commands_of_its_own(bridg
     for topic in ("/rover1/lines", "/rover1/corners"):
         assert {each.frame_id for _, _, message in found[topic] for each in message.entities} == {"rover1/laser"}
     assert found["/rover1/scan"][0][2].frame_id == "rover1/laser" and found["/rover1/pose"][0][2].frame_id == "rover1/map"
+    assert found["/rover1/occupancy"][-1][2].frame_id == "rover1/map"
 
 
 @pytest.mark.parametrize("words", [["--namespace", "a b"], ["--namespace", "/a"], ["layout", "--namespace", "a/", "F"], ["layout"], ["--port", "x"]])
@@ -282,6 +301,7 @@ def test_a_recording_becomes_an_mcap_that_its_own_reader_takes_and_comes_back_th
         summary = mcap_reader.make_reader(file, validate_crcs=True).get_summary()
     assert counts == {summary.channels[k].topic: count for k, count in summary.statistics.channel_message_counts.items()}
     assert counts["/scan"] == counts["/pose"] == counts["/lines"] > 100 and counts["/map"] > 5
+    assert counts["/occupancy"] == 3, "of twelve seconds, one every ten, and the one in the end"
     assert 10 <= counts["/graph"] <= 14, "of twelve seconds, one a second at most, and the one in the end"
     assert converted(shown, tmp_path / "again.scip").read_bytes() == scip.read_bytes()
     log = converted(shown, tmp_path / "drive.lcm")
@@ -351,7 +371,7 @@ def test_the_layout_names_only_what_the_bridge_sends_and_takes(words, space, tmp
     assert run("layout", *words, tmp_path / "ale.json").returncode == 0
     layout = json.loads((tmp_path / "ale.json").read_text(encoding="utf-8"))
     panels = layout["configById"]
-    topics = {"/map", "/graph", "/plan", "/scan", "/lines", "/corners", "/pose", "/odometry"}
+    topics = {"/map", "/occupancy", "/graph", "/plan", "/scan", "/lines", "/corners", "/pose", "/odometry"}
     assert set(panels["3D!robot"]["topics"]) == {space + topic for topic in topics}
     assert panels["3D!robot"]["followTf"] == f"{space}/map".lstrip("/") and panels["Teleop!drive"]["topic"] == f"{space}/cmd_vel"
     assert panels["CallService!command"]["serviceName"] == f"{space}/ale/command"

@@ -18,6 +18,7 @@ from .near import Missing, program
 
 SCIP = b"ALESCIP1"
 ATTACHED = "original"
+SECONDS_A_GRID = 10  # a whole map each
 MEDIA = {".scip": "application/x-ale-scip", ".lcm": "application/x-lcm-log"}
 
 
@@ -113,14 +114,20 @@ def write_mcap(recording, out):
     try:
         import foxglove
 
+        from .cells import Cells
+        from .names import Names
         from .scene import Scene
     except ImportError as error:
         raise Missing("MCAP is written by Python's package foxglove-sdk: pip install foxglove-sdk") from error
     context = foxglove.Context()
     scene = Scene(context)
     with foxglove.open_mcap(str(out), context=context, allow_overwrite=True) as file:
-        for event in lcm_log.events(recording.with_poses()):
-            scene.take(event.channel, event.data)
+        with Cells(context, Names(), SECONDS_A_GRID) as cells:
+            for event in lcm_log.events(recording.with_poses()):
+                scene.take(event.channel, event.data)
+                cells.take(event.channel, event.data)
+        if cells.failed:
+            raise CannotConvert(cells.failed)
         kind, path = recording.original or (".lcm", recording.as_sent())
         now = time.time_ns()
         file.attach(log_time=now, create_time=now, name=ATTACHED + kind, media_type=MEDIA[kind], data=path.read_bytes())

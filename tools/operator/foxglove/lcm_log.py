@@ -2,6 +2,7 @@
 
     for event in lcm_log.events(path): event.utime, event.channel, event.data
     with lcm_log.Writer(path) as log: log.put(utime, "ALE_SCAN", message.encode())
+    pipe.write(lcm_log.event(number, utime, "ALE_SCAN", message.encode()))
 """
 import struct
 import typing
@@ -35,14 +36,19 @@ def events(path):
             yield Event(utime, name.decode("ascii", "replace"), data)
 
 
+def event(number, utime, channel, data):
+    """Its bytes in a log."""
+    name = channel.encode("ascii")
+    return HEADER.pack(SYNC, number, utime, len(name), len(data)) + name + data
+
+
 class Writer:
     def __init__(self, path):
         self.file = open(path, "wb")  # noqa: SIM115 (closed by close)
         self.number = 0
 
     def put(self, utime, channel, data):
-        name = channel.encode("ascii")
-        self.file.write(HEADER.pack(SYNC, self.number, utime, len(name), len(data)) + name + data)
+        self.file.write(event(self.number, utime, channel, data))
         self.number += 1
 
     def close(self):

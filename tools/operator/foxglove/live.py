@@ -11,6 +11,7 @@ from foxglove import websocket
 
 from . import bus as lcm_bus
 from . import orders, scene
+from .cells import Cells
 from .names import Names
 from .near import program
 from .recording import Recording
@@ -18,6 +19,7 @@ from .recording import Recording
 SCHEMA = {"type": "object", "title": "ale.command", "properties": {"words": {"type": "string"}}}
 ANSWER = {"type": "object", "title": "ale.answer", "properties": {"obeyed": {"type": "boolean"}, "words": {"type": "string"}}}
 DRIVES_A_SECOND = 20
+SECONDS_A_GRID = 2
 ONLY_RECORDED = ["ALE_ODOMETRY_EXACT", "ALE_SPEAKER"]
 
 
@@ -130,15 +132,17 @@ def run(options):
         capabilities=[websocket.Capability.ClientPublish, websocket.Capability.Services], supported_encodings=["json"],
         services=[service(given, names)], message_backlog_size=256)
     recording = Recording(options.record, context) if options.record else contextlib.nullcontext()
+    cells = Cells(context, names, SECONDS_A_GRID)
     stopping = threading.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stopping.set())
     print(f"ws://{options.host}:{server.port}", flush=True)
     try:
-        with recording as record:
+        with recording as record, cells:
             while not stopping.is_set():
                 for channel, data in heard.receive(0.2):
                     shown.take(channel, data)
+                    cells.take(channel, data)
                     if record:
                         record.take(channel, data)
     finally:

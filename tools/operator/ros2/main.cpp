@@ -12,10 +12,10 @@
 #include "common/feed/lcm_feed.h"
 #include "common/feed/map_parts.h"
 #include "common/feed/map_pieces.h"
+#include "common/feed/occupancy.h"
 #include "operator/ros2/commander.h"
 #include "operator/ros2/dds.h"
 #include "operator/ros2/diagnostics.h"
-#include "operator/ros2/occupancy.h"
 #include "operator/ros2/robot_topics.h"
 #include "operator/ros2/ros_commands.h"
 
@@ -200,7 +200,7 @@ class Bridge
     feed::LcmFeed feed_;
     feed::MapParts parts_;
     feed::MapPieces pieces_;
-    ros2::Occupancy occupancy_;
+    feed::Occupancy occupancy_;
     ros2::Commander commander_;
     ros2::Participant participant_;
     ros2::RobotTopics topics_;

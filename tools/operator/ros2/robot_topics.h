@@ -14,10 +14,11 @@
 
 #include "ale/scan_t.hpp"
 #include "ale/tracking_t.hpp"
+#include "common/export/occupancy_grid.h"
+#include "common/feed/map_pieces.h"
 #include "nav_msgs.h"
 #include "operator/ros2/dds.h"
 #include "operator/ros2/markers.h"
-#include "operator/ros2/occupancy.h"
 #include "sensor_msgs.h"
 #include "tf2_msgs.h"
 

@@ -1,9 +1,9 @@
-#include "operator/ros2/occupancy.h"
+#include "common/feed/occupancy.h"
 
 #include <algorithm>
 #include <stdexcept>
 
-namespace ros2
+namespace feed
 {
 
 namespace
@@ -14,9 +14,9 @@ constexpr int64_t most_cells = 16000000;
 
 } // namespace
 
-void Occupancy::take(const ale::map_t &map, const feed::MapPieces &pieces)
+void Occupancy::take(const ale::map_t &map, const MapPieces &pieces)
 {
-    map_ = feed::core_map(map, pieces);
+    map_ = core_map(map, pieces);
     const auto end = std::remove_if(map_->line, map_->line + map_->line_count, ale::is_apart);
     map_->line_count = static_cast<uint16_t>(end - map_->line);
     changed_ = true;
@@ -36,4 +36,4 @@ ale::OccupancyGrid Occupancy::grid()
     }
 }
 
-} // namespace ros2
+} // namespace feed

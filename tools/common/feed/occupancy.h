@@ -7,8 +7,8 @@
  *
  * Walls are always those of the newest map; what scans saw is begun anew with it (common/feed/seen_space.h).
  */
-#ifndef ROS2_OCCUPANCY_H
-#define ROS2_OCCUPANCY_H
+#ifndef ALE_COMMON_FEED_OCCUPANCY_H
+#define ALE_COMMON_FEED_OCCUPANCY_H
 
 #include <memory>
 
@@ -16,7 +16,7 @@
 #include "common/feed/core_types.h"
 #include "common/feed/seen_space.h"
 
-namespace ros2
+namespace feed
 {
 
 class Occupancy
@@ -27,7 +27,7 @@ class Occupancy
         changed_ = seen_.take(message) || changed_;
     }
     /* Only walls of the first map are drawn. */
-    void take(const ale::map_t &map, const feed::MapPieces &pieces);
+    void take(const ale::map_t &map, const MapPieces &pieces);
 
     /* There is something to show that the last grid() has not. */
     bool has_changed() const
@@ -39,10 +39,10 @@ class Occupancy
 
   private:
     std::unique_ptr<ale_map_t> map_ = std::make_unique<ale_map_t>();
-    feed::SeenSpace seen_;
+    SeenSpace seen_;
     bool changed_ = false;
 };
 
-} // namespace ros2
+} // namespace feed
 
 #endif
