@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""A program of Python in one file: python_program.py OUT FOLDER INTERPRETER [PACKAGE]...
+"""A program of Python in one file: python_program.py OUT FOLDER INTERPRETER [PACKAGE | MODULE]...
 
-The modules of FOLDER as package ale_NAME, whose main.main() is run, what lies beside them (*.json), the release as version.txt,
-and other packages whole. The same bytes whenever it is made. INTERPRETER: /usr/bin/python3 where Debian's packages are enough,
-/usr/bin/env where those of a virtual environment must be found.
+The modules of FOLDER as package ale_NAME, whose main.main() is run, what lies beside them (*.json), the release as version.txt;
+other packages whole; a MODULE (.py) that another program or package shares, among its own. The same bytes whenever it is made.
+INTERPRETER: /usr/bin/python3 where Debian's packages are enough, /usr/bin/env where those of a virtual environment must be found.
 """
 import pathlib
 import re
@@ -32,6 +32,8 @@ def contents(folder, packages):
     files[f"{name}/version.txt"] = release().encode()
     files["__main__.py"] = MAIN.format(name=name).encode()
     for package in packages:
+        if package.suffix == ".py":
+            files[f"{name}/{package.name}"] = package.read_bytes()
         files |= {f"{package.name}/{path.relative_to(package)}": path.read_bytes() for path in package.rglob("*.py")}
     return files
 

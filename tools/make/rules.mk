@@ -190,12 +190,12 @@ $$(OBJ)/$(1)/page.o: $$(OBJ)/$(1)/page.cpp $$(FLAGS_STAMP)
 endef
 $(foreach tool,$(TOOL_FOLDERS),$(eval $(call program,$(tool))))
 
-PACKED_foxglove = $(BUILD)/python/ale
+PACKED_foxglove = $(BUILD)/python/ale tools/library/python/src/ale/ros_messages.py
 PACKED_plot = $(BUILD)/python/ale
 INTERPRETER_foxglove = /usr/bin/env
 
 define python_program
-$(BUILD)/bin/ale-$(notdir $(1)): $$(wildcard $(1)/*.py $(1)/*.json) lib/base/version.h tools/make/python_program.py $$(if $$(PACKED_$(notdir $(1))),$$(LCM_STAMP))
+$(BUILD)/bin/ale-$(notdir $(1)): $$(wildcard $(1)/*.py $(1)/*.json) lib/base/version.h tools/make/python_program.py $$(filter %.py,$$(PACKED_$(notdir $(1)))) $$(if $$(PACKED_$(notdir $(1))),$$(LCM_STAMP))
 	$$(call say,python,$$@)
 	@mkdir -p $$(@D)
 	$$(Q)$$(PYTHON) tools/make/python_program.py $$@ $(1) $$(or $$(INTERPRETER_$(notdir $(1))),/usr/bin/python3) $$(PACKED_$(notdir $(1)))

@@ -6,7 +6,6 @@ Read by PyPI's `rosbags` without ROS; MCAP without a bag's folder about it by `m
 Odometry, or /tf from `odom` to the robot where there is none; the mounting of the laser from /tf_static or /tf, as far as it is a turn
 about the vertical.
 """
-import itertools
 import json
 import math
 import pathlib
@@ -16,13 +15,11 @@ import ale
 
 from .lcm_log import Event
 from .near import Missing
+from .ros_messages import (ECHOES, FRAMES, KINDS, LASER, ODOMETRY, Message, Rig, frame_name, kind_of, messages, moves, odometry_first,
+                           place, ranges_of)
 
 MOST_BEAMS = 1081
 ROS1, MCAP = b"#ROSBAG V2.0", b"\x89MCAP0\r\n"
-LASER, ECHOES, ODOMETRY, FRAMES = ("sensor_msgs/msg/LaserScan", "sensor_msgs/msg/MultiEchoLaserScan", "nav_msgs/msg/Odometry",
-                                   "tf2_msgs/msg/TFMessage")
-OLD_FRAMES = "tf/msg/tfMessage"  # the same, of ROS 1 before 2013
-WANTED = (LASER, ECHOES, ODOMETRY, FRAMES, OLD_FRAMES)
 NO_RETURN, UNKNOWN, TOO_NEAR = 0x81, 0x82, 0x85
 
 
@@ -48,18 +45,11 @@ def needed(name):
         raise Missing(f"bags and MCAP are read by Python's package {package}: pip install {package}") from error
 
 
-def kind_of(name):
-    return FRAMES if name == OLD_FRAMES else name
-
-
 def ros_messages(path):
-    """(type, topic, nanoseconds, message) of a bag."""
     reader_module = needed("rosbags.highlevel")
     stores = needed("rosbags.typesys")
     with reader_module.AnyReader([pathlib.Path(path)], default_typestore=stores.get_typestore(stores.Stores.ROS2_HUMBLE)) as reader:
-        connections = [connection for connection in reader.connections if connection.msgtype in WANTED]
-        for connection, at, raw in reader.messages(connections=connections):
-            yield kind_of(connection.msgtype), connection.topic, at, reader.deserialize(raw, connection.msgtype)
+        yield from messages(reader, [connection for connection in reader.connections if kind_of(connection.msgtype) in KINDS])
 
 
 def mcap_messages(path):
@@ -70,18 +60,12 @@ def mcap_messages(path):
     with open(path, "rb") as file:
         for schema, channel, message in readers.make_reader(file).iter_messages():
             name = (schema.name if schema else "").replace("/msg/", "/").replace("/", "/msg/")
-            if name in WANTED and channel.message_encoding in store:
+            if kind_of(name) in KINDS and channel.message_encoding in store:
                 types = store[channel.message_encoding]
                 decode = types.deserialize_cdr if channel.message_encoding == "cdr" else types.deserialize_ros1
-                yield kind_of(name), channel.topic, message.log_time, decode(message.data, name)
+                yield Message(kind_of(name), channel.topic, message.log_time, decode(message.data, name))
             elif schema and schema.name == "foxglove.LaserScan":
-                yield LASER, channel.topic, message.log_time, foxglove_scan(schema, channel, message)
-
-
-def odometry_first(messages):
-    """Of messages of the same time, whose order a bag does not tell, odometry before the scan that it leads to."""
-    for _, together in itertools.groupby(messages, key=lambda message: message[2]):
-        yield from sorted(together, key=lambda message: message[0] in (LASER, ECHOES))
+                yield Message(LASER, channel.topic, message.log_time, foxglove_scan(schema, channel, message))
 
 
 class Fields:
@@ -109,36 +93,6 @@ def foxglove_scan(schema, channel, message):
 
 def utime_of(header):
     return header.stamp.sec * 1000000 + header.stamp.nanosec // 1000
-
-
-def heading(turn):
-    return math.atan2(2 * (turn.w * turn.z + turn.x * turn.y), 1 - 2 * (turn.y * turn.y + turn.z * turn.z))
-
-
-def name_of(frame):
-    return frame.lstrip("/")
-
-
-class Frames:
-    """Who is mounted where, as far as /tf_static and /tf have told: the first word on each pair counts."""
-
-    def __init__(self):
-        self.parent = {}
-
-    def take(self, message):
-        for each in message.transforms:
-            move = each.transform.translation
-            self.parent.setdefault(name_of(each.child_frame_id), (name_of(each.header.frame_id), move.x, move.y,
-                                                                  heading(each.transform.rotation)))
-
-    def mounting(self, frame, robot):
-        """(x, y, theta) of a frame as seen from the robot's, or None."""
-        x, y, theta, steps = 0.0, 0.0, 0.0, 0
-        while frame != robot and frame in self.parent and steps < 20:
-            frame, px, py, turn = self.parent[frame]
-            c, s = math.cos(turn), math.sin(turn)
-            x, y, theta, steps = px + c * x - s * y, py + s * x + c * y, theta + turn, steps + 1
-        return (x, y, theta) if frame == robot else None
 
 
 def code_of(distance, scan):
@@ -186,29 +140,17 @@ def lcm_exact(utime, x, y, theta):
 
 class Survey:
     """What must be known of a bag before its first scan: who is mounted where may be told late; how far a scanner sees that does
-    not say so, by its scans alone; what the robot's frame is called, and whether there are messages of odometry or /tf alone."""
+    not say so, by its scans alone."""
 
-    def __init__(self, messages):
-        self.frames, self.furthest, self.robot, self.moved = Frames(), 0.0, None, None
-        for kind, topic, _, message in messages:
-            if kind == FRAMES:
-                self.frames.take(message)
-                self.moved = self.moved or next((name_of(each.child_frame_id) for each in moves(topic, message)), None)
-            elif kind == ODOMETRY:
-                self.robot = self.robot or name_of(message.child_frame_id) or "base_link"
-            elif kind == LASER and message.range_max is None:
-                self.furthest = max([self.furthest, *(r for r in message.ranges if math.isfinite(r))])
-        self.has_odometry = self.robot is not None
-        self.robot = self.robot or self.moved or "base_link"
+    def __init__(self, told):
+        self.rig, self.furthest = Rig(), 0.0
+        for message in told:
+            self.rig.take(message)
+            if message.kind == LASER and message.content.range_max is None:
+                self.furthest = max([self.furthest, *(r for r in message.content.ranges if math.isfinite(r))])
 
     def mounting(self, frame):
-        return self.frames.mounting(name_of(frame), self.robot) or (0.0, 0.0, 0.0)
-
-
-def moves(topic, message):
-    """Where the robot is in the frame of its wheels, of transforms that change."""
-    changing = not topic.endswith("tf_static")
-    return [each for each in message.transforms if changing and name_of(each.header.frame_id).split("/")[-1].startswith("odom")]
+        return self.rig.mounting(frame) or (0.0, 0.0, 0.0)
 
 
 class Converter:
@@ -228,40 +170,37 @@ class Converter:
             print(f"ale-foxglove: {topic} is left out: {self.topics[group]} came first", file=sys.stderr)
         return chosen
 
-    def events(self, kind, topic, message):
-        if kind == FRAMES:
-            yield from self.moved(moves(topic, message))
-        elif self.wants(kind, topic):
-            yield from self.wheels(message) if kind == ODOMETRY else self.scan(kind, message)
+    def events(self, message):
+        if message.kind == FRAMES:
+            yield from self.moved(moves(message))
+        elif self.wants(message.kind, message.topic):
+            yield from self.wheels(message.content) if message.kind == ODOMETRY else self.scan(message.content)
 
     def moved(self, transforms):
-        for each in transforms if not self.survey.has_odometry else ():
-            if name_of(each.child_frame_id) == self.survey.robot:
-                move = each.transform
-                yield from placed(utime_of(each.header), move.translation, move.rotation)
+        for each in transforms if not self.survey.rig.has_odometry else ():
+            if frame_name(each.child_frame_id) == self.survey.rig.robot:
+                yield from placed(utime_of(each.header), place(each.transform.translation, each.transform.rotation))
 
-    def wheels(self, message):
-        return placed(utime_of(message.header), message.pose.pose.position, message.pose.pose.orientation)
+    def wheels(self, odometry):
+        return placed(utime_of(odometry.header), place(odometry.pose.pose.position, odometry.pose.pose.orientation))
 
-    def scan(self, kind, message):
-        ranges = message.ranges if kind == LASER else [r.echoes[0] if len(r.echoes) else math.nan for r in message.ranges]
-        made = lcm_scan(message, ranges, self.scans, self.survey.mounting(message.header.frame_id))
+    def scan(self, scan):
+        made = lcm_scan(scan, ranges_of(scan), self.scans, self.survey.mounting(scan.header.frame_id))
         self.scans += 1
-        yield Event(utime_of(message.header), "ALE_SCAN", made.encode())
+        yield Event(utime_of(scan.header), "ALE_SCAN", made.encode())
 
 
-def placed(utime, position, rotation):
-    place = (utime, position.x, position.y, heading(rotation))
-    yield Event(utime, "ALE_ODOMETRY_EXACT", lcm_exact(*place).encode())
-    yield Event(utime, "ALE_ODOMETRY", lcm_odometry(*place).encode())
+def placed(utime, where):
+    yield Event(utime, "ALE_ODOMETRY_EXACT", lcm_exact(utime, *where).encode())
+    yield Event(utime, "ALE_ODOMETRY", lcm_odometry(utime, *where).encode())
 
 
 def events(path):
     """The bag is read twice (Survey)."""
-    messages = mcap_messages if is_mcap(path) else ros_messages
-    survey = Survey(messages(path))
+    read = mcap_messages if is_mcap(path) else ros_messages
+    survey = Survey(read(path))
     converter = Converter(survey)
-    for kind, topic, _, message in odometry_first(messages(path)):
-        if kind == LASER and message.range_max is None:
-            message.range_max = survey.furthest + 0.001
-        yield from converter.events(kind, topic, message)
+    for message in odometry_first(read(path)):
+        if message.kind == LASER and message.content.range_max is None:
+            message.content.range_max = survey.furthest + 0.001
+        yield from converter.events(message)

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "ale/pose_t.hpp"
 #include "ale/scan_t.hpp"
 #include "ale/tracking_t.hpp"
 #include "common/export/occupancy_grid.h"
