@@ -4,6 +4,7 @@ import io
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import zipfile
@@ -38,6 +39,8 @@ class Hangar:
         shutil.copy(self.flights / f"{FLIGHT}.scip", self.recordings / f"{FLIGHT}.scip")
         whole = (self.flights / f"{FLIGHT}.scip").read_bytes()
         (self.flights / "cut.scip").write_bytes(whole[:1000])
+        middle = len(whole) // 2
+        self.damaged = whole[:middle] + bytes(3000) + whole[middle + 3000:-100]  # in two places
         self.console = Console(free_lcm_url(), "127.0.0.1:0", "--recordings", self.recordings, "--flights", self.flights)
 
 
@@ -78,6 +81,20 @@ def test_a_flight_is_replayed_and_looked_at_as_a_recording_is(hangar):
     assert page.wait_for("pose", lambda pose: pose["scan"] == SCANS - 1)["state"] == "good"
     assert len(page.wait_for("map")["lines"]) >= 4
     assert leftovers(hangar) == []
+
+
+def test_what_of_a_recording_is_damaged_is_told(hangar):
+    page = WebSocket(hangar.console.url)
+    assert opened(page, f"{FLIGHT}.scip")["damage"] is None and opened(page, f"{RECORDED}.lcm")["damage"] is None
+    flight, recording = hangar.flights / "damaged.scip", hangar.recordings / "damaged.lcm"
+    flight.write_bytes(hangar.damaged)
+    recording.write_bytes((hangar.recordings / f"{RECORDED}.lcm").read_bytes()[:-1000])
+    try:
+        assert opened(page, flight.name)["damage"] == "2 damaged places left out"
+        assert re.fullmatch(r"1 damaged place, [\d.]+ (bytes|kB), left out", opened(page, recording.name)["damage"])
+    finally:
+        flight.unlink()
+        recording.unlink()
 
 
 def leftovers(hangar):
@@ -193,3 +210,21 @@ def test_why_a_flight_cannot_be_shown_is_said_on_the_page(hangar, chromium):
     chromium.click("open-cut.scip")
     chromium.wait_for(f"{NOTE}.startsWith('It cannot be replayed: cut.scip: .scip recording log without a scan')")
     assert chromium.run(f"return {TIME}") == "now"
+
+
+@NEED_BROWSER
+def test_what_is_damaged_is_said_on_the_page_beside_the_time(hangar, chromium):
+    flight = hangar.flights / "damaged.scip"
+    flight.write_bytes(hangar.damaged)
+    try:
+        chromium.open(hangar.console.url)
+        chromium.wait_for("document.getElementById('shelf-more').textContent === '2 more'")
+        chromium.click("shelf-more")
+        chromium.click("open-damaged.scip")
+        chromium.wait_for(f"{TIME} === 'recording'")
+        assert chromium.text("past-damage") == "; 2 damaged places left out"
+        chromium.click(f"open-{FLIGHT}.scip")
+        chromium.wait_for(f"document.getElementById('open-{FLIGHT}.scip').ariaPressed === 'true'")
+        assert chromium.text("past-damage") == ""
+    finally:
+        flight.unlink()

@@ -164,7 +164,8 @@ bool Client::look(std::optional<int64_t> at_ms)
     looks_back_ = at_ms.has_value();
     if (at_ms) {
         const Past past = look_back(*at_ms);
-        past_ = {past_message(at_ms, past.span, recording_name_), trail_message({0, 0, past.way})};
+        past_ = {past_message(at_ms, past.span, recording_name_, recording_ ? recording_->damage() : ""),
+                 trail_message({0, 0, past.way})};
         std::transform(past.texts.begin(), past.texts.end(), std::back_inserter(past_),
                        [](const History::Text &text) { return *text; });
     } else {

@@ -374,11 +374,12 @@ std::string link_message(const LinkHealth &link, uint64_t skipped, const History
 }
 
 std::string past_message(std::optional<int64_t> at_ms, const History::Span &span,
-                         const std::string &recording)
+                         const std::string &recording, const std::string &damage)
 {
     return text_of({{"type", "past"},
                     {"at", at_ms ? json(*at_ms) : json(nullptr)},
                     {"recording", recording.empty() ? json(nullptr) : json(recording)},
+                    {"damage", damage.empty() ? json(nullptr) : json(damage)},
                     {"kept", json::array({span.from_ms, span.to_ms})}});
 }
 

@@ -12,6 +12,7 @@ export class Timeline {
     this.link = link;
     this.at = null; // what is shown is of then, milliseconds since 1970; null: of now
     this.recording = null; // its name, while one is looked at
+    this.damage = null; // what of it is left out, in words
     this.wanted = null; // asked for while an answer is on its way
     this.asked = false;
     this.kept = [0, 0];
@@ -29,7 +30,7 @@ export class Timeline {
 
   take(message) {
     switch (message.type) {
-      case "hello": this.at = this.wanted = this.recording = null; this.asked = false; this.kept = [0, 0]; this.#play(false); break;
+      case "hello": this.at = this.wanted = this.recording = this.damage = null; this.asked = false; this.kept = [0, 0]; this.#play(false); break;
       case "link": this.kept = message.kept; break;
       case "past": this.#answered(message); break;
       default: return;
@@ -45,6 +46,7 @@ export class Timeline {
   #answered(message) {
     this.asked = false;
     this.at = message.at;
+    this.damage = message.damage;
     if (message.recording !== this.recording) {
       this.recording = message.recording;
       this.wanted = null;
@@ -121,6 +123,8 @@ export class Timeline {
     element("past").hidden = !this.isPast;
     const words = this.#words();
     if (element("past-text").textContent !== words) element("past-text").textContent = words;
+    const damage = this.damage ? `; ${this.damage}` : "";
+    if (element("past-damage").textContent !== damage) element("past-damage").textContent = damage;
     element("when-text").textContent = this.recording ? lengthInWords(this.at - this.kept[0]) : this.isPast ? `-${lengthInWords(this.kept[1] - this.at)}` : lengthInWords(this.kept[1] - this.kept[0]);
     slider.setAttribute("aria-valuetext", this.isPast ? words : "now");
     element("timeline").setAttribute("aria-label", this.recording ? `The recording ${this.recording}` : "The last ten minutes");

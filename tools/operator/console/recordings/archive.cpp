@@ -261,12 +261,12 @@ std::shared_ptr<const OpenRecording> Archive::known(const std::string &name, int
 /* Times of a clock that knows no date are counted from when the file was written. */
 std::shared_ptr<const OpenRecording> Archive::replay(const Descriptor &file, const std::string &name) const
 {
-    Descriptor log = replayed(file, name, stopping_);
-    const int64_t end_ms = summary_of(log).to_us / 1000;
+    Replay made = replayed(file, name, stopping_);
+    const int64_t end_ms = summary_of(made.log).to_us / 1000;
     const int64_t named_ms = summary_of_flight(file, name).written_ms;
     const int64_t written_ms = named_ms != 0 ? named_ms : change_of(file) / 1000000;
-    return std::make_shared<const OpenRecording>(std::move(log),
-                                                 end_ms < first_date_ms ? written_ms - end_ms : 0);
+    return std::make_shared<const OpenRecording>(
+        std::move(made.log), end_ms < first_date_ms ? written_ms - end_ms : 0, std::move(made.damage));
 }
 
 std::shared_ptr<const OpenRecording> Archive::open(const std::string &name)

@@ -131,29 +131,34 @@ bool EventReader::take(EventPlace &event)
     return true;
 }
 
-/* To the next sync word, or the end. */
-void EventReader::skip_damage()
+/* From there on; the end of the file when there is none. */
+uint64_t EventReader::next_sync(uint64_t at)
 {
-    at_++;
-    while (at_ + ALE_LCM_EVENT_HEAD <= size_) {
-        if (look(at_, ALE_LCM_EVENT_HEAD) == nullptr) {
-            break;
-        }
-        const auto begin = window_.begin() + static_cast<std::ptrdiff_t>(at_ - window_at_);
+    while (at + ALE_LCM_EVENT_HEAD <= size_ && look(at, ALE_LCM_EVENT_HEAD) != nullptr) {
+        const auto begin = window_.begin() + static_cast<std::ptrdiff_t>(at - window_at_);
         const auto found =
             std::search(begin, window_.end(), std::begin(ale_lcm_event_sync), std::end(ale_lcm_event_sync));
         if (found != window_.end()) {
-            at_ += static_cast<uint64_t>(found - begin);
-            return;
+            return at + static_cast<uint64_t>(found - begin);
         }
-        at_ = window_at_ + window_.size() - (ALE_LCM_EVENT_SYNC - 1);
+        at = window_at_ + window_.size() - (ALE_LCM_EVENT_SYNC - 1);
     }
-    at_ = size_;
+    return size_;
+}
+
+/* A sync word in it that begins no event makes no other place of it. */
+void EventReader::skip_damage()
+{
+    const uint64_t from = at_;
+    at_ = next_sync(at_ + 1);
+    damage_.places += from != damage_end_;
+    damage_.bytes += at_ - from;
+    damage_end_ = at_;
 }
 
 bool EventReader::next(EventPlace &event)
 {
-    while (at_ + ALE_LCM_EVENT_HEAD <= size_) {
+    while (at_ < size_) {
         if (take(event)) {
             return true;
         }

@@ -53,6 +53,12 @@ class EventWriter
     uint64_t bytes_ = 0;
 };
 
+/* What was skipped, since no event can be made of it. */
+struct Damage {
+    uint64_t places = 0;
+    uint64_t bytes = 0;
+};
+
 /* Where an event lies in its file. */
 struct EventPlace {
     int64_t received_us = 0;
@@ -75,15 +81,23 @@ class EventReader
     {
         return size_;
     }
+    /* So far. */
+    const Damage &damage() const
+    {
+        return damage_;
+    }
 
   private:
     const uint8_t *look(uint64_t at, size_t count);
     bool take(EventPlace &event);
     void skip_damage();
+    uint64_t next_sync(uint64_t at);
 
     int file_;
     uint64_t size_ = 0;
     uint64_t at_;
+    Damage damage_;
+    uint64_t damage_end_ = UINT64_MAX;
     uint64_t window_at_ = 0;
     std::vector<uint8_t> window_;
 };

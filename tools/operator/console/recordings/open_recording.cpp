@@ -8,6 +8,7 @@
 #include "common/feed/map_parts.h"
 #include "common/feed/map_pieces.h"
 #include "operator/console/messages.h"
+#include "operator/console/recordings/damage_words.h"
 #include "operator/console/recordings/recorded_message.h"
 
 namespace console
@@ -48,7 +49,8 @@ template <class Entry> const Entry *newest(const std::vector<Entry> &entries, in
 
 } // namespace
 
-OpenRecording::OpenRecording(Descriptor file, int64_t later_ms) : file_(std::move(file))
+OpenRecording::OpenRecording(Descriptor file, int64_t later_ms, std::string damage)
+    : file_(std::move(file)), damage_(std::move(damage))
 {
     EventReader reader(file_);
     EventPlace event;
@@ -64,6 +66,18 @@ OpenRecording::OpenRecording(Descriptor file, int64_t later_ms) : file_(std::mov
     }
     if (to_ms_ == 0) {
         throw std::runtime_error("there is no message of a robot in this recording");
+    }
+    note_damage(reader.damage());
+}
+
+void OpenRecording::note_damage(const Damage &damage)
+{
+    const auto add = [this](const std::string &words) {
+        damage_ += (damage_.empty() || words.empty() ? "" : ", ") + words;
+    };
+    add(damage_words(damage));
+    if (senseless_ > 0) {
+        add(std::to_string(senseless_) + (senseless_ == 1 ? " message makes" : " messages make") + " no sense");
     }
 }
 
@@ -95,6 +109,14 @@ template <class Message> std::optional<Message> OpenRecording::message_of(const 
     return recorded_message<Message>(data_of(file_, {0, {}, place.data_at, place.data_bytes}));
 }
 
+/* The same, and one that makes no sense is counted. */
+template <class Message> std::optional<Message> OpenRecording::taken(const Place &place)
+{
+    auto message = message_of<Message>(place);
+    senseless_ += !message;
+    return message;
+}
+
 template <class Message>
 std::string OpenRecording::json_of(const Place &place, std::string (*words)(const Message &)) const
 {
@@ -104,7 +126,7 @@ std::string OpenRecording::json_of(const Place &place, std::string (*words)(cons
 
 void OpenRecording::take_pose(const Place &place)
 {
-    const auto pose = message_of<ale::pose_t>(place);
+    const auto pose = taken<ale::pose_t>(place);
     if (!pose) {
         return;
     }
@@ -120,7 +142,7 @@ void OpenRecording::take_pose(const Place &place)
 
 void OpenRecording::take_odometry(const Place &place)
 {
-    if (const auto sample = message_of<ale::odometry_t>(place)) {
+    if (const auto sample = taken<ale::odometry_t>(place)) {
         wheels_.odometry(*sample);
         take_wheels(place.at_ms);
     }
@@ -135,7 +157,7 @@ void OpenRecording::take_wheels(int64_t at_ms)
 
 void OpenRecording::take_map(const Place &place)
 {
-    const auto map = message_of<ale::map_t>(place);
+    const auto map = taken<ale::map_t>(place);
     if (map && map_parts_.add({map->version, map->part, map->parts, place})) {
         maps_.push_back({place.at_ms, map_parts_.take(), pieces_});
     }
@@ -143,7 +165,7 @@ void OpenRecording::take_map(const Place &place)
 
 void OpenRecording::take_pieces(const Place &place)
 {
-    const auto pieces = message_of<ale::map_pieces_t>(place);
+    const auto pieces = taken<ale::map_pieces_t>(place);
     if (pieces && piece_parts_.add({pieces->version, pieces->part, pieces->parts, place})) {
         pieces_ = piece_parts_.take();
     }

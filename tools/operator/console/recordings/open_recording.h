@@ -30,8 +30,9 @@ class OpenRecording
     static constexpr size_t most_messages = 2000000;
 
     /* Reads the file through. Throws std::runtime_error in words for people: the system's, no message of a
-     * robot in it, too many. later_ms: added to its times, where its clock knows no date. */
-    explicit OpenRecording(Descriptor file, int64_t later_ms = 0);
+     * robot in it, too many. later_ms: added to its times, where its clock knows no date. damage: of what it was
+     * made of, in words. */
+    explicit OpenRecording(Descriptor file, int64_t later_ms = 0, std::string damage = "");
 
     const Descriptor &file() const
     {
@@ -39,6 +40,12 @@ class OpenRecording
     }
 
     History::Span span() const;
+
+    /* What was left out, in words; empty: nothing. */
+    const std::string &damage() const
+    {
+        return damage_;
+    }
 
     /* As Board::look_back and Board::sample. */
     Past look_back(int64_t at_ms) const;
@@ -87,11 +94,15 @@ class OpenRecording
     static History::Text text_of(const Driven &driven);
     History::Text text_at(Topic topic, int64_t at_ms) const;
     History::Text map_text(int64_t at_ms) const;
+    void note_damage(const Damage &damage);
     template <class Message> std::optional<Message> message_of(const Place &place) const;
+    template <class Message> std::optional<Message> taken(const Place &place);
     template <class Message>
     std::string json_of(const Place &place, std::string (*words)(const Message &)) const;
 
     Descriptor file_;
+    std::string damage_;
+    uint64_t senseless_ = 0; /* messages that the way, the map or the wheels would have been of */
     int64_t from_ms_ = 0;
     int64_t to_ms_ = 0;
     std::array<std::vector<Place>, topic_count> places_;

@@ -4,10 +4,12 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -16,6 +18,8 @@
 #include <sys/statvfs.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "operator/console/recordings/damage_words.h"
 
 namespace console
 {
@@ -144,6 +148,21 @@ std::string complaint(std::string said, const std::string &path, const std::stri
     return line;
 }
 
+/* What it has left out, of all that it said. */
+std::string damage_of(const std::string &said)
+{
+    unsigned long long chunks = 0;
+    unsigned long long scans = 0;
+    const size_t at = said.find("skipped ");
+    if (at == std::string::npos ||
+        std::sscanf(said.c_str() + at, "skipped %llu bad lines or chunks and %llu scans", &chunks, &scans) < 2) {
+        return "";
+    }
+    const std::string places = chunks > 0 ? damage_words({chunks, 0}) : "";
+    const std::string larger = scans > 0 ? std::to_string(scans) + " scans of too many beams left out" : "";
+    return places + (chunks > 0 && scans > 0 ? ", " : "") + larger;
+}
+
 int status_of(pid_t child)
 {
     int status = -1;
@@ -154,7 +173,7 @@ int status_of(pid_t child)
 
 } // namespace
 
-Descriptor replayed(const Descriptor &recording, const std::string &name, const std::atomic<bool> &stopping)
+Replay replayed(const Descriptor &recording, const std::string &name, const std::atomic<bool> &stopping)
 {
     const std::string folder = temporary_folder();
     Descriptor log = nameless_file(folder);
@@ -189,7 +208,7 @@ Descriptor replayed(const Descriptor &recording, const std::string &name, const 
     if (status != 0) {
         fail("it cannot be replayed: " + complaint(said, order.from, name));
     }
-    return log;
+    return {std::move(log), damage_of(said)};
 }
 
 } // namespace console

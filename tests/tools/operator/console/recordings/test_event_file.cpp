@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <cstring>
+#include <utility>
 
 #include <fcntl.h>
 #include <lcm/eventlog.h>
@@ -116,6 +117,34 @@ TEST(EventFile, WhateverByteOfAHeadIsDamagedTheRestIsRead)
         files::write(path, whole.substr(0, size));
         EXPECT_LE(numbers_read(path).size(), 4U) << "cut at " << size;
     }
+}
+
+TEST(EventFile, WhatIsSkippedIsCounted)
+{
+    const files::TemporaryFolder folder;
+    const std::string path = (folder / "damaged.lcm").string();
+    write_five(path);
+    const auto damage_of = [&](const std::string &bytes) {
+        files::write(path, bytes);
+        const Descriptor file = opened(path, O_RDONLY);
+        EventReader reader(file);
+        EventPlace place;
+        while (reader.next(place)) {
+        }
+        return std::make_pair(reader.damage().places, reader.damage().bytes);
+    };
+    using Counts = std::pair<uint64_t, uint64_t>;
+    const std::string whole = files::content(path);
+    EXPECT_EQ(damage_of(whole), Counts(0, 0));
+    constexpr size_t head = 28 + 9; /* and the channel */
+    const size_t second = head;
+    const size_t fourth = 3 * head + 100 + 200;
+    std::string damaged = whole;
+    damaged[second] = damaged[fourth] = 0;
+    EXPECT_EQ(damage_of(damaged), Counts(2, 2 * head + 100 + 300));
+    damaged[second + head + 100] = 0; /* what lies between them, too: one place */
+    EXPECT_EQ(damage_of(damaged), Counts(1, 3 * head + 100 + 200 + 300));
+    EXPECT_EQ(damage_of(whole + "abc"), Counts(1, 3));
 }
 
 TEST(EventFile, LengthsThatCannotBeTakeNoMemory)

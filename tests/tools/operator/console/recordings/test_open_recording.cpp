@@ -127,6 +127,30 @@ TEST_F(Recording, ShowsWhatWasToBeSeenThen)
     EXPECT_EQ(json::parse(*sample[1])["scan"], 2);
 }
 
+TEST_F(Recording, OfWhichAllIsShownHasNoDamage)
+{
+    put_pose(0, 0, 0);
+    EXPECT_EQ(opened().damage(), "");
+}
+
+TEST_F(Recording, TellsWhatOfItIsLeftOut)
+{
+    put_pose(0, 0, 0);
+    writer_.put(begin_us + 50000, "ALE_POSE", nullptr, 0);
+    put_pose(100000, 1, 0);
+    put_pose(200000, 2, 0);
+    EXPECT_EQ(opened().damage(), "1 message makes no sense");
+    std::string bytes = files::content(path_);
+    const size_t whole = bytes.size();
+    const size_t second = whole - 2 * (28 + 8 + static_cast<size_t>(ale::pose_t().getEncodedSize()));
+    bytes[second] = static_cast<char>(bytes[second] ^ 1); /* in its sync word; the third is cut */
+    bytes.resize(whole - 5);
+    files::write(path_, bytes);
+    const OpenRecording damaged(Descriptor(open(path_.c_str(), O_RDONLY)), 0, "3 scans left out");
+    EXPECT_EQ(damaged.damage(), "3 scans left out, 1 damaged place, " + std::to_string(whole - 5 - second) +
+                                    " bytes, left out, 1 message makes no sense");
+}
+
 TEST_F(Recording, ChartsGetWheelsAndHowMuchWasSeen)
 {
     for (int k = 0; k < 10; k++) {

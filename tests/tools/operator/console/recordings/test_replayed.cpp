@@ -14,6 +14,7 @@
 #include "files.hpp"
 
 using console::Descriptor;
+using console::Replay;
 using console::replayed;
 
 namespace
@@ -42,7 +43,7 @@ class Replayed : public testing::Test
         std::filesystem::permissions(program_, std::filesystem::perms::owner_all);
     }
 
-    Descriptor replay()
+    Replay replay()
     {
         return replayed(Descriptor(open(flight_.c_str(), O_RDONLY | O_CLOEXEC)), "a.scip", stopping_);
     }
@@ -70,9 +71,10 @@ class Replayed : public testing::Test
 TEST_F(Replayed, TheLogIsAFileWithoutANameAndOthersComeFirst)
 {
     replay_by("test $2 = --lcm && (cat \"$1\"; nice) > \"$3\"");
-    const Descriptor log = replay();
+    const Replay made = replay();
+    EXPECT_EQ(made.damage, "");
     char text[16] = "";
-    EXPECT_GT(pread(log.number(), text, sizeof text - 1, 0), 0);
+    EXPECT_GT(pread(made.log.number(), text, sizeof text - 1, 0), 0);
     EXPECT_STREQ(text, "bytes19\n");
     EXPECT_TRUE(std::filesystem::is_empty(temporary_));
 }
@@ -87,6 +89,15 @@ TEST_F(Replayed, WhatItComplainsOfIsToldWithTheRecordingsOwnName)
     replay_by("kill -25 $$");
     EXPECT_EQ(complaint(), "there is no room in " + temporary_ + " to replay a.scip");
     EXPECT_TRUE(std::filesystem::is_empty(temporary_));
+}
+
+TEST_F(Replayed, WhatWasLeftOutIsTold)
+{
+    replay_by("echo $1: 5 scans >&2; echo 'ale-replay: skipped 2 bad lines or chunks and 0 scans of too many "
+              "beams; last: x' >&2");
+    EXPECT_EQ(replay().damage, "2 damaged places left out");
+    replay_by("echo 'ale-replay: skipped 1 bad lines or chunks and 3 scans of too many beams; last: x' >&2");
+    EXPECT_EQ(replay().damage, "1 damaged place left out, 3 scans of too many beams left out");
 }
 
 TEST_F(Replayed, WithoutTheProgramOrAFolderItSaysSo)
