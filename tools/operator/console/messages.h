@@ -62,7 +62,8 @@ std::string link_message(const LinkHealth &link, uint64_t skipped, const History
                          const RecorderState &recorder = {});
 
 /* What follows is of the past, as it was at that time; nothing when it is of now again. The span of what is
- * kept; recording: whose past it is, empty: that of the robot that is heard; damage: what of that is left out.
+ * kept; recording: whose past it is, empty: that of the robot that is heard; damage: what of that is left
+ * out.
  */
 std::string past_message(std::optional<int64_t> at_ms, const History::Span &span,
                          const std::string &recording = "", const std::string &damage = "");

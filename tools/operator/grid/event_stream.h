@@ -26,8 +26,8 @@ class EventStream
     {
     }
 
-    /* False at the end, where the last event may be cut. Throws std::runtime_error where no event begins or one is
-     * larger than any message. */
+    /* False at the end, where the last event may be cut. Throws std::runtime_error where no event begins or
+     * one is larger than any message. */
     bool next(Event &event);
 
   private:

@@ -53,10 +53,11 @@ void write(const ale::OccupancyGrid &grid, int64_t utime)
             cells.push_back(byte_of(grid.at(column, row)));
         }
     }
-    std::printf("{\"utime\": %lld, \"x\": %.3f, \"y\": %.3f, \"cell\": %.3f, \"columns\": %d, \"rows\": %d}\n",
-                static_cast<long long>(utime), static_cast<double>(grid.left_um()) * metre,
-                static_cast<double>(grid.bottom_um()) * metre, static_cast<double>(grid.cell_um()) * metre,
-                grid.columns(), grid.rows());
+    std::printf(
+        "{\"utime\": %lld, \"x\": %.3f, \"y\": %.3f, \"cell\": %.3f, \"columns\": %d, \"rows\": %d}\n",
+        static_cast<long long>(utime), static_cast<double>(grid.left_um()) * metre,
+        static_cast<double>(grid.bottom_um()) * metre, static_cast<double>(grid.cell_um()) * metre,
+        grid.columns(), grid.rows());
     if (std::fwrite(cells.data(), 1, cells.size(), stdout) != cells.size() || std::fflush(stdout) != 0) {
         throw std::runtime_error("standard output takes no more");
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <iterator>
 #include <stdexcept>
@@ -37,7 +38,31 @@ size_t read_at(int file, uint64_t at, uint8_t *into, size_t count)
     return have;
 }
 
+std::string bytes_in_words(uint64_t bytes)
+{
+    constexpr double kilo = 1000;
+    char words[32];
+    if (static_cast<double>(bytes) < kilo) {
+        std::snprintf(words, sizeof words, "%llu bytes", static_cast<unsigned long long>(bytes));
+    } else if (static_cast<double>(bytes) < kilo * kilo) {
+        std::snprintf(words, sizeof words, "%.1f kB", static_cast<double>(bytes) / kilo);
+    } else {
+        std::snprintf(words, sizeof words, "%.1f MB", static_cast<double>(bytes) / kilo / kilo);
+    }
+    return words;
+}
+
 } // namespace
+
+std::string damage_words(const Damage &damage)
+{
+    if (damage.places == 0) {
+        return "";
+    }
+    const std::string places =
+        std::to_string(damage.places) + (damage.places == 1 ? " damaged place" : " damaged places");
+    return places + (damage.bytes > 0 ? ", " + bytes_in_words(damage.bytes) + "," : "") + " left out";
+}
 
 void EventWriter::put(int64_t received_us, const std::string &channel, const uint8_t *bytes, size_t count)
 {

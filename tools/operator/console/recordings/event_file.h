@@ -56,8 +56,11 @@ class EventWriter
 /* What was skipped, since no event can be made of it. */
 struct Damage {
     uint64_t places = 0;
-    uint64_t bytes = 0;
+    uint64_t bytes = 0; /* 0: nobody has counted them */
 };
+
+/* For people: "2 damaged places, 5.8 kB, left out". Empty: no place. */
+std::string damage_words(const Damage &damage);
 
 /* Where an event lies in its file. */
 struct EventPlace {

@@ -8,7 +8,6 @@
 #include "common/feed/map_parts.h"
 #include "common/feed/map_pieces.h"
 #include "operator/console/messages.h"
-#include "operator/console/recordings/damage_words.h"
 #include "operator/console/recordings/recorded_message.h"
 
 namespace console
@@ -77,7 +76,8 @@ void OpenRecording::note_damage(const Damage &damage)
     };
     add(damage_words(damage));
     if (senseless_ > 0) {
-        add(std::to_string(senseless_) + (senseless_ == 1 ? " message makes" : " messages make") + " no sense");
+        add(std::to_string(senseless_) + (senseless_ == 1 ? " message makes" : " messages make") +
+            " no sense");
     }
 }
 

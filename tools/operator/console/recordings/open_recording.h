@@ -30,8 +30,8 @@ class OpenRecording
     static constexpr size_t most_messages = 2000000;
 
     /* Reads the file through. Throws std::runtime_error in words for people: the system's, no message of a
-     * robot in it, too many. later_ms: added to its times, where its clock knows no date. damage: of what it was
-     * made of, in words. */
+     * robot in it, too many. later_ms: added to its times, where its clock knows no date. damage: of what it
+     * was made of, in words. */
     explicit OpenRecording(Descriptor file, int64_t later_ms = 0, std::string damage = "");
 
     const Descriptor &file() const

@@ -19,7 +19,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "operator/console/recordings/damage_words.h"
+#include "operator/console/recordings/event_file.h"
 
 namespace console
 {
@@ -155,7 +155,8 @@ std::string damage_of(const std::string &said)
     unsigned long long scans = 0;
     const size_t at = said.find("skipped ");
     if (at == std::string::npos ||
-        std::sscanf(said.c_str() + at, "skipped %llu bad lines or chunks and %llu scans", &chunks, &scans) < 2) {
+        std::sscanf(said.c_str() + at, "skipped %llu bad lines or chunks and %llu scans", &chunks, &scans) <
+            2) {
         return "";
     }
     const std::string places = chunks > 0 ? damage_words({chunks, 0}) : "";
