@@ -36,9 +36,9 @@ ALONE_PART = 1 / 3  # of it, without bridges
 LOOK_S = 60
 LEAST_MINUTES = 25  # to tell that memory is flat: the page's timeline fills ten of them
 SCAN_S = 0.1
-GROWTH_BYTES = {"ale-slamd": 64 << 10, "ale-ros2": 1 << 20, "ale-foxglove": 1 << 20, "ale-console": 4 << 20}  # in its second half
+GROWTH_BYTES = {"ale-slamd": 64 << 10, "ale-ros2": 1 << 20, "ale-foxglove": 1 << 20, "ale-grid": 1 << 20, "ale-console": 4 << 20}  # in its second half
 PYTHON_FIRST = f"PATH={pathlib.Path(sys.executable).parent}:{os.environ['PATH']}"
-FOXGLOVE_TOPICS = ("/scan", "/lines", "/corners", "/tf", "/pose", "/map", "/signals")
+FOXGLOVE_TOPICS = ("/scan", "/lines", "/corners", "/tf", "/pose", "/map", "/occupancy", "/signals")
 ROS_TOPICS = {"scan": (LaserScan, BEST_EFFORT), "tf": (TFMessage, RELIABLE), "map": (OccupancyGrid, LATCHED), "ale/lines": (MarkerArray, RELIABLE)}
 
 
@@ -76,6 +76,20 @@ class Robot:
                 next_look += LOOK_S
                 look()
             time.sleep(0.5)
+
+
+class Child:
+    """A program that another one has started."""
+
+    def __init__(self, parent, name):
+        self.parent = parent
+        self.process = self
+        children = {int(child) for tasks in pathlib.Path("/proc", str(parent.process.pid), "task").glob("*/children")
+                    for child in tasks.read_text(encoding="ascii").split()}
+        self.pid, = (child for child in children if pathlib.Path("/proc", str(child), "comm").read_text(encoding="ascii").strip() == name)
+
+    def running(self):
+        return self.parent.running() and pathlib.Path("/proc", str(self.pid), "exe").exists()
 
 
 class Onlooker(threading.Thread):
@@ -138,7 +152,8 @@ def bridges(robot):
     for onlooker in onlookers:
         onlooker.start()
     try:
-        yield {"ale-slamd": robot.firmware, "ale-console": console, "ale-foxglove": foxglove, "ale-ros2": ros2}, onlookers
+        yield {"ale-slamd": robot.firmware, "ale-console": console, "ale-foxglove": foxglove, "ale-grid": Child(foxglove, "ale-grid"),
+               "ale-ros2": ros2}, onlookers
     finally:
         for onlooker in onlookers:
             onlooker.stop()
