@@ -222,7 +222,7 @@ def test_what_is_damaged_is_said_on_the_page_beside_the_time(hangar, chromium):
         chromium.click("shelf-more")
         chromium.click("open-damaged.scip")
         chromium.wait_for(f"{TIME} === 'recording'")
-        assert chromium.text("past-damage") == "; 2 damaged places left out"
+        assert chromium.text("past-damage") == "2 damaged places left out"
         chromium.click(f"open-{FLIGHT}.scip")
         chromium.wait_for(f"document.getElementById('open-{FLIGHT}.scip').ariaPressed === 'true'")
         assert chromium.text("past-damage") == ""

@@ -123,8 +123,7 @@ export class Timeline {
     element("past").hidden = !this.isPast;
     const words = this.#words();
     if (element("past-text").textContent !== words) element("past-text").textContent = words;
-    const damage = this.damage ? `; ${this.damage}` : "";
-    if (element("past-damage").textContent !== damage) element("past-damage").textContent = damage;
+    if (element("past-damage").textContent !== (this.damage ?? "")) element("past-damage").textContent = this.damage ?? "";
     element("when-text").textContent = this.recording ? lengthInWords(this.at - this.kept[0]) : this.isPast ? `-${lengthInWords(this.kept[1] - this.at)}` : lengthInWords(this.kept[1] - this.kept[0]);
     slider.setAttribute("aria-valuetext", this.isPast ? words : "now");
     element("timeline").setAttribute("aria-label", this.recording ? `The recording ${this.recording}` : "The last ten minutes");
