@@ -73,7 +73,7 @@ static inline int64_t ale_clamp64(int64_t v, int64_t low, int64_t high)
 /* Number of the highest set bit plus one; 0 for 0. */
 static inline unsigned ale_bit_length(uint64_t v)
 {
-    return v ? 64u - (unsigned)__builtin_clzll(v) : 0;
+    return v ? ((unsigned)__builtin_clzll(v) ^ 63u) + 1 : 0;
 }
 
 /* floor(sqrt(v)). Three divisions. */

@@ -1,6 +1,6 @@
 #include "base/histogram.h"
 
-enum { BINS_PER_OCTAVE_SHIFT = 2 };
+enum { BINS_PER_OCTAVE_SHIFT = 2, BINS_PER_OCTAVE = 1 << BINS_PER_OCTAVE_SHIFT };
 
 /* Lower end of a bin. */
 static int64_t bin_value(uint32_t bin)
@@ -15,6 +15,13 @@ int64_t ale_histogram_quantile(const uint16_t bins[ALE_HISTOGRAM_BINS], int32_t 
     const int32_t whole = (int32_t)((wanted + 99) / 100);
     int32_t below = 0;
     uint32_t b = 0;
+    for (; b < ALE_HISTOGRAM_BINS - BINS_PER_OCTAVE; b += BINS_PER_OCTAVE) {
+        const int32_t octave = bins[b] + bins[b + 1] + bins[b + 2] + bins[b + 3];
+        if (below + octave >= whole) {
+            break;
+        }
+        below += octave;
+    }
     for (; b < ALE_HISTOGRAM_BINS - 1 && below + bins[b] < whole; b++) {
         below += bins[b];
     }

@@ -59,39 +59,56 @@ static bool acceptable(const ale_run_list_t *r, const ale_run_fit_t *fit, const 
             fit->sse_q8 <= allowed_q8(r, fit, fit->n, floating_chi_q8(r, accepted, fit->n)));
 }
 
-static ale_run_fit_t search_fit(ale_run_list_t *r, int32_t a, int32_t b)
+static void count_fits(ale_run_list_t *r, int32_t fits)
 {
-    r->search_fits++;
-    r->effort += SEARCH_FIT_EFFORT;
-    return a <= b ? ale_moments_fit(&r->scan, a, b) : ale_moments_fit(&r->scan, b, a);
+    r->search_fits += fits;
+    r->effort += fits * SEARCH_FIT_EFFORT;
 }
 
-int32_t ale_break_search(ale_run_list_t *r, int32_t from, int32_t to, ale_run_fit_t *accepted)
+/* How many points behind `from` the line that begins there goes on, by binary search between the least,
+ * of which the fit is *accepted, and one beyond it; *accepted becomes that of the last one. */
+static int32_t widen(ale_run_list_t *r, int32_t from, int32_t direction, int32_t least, int32_t beyond,
+                     ale_run_fit_t *accepted)
 {
-    const int32_t direction = to >= from ? 1 : -1;
-    int32_t low = (ale_costly(r) ? ALE_COSTLY_RUN : ALE_MIN_RUN) - 1;
-    int32_t high = (to - from) * direction + 1;
-    if (low >= high) {
-        return from;
-    }
-    *accepted = search_fit(r, from, from + direction * low);
-    if (accepted->sse_q8 > allowed_q8(r, accepted, accepted->n, r->chi_high_q8[accepted->n])) {
-        return from;
-    }
+    ale_run_fit_t best = *accepted;
+    int32_t low = least;
+    int32_t high = beyond;
     bool bracketed = !ale_costly(r);
+    int32_t fits = 0;
     while (high - low > 1) {
         const int32_t half = (low + high) / 2;
         const int32_t p = bracketed ? half : (int32_t)ale_min64(half, (int64_t)COSTLY_REACH * low);
-        const ale_run_fit_t fit = search_fit(r, from, from + direction * p);
-        if (acceptable(r, &fit, accepted)) {
+        const ale_run_fit_t fit =
+            ale_run_fit(&r->scan, direction > 0 ? from : from - p, direction > 0 ? from + p : from);
+        fits++;
+        if (acceptable(r, &fit, &best)) {
             low = p;
-            *accepted = fit;
+            best = fit;
         } else {
             bracketed = true;
             high = p;
         }
     }
-    return from + direction * low;
+    count_fits(r, fits);
+    *accepted = best;
+    return low;
+}
+
+int32_t ale_break_search(ale_run_list_t *r, int32_t from, int32_t to, ale_run_fit_t *accepted)
+{
+    const int32_t direction = to >= from ? 1 : -1;
+    const int32_t high = (to - from) * direction + 1;
+    const int32_t low = (ale_costly(r) ? ALE_COSTLY_RUN : ALE_MIN_RUN) - 1;
+    if (low >= high) {
+        return from;
+    }
+    *accepted = direction > 0 ? ale_moments_fit(&r->scan, from, from + low)
+                              : ale_moments_fit(&r->scan, from - low, from);
+    count_fits(r, 1);
+    if (accepted->sse_q8 > allowed_q8(r, accepted, accepted->n, r->chi_high_q8[accepted->n])) {
+        return from;
+    }
+    return from + direction * widen(r, from, direction, low, high, accepted);
 }
 
 /* Two runs, which are the points of both, each with its own variance. */
@@ -101,23 +118,22 @@ typedef struct {
     int64_t var_b_q8;
 } pair_t;
 
-/* Squared residuals of the line before a break and of that behind it, in its own variance; Q8. */
-static int64_t chi_before_q8(const ale_run_list_t *r, const pair_t *pair, int32_t split)
+/* Squared residuals of the line before a break, and of that behind it, in its own variance; Q8. */
+static inline int64_t chi_before_q8(const ale_run_list_t *r, const pair_t *pair, int32_t split)
 {
     return (ale_moments_sse_q8(&r->scan, pair->both.first, split) << 8) / pair->var_a_q8;
 }
 
-static int64_t chi_behind_q8(const ale_run_list_t *r, const pair_t *pair, int32_t split)
+static inline int64_t chi_behind_q8(const ale_run_list_t *r, const pair_t *pair, int32_t split)
 {
     return (ale_moments_sse_q8(&r->scan, split + 1, pair->both.last) << 8) / pair->var_b_q8;
 }
 
 /* Both together, unless one alone has `enough`: the line comes first that has taken points of the other since
  * the break was at `centre`. */
-static int64_t joint_chi_q8(ale_run_list_t *r, const pair_t *pair, int32_t split, int32_t centre,
-                            int64_t enough_q8)
+static inline int64_t joint_chi_q8(const ale_run_list_t *r, const pair_t *pair, int32_t split, int32_t centre,
+                                   int64_t enough_q8)
 {
-    r->effort += JOINT_EFFORT;
     if (split > centre) {
         const int64_t before_q8 = chi_before_q8(r, pair, split);
         return before_q8 >= enough_q8 ? before_q8 : before_q8 + chi_behind_q8(r, pair, split);
@@ -168,8 +184,11 @@ static bool move_to_meeting(ale_run_list_t *r, const pair_t *pair, const ale_bre
 {
     const int32_t meeting = meeting_point(r, pair, best->split, range);
     const int64_t most_q8 = best->chi_q8 + MEETING_LOSS_Q8;
-    if (meeting < 0 || meeting == best->split ||
-        joint_chi_q8(r, pair, meeting, best->split, most_q8 + 1) > most_q8) {
+    if (meeting < 0 || meeting == best->split) {
+        return false;
+    }
+    r->effort += JOINT_EFFORT;
+    if (joint_chi_q8(r, pair, meeting, best->split, most_q8 + 1) > most_q8) {
         return false;
     }
     const bool moved_far = ale_abs64(meeting - best->split) > 1;
@@ -182,13 +201,14 @@ static bool better_side(ale_run_list_t *r, const pair_t *pair, const ale_break_r
                         int32_t came_from, placing_t *best)
 {
     const int32_t centre = best->split;
+    const int32_t ahead = step * range->direction;
     for (int32_t side = 0; side < 2; side++) {
-        const int32_t k = centre + (side == 0 ? -step : step) * range->direction;
+        const int32_t k = side == 0 ? centre - ahead : centre + ahead;
         if (k < range->lowest || k > range->highest || k == came_from) {
             continue;
         }
+        r->effort += JOINT_EFFORT;
         if (k == best->refused[side]) {
-            r->effort += JOINT_EFFORT;
             continue;
         }
         const int64_t chi_q8 = joint_chi_q8(r, pair, k, centre, best->chi_q8);
@@ -202,15 +222,20 @@ static bool better_side(ale_run_list_t *r, const pair_t *pair, const ale_break_r
     return best->split != centre;
 }
 
-int32_t ale_break_place(ale_run_list_t *r, ale_segment_t both, int64_t var_a_q8, int64_t var_b_q8,
+int32_t ale_break_place(ale_run_list_t *r, ale_segment_t both, const ale_run_fit_t *a, const ale_run_fit_t *b,
                         const ale_break_range_t *range)
 {
     if (range->lowest > range->highest) {
         return range->start;
     }
-    const pair_t pair = {both, var_a_q8, var_b_q8};
+    const pair_t pair = {both, a->var_q8, b->var_q8};
     placing_t best = {(int32_t)ale_clamp64(range->start, range->lowest, range->highest), 0, {-1, -1}};
-    best.chi_q8 = joint_chi_q8(r, &pair, best.split, best.split, INT64_MAX);
+    r->effort += JOINT_EFFORT;
+    if (a->n == best.split + 1 - both.first && b->n == both.last - best.split) {
+        best.chi_q8 = ale_fit_chi_q8(a) + ale_fit_chi_q8(b); /* known: they part there */
+    } else {
+        best.chi_q8 = joint_chi_q8(r, &pair, best.split, best.split, INT64_MAX);
+    }
     int32_t came_from = -1;
     for (int32_t step = range->widest_step; step > 0; step /= 2) {
         for (int32_t tries = 0; tries < 4; tries++) {
@@ -229,32 +254,34 @@ int32_t ale_break_place(ale_run_list_t *r, ale_segment_t both, int64_t var_a_q8,
 }
 
 /* Squared residuals of the two lines that part after split, unless that of more points alone has `enough`. */
-static int64_t joint_sse_q8(ale_run_list_t *r, ale_segment_t run, int32_t split, int64_t enough_q8)
+static inline int64_t joint_sse_q8(const ale_run_list_t *r, ale_segment_t run, int32_t split,
+                                   bool before_is_longer, int64_t enough_q8)
 {
     const ale_segment_t before = {run.first, (uint16_t)split};
     const ale_segment_t behind = {(uint16_t)(split + 1), run.last};
-    const bool before_first = 2 * split > run.first + run.last;
-    const ale_segment_t more = before_first ? before : behind;
-    const ale_segment_t fewer = before_first ? behind : before;
-    r->effort += JOINT_EFFORT;
-    const int64_t sse_q8 = ale_moments_sse_q8(&r->scan, more.first, more.last);
-    return sse_q8 >= enough_q8 ? sse_q8 : sse_q8 + ale_moments_sse_q8(&r->scan, fewer.first, fewer.last);
+    const ale_segment_t longer = before_is_longer ? before : behind;
+    const ale_segment_t shorter = before_is_longer ? behind : before;
+    const int64_t sse_q8 = ale_moments_sse_q8(&r->scan, longer.first, longer.last);
+    return sse_q8 >= enough_q8 ? sse_q8 : sse_q8 + ale_moments_sse_q8(&r->scan, shorter.first, shorter.last);
 }
 
-/* The break after which the joint fit is best, of the places of a grid that is the same in both directions;
- * -1 when the run has no room for two. *sse_q8: squared residuals of the two lines. */
+/* The break after which the joint fit is best, of the places of a grid that is the same in both directions.
+ * *sse_q8: squared residuals of the two lines; before the call, what they must be less than. -1: at none they
+ * are, or the run has no room for two. */
 static int32_t coarse_break(ale_run_list_t *r, ale_segment_t run, int32_t direction, int64_t *sse_q8)
 {
     const int32_t n = run.last + 1 - run.first;
     int32_t best = -1;
-    *sse_q8 = INT64_MAX;
     for (int32_t j = 1; j < GRID; j++) {
-        const int32_t near_part = 2 * j <= GRID ? n * j / GRID : n - n * (GRID - j) / GRID;
-        if (near_part < ALE_MIN_RUN || n - near_part < ALE_MIN_RUN) {
+        const bool near_is_shorter = 2 * j < GRID;
+        const int32_t shorter = n * (near_is_shorter ? j : GRID - j) / GRID;
+        if (shorter < ALE_MIN_RUN) {
             continue;
         }
-        const int32_t split = direction > 0 ? run.first + near_part - 1 : run.last - near_part;
-        const int64_t sse = joint_sse_q8(r, run, split, *sse_q8);
+        const bool before_is_longer = near_is_shorter != (direction > 0);
+        const int32_t split = before_is_longer ? run.last - shorter : run.first + shorter - 1;
+        r->effort += JOINT_EFFORT;
+        const int64_t sse = joint_sse_q8(r, run, split, before_is_longer, *sse_q8);
         if (sse < *sse_q8) {
             *sse_q8 = sse;
             best = split;
@@ -266,7 +293,7 @@ static int32_t coarse_break(ale_run_list_t *r, ale_segment_t run, int32_t direct
 int64_t ale_break_gain_q8(ale_run_list_t *r, ale_run_t *run)
 {
     const ale_run_fit_t *one = ale_fit_of_run(&r->scan, run);
-    int64_t sse_q8;
+    int64_t sse_q8 = INT64_MAX;
     const ale_segment_t both = {run->first, run->last};
     const int32_t split =
         coarse_break(r, both, ale_points_reading_direction(&r->scan.points, run->first, run->last), &sse_q8);
@@ -296,11 +323,14 @@ bool ale_break_suspicious(const ale_run_fit_t *one)
 
 int32_t ale_break_find(ale_run_list_t *r, ale_run_t *run, int32_t direction)
 {
-    if (!ale_break_suspicious(ale_fit_of_run(&r->scan, run))) {
+    const ale_run_fit_t *one = ale_fit_of_run(&r->scan, run);
+    if (!ale_break_suspicious(one)) {
         return -1;
     }
     const ale_segment_t both = {run->first, run->last};
-    int64_t sse_q8;
+    /* whatever their own noise is, two lines that gain no more show nothing */
+    const int64_t less_q8 = (ale_merge_gain_q8(&r->scan.noise, one, false) * PROMISING_Q8 - 1) / 256;
+    int64_t sse_q8 = one->sse_q8 - less_q8;
     const int32_t coarse = coarse_break(r, both, direction, &sse_q8);
     if (coarse < 0) {
         return -1;
@@ -311,7 +341,7 @@ int32_t ale_break_find(ale_run_list_t *r, ale_run_t *run, int32_t direction)
     }
     const ale_break_range_t range = {run->first + ALE_MIN_RUN - 1, run->last - ALE_MIN_RUN, coarse, direction,
                                      ALE_BREAK_WIDE_STEP};
-    const int32_t split = ale_break_place(r, both, p.a.var_q8, p.b.var_q8, &range);
+    const int32_t split = ale_break_place(r, both, &p.a, &p.b, &range);
     const int64_t ratio_q8 = split == coarse ? p.ratio_q8 : part_at(r, run, split).ratio_q8;
     return ratio_q8 >= 256 ? split : -1;
 }

@@ -22,10 +22,11 @@ typedef struct {
     int32_t widest_step; /* first step of the search, a power of two */
 } ale_break_range_t;
 
-/* The break between two neighbouring runs, a and b, which are the points of both, by the best joint fit, each
- * in its own variance: a pattern search, 9 joint fits at most for each power of two. From there to where both
- * lines meet, unless that fits worse than noise makes it. range->start where the range is empty. */
-int32_t ale_break_place(ale_run_list_t *r, ale_segment_t both, int64_t var_a_q8, int64_t var_b_q8,
+/* The break between two neighbouring runs, which are the points of both, by the best joint fit, each in its
+ * own variance: a pattern search, 9 joint fits at most for each power of two. From there to where both lines
+ * meet, unless that fits worse than noise makes it. range->start where the range is empty. a, b: the runs'
+ * fits as they are known. */
+int32_t ale_break_place(ale_run_list_t *r, ale_segment_t both, const ale_run_fit_t *a, const ale_run_fit_t *b,
                         const ale_break_range_t *range);
 
 /* Whether a run has more than its noise: else it need not be tried for a break. */

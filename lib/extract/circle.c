@@ -1,5 +1,7 @@
 #include "extract/circle.h"
 
+#include <stdbool.h>
+
 #include "base/fixed.h"
 
 enum {
@@ -52,15 +54,18 @@ static circle_sums_t held_squares_about(const ale_prepared_scan_t *scan, int32_t
     return s;
 }
 
-/* Adds those of the third powers, of points held at an extent. Inlined, for without one there is nothing to
- * hold. */
+/* Adds those of the third powers, of points held at that extent or not. */
 static inline __attribute__((always_inline)) void add_thirds_about(const ale_prepared_scan_t *scan,
                                                                    int32_t first, int32_t last, mean_t mean,
-                                                                   int64_t extent, circle_sums_t *s)
+                                                                   bool held, circle_sums_t *s)
 {
     for (int32_t i = first; i <= last; i++) {
-        const int64_t u = ale_clamp64(scan->points.x_q4[i] - mean.x, -extent, extent);
-        const int64_t v = ale_clamp64(scan->points.y_q4[i] - mean.y, -extent, extent);
+        int64_t u = scan->points.x_q4[i] - mean.x;
+        int64_t v = scan->points.y_q4[i] - mean.y;
+        if (held) {
+            u = ale_clamp64(u, -MAX_EXTENT_Q4, MAX_EXTENT_Q4);
+            v = ale_clamp64(v, -MAX_EXTENT_Q4, MAX_EXTENT_Q4);
+        }
         const int64_t z = (u * u + v * v + HALF_Q4) >> ALE_POINT_SHIFT;
         s->uz += u * z;
         s->vz += v * z;
@@ -70,14 +75,14 @@ static inline __attribute__((always_inline)) void add_thirds_about(const ale_pre
 
 static circle_sums_t sums_about(const ale_prepared_scan_t *scan, int32_t first, int32_t last, mean_t mean)
 {
-    const int64_t held = (int64_t)MAX_EXTENT_Q4 * MAX_EXTENT_Q4;
+    const int64_t most = (int64_t)MAX_EXTENT_Q4 * MAX_EXTENT_Q4;
     circle_sums_t s = squares_about(scan, first, last, mean);
-    if (s.uu <= held && s.vv <= held) { /* then no point is so far off */
-        add_thirds_about(scan, first, last, mean, INT64_MAX, &s);
+    if (s.uu <= most && s.vv <= most) { /* then no point is so far off */
+        add_thirds_about(scan, first, last, mean, false, &s);
         return s;
     }
     s = held_squares_about(scan, first, last, mean);
-    add_thirds_about(scan, first, last, mean, MAX_EXTENT_Q4, &s);
+    add_thirds_about(scan, first, last, mean, true, &s);
     return s;
 }
 
@@ -132,11 +137,13 @@ ale_circle_t ale_circle_fit(const ale_prepared_scan_t *scan, int32_t first, int3
 int64_t ale_circle_sse_q8(const ale_prepared_scan_t *scan, const ale_circle_t *circle, int32_t first,
                           int32_t last)
 {
+    const ale_circle_t c = *circle;
+    const int64_t radius2 = c.radius_q4 * c.radius_q4;
     int64_t sum = 0;
     for (int32_t i = first; i <= last; i++) {
-        const int64_t u = scan->points.x_q4[i] - circle->x_q4;
-        const int64_t v = scan->points.y_q4[i] - circle->y_q4;
-        const int64_t d = (u * u + v * v - circle->radius_q4 * circle->radius_q4) / (2 * circle->radius_q4);
+        const int64_t u = scan->points.x_q4[i] - c.x_q4;
+        const int64_t v = scan->points.y_q4[i] - c.y_q4;
+        const int64_t d = (u * u + v * v - radius2) / (2 * c.radius_q4);
         const int64_t bounded = ale_clamp64(d, -MAX_DISTANCE_Q4, MAX_DISTANCE_Q4);
         sum += bounded * bounded;
     }

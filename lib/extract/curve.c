@@ -23,6 +23,7 @@ typedef struct {
     int64_t x_q4; /* from first to last third */
     int64_t y_q4;
     int64_t bulge_q8; /* of the middle to the left of that direction, in deviations */
+    int64_t chain_q8; /* strength of the chain that it has gone to, 0: of none */
 } shape_t;
 
 typedef struct {
@@ -57,7 +58,7 @@ static shape_t shape_of(const ale_run_list_t *r, ale_run_t *run)
      * still */
     const int64_t sigma2_length2_q8 = ale_mul_shift(ale_max64(var_q8, 1), length2_mm2, 0);
     const int64_t sigma_length_q4 = ale_max64(ale_isqrt((uint64_t)sigma2_length2_q8), 1);
-    const shape_t shape = {dx, dy, twice_cross_q12 / (2 * sigma_length_q4)};
+    const shape_t shape = {dx, dy, twice_cross_q12 / (2 * sigma_length_q4), 0};
     return shape;
 }
 
@@ -77,32 +78,39 @@ static int32_t turn_between(const shape_t *a, const shape_t *b)
     return cross > 0 ? 1 : -1;
 }
 
-/* Chi square of the points of the runs first..last about a circle, minus that about their own lines, Q8. */
-static int64_t circle_excess_q8(ale_run_list_t *r, int32_t first, int32_t last)
+/* Chi square of the points of the runs first..last about a circle, minus that about their own lines, Q8; of
+ * what is more than `most`, only that it is: of the runs to come, the circle can but explain all. */
+static int64_t circle_excess_q8(ale_run_list_t *r, int32_t first, int32_t last, int64_t most_q8)
 {
     const ale_circle_t circle = ale_circle_fit(&r->scan, r->run[first].first, r->run[last].last);
     r->effort += (r->run[last].last + 1 - r->run[first].first) * CIRCLE_EFFORT_Q2 / 4;
     if (circle.radius_q4 == 0) {
         return INT64_MAX;
     }
-    int64_t excess = 0;
+    int64_t rest_q8 = 0; /* that their lines have at most, of the runs to come */
     for (int32_t k = first; k <= last; k++) {
+        rest_q8 += ale_fit_chi_q8(ale_fit_of_run(&r->scan, &r->run[k])) + 1;
+    }
+    int64_t excess = 0;
+    for (int32_t k = first; k <= last && excess - rest_q8 <= most_q8; k++) {
         const ale_run_fit_t *fit = ale_fit_of_run(&r->scan, &r->run[k]);
         const int64_t sse = ale_circle_sse_q8(&r->scan, &circle, r->run[k].first, r->run[k].last);
         excess += (sse - fit->sse_q8) * 256 / fit->var_q8;
+        rest_q8 -= ale_fit_chi_q8(fit) + 1;
     }
-    return excess;
+    return excess - rest_q8;
 }
 
 static bool chain_is_curve(ale_run_list_t *r, int32_t first, int32_t last)
 {
-    return circle_excess_q8(r, first, last) <= (int64_t)CHAIN_ALLOWANCE_Q8 * (last - first - 1);
+    const int64_t most_q8 = (int64_t)CHAIN_ALLOWANCE_Q8 * (last - first - 1);
+    return circle_excess_q8(r, first, last, most_q8) <= most_q8;
 }
 
 /* One run: curved when a circle explains it better than its two best lines. */
 static bool run_is_curve(ale_run_list_t *r, int32_t k)
 {
-    const int64_t circle = circle_excess_q8(r, k, k);
+    const int64_t circle = circle_excess_q8(r, k, k, INT64_MAX);
     r->run[k].no_arc = circle >= 0 || circle >= ale_break_gain_q8(r, &r->run[k]);
     return !r->run[k].no_arc;
 }
@@ -179,11 +187,11 @@ static int32_t chain_end(const ale_run_list_t *r, const shape_t *shape, int32_t 
 }
 
 /* Where two chains share a run it goes to the stronger one, whichever is found first. */
-static void mark_chain(const stretch_t *stretch, uint8_t curve, uint8_t *curve_of, int64_t *strength_q8)
+static void mark_chain(const stretch_t *stretch, uint8_t curve, uint8_t *curve_of, shape_t *shape)
 {
     for (int32_t k = stretch->first; k <= stretch->last; k++) {
-        if (stretch->strength_q8 > strength_q8[k]) {
-            strength_q8[k] = stretch->strength_q8;
+        if (stretch->strength_q8 > shape[k].chain_q8) {
+            shape[k].chain_q8 = stretch->strength_q8;
             curve_of[k] = curve;
         }
     }
@@ -208,32 +216,61 @@ static void join_marked(ale_run_list_t *r, uint8_t curves, const uint8_t *curve_
     r->count = (uint16_t)kept;
 }
 
-void ale_curve_find(ale_run_list_t *r, bool again)
+/* Whether the runs are those that were asked for curves before, and had none. */
+static bool known_to_be_lines(const ale_run_list_t *r)
 {
-    shape_t shape[ALE_MAX_RUNS];
-    uint8_t curve_of[ALE_MAX_RUNS] = {0};
-    int64_t strength_q8[ALE_MAX_RUNS] = {0};
-    uint8_t curves = 0;
     for (int32_t k = 0; k < r->count; k++) {
-        const bool enough = r->run[k].last - r->run[k].first + 1 >= MIN_POINTS;
-        shape[k] = enough ? shape_of(r, &r->run[k]) : (shape_t){0};
-    }
-    const int32_t most = again || ale_costly(r) ? MOST_SUSPECTS / 3 : MOST_SUSPECTS;
-    const int64_t limit_q8 = suspect_bulge_q8(r, shape, most);
-    for (int32_t k = 0; k < r->count; k++) {
-        if (is_suspect(&r->run[k], &shape[k], limit_q8) && run_is_curve(r, k)) {
-            curve_of[k] = ++curves;
+        if (!r->run[k].no_curve) {
+            return false;
         }
     }
+    return true;
+}
+
+/* Marks the suspects that are curves alone, and says how many they are. */
+static uint8_t mark_arcs(ale_run_list_t *r, const shape_t *shape, int64_t limit_q8, uint8_t *curve_of)
+{
+    uint8_t curves = 0;
+    for (int32_t k = 0; k < r->count; k++) {
+        curve_of[k] = is_suspect(&r->run[k], &shape[k], limit_q8) && run_is_curve(r, k) ? ++curves : 0;
+    }
+    return curves;
+}
+
+/* The same of chains, given how many arcs there are. */
+static uint8_t mark_chains(ale_run_list_t *r, shape_t *shape, uint8_t arcs, uint8_t *curve_of)
+{
+    uint8_t curves = arcs;
     for (int32_t first = 0; first < r->count;) {
         int32_t sign;
         const int32_t last = chain_end(r, shape, first, &sign);
         stretch_t stretch = strongest_stretch(shape, first, last, sign);
         if (stretch.first < stretch.last && chain_is_curve(r, stretch.first, stretch.last)) {
             widen_stretch(r, first, last, &stretch);
-            mark_chain(&stretch, ++curves, curve_of, strength_q8);
+            mark_chain(&stretch, ++curves, curve_of, shape);
         }
         first = last > first ? last : first + 1;
+    }
+    return curves;
+}
+
+void ale_curve_find(ale_run_list_t *r, bool again)
+{
+    if (again && known_to_be_lines(r)) {
+        return;
+    }
+    shape_t shape[ALE_MAX_RUNS];
+    uint8_t curve_of[ALE_MAX_RUNS];
+    for (int32_t k = 0; k < r->count; k++) {
+        const bool enough = r->run[k].last - r->run[k].first + 1 >= MIN_POINTS;
+        shape[k] = enough ? shape_of(r, &r->run[k]) : (shape_t){0};
+    }
+    const int32_t most = again || ale_costly(r) ? MOST_SUSPECTS / 3 : MOST_SUSPECTS;
+    const int64_t limit_q8 = suspect_bulge_q8(r, shape, most);
+    const uint8_t arcs = mark_arcs(r, shape, limit_q8, curve_of);
+    const uint8_t curves = mark_chains(r, shape, arcs, curve_of);
+    for (int32_t k = 0; k < r->count; k++) {
+        r->run[k].no_curve = curves == 0 && limit_q8 == SINGLE_Q8; /* beyond it not all suspects were tried */
     }
     join_marked(r, curves, curve_of);
 }

@@ -107,17 +107,29 @@ static int64_t slope_share_q16(const ale_prepared_scan_t *scan, ale_segment_t ru
     return (in_slope << 16) / all;
 }
 
+/* An end of a line. */
+typedef struct {
+    ale_beyond_t beyond;
+    int64_t range_um;
+    int64_t across_um; /* from its beam to the next one, across it */
+} end_t;
+
+static end_t end_of(const ale_prepared_scan_t *scan, int32_t i, int32_t side)
+{
+    const int64_t range_um = scan->points.range_um[i];
+    return (end_t){ale_segment_beyond(&scan->points, &scan->segments, i, side), range_um,
+                   ale_mul_nano(range_um, scan->points.step_nrad)};
+}
+
 /* Points at an end where another wall adjoins that may be of either: they lie within a deviation of both, if
  * the walls are at right angles. To which of them each is given depends on its error, so they tell nothing.
  */
-static int64_t doubtful_points_q8(const ale_prepared_scan_t *scan, int32_t i, ale_beyond_t beyond,
-                                  int64_t sigma_um, int64_t along_um)
+static int64_t doubtful_points_q8(const end_t *end, int64_t sigma_um, int64_t along_um)
 {
-    if (beyond.point < 0 || beyond.jump) {
+    if (end->beyond.point < 0 || end->beyond.jump) {
         return 0;
     }
-    const int64_t across_um = ale_max64(ale_mul_nano(scan->points.range_um[i], scan->points.step_nrad), 1);
-    return 2 * ((sigma_um * ale_abs64(along_um)) << 8) / (across_um * scan->points.range_um[i]);
+    return 2 * ((sigma_um * ale_abs64(along_um)) << 8) / (ale_max64(end->across_um, 1) * end->range_um);
 }
 
 /* The shared error of a run as far as the scan shows it, without the margin that decisions have, or as
@@ -148,22 +160,21 @@ static void set_covariance(const ale_prepared_scan_t *scan, const ale_spread_t *
     line->var_rho_um2 = um2_of_q8(mean_q8) / n + ale_mul_nano(line->cov_alpha_rho, mean_along_um);
 }
 
-/* Variance of an end along the line, where beyond is the next point. The wall ends anywhere between its last
+/* Variance of an end along the line. The wall ends anywhere between its last
  * beam and that of the next point, where the following beam would meet it range^2 step / rho farther: a third
  * of that squared, for each of them. Where the surface goes on, but not as a line, the end may be a beam and
  * more off. */
-static int64_t end_var_um2(const ale_prepared_scan_t *scan, int32_t i, ale_beyond_t beyond, int32_t rho_um)
+static int64_t end_var_um2(const end_t *end, int32_t rho_um)
 {
-    const int64_t range_um = scan->points.range_um[i];
-    const int64_t across_um = ale_mul_nano(range_um, scan->points.step_nrad);
-    const int64_t along_um = ale_round_div(across_um * range_um, ale_max64(rho_um, 1));
-    const int64_t spacing_um = ale_min64(along_um, range_um);
+    const int64_t along_um = ale_round_div(end->across_um * end->range_um, ale_max64(rho_um, 1));
+    const int64_t spacing_um = ale_min64(along_um, end->range_um);
     const int64_t spacing2_um2 = spacing_um * spacing_um;
-    if (beyond.point < 0) {
+    if (end->beyond.point < 0) {
         return spacing2_um2 / 3;
     }
-    const int64_t unseen = beyond.gap <= ALE_MAX_GAP_BEAMS ? (int64_t)beyond.gap * beyond.gap : 1;
-    return spacing2_um2 * unseen / (beyond.jump ? 3 : 1);
+    const int64_t gap = end->beyond.gap;
+    const int64_t unseen = gap <= ALE_MAX_GAP_BEAMS ? gap * gap : 1;
+    return spacing2_um2 * unseen / (end->beyond.jump ? 3 : 1);
 }
 
 static int64_t along_line_um(ale_point_t p, int64_t c_q30, int64_t s_q30)
@@ -198,15 +209,14 @@ ale_run_fit_t ale_line_fit(const ale_prepared_scan_t *scan, ale_segment_t run, a
     const int64_t mean_along_um =
         along_line_um((ale_point_t){(int32_t)m.mean_x_um, (int32_t)m.mean_y_um}, c, s);
     const int64_t sigma_um = ale_isqrt((uint64_t)um2_of_q8(m.fit.var_q8));
-    const ale_beyond_t before = ale_segment_beyond(&scan->points, &scan->segments, run.first, -1);
-    const ale_beyond_t after = ale_segment_beyond(&scan->points, &scan->segments, run.last, 1);
-    const int64_t doubtful_q8 =
-        doubtful_points_q8(scan, run.first, before, sigma_um, along_line_um(line->start, c, s)) +
-        doubtful_points_q8(scan, run.last, after, sigma_um, along_line_um(line->end, c, s));
+    const end_t start = end_of(scan, run.first, -1);
+    const end_t end = end_of(scan, run.last, 1);
+    const int64_t doubtful_q8 = doubtful_points_q8(&start, sigma_um, along_line_um(line->start, c, s)) +
+                                doubtful_points_q8(&end, sigma_um, along_line_um(line->end, c, s));
     const int64_t slope_q16 =
         slope_share_q16(scan, run, &m, rho, mean_along_um, (ale_direction_t){(int32_t)c, (int32_t)s});
     set_covariance(scan, &m, doubtful_q8, slope_q16, mean_along_um, line);
-    line->var_start_um2 = end_var_um2(scan, run.first, before, line->rho_um);
-    line->var_end_um2 = end_var_um2(scan, run.last, after, line->rho_um);
+    line->var_start_um2 = end_var_um2(&start, line->rho_um);
+    line->var_end_um2 = end_var_um2(&end, line->rho_um);
     return m.fit;
 }

@@ -15,16 +15,22 @@ enum {
     SLOPE_GAINS = 3
 };
 
+int64_t ale_merge_gain_q8(const ale_scan_noise_t *noise, const ale_run_fit_t *one, bool on_one_surface)
+{
+    const int64_t together =
+        on_one_surface ? SHARED_PEAK * ale_min64(one->n, (int64_t)2 * noise->shared_beams) : 0;
+    return PENALTY * one->var_q8 + one->shared_q8 * (one->n + together);
+}
+
 int64_t ale_merge_ratio_q8(const ale_scan_noise_t *noise, const ale_run_fit_t *one, const ale_run_fit_t *a,
                            const ale_run_fit_t *b, bool on_one_surface)
 {
     const int64_t n = ale_max64(a->n + b->n, 1);
-    const int64_t var = ale_max64(one->var_q8, (a->var_q8 * a->n + b->var_q8 * b->n) / n);
-    const int64_t shared = ale_max64(one->shared_q8, (a->shared_q8 * a->n + b->shared_q8 * b->n) / n);
-    const int64_t together =
-        on_one_surface ? SHARED_PEAK * ale_min64(one->n, (int64_t)2 * noise->shared_beams) : 0;
+    ale_run_fit_t either = *one;
+    either.var_q8 = ale_max64(one->var_q8, (a->var_q8 * a->n + b->var_q8 * b->n) / n);
+    either.shared_q8 = ale_max64(one->shared_q8, (a->shared_q8 * a->n + b->shared_q8 * b->n) / n);
     const int64_t gain = one->sse_q8 - a->sse_q8 - b->sse_q8;
-    return gain * 256 / (PENALTY * var + shared * (one->n + together));
+    return gain * 256 / ale_merge_gain_q8(noise, &either, on_one_surface);
 }
 
 /* The ratio of the runs k and k + 1; the largest number where they may not be joined. */

@@ -8,9 +8,12 @@
  * Whether there were any. */
 bool ale_merge_runs(ale_run_list_t *r);
 
-/* What two lines a and b explain better than the one line through the points of both, over what noise alone
- * would give, Q8: joined below 256. on_one_surface: no jump lies between them, so that a shared error reaches
- * over. */
+/* What two lines must explain better than one, of such a variance and shared error, to be two; mm^2 Q8.
+ * on_one_surface: no jump lies between them, so that a shared error reaches over. */
+int64_t ale_merge_gain_q8(const ale_scan_noise_t *noise, const ale_run_fit_t *one, bool on_one_surface);
+
+/* What two lines a and b explain better than the one line through the points of both, over what they must,
+ * each error the larger one of theirs; Q8: joined below 256. */
 int64_t ale_merge_ratio_q8(const ale_scan_noise_t *noise, const ale_run_fit_t *one, const ale_run_fit_t *a,
                            const ale_run_fit_t *b, bool on_one_surface);
 

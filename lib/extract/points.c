@@ -8,15 +8,20 @@
 enum {
     PLACE_SHIFT = 36,
     FARTHEST_Q44 = ((int64_t)1 << 44) / ALE_MAX_RANGE_UM,
-    BLOCK = 32,                          /* beams looked at together */
+    BLOCK = 32,                          /* beams looked at together, */
+    MOST_RANGE_UM = 1 << 26,             /* where none is farther */
     AHEAD = (ALE_MAX_BEAMS + 1) / 2 * 2, /* place of straight ahead among the half steps */
     DENSE = 4 /* times more points than other beams: a scan that is not sparse, for few lose a neighbour */
 };
 
-/* Cosine or sine as what a range in micrometres is multiplied by: Q36 of points (1/16 mm) a micrometre. */
-static int32_t per_um_q36(int32_t cos_q30)
+static const uint32_t SIGN = 0x80000000u;
+
+/* Cosine or sine as what a range in micrometres is multiplied by: Q36 of points (1/16 mm) a micrometre, its
+ * highest bit the sign. */
+static uint32_t per_um_q36(int32_t cos_q30)
 {
-    return (int32_t)ale_round_div((int64_t)cos_q30 * 128, 125);
+    const int64_t signed_q36 = ale_round_div((int64_t)cos_q30 * 128, 125);
+    return (uint32_t)ale_abs64(signed_q36) | (signed_q36 < 0 ? SIGN : 0);
 }
 
 /* Mirrored to the other side of straight ahead. */
@@ -25,10 +30,10 @@ static void set_direction(ale_points_t *p, uint32_t half_steps, ale_direction_t 
     ale_beam_directions_t *of = &p->direction[half_steps % 2];
     const uint32_t before = (AHEAD - half_steps) / 2;
     const uint32_t behind = (AHEAD + half_steps) / 2;
-    const int32_t cos_q36 = per_um_q36(d.cos_q30);
-    const int32_t sin_q36 = per_um_q36(d.sin_q30);
+    const uint32_t cos_q36 = per_um_q36(d.cos_q30);
+    const uint32_t sin_q36 = per_um_q36(d.sin_q30);
     of->cos_q36[before] = cos_q36;
-    of->sin_q36[before] = -sin_q36;
+    of->sin_q36[before] = sin_q36 ^ SIGN;
     of->cos_q36[behind] = cos_q36;
     of->sin_q36[behind] = sin_q36;
 }
@@ -76,19 +81,19 @@ static inline bool is_point(const ale_scan_t *scan, int32_t k)
     return scan->flag[k] == ALE_BEAM_VALID && (uint32_t)scan->range_um[k] - ALE_MIN_RANGE_UM <= span_um;
 }
 
-/* Whether all beams of the block from k on are points: no branch, for the compiler takes several at once. */
+/* Whether all beams of the block from k on are points, of the ranges of most: no branch, for the compiler
+ * takes several at once. */
 static bool are_points(const ale_scan_t *scan, int32_t k)
 {
-    uint32_t flags = 0;
-    uint32_t beyond = 0; /* sign bit: below the least or above the farthest range */
+    uint8_t flags = 0;
+    uint32_t above_least = 0;
     for (int32_t j = k; j < k + BLOCK; j++) {
-        const uint32_t range_um = (uint32_t)scan->range_um[j];
-        beyond |= (range_um - ALE_MIN_RANGE_UM) | (ALE_MAX_RANGE_UM - range_um);
+        above_least |= (uint32_t)scan->range_um[j] - ALE_MIN_RANGE_UM;
     }
     for (int32_t j = k; j < k + BLOCK; j++) {
-        flags |= scan->flag[j];
+        flags = (uint8_t)(flags | scan->flag[j]);
     }
-    return flags == ALE_BEAM_VALID && beyond <= INT32_MAX;
+    return flags == ALE_BEAM_VALID && above_least < MOST_RANGE_UM;
 }
 
 static inline int32_t inverse_q44(int32_t range_um)
@@ -144,11 +149,11 @@ void ale_points_list(ale_points_t *p, const ale_scan_t *scan, const uint32_t *be
 }
 
 /* Rounded half away from zero. By magnitudes and without a branch: so the compiler takes several at once. */
-static inline int32_t coordinate_q4(int32_t range_um, int32_t per_um)
+static inline int32_t coordinate_q4(int32_t range_um, uint32_t per_um)
 {
     const uint64_t half = (uint64_t)1 << (PLACE_SHIFT - 1);
-    const uint32_t sign = 0u - ((uint32_t)per_um >> 31);
-    const uint32_t size = ((uint32_t)per_um ^ sign) - sign;
+    const uint32_t sign = 0u - (per_um >> 31);
+    const uint32_t size = per_um & ~SIGN;
     const uint32_t q4 = (uint32_t)(((uint32_t)range_um * (uint64_t)size + half) >> PLACE_SHIFT);
     return (int32_t)((q4 ^ sign) - sign);
 }
@@ -182,7 +187,7 @@ static void place_each(ale_points_t *p, const ale_scan_t *scan, const uint32_t *
 }
 
 static inline void place_stretch(ale_points_t *p, int32_t first, int32_t points,
-                                 const int32_t *restrict cos_q36, const int32_t *restrict sin_q36)
+                                 const uint32_t *restrict cos_q36, const uint32_t *restrict sin_q36)
 {
     for (int32_t j = 0; j < points; j++) {
         p->x_q4[first + j] = coordinate_q4(p->range_um[first + j], cos_q36[j]);
@@ -247,3 +252,6 @@ int32_t ale_points_reading_direction(const ale_points_t *p, int32_t first, int32
     }
     return 1;
 }
+
+_Static_assert(MOST_RANGE_UM + ALE_MIN_RANGE_UM <= ALE_MAX_RANGE_UM,
+               "blocks of points are listed without another look");

@@ -22,10 +22,10 @@
 #define ALE_MIN_RANGE_UM 16384
 
 /* Directions of multiples of half a step to either side of straight ahead, every other one: those of beams
- * that follow one another lie side by side. Points a micrometre of range, Q36. */
+ * that follow one another lie side by side. Points a micrometre of range, Q36, the highest bit the sign. */
 typedef struct {
-    int32_t cos_q36[ALE_MAX_BEAMS + 1];
-    int32_t sin_q36[ALE_MAX_BEAMS + 1];
+    uint32_t cos_q36[ALE_MAX_BEAMS + 1];
+    uint32_t sin_q36[ALE_MAX_BEAMS + 1];
 } ale_beam_directions_t;
 
 typedef struct {

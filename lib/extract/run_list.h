@@ -31,6 +31,7 @@ typedef struct {
     bool curved;
     bool no_arc;       /* tried: lines explain it better than a circle */
     bool no_break;     /* tried: one line explains it as well as two */
+    bool no_curve;     /* all of the scan were asked for curves as this one is, and none was found */
     bool settled;      /* its ends have hardly moved when they were placed */
     ale_run_fit_t fit; /* see ale_fit_of_run */
 } ale_run_t;
@@ -75,6 +76,7 @@ static inline void ale_run_changed(ale_run_t *run)
     run->fit.n = 0;
     run->no_arc = false;
     run->no_break = false;
+    run->no_curve = false;
     run->settled = false;
 }
 

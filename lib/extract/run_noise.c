@@ -33,6 +33,10 @@ enum {
 enum { MOST_DIFFERENCE_UM = 1 << 25 };
 static const int64_t MOST_OWN_Q20 = (int64_t)1 << 40;
 
+/* Of a block of beams that turns by 41 degrees, which is wider than any scanner's: times the sum of a block's
+ * 1 / range it fits int64. */
+enum { MOST_CURVATURE_Q30 = 1 << 29, HALF_Q30 = 1 << 29 };
+
 /* Range in the middle of three blocks of points, the same from either side. */
 static uint32_t middle_range_um(const ale_prepared_scan_t *scan, int32_t start)
 {
@@ -40,15 +44,16 @@ static uint32_t middle_range_um(const ale_prepared_scan_t *scan, int32_t start)
     return ((uint32_t)middle[-1] + (uint32_t)middle[0]) / 2;
 }
 
-/* Squared second difference of three blocks of points from start on, over what own noise would give; Q8. */
-static int64_t block_ratio_q8(const ale_prepared_scan_t *scan, int32_t start, int64_t curvature_q30)
+/* Squared second difference of three blocks of points from start on, whose middle is at a range, over what
+ * own noise would give; Q8. */
+static inline int64_t block_ratio_q8(const ale_prepared_scan_t *scan, int32_t start, int64_t range_um,
+                                     int64_t range_mm, int64_t curvature_q30)
 {
     const int64_t *p = &scan->inverse_sum[start];
     const int64_t middle = p[TWO_BLOCKS] - p[BLOCK];
-    const int64_t d = p[THREE_BLOCKS] - p[0] - 3 * middle + ale_mul_shift(middle, curvature_q30, 30);
-    const uint32_t range_um = middle_range_um(scan, start);
+    const int64_t bend = (middle * curvature_q30 + HALF_Q30) >> 30;
+    const int64_t d = p[THREE_BLOCKS] - p[0] - 3 * middle + bend;
     const int64_t d_um = ale_clamp64(d * range_um / middle, -MOST_DIFFERENCE_UM, MOST_DIFFERENCE_UM);
-    const int64_t range_mm = range_um / 1000;
     const int64_t own_q20 =
         ale_min64(ale_scan_noise_own_q20(&scan->noise, range_mm * range_mm), MOST_OWN_Q20);
     return d_um * d_um * (BLOCK << 8) / ale_max64((own_q20 * 6000000) >> 20, 1);
@@ -62,13 +67,37 @@ typedef struct {
     uint16_t ratio_q8[ALE_MAX_BEAMS]; /* a run has fewer windows than points */
 } blocks_t;
 
-static void add_block(const ale_prepared_scan_t *scan, int32_t start, int64_t curvature_q30, blocks_t *blocks)
+static inline void add_block(const ale_prepared_scan_t *scan, int32_t start, int64_t curvature_q30,
+                             blocks_t *blocks)
 {
-    if (scan->points.beam[start + THREE_BLOCKS - 1] - scan->points.beam[start] == THREE_BLOCKS - 1) {
-        const int64_t ratio_q8 = block_ratio_q8(scan, start, curvature_q30);
-        blocks->held_q8 += ale_min64(ratio_q8, HELD_Q8);
-        blocks->range_mm += middle_range_um(scan, start) / 1000;
-        blocks->ratio_q8[blocks->count++] = (uint16_t)ale_min64(ratio_q8, UINT16_MAX);
+    const uint32_t range_um = middle_range_um(scan, start);
+    const uint32_t range_mm = range_um / 1000;
+    const int64_t ratio_q8 = block_ratio_q8(scan, start, range_um, range_mm, curvature_q30);
+    blocks->held_q8 += ale_min64(ratio_q8, HELD_Q8);
+    blocks->range_mm += range_mm;
+    blocks->ratio_q8[blocks->count++] = (uint16_t)ale_min64(ratio_q8, UINT16_MAX);
+}
+
+static inline bool follow(const ale_points_t *points, int32_t first, int32_t last)
+{
+    return points->beam[last] - points->beam[first] == last - first;
+}
+
+/* Windows of a run from either end to the middle, where no beam is missing. */
+static void add_blocks(const ale_prepared_scan_t *scan, const ale_run_t *run, int64_t curvature_q30,
+                       blocks_t *blocks)
+{
+    const bool none_missing = follow(&scan->points, run->first, run->last);
+    const int32_t last_window = run->last + 1 - THREE_BLOCKS;
+    for (int32_t side = 0; side < 2; side++) {
+        const int32_t stride = side == 0 ? STRIDE : -STRIDE;
+        int32_t start = side == 0 ? run->first : last_window;
+        for (int32_t k = run->first + side; k <= last_window; k += 2 * STRIDE) {
+            if (none_missing || follow(&scan->points, start, start + THREE_BLOCKS - 1)) {
+                add_block(scan, start, curvature_q30, blocks);
+            }
+            start += stride;
+        }
     }
 }
 
@@ -113,19 +142,14 @@ static void scale_shared_of_runs(ale_run_list_t *r)
 
 bool ale_run_noise_measure_shared(ale_run_list_t *r, int32_t step_bam)
 {
-    const int64_t curvature_q30 = 2 * (((int64_t)1 << 30) - ale_cos_q30((uint32_t)step_bam * BLOCK));
+    const int64_t turn_q30 = 2 * (((int64_t)1 << 30) - ale_cos_q30((uint32_t)step_bam * BLOCK));
+    const int64_t curvature_q30 = ale_min64(turn_q30, MOST_CURVATURE_Q30);
     blocks_t blocks;
     blocks.count = 0;
     blocks.range_mm = 0;
     blocks.held_q8 = 0;
     for (int32_t k = 0; k < r->count; k++) {
-        const int32_t windows = r->run[k].last + 1 - r->run[k].first - 3 * BLOCK + 1;
-        for (int32_t o = 0; 2 * o < windows; o += STRIDE) {
-            add_block(&r->scan, r->run[k].first + o, curvature_q30, &blocks);
-            if (2 * o + 1 < windows) {
-                add_block(&r->scan, r->run[k].first + windows - 1 - o, curvature_q30, &blocks);
-            }
-        }
+        add_blocks(&r->scan, &r->run[k], curvature_q30, &blocks);
     }
     r->scan.noise.shared_stated_q8 = 256;
     r->scan.noise.shared_scale_q8 =

@@ -39,6 +39,7 @@ static void add_run(ale_run_list_t *r, int32_t a, int32_t b, const ale_run_fit_t
     run->curved = false;
     run->no_arc = false;
     run->no_break = false;
+    run->no_curve = false;
     run->settled = false;
     run->fit = *fit;
 }
@@ -93,8 +94,8 @@ static int32_t break_between(ale_run_list_t *r, ale_run_t *a, ale_run_t *b, int3
         .direction = direction,
         .widest_step = widest_step,
     };
-    return ale_break_place(r, (ale_segment_t){a->first, b->last}, ale_fit_of_run(&r->scan, a)->var_q8,
-                           ale_fit_of_run(&r->scan, b)->var_q8, &range);
+    return ale_break_place(r, (ale_segment_t){a->first, b->last}, ale_fit_of_run(&r->scan, a),
+                           ale_fit_of_run(&r->scan, b), &range);
 }
 
 static void move_break(ale_run_t *a, ale_run_t *b, int32_t split)
@@ -191,7 +192,7 @@ static int32_t fewest_to_split(ale_run_list_t *r)
     const int32_t most = ale_costly(r) ? MOST_TRIED / 3 : MOST_TRIED;
     const int32_t room = (int32_t)ale_min64(most, ALE_MANY_RUNS - r->count);
     int32_t fewest = MIN_SPLIT_POINTS;
-    while (fewest <= r->scan.points.count && suspicious_runs(r, fewest) > room) {
+    while (r->count > room && fewest <= r->scan.points.count && suspicious_runs(r, fewest) > room) {
         fewest += fewest / 4;
     }
     return fewest;

@@ -30,9 +30,15 @@ static const int64_t nrad2_per_rad2 = 1000000000000000000;
 
 typedef struct {
     int32_t samples;
-    int64_t range_um; /* sum, later mean */
+    int64_t range_um; /* mean */
     int64_t sigma_q4; /* um */
 } octave_t;
+
+/* Of the second differences in each octave. */
+typedef struct {
+    int32_t samples[OCTAVES];
+    int64_t range_um[OCTAVES];
+} octave_sums_t;
 
 /* A second difference of 1/r about a point of this range, as a range, um Q4: it times the squared range, in
  * two steps. What is 64 times the range or more is held at that. */
@@ -43,30 +49,30 @@ static inline uint64_t as_range_q4(int64_t difference_q44, int64_t range_um)
 }
 
 static inline void count_difference(ale_scan_noise_t *noise, int64_t difference_q44, int64_t range_um,
-                                    octave_t *octave)
+                                    octave_sums_t *sums)
 {
-    const uint32_t k = 31 - OCTAVE_BASE - (uint32_t)__builtin_clz((uint32_t)range_um);
+    const uint32_t k = ale_bit_length((uint64_t)range_um) - 1 - OCTAVE_BASE;
     noise->histogram[k][ale_histogram_bin(as_range_q4(difference_q44, range_um))]++;
-    octave[k].samples++;
-    octave[k].range_um += range_um;
+    sums->samples[k]++;
+    sums->range_um[k] += range_um;
 }
 
 /* The second difference about point i, where its neighbours are the next beams. */
 static inline void count_next(ale_scan_noise_t *noise, const ale_points_t *p, int32_t i,
-                              int64_t curvature_q30, octave_t *octave)
+                              int64_t curvature_q30, octave_sums_t *sums)
 {
     if (p->beam[i + 1] - p->beam[i - 1] == 2) {
         const int64_t q = p->inverse_q44[i];
         const int64_t d =
             (int64_t)p->inverse_q44[i - 1] + p->inverse_q44[i + 1] - 2 * q + (q * curvature_q30 >> 30);
-        count_difference(noise, d, p->range_um[i], octave);
+        count_difference(noise, d, p->range_um[i], sums);
     }
 }
 
 /* The same over beams without an echo. Neighbours left and right beams away weigh by each other's distance;
  * the difference then has at most 7 / 6 of the deviation that it has among next beams. */
 static void count_over_gaps(ale_scan_noise_t *noise, const ale_points_t *p, int32_t i, int64_t curvature_q30,
-                            octave_t *octave)
+                            octave_sums_t *sums)
 {
     const int64_t left = p->beam[i] - p->beam[i - 1];
     const int64_t right = p->beam[i + 1] - p->beam[i];
@@ -75,7 +81,7 @@ static void count_over_gaps(ale_scan_noise_t *noise, const ale_points_t *p, int3
         const int64_t neighbours = right * p->inverse_q44[i - 1] + left * p->inverse_q44[i + 1];
         const int64_t bend_q30 = ale_min64(left * right * curvature_q30, MOST_BEND_Q30);
         const int64_t d = 2 * neighbours / (left + right) - 2 * q + (q * bend_q30 >> 30);
-        count_difference(noise, d, p->range_um[i], octave);
+        count_difference(noise, d, p->range_um[i], sums);
     }
 }
 
@@ -89,7 +95,7 @@ static int64_t steps_q8(const ale_scan_t *scan, const ale_points_t *p, int32_t i
 
 /* The same where beams have bearings of their own: each neighbour weighs by the other's distance. */
 static void count_between(ale_scan_noise_t *noise, const ale_scan_t *scan, const ale_points_t *p, int32_t i,
-                          int64_t curvature_q30, octave_t *octave)
+                          int64_t curvature_q30, octave_sums_t *sums)
 {
     const int32_t most = p->sparse ? ALE_MAX_GAP_BEAMS : 1;
     const int64_t left = steps_q8(scan, p, i - 1);
@@ -99,45 +105,45 @@ static void count_between(ale_scan_noise_t *noise, const ale_scan_t *scan, const
         const int64_t neighbours = right * p->inverse_q44[i - 1] + left * p->inverse_q44[i + 1];
         const int64_t bend_q30 = ale_min64(left * right * curvature_q30 >> 16, MOST_BEND_Q30);
         const int64_t d = 2 * neighbours / (left + right) - 2 * q + (q * bend_q30 >> 30);
-        count_difference(noise, d, p->range_um[i], octave);
+        count_difference(noise, d, p->range_um[i], sums);
     }
 }
 
 /* Every STRIDE-th difference, from both ends to the middle: neighbouring ones share two of three points. */
 static void collect_between(ale_scan_noise_t *noise, const ale_scan_t *scan, const ale_points_t *p,
-                            int64_t curvature_q30, octave_t octave[OCTAVES])
+                            int64_t curvature_q30, octave_sums_t *sums)
 {
     const int32_t stride = p->sparse ? 1 : DIFFERENCE_STRIDE;
     int32_t i = 1;
     int32_t j = p->count - 2;
     for (; i < j; i += stride, j -= stride) {
-        count_between(noise, scan, p, i, curvature_q30, octave);
-        count_between(noise, scan, p, j, curvature_q30, octave);
+        count_between(noise, scan, p, i, curvature_q30, sums);
+        count_between(noise, scan, p, j, curvature_q30, sums);
     }
     if (i == j) {
-        count_between(noise, scan, p, i, curvature_q30, octave);
+        count_between(noise, scan, p, i, curvature_q30, sums);
     }
 }
 
 static void collect_next(ale_scan_noise_t *noise, const ale_points_t *p, int64_t curvature_q30,
-                         octave_t octave[OCTAVES])
+                         octave_sums_t *sums)
 {
     int32_t i = 1;
     int32_t j = p->count - 2;
     for (; i < j; i += DIFFERENCE_STRIDE, j -= DIFFERENCE_STRIDE) {
-        count_next(noise, p, i, curvature_q30, octave);
-        count_next(noise, p, j, curvature_q30, octave);
+        count_next(noise, p, i, curvature_q30, sums);
+        count_next(noise, p, j, curvature_q30, sums);
     }
     if (i == j) {
-        count_next(noise, p, i, curvature_q30, octave);
+        count_next(noise, p, i, curvature_q30, sums);
     }
 }
 
 static void collect_over_gaps(ale_scan_noise_t *noise, const ale_points_t *p, int64_t curvature_q30,
-                              octave_t octave[OCTAVES])
+                              octave_sums_t *sums)
 {
     for (int32_t i = 1; i + 1 < p->count; i++) {
-        count_over_gaps(noise, p, i, curvature_q30, octave);
+        count_over_gaps(noise, p, i, curvature_q30, sums);
     }
 }
 
@@ -147,24 +153,24 @@ static int32_t collect(ale_scan_noise_t *noise, const ale_scan_t *scan, const al
 {
     const int64_t curvature_q30 = 2 * (((int64_t)1 << 30) - ale_cos_q30((uint32_t)scan->step_bam));
     memset(noise->histogram, 0, sizeof noise->histogram);
-    memset(octave, 0, OCTAVES * sizeof *octave);
+    octave_sums_t all = {0};
+    octave_sums_t *sums = &all;
     if (scan->own_bearings && scan->step_bam != 0) {
-        collect_between(noise, scan, p, curvature_q30, octave);
+        collect_between(noise, scan, p, curvature_q30, sums);
     } else if (p->sparse) {
-        collect_over_gaps(noise, p, curvature_q30, octave);
+        collect_over_gaps(noise, p, curvature_q30, sums);
     } else {
-        collect_next(noise, p, curvature_q30, octave);
+        collect_next(noise, p, curvature_q30, sums);
     }
     int32_t used = 0;
     for (uint32_t k = 0; k < OCTAVES; k++) {
-        if (octave[k].samples >= MIN_SAMPLES) {
+        if (all.samples[k] >= MIN_SAMPLES) {
             /* three quarters of |d| are below 1.1503 sqrt(6) sigma */
-            const int64_t quartile_q4 =
-                ale_histogram_quantile(noise->histogram[k], octave[k].samples, PERCENT);
+            const int64_t quartile_q4 = ale_histogram_quantile(noise->histogram[k], all.samples[k], PERCENT);
             octave[used].sigma_q4 = ale_clamp64(ale_round_div(quartile_q4 * 1000, QUARTILE_PER_MILLE),
                                                 SIGMA_FLOOR_UM << SIGMA_BITS, SIGMA_MOST_UM << SIGMA_BITS);
-            octave[used].range_um = octave[k].range_um / octave[k].samples;
-            octave[used].samples = octave[k].samples;
+            octave[used].range_um = all.range_um[k] / all.samples[k];
+            octave[used].samples = all.samples[k];
             used++;
         }
     }

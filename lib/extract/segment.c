@@ -9,6 +9,7 @@ enum {
     NOISE_FACTOR = 7,  /* deviations of one beam's own error: 5 of the difference of two */
     SHARED_FACTOR = 5, /* the same of the constant part of the shared error */
     UNRULY_PERCENT = 45,
+    BLOCK = 8,         /* points looked at without asking for the end of the loop */
     SUSPECT_HALVES = 7 /* half deviations that a suspicious change exceeds: less than a spike or a jump has */
 };
 
@@ -86,34 +87,68 @@ static void end_segment(ale_segments_t *s, int32_t first, int32_t last)
     s->count++;
 }
 
-/* Adds the suspects among first..last - 1: a change is suspicious when it is more than a constant and a part
- * of the sum of both ranges. Then the larger one less its part is more than the other with its own. */
+/* A change is suspicious when it is more than a constant and a part of the sum of both ranges: then the
+ * larger one less its part is more than the other with its own. */
+typedef struct {
+    int64_t constant_q20;
+    int64_t less_q20;
+    int64_t more_q20;
+} suspicion_t;
+
+/* A range less its part, and with it and the constant. */
+typedef struct {
+    int64_t less_q20;
+    int64_t more_q20;
+} bounds_t;
+
+/*@ assigns \nothing; */
+static inline bounds_t bounds_of(const suspicion_t *of, int64_t range_um)
+{
+    return (bounds_t){range_um * of->less_q20, range_um * of->more_q20 + of->constant_q20};
+}
+
+/* Adds point i where it is suspicious. *here: bounds of its range, then those of the next one. */
+/*@ requires 0 <= i < ALE_MAX_BEAMS - 1 && s->suspect_count <= i;
+  @ requires \separated(s, points, here, of);
+  @ assigns *here, s->suspect_count, s->suspect[0 .. ALE_MAX_BEAMS - 1];
+  @ ensures s->suspect_count <= i + 1; */
+static inline void look_at(ale_segments_t *s, const ale_points_t *points, const suspicion_t *of, int32_t i,
+                           bounds_t *here)
+{
+    const bounds_t next = bounds_of(of, points->range_um[i + 1]);
+    if (next.less_q20 > here->more_q20 || here->less_q20 > next.more_q20) {
+        s->suspect[s->suspect_count++] = (uint16_t)i;
+    }
+    *here = next;
+}
+
+/* Adds the suspects among first..last - 1. */
 /*@ requires 0 <= first < ALE_MAX_BEAMS && last < ALE_MAX_BEAMS && s->suspect_count <= first;
+  @ requires \separated(s, points);
   @ assigns s->suspect_count, s->suspect[0 .. ALE_MAX_BEAMS - 1];
   @ ensures s->suspect_count <= (first < last ? last : first); */
 static void add_suspects(ale_segments_t *s, const ale_points_t *points, const ale_scan_noise_t *noise,
                          int32_t first, int32_t last)
 {
-    const int64_t constant_q20 = SUSPECT_HALVES * (noise->sigma_um << 20) / 2;
     const int64_t per_sum_q20 = SUSPECT_HALVES * noise->sigma_per_range_q20 / 4;
-    const int64_t less_q20 = (1 << 20) - per_sum_q20;
-    const int64_t more_q20 = (1 << 20) + per_sum_q20;
-    uint32_t suspects = s->suspect_count;
-    int64_t here_less = points->range_um[first] * less_q20;
-    int64_t here_more = points->range_um[first] * more_q20 + constant_q20;
-    /*@ loop invariant first <= i && suspects <= i && (i == first || i <= last);
-      @ loop assigns i, suspects, here_less, here_more, s->suspect[0 .. ALE_MAX_BEAMS - 1]; */
-    for (int32_t i = first; i < last; i++) {
-        const int64_t next_um = points->range_um[i + 1];
-        const int64_t next_less = next_um * less_q20;
-        const int64_t next_more = next_um * more_q20 + constant_q20;
-        if (next_less > here_more || here_less > next_more) {
-            s->suspect[suspects++] = (uint16_t)i;
+    const suspicion_t of = {SUSPECT_HALVES * (noise->sigma_um << 20) / 2, (1 << 20) - per_sum_q20,
+                            (1 << 20) + per_sum_q20};
+    bounds_t here = bounds_of(&of, points->range_um[first]);
+    int32_t i = first;
+    /*@ loop invariant first <= i && s->suspect_count <= i && (i == first || i <= last);
+      @ loop assigns i, here, s->suspect_count, s->suspect[0 .. ALE_MAX_BEAMS - 1]; */
+    for (; i + BLOCK <= last; i += BLOCK) {
+        /*@ loop invariant 0 <= j <= BLOCK && s->suspect_count <= i + j;
+          @ loop assigns j, here, s->suspect_count, s->suspect[0 .. ALE_MAX_BEAMS - 1]; */
+        for (int32_t j = 0; j < BLOCK; j++) {
+            look_at(s, points, &of, i + j, &here);
         }
-        here_less = next_less;
-        here_more = next_more;
     }
-    s->suspect_count = (uint16_t)suspects;
+    /*@ loop invariant first <= i && s->suspect_count <= i && (i == first || i <= last);
+      @ loop assigns i, here, s->suspect_count, s->suspect[0 .. ALE_MAX_BEAMS - 1]; */
+    for (; i < last; i++) {
+        look_at(s, points, &of, i, &here);
+    }
 }
 
 /* In a sparse scan the points lie farther apart: each stands for the beams to the next one. */
@@ -175,14 +210,4 @@ void ale_segment_cut(ale_segments_t *s, const ale_points_t *points, const ale_sc
     s->jump_after[points->count - 1] = true;
     s->jump_at_seam = is_jump_at_seam(points, &limit);
     end_segment(s, first, points->count - 1);
-}
-
-bool ale_segment_joins(const ale_segments_t *s, int32_t i, int32_t j)
-{
-    for (int32_t k = i; k < j; k++) {
-        if (s->jump_after[k]) {
-            return false;
-        }
-    }
-    return true;
 }

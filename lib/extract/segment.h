@@ -64,6 +64,14 @@ static inline ale_beyond_t ale_segment_beyond(const ale_points_t *points, const 
 }
 
 /* Whether the points i and j >= i lie in one segment. O(j - i). */
-bool ale_segment_joins(const ale_segments_t *segments, int32_t i, int32_t j);
+static inline bool ale_segment_joins(const ale_segments_t *segments, int32_t i, int32_t j)
+{
+    for (int32_t k = i; k < j; k++) {
+        if (segments->jump_after[k]) {
+            return false;
+        }
+    }
+    return true;
+}
 
 #endif

@@ -14,11 +14,12 @@
 
 static inline void unknown_directions(ale_beam_directions_t *directions)
 {
-    const int64_t most_q36 = 1099511644; /* 2^30 + 16 as what a micrometre is multiplied by */
+    const uint32_t most_q36 = 1099511644; /* 2^30 + 16 as what a micrometre is multiplied by */
+    const uint32_t sign = 0x80000000u;
     //@ loop unroll 1;
     for (uint32_t i = 0; i <= ALE_MAX_BEAMS; i++) {
-        directions->cos_q36[i] = (int32_t)unknown(-most_q36, most_q36);
-        directions->sin_q36[i] = (int32_t)unknown(-most_q36, most_q36);
+        directions->cos_q36[i] = (uint32_t)unknown(0, most_q36) | (unknown(0, 1) ? sign : 0);
+        directions->sin_q36[i] = (uint32_t)unknown(0, most_q36) | (unknown(0, 1) ? sign : 0);
     }
 }
 

@@ -28,6 +28,7 @@ static inline ale_run_t unknown_run(void)
         .curved = unknown(0, 1),
         .no_arc = unknown(0, 1),
         .no_break = unknown(0, 1),
+        .no_curve = unknown(0, 1),
         .settled = unknown(0, 1),
         .fit = unknown_fit(0),
     };

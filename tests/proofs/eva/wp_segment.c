@@ -2,5 +2,5 @@
  *
  * proves: lib/extract/segment.c
  * with: lib/base/fixed.c
- * wp: slope_um add_suspects ale_segment_suspect end_segment ale_segment_cut
+ * wp: slope_um look_at add_suspects ale_segment_suspect end_segment ale_segment_cut
  * options: -wp-prop=@requires,@assert,@ensures,@invariant,@assigns */

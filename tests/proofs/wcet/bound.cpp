@@ -157,6 +157,7 @@ void extraction(Parts &parts, ale_extractor_t *e, const ale_scan_t &scan, const 
         parts.measure("runs split again", 1, [&] { ale_runs_split(runs); });
         parts.measure("runs joined, third time", 1, [&] { ale_merge_runs(runs); });
         parts.measure("breaks placed, third time", 1, [&] { ale_runs_place(runs, ALE_BREAK_WIDE_STEP); });
+        runs->run[0].no_curve = false; // one that has changed, and all are asked
         parts.measure("curves again", 1, [&] { ale_curve_find(runs, true); });
     }
     close_seam(parts, runs);
