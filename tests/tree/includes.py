@@ -16,7 +16,7 @@ MOST_UNITS = 20
 ORDER = {
     "": ("lib", "drivers", "firmware", "tools"),
     "lib": ("base", "extract", "motion", "observe", "map", "match", "relocate", "track", "graph", "plan", "messages"),
-    "lib/graph": ("optimise", "walls", "loops"),
+    "lib/graph": ("optimise", "walls", "fields", "loops"),
     "lib/track": ("evidence",),
     "drivers": ("file", "serial", "scanner", "command", "motor", "store", "lcm", "log"),
     "drivers/scanner": ("urg", "rotary", "ldrobot", "rplidar"),

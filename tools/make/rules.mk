@@ -43,7 +43,7 @@ $(OBJ)/lib/base/%.o $(OBJ)/lib/extract/%.o: OPT = $(EXTRACT_OPT)
 $(OBJ)/lib/graph/%.o: OPT = $(GRAPH_OPT)
 $(OBJ)/lib/graph/%.o: CXX_FLAGS += $(GRAPH_FLAGS)
 # Sums of whole numbers are the same in vectors, too.
-$(OBJ)/lib/graph/loops/position_grid.cpp.o: CXX_FLAGS += -ftree-vectorize
+$(OBJ)/lib/graph/fields/position_grid.cpp.o: CXX_FLAGS += -ftree-vectorize
 # Room for no further observation is an array of none for gcc 14, which then warns of what is never written there. clang knows
 # no such warning.
 $(OBJ)/lib/track/step_observe.c.o: C_FLAGS += $(if $(findstring clang,$(CC)),,-Wno-stringop-overflow)

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "graph/loops/likelihood_field.h"
+#include "graph/fields/likelihood_field.h"
 #include "graph/optimise/node.h"
 
 namespace ale

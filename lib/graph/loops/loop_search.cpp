@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "graph/loops/likelihood_field.h"
+#include "graph/fields/likelihood_field.h"
 #include "graph/loops/loop_match.h"
 #include "graph/loops/place_candidates.h"
 #include "graph/loops/submap.h"

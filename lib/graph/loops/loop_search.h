@@ -17,7 +17,7 @@
 #include <optional>
 #include <vector>
 
-#include "graph/loops/free_space.h"
+#include "graph/fields/free_space.h"
 #include "graph/loops/loop.h"
 #include "graph/optimise/node.h"
 #include "graph/optimise/path_covariance.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "graph/loops/likelihood_field.h"
+#include "graph/fields/likelihood_field.h"
 #include "graph/loops/pairwise_match.h"
 #include "graph/walls/building_direction.h"
 

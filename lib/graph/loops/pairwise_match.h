@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "graph/loops/likelihood_field.h"
+#include "graph/fields/likelihood_field.h"
 #include "graph/optimise/node.h"
 
 namespace ale

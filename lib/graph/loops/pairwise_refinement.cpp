@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "graph/loops/likelihood_field.h"
+#include "graph/fields/likelihood_field.h"
 #include "graph/loops/map_table.h"
 #include "graph/loops/pairwise_match.h"
 #include "graph/loops/place_candidates.h"

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "graph/loops/free_space.h"
-#include "graph/loops/likelihood_field.h"
+#include "graph/fields/free_space.h"
+#include "graph/fields/likelihood_field.h"
 #include "graph/optimise/node.h"
 
 namespace ale

@@ -11,9 +11,9 @@
 
 #include <vector>
 
+#include "graph/fields/position_grid.h"
 #include "graph/loops/loop_match.h"
 #include "graph/loops/place.h"
-#include "graph/loops/position_grid.h"
 
 namespace ale
 {

@@ -1,5 +1,5 @@
-// lib/graph/loops/likelihood_field: against a plain search, and with views larger than it holds.
-#include "graph/loops/likelihood_field.h"
+// lib/graph/fields/likelihood_field: against a plain search, and with views larger than it holds.
+#include "graph/fields/likelihood_field.h"
 
 #include <cmath>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "graph/loops/likelihood_field.h"
+#include "graph/fields/likelihood_field.h"
 
 #include <algorithm>
 #include <array>

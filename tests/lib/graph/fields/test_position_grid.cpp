@@ -1,5 +1,5 @@
-// lib/graph/loops/position_grid: against sums of the field's likelihoods, one by one.
-#include "graph/loops/position_grid.h"
+// lib/graph/fields/position_grid: against sums of the field's likelihoods, one by one.
+#include "graph/fields/position_grid.h"
 
 #include <algorithm>
 #include <cmath>

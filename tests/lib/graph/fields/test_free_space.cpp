@@ -1,7 +1,7 @@
-// lib/graph/loops/free_space: a square room against itself, displaced.
+// lib/graph/fields/free_space: a square room against itself, displaced.
 #include <gtest/gtest.h>
 
-#include "graph/loops/free_space.h"
+#include "graph/fields/free_space.h"
 
 namespace
 {

@@ -4,8 +4,8 @@
 // Memory and construction are bounded by max_cells, the number of points, and four times (one a quadrant of
 // the normal) the occupied cells times the 113 cells within reach_m.
 // Source: Thrun, Burgard, Fox, "Probabilistic Robotics" (2005), 6.4, with a heavy-tailed kernel.
-#ifndef ALE_GRAPH_LOOPS_LIKELIHOOD_FIELD_H
-#define ALE_GRAPH_LOOPS_LIKELIHOOD_FIELD_H
+#ifndef ALE_GRAPH_FIELDS_LIKELIHOOD_FIELD_H
+#define ALE_GRAPH_FIELDS_LIKELIHOOD_FIELD_H
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 // Free space that a node saw around it. Points of another node that lie in it are a free-space violation: one
 // of the two is not where it is assumed to be. Metres, the node's frame.
-#ifndef ALE_GRAPH_LOOPS_FREE_SPACE_H
-#define ALE_GRAPH_LOOPS_FREE_SPACE_H
+#ifndef ALE_GRAPH_FIELDS_FREE_SPACE_H
+#define ALE_GRAPH_FIELDS_FREE_SPACE_H
 
 #include <array>
 

@@ -1,12 +1,12 @@
 // A likelihood field in bytes, for sums over many positions of a view that are whole cells apart: what is
 // summed lies side by side, and sums of whole numbers are the same in whatever order they are made.
-#ifndef ALE_GRAPH_LOOPS_POSITION_GRID_H
-#define ALE_GRAPH_LOOPS_POSITION_GRID_H
+#ifndef ALE_GRAPH_FIELDS_POSITION_GRID_H
+#define ALE_GRAPH_FIELDS_POSITION_GRID_H
 
 #include <cstdint>
 #include <vector>
 
-#include "graph/loops/likelihood_field.h"
+#include "graph/fields/likelihood_field.h"
 
 namespace ale
 {

@@ -1,4 +1,4 @@
-#include "graph/loops/free_space.h"
+#include "graph/fields/free_space.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "graph/loops/position_grid.h"
+#include "graph/fields/position_grid.h"
 
 #include <algorithm>
 #include <cmath>
