@@ -34,22 +34,6 @@ static inline void sum_point(ale_prepared_scan_t *scan, int32_t i, ale_moments_t
     total->yy += y * y;
 }
 
-static void sum_points(ale_prepared_scan_t *scan)
-{
-    const int32_t count = scan->points.count;
-    ale_moments_t total = {0};
-    int32_t i = 0;
-    for (; i + BLOCK <= count; i += BLOCK) {
-        for (int32_t j = 0; j < BLOCK; j++) {
-            sum_point(scan, i + j, &total);
-        }
-    }
-    for (; i < count; i++) {
-        sum_point(scan, i, &total);
-    }
-    scan->sum[count] = total;
-}
-
 typedef struct {
     int64_t first;
     int64_t second_q54;
@@ -64,29 +48,27 @@ static inline void sum_inverse(ale_prepared_scan_t *scan, int32_t i, inverse_sum
     total->second_q54 += inverse * inverse >> INVERSE2_SHIFT;
 }
 
-static void sum_inverses(ale_prepared_scan_t *scan)
+void ale_moments_build(ale_prepared_scan_t *scan)
 {
     const int32_t count = scan->points.count;
-    inverse_sums_t total = {0};
+    ale_moments_t total = {0};
+    inverse_sums_t inverse_total = {0};
+    scan->noise.own_um2_q8 =
+        ale_min64(((scan->noise.own_mm2_q36 >> 10) * 15625) >> 12, (int64_t)1 << OWN_BITS);
     int32_t i = 0;
     for (; i + BLOCK <= count; i += BLOCK) {
         for (int32_t j = 0; j < BLOCK; j++) {
-            sum_inverse(scan, i + j, &total);
+            sum_point(scan, i + j, &total);
+            sum_inverse(scan, i + j, &inverse_total);
         }
     }
     for (; i < count; i++) {
-        sum_inverse(scan, i, &total);
+        sum_point(scan, i, &total);
+        sum_inverse(scan, i, &inverse_total);
     }
-    scan->inverse_sum[count] = total.first;
-    scan->inverse2_sum_q54[count] = total.second_q54;
-}
-
-void ale_moments_build(ale_prepared_scan_t *scan)
-{
-    scan->noise.own_um2_q8 =
-        ale_min64(((scan->noise.own_mm2_q36 >> 10) * 15625) >> 12, (int64_t)1 << OWN_BITS);
-    sum_points(scan);
-    sum_inverses(scan);
+    scan->sum[count] = total;
+    scan->inverse_sum[count] = inverse_total.first;
+    scan->inverse2_sum_q54[count] = inverse_total.second_q54;
 }
 
 ale_run_fit_t ale_moments_fit(const ale_prepared_scan_t *scan, int32_t first, int32_t last)

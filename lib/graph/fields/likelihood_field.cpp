@@ -179,23 +179,17 @@ LikelihoodField::Cell LikelihoodField::cell_at(const Eigen::Vector2d &p) const
 void LikelihoodField::add_likelihoods_around(const Eigen::Vector2d &p, int steps, int stride,
                                              std::vector<double> *sums) const
 {
-    const Eigen::Vector2d at = (p - origin_) * cells_per_m;
-    const double far = static_cast<double>(max_cells); // what is farther is outside at every step
-    if (!(std::abs(at.x()) < far && std::abs(at.y()) < far)) {
-        return;
-    }
-    const int column = static_cast<int>(std::floor(at.x()));
-    const int row = static_cast<int>(std::floor(at.y()));
+    const Cell centre = cell_at(p);
     const int side = 2 * steps + 1;
     for (int y = 0; y < side; y++) {
-        const int r = row + (y - steps) * stride;
+        const int r = centre.row + (y - steps) * stride;
         if (r < 0 || r >= height_) {
             continue;
         }
         const float *cells = &likelihood_[static_cast<size_t>(r) * static_cast<size_t>(width_)];
         double *line = &(*sums)[static_cast<size_t>(y) * static_cast<size_t>(side)];
         for (int x = 0; x < side; x++) {
-            const int c = column + (x - steps) * stride;
+            const int c = centre.column + (x - steps) * stride;
             if (c >= 0 && c < width_) {
                 line[x] += static_cast<double>(cells[c]);
             }

@@ -25,6 +25,7 @@ constexpr size_t searched_headings = 40; // the four of a room, each with some b
 constexpr size_t searched_blocks = 2000;
 constexpr size_t scored_positions = 400;
 constexpr size_t coarse_points = 32; // thinned() keeps up to twice as many
+static_assert(2 * coarse_points <= PositionGrid::most_points, "their sums fit");
 constexpr size_t scored_points = 120;
 
 // How far along each axis.
