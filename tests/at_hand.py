@@ -10,7 +10,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 BUILD = pathlib.Path(os.environ.get("ALE_BUILD", ROOT / "build")).resolve()
 BINARIES = BUILD / "bin"
 WORLDS = ROOT / "tools/lab/worlds"
-LONG = pytest.mark.skipif(not os.environ.get("ALE_LONG_TESTS"), reason="long: ALE_LONG_TESTS=1, or make test-all")
+LONG = pytest.mark.long  # see conftest.py
 
 
 def shared(name):

@@ -14,6 +14,18 @@ from at_hand import BUILD  # noqa: E402
 from lcm_url import NoMulticast, ensure_multicast  # noqa: E402
 
 
+def pytest_configure(config):
+    config.addinivalue_line("markers", "long: takes minutes; with ALE_LONG_TESTS=1 alone, as `make test-all` runs it")
+
+
+def pytest_collection_modifyitems(items):
+    if os.environ.get("ALE_LONG_TESTS"):
+        return
+    for item in items:
+        if item.get_closest_marker("long"):
+            item.add_marker(pytest.mark.skip(reason="long: ALE_LONG_TESTS=1, or make test-all"))
+
+
 @pytest.fixture(scope="session")
 def multicast():
     try:

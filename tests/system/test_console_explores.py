@@ -3,19 +3,17 @@ real one.
 
 It takes minutes and wants the processor for itself: with ALE_LONG_TESTS=1, as `make test-all` runs it."""
 import math
-import os
 import subprocess
 
 import pytest
 
 import browser
-from at_hand import BINARIES, WORLDS
+from at_hand import BINARIES, LONG, WORLDS
 from chain import Truth, distance_to_wall, tally, walls_of
+from console_page import let_the_camera_glide
 from waiting import wait_until
 
-pytestmark = [
-    pytest.mark.skipif(not os.environ.get("ALE_LONG_TESTS"), reason="takes minutes: ALE_LONG_TESTS=1 runs it"),
-    pytest.mark.skipif(bool(browser.missing()), reason=f"no browser test: {browser.missing()}")]
+pytestmark = [LONG, pytest.mark.skipif(bool(browser.missing()), reason=f"no browser test: {browser.missing()}")]
 
 SPEED = 4
 LONGEST_S = 900  # of the robot's time
@@ -106,6 +104,7 @@ def pixel_of(page, place):
 
 def press_goal(page, place):
     page.click("goal")
+    let_the_camera_glide(page)
     x_px, y_px = pixel_of(page, place)
     page.drag(x_px, y_px, x_px, y_px)
 

@@ -25,6 +25,8 @@ return [...document.querySelectorAll("button, input, select, textarea, a, summar
 """
 FIND = "const e = document.querySelector(`[data-layer='${arguments[0].split('layer ')[1]}']`) ?? document.getElementById(arguments[0]);"
 TIME = "document.body.dataset.time"
+RESTS_MS = 100  # before it is lifted: else a flick, after which the browser may make no click of the next tap
+MOST_FAILED = 3  # then the page is in no state for the rest, each of which would be waited for
 
 
 class Hand:
@@ -60,7 +62,7 @@ class Hand:
         """A press there, or from there to another place."""
         to = to or (x, y)
         if self.way == "finger":
-            self.page.fingers([(x, y), to])
+            self.page.fingers([(x, y), to], held_ms=RESTS_MS)
         else:
             self.page.drag(x, y, *to)
 
@@ -385,6 +387,27 @@ def desk(chromium, alice, robot, tmp_path):
     assert chromium.errors() == []
 
 
+def lay_out_for(way, page):
+    """What is pressed at once stands where it was seen."""
+    if way in SIZES:
+        page.be_a_phone(*SIZES[way])
+        page.wait_for(f"innerWidth === {SIZES[way][0]}")
+
+
+@pytest.mark.parametrize("flicked, from_to", [("map", ((0.4, 0.4), (0.6, 0.5))), ("speed-limit", ((0.5, 0.5), (0.9, 0.5)))])
+def test_a_stop_right_after_a_flick_is_sent(desk, commands, tmp_path, flicked, from_to):
+    """The browser may take a tap that comes soon after one for its end, and makes no click of it."""
+    hand = Hand(desk, "finger", commands, tmp_path)
+    lay_out_for("finger", desk)
+    try:
+        for _ in range(3):
+            desk.fingers([hand.at(flicked, *place) for place in from_to])
+            with hand.commands("stop"):
+                desk.fingers([hand.at("stop")])
+    finally:
+        desk.be_a_window()
+
+
 def all_of_the_list(page):
     page.run("document.getElementById('shelf-more').click()")
     return set(page.run(NAMES))
@@ -407,10 +430,12 @@ def what_fails(act, hand, name):
 @pytest.mark.parametrize("way", WAYS)
 def test_every_control_does_what_it_is_for(desk, commands, way, tmp_path):
     hand = Hand(desk, way, commands, tmp_path / "got")
-    if way in SIZES:
-        desk.be_a_phone(*SIZES[way])
+    lay_out_for(way, desk)
+    failed = []
     try:
-        failed = [f"{name}: {str(error)[:300]}" for name, act in CONTROLS.items() if act and (error := what_fails(act, hand, name))]
+        for name, act in CONTROLS.items():
+            error = act and len(failed) < MOST_FAILED and what_fails(act, hand, name)
+            failed += [f"{name}: {str(error)[:300]}"] if error else []
     finally:
         desk.be_a_window()
     assert not failed, "\n".join(failed)
@@ -423,8 +448,7 @@ def test_those_of_several_robots_too(chromium, rovers, way):
         chromium.open(rovers.console.url)
         chromium.wait_for("document.body.dataset.control === 'yes'")
         hand = Hand(chromium, way, lambda *_: [command for _, command in rovers.commands], None)
-        if way in SIZES:
-            chromium.be_a_phone(*SIZES[way])
+        lay_out_for(way, chromium)
         assert {"robot", "stop-all"} <= set(chromium.run(NAMES))
         with hand.commands("stop", "stop"):
             hand.press("stop-all")

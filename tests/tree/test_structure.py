@@ -98,7 +98,7 @@ def test_a_complicated_function_is_found(tmp_path):
 def long_tests():
     """Files with tests that run with ALE_LONG_TESTS alone, as far as pytest selects them by name."""
     found = [path for path in sorted((ROOT / "tests").rglob("test_*.py")) if path != pathlib.Path(__file__).resolve()]
-    return [path for path in found if re.search(r"@LONG|marks=LONG|ALE_LONG_TESTS", path.read_text(encoding="utf-8"))]
+    return [path for path in found if re.search(r"@LONG|marks=LONG|\[LONG|ALE_LONG_TESTS", path.read_text(encoding="utf-8"))]
 
 
 def without_a_command(paths):
@@ -108,7 +108,7 @@ def without_a_command(paths):
     chosen = re.findall(r'ALE_LONG_TESTS=1 .*?\bT=(?:"([^"]*)"|(\S+))', recipes)
     text = " or ".join(re.sub(r"\$\((\w+)\)", lambda name: variables[name[1]], quoted or bare) for quoted, bare in chosen)
     words = text.split(" or ")
-    return [path.name for path in paths if not any(word in path.stem or f"def test_{word}" in path.read_text(encoding="utf-8") for word in words)]
+    return [path.name for path in paths if not any(word in path.stem or re.search(rf"def test_\w*{word}", path.read_text(encoding="utf-8")) for word in words)]
 
 
 def test_make_test_all_runs_every_long_test():

@@ -104,8 +104,8 @@ $(VENV)/ready: tests/requirements.txt tests/requirements-bridges.txt
 venv: $(VENV)/ready
 
 SYSTEM_PROGRAMS ?= programs python-package
-system: $(SYSTEM_PROGRAMS) lcm-types venv ## tests of the real programs over pseudo terminals and LCM (T=word selects)
-	@$(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(if $(T),-rP -k "$(T)") $(if $(DIST),--dist $(DIST))
+system: $(SYSTEM_PROGRAMS) lcm-types venv ## tests of the real programs over pseudo terminals and LCM (T=word selects, MARK=long those that are)
+	@$(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(if $(T),-rP -k "$(T)") $(if $(MARK),-m $(MARK)) $(if $(DIST),--dist $(DIST))
 
 system-rtai: programs lcm-types venv $(BUILD)/rtai/ale-slamd ## the system tests with the firmware on an emulated RTAI (T=file of tests/system)
 	@ALE_SLAMD=$(BUILD)/rtai/ale-slamd $(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(or $(T),tests/system)
@@ -304,8 +304,9 @@ test-all: ## make test, lint, and the same bytes from every compiler, level and 
 	@$(PHASE) "hostile datagrams, messages and requests on every socket, with sanitizers"
 	@$(CHECKED) -j2 $(HOSTILE_PROGRAMS) lcm-types
 	-@ALE_LONG_TESTS=1 $(CHECKED) VENV=$(abspath $(VENV)) SYSTEM_PROGRAMS= T="$(HOSTILE_TESTS)" system
-	@$(PHASE) "the robot explores at a click in the browser; the console's page in every size, theme and layer; all tests of the bridges"
-	-@ALE_LONG_TESTS=1 $(SUB) system T="console_explores or test_console_access or test_console_controls or test_console_fleet or test_console_flights or test_console_recordings or test_tiles or ros2 or test_foxglove or test_bags"
+	@$(PHASE) "the robot explores at a click in the browser; the console's page in every size, theme and layer; the bridges: what make test leaves out"
+	-@ALE_LONG_TESTS=1 $(SUB) system T=console_explores
+	-@ALE_LONG_TESTS=1 $(SUB) system T="test_console_access or test_console_controls or test_console_fleet or test_console_flights or test_console_recordings or ros2 or test_foxglove or test_bags" MARK=long DIST=load
 	@$(PHASE) "simulated scanners read by clients that are not ours, a minute each"
 	-@ALE_LONG_TESTS=1 $(SUB) system T=independent_clients DIST=load
 	@$(PHASE) "a robot in a building of a square kilometre"

@@ -1,6 +1,8 @@
 // The operator's hands: stick and keys for driving, buttons for the rest. What he asks for goes to the console as
 // words; the console signs them. Nothing here is trusted by the robot, and it stops by itself when nothing more comes.
 
+import { whenPressed } from "./stopping.js";
+
 const DRIVE_PERIOD_MS = 80; // the robot stands still 300 ms after the last one
 const STICK_DEAD = 0.12; // part of the stick's way that a thumb's rest covers
 const SURE_MS = 3000; // a button that destroys something wants a second press within that time
@@ -150,6 +152,7 @@ export class Control {
       pointed(event);
     });
     stick.addEventListener("pointermove", (event) => event.pointerId === this.held && pointed(event));
+    stick.addEventListener("touchmove", (event) => event.preventDefault(), { passive: false }); // as of the map
     for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) {
       stick.addEventListener(end, () => {
         this.held = undefined;
@@ -187,7 +190,6 @@ export class Control {
   #listenToButtons() {
     const name = () => element("map-name").value.trim();
     const actions = {
-      stop: () => this.#stop(),
       explore: () => this.#command("explore", this.exploring ? "off" : "on"),
       reset: () => this.#whenSure("reset", () => this.#command("reset")),
       "save-map": () => this.#command("save_map", name()),
@@ -199,6 +201,7 @@ export class Control {
       set: () => this.#command("set", element("parameter").value, element("value").value.trim()),
     };
     for (const [id, action] of Object.entries(actions)) element(id).addEventListener("click", action);
+    whenPressed(element("stop"), () => this.#stop());
   }
 
   #whenSure(id, action) {

@@ -1,6 +1,7 @@
 // The robots of this console: the one that the page shows, how each of them is, and STOP for all. Another one is chosen by
 // a list in the strip; with one robot there is no list.
 
+import { whenPressed } from "./stopping.js";
 import { robotInWords } from "./words.js";
 
 const TROUBLE = ["weak", "lost", "silent"];
@@ -15,7 +16,7 @@ export class Fleet {
     this.choice = Object.assign(document.createElement("select"), { id: "robot" });
     this.stopAll = document.getElementById("stop-all");
     this.choice.addEventListener("change", () => link.choose(this.choice.value));
-    this.stopAll.addEventListener("click", () => link.send({ type: "stop_all" }));
+    whenPressed(this.stopAll, () => link.send({ type: "stop_all" }));
   }
 
   take(message) {

@@ -136,6 +136,8 @@ export class View {
       canvas.classList.add("held");
     });
     canvas.addEventListener("pointermove", (event) => this.#moved(event));
+    // Else Chromium takes a quick one for a fling, and the next tap, wherever it is, for the end of that.
+    canvas.addEventListener("touchmove", (event) => event.preventDefault(), { passive: false });
     for (const end of ["pointerup", "pointercancel"]) {
       canvas.addEventListener(end, (event) => {
         this.pointers.delete(event.pointerId);
