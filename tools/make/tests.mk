@@ -104,7 +104,7 @@ $(VENV)/ready: tests/requirements.txt tests/requirements-bridges.txt
 venv: $(VENV)/ready
 
 SYSTEM_PROGRAMS ?= programs python-package
-system: $(SYSTEM_PROGRAMS) lcm-types venv ## tests of the real programs over pseudo terminals and LCM (T=word selects, MARK=long those that are)
+system: $(SYSTEM_PROGRAMS) lcm-types venv ## tests of the real programs over pseudo terminals and LCM (T=word selects; MARK=long: the long ones alone)
 	@$(PYTHON) tools/make/run_tests.py system $(VENV)/bin/python $(if $(T),-rP -k "$(T)") $(if $(MARK),-m $(MARK)) $(if $(DIST),--dist $(DIST))
 
 system-rtai: programs lcm-types venv $(BUILD)/rtai/ale-slamd ## the system tests with the firmware on an emulated RTAI (T=file of tests/system)

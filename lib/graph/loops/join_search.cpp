@@ -57,42 +57,6 @@ void add_tasks(int place, const std::vector<int> &queries, std::vector<JoinTask>
     }
 }
 
-// Which of the matches kept of a node this one replaces; behind the last: none. Of matches that put the node
-// to the same place the best is kept, of all with one map the best few. Nothing: it is no better.
-std::optional<size_t> slot_for(const std::vector<Node> &nodes, const std::vector<Pose> &poses,
-                               const std::vector<Loop> &kept, const Loop &match)
-{
-    const auto put = [&](const Loop &loop) { return compose(at(poses, loop.from), loop.measured); };
-    size_t with_map = 0;
-    size_t worst = kept.size();
-    for (size_t k = 0; k < kept.size(); k++) {
-        if (at(nodes, kept[k].from).map_id != at(nodes, match.from).map_id) {
-            continue;
-        }
-        const Pose off = between(put(kept[k]), put(match));
-        if (length(off.x, off.y) < same_m && std::abs(off.theta) < same_m) {
-            return match.overlap > kept[k].overlap ? std::optional(k) : std::nullopt;
-        }
-        with_map++;
-        worst = worst == kept.size() || kept[k].overlap < kept[worst].overlap ? k : worst;
-    }
-    if (with_map < JoinSearch::most_matches) {
-        return kept.size();
-    }
-    return match.overlap > kept[worst].overlap ? std::optional(worst) : std::nullopt;
-}
-
-// Whether the view, as matched, lies on what the place saw, as far as that could show it, and neither looks
-// through the other.
-bool agrees(const Place &place, const View &view, const LoopMatch &match)
-{
-    if (match.overlap < least_part * least_in_view) {
-        return false;
-    }
-    const Explanation seen = place.explain(view, match.pose);
-    return seen.agreed >= least_agreed && match.overlap >= least_part * std::max(least_in_view, seen.in_view);
-}
-
 } // namespace
 
 std::vector<JoinTask> tasks_while_driving(const std::vector<Node> &nodes, const std::vector<Pose> &poses,
@@ -145,36 +109,13 @@ std::vector<JoinTask> tasks_after_drive(const std::vector<Node> &nodes, const st
     return tasks;
 }
 
-std::vector<JoinTask> tasks_after_joins(const std::vector<Node> &nodes, const std::vector<Pose> &poses,
-                                        const std::vector<uint32_t> &changed)
+JoinSearch::JoinSearch(std::vector<JoinTask> tasks) : tasks_(std::move(tasks))
 {
-    const auto is_unchanged = [&](int node) {
-        return std::find(changed.begin(), changed.end(), at(nodes, node).map_id) == changed.end();
-    };
-    std::vector<JoinTask> tasks = tasks_after_drive(nodes, poses);
-    for (JoinTask &task : tasks) {
-        std::vector<int> &queries = task.queries;
-        if (is_unchanged(task.place)) {
-            queries.erase(std::remove_if(queries.begin(), queries.end(), is_unchanged), queries.end());
-        }
-    }
-    return tasks;
-}
-
-JoinSearch::JoinSearch(std::vector<JoinTask> tasks)
-{
-    go_on(std::move(tasks));
-}
-
-void JoinSearch::go_on(std::vector<JoinTask> tasks)
-{
-    tasks_ = std::move(tasks);
-    next_ = 0;
+    std::set<int> queries;
     for (const JoinTask &task : tasks_) {
-        for (const int query : task.queries) {
-            matches_[query];
-        }
+        queries.insert(task.queries.begin(), task.queries.end());
     }
+    queries_.assign(queries.begin(), queries.end());
 }
 
 bool JoinSearch::step(const std::vector<Node> &nodes, const std::vector<Pose> &poses)
@@ -195,58 +136,78 @@ void JoinSearch::search(const std::vector<Node> &nodes, const std::vector<Pose> 
     const PlaceSearch in_place(place);
     for (const int query : task.queries) {
         const View view(nodes, poses, query);
-        std::vector<Loop> &kept = matches_[query];
         for (const LoopMatch &match : in_place.find(view.points)) {
-            const Loop loop = loop_from_match(match, task.place, query);
-            const auto slot = slot_for(nodes, poses, kept, loop);
-            if (slot && agrees(place, view, match)) {
-                kept.resize(std::max(kept.size(), *slot + 1));
-                kept[*slot] = loop;
+            if (match.overlap < least_part * least_in_view) {
+                continue;
+            }
+            const Explanation seen = place.explain(view, match.pose);
+            if (seen.agreed >= least_agreed &&
+                match.overlap >= least_part * std::max(least_in_view, seen.in_view)) {
+                keep(nodes, poses, loop_from_match(match, task.place, query));
             }
         }
+    }
+}
+
+// Of matches that put a node to the same place the best; of all with one map the best few.
+void JoinSearch::keep(const std::vector<Node> &nodes, const std::vector<Pose> &poses, const Loop &match)
+{
+    const auto put = [&](const Loop &loop) { return compose(at(poses, loop.from), loop.measured); };
+    size_t with_map = 0;
+    size_t worst = matches_.size();
+    for (size_t k = 0; k < matches_.size(); k++) {
+        Loop &other = matches_[k];
+        if (other.to != match.to || at(nodes, other.from).map_id != at(nodes, match.from).map_id) {
+            continue;
+        }
+        const Pose off = between(put(other), put(match));
+        if (length(off.x, off.y) < same_m && std::abs(off.theta) < same_m) {
+            other = match.overlap > other.overlap ? match : other;
+            return;
+        }
+        with_map++;
+        worst = worst == matches_.size() || other.overlap < matches_[worst].overlap ? k : worst;
+    }
+    if (with_map < most_matches) {
+        matches_.push_back(match);
+    } else if (match.overlap > matches_[worst].overlap) {
+        matches_[worst] = match;
     }
 }
 
 std::optional<FoundJoin> JoinSearch::decide(const std::vector<Node> &nodes, const std::vector<Pose> &poses,
                                             MapKind kind) const
 {
-    std::vector<int> compared;
-    std::vector<Loop> matches;
-    for (const auto &[query, kept] : matches_) {
-        compared.push_back(query);
-        matches.insert(matches.end(), kept.begin(), kept.end());
-    }
+    std::vector<int> compared = queries_;
     if (kind == MapKind::drives) {
         compared.resize(nodes.size());
         std::iota(compared.begin(), compared.end(), 0);
     }
-    return JoinDecision(nodes, poses, std::move(matches), std::move(compared), kind).find();
+    return JoinDecision(nodes, poses, matches_, std::move(compared), kind).find();
 }
 
 void JoinSearch::remove_node(int k)
 {
     const auto move_up = [k](int *node) { *node -= *node > k ? 1 : 0; };
+    const auto clean = [&](std::vector<int> *nodes) {
+        nodes->erase(std::remove(nodes->begin(), nodes->end(), k), nodes->end());
+        std::for_each(nodes->begin(), nodes->end(), [&](int &node) { move_up(&node); });
+    };
+    clean(&queries_);
     for (JoinTask &task : tasks_) {
-        task.queries.erase(std::remove(task.queries.begin(), task.queries.end(), k), task.queries.end());
-        std::for_each(task.queries.begin(), task.queries.end(), [&](int &node) { move_up(&node); });
+        clean(&task.queries);
         if (task.place == k) {
             task.queries.clear();
             task.place = 0;
         }
         move_up(&task.place);
     }
-    std::map<int, std::vector<Loop>> left;
-    matches_.erase(k);
-    for (auto &[query, kept] : matches_) {
-        kept.erase(std::remove_if(kept.begin(), kept.end(), [k](const Loop &loop) { return loop.from == k; }),
-                   kept.end());
-        for (Loop &loop : kept) {
-            move_up(&loop.from);
-            move_up(&loop.to);
-        }
-        left.emplace(query - (query > k ? 1 : 0), std::move(kept));
+    const auto refers = [k](const Loop &loop) { return loop.from == k || loop.to == k; };
+    matches_.erase(std::remove_if(matches_.begin(), matches_.end(), refers), matches_.end());
+    for (Loop &loop : matches_) {
+        move_up(&loop.from);
+        move_up(&loop.to);
     }
-    matches_ = std::move(left);
 }
 
 } // namespace ale

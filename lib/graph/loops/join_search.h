@@ -10,7 +10,6 @@
 #ifndef ALE_GRAPH_LOOPS_JOIN_SEARCH_H
 #define ALE_GRAPH_LOOPS_JOIN_SEARCH_H
 
-#include <map>
 #include <optional>
 #include <vector>
 
@@ -31,9 +30,6 @@ std::vector<JoinTask> tasks_while_driving(const std::vector<Node> &nodes, const 
                                           const std::vector<uint32_t> &left_out);
 // Nodes of every map, searched in all others. Of two maps that with fewer nodes is searched for.
 std::vector<JoinTask> tasks_after_drive(const std::vector<Node> &nodes, const std::vector<Pose> &poses);
-// Those of them that a map of `changed` takes part in.
-std::vector<JoinTask> tasks_after_joins(const std::vector<Node> &nodes, const std::vector<Pose> &poses,
-                                        const std::vector<uint32_t> &changed);
 
 class JoinSearch
 {
@@ -44,9 +40,6 @@ class JoinSearch
     static constexpr size_t most_matches = 8;
 
     explicit JoinSearch(std::vector<JoinTask> tasks);
-
-    // Goes on with other tasks; what was found before counts, too.
-    void go_on(std::vector<JoinTask> tasks);
 
     // One place: a PlaceSearch and its find() for each query. False: nothing is left. May throw
     // std::bad_alloc.
@@ -61,9 +54,11 @@ class JoinSearch
 
   private:
     void search(const std::vector<Node> &nodes, const std::vector<Pose> &poses, const JoinTask &task);
+    void keep(const std::vector<Node> &nodes, const std::vector<Pose> &poses, const Loop &match);
 
     std::vector<JoinTask> tasks_;
-    std::map<int, std::vector<Loop>> matches_; // of every query of the tasks
+    std::vector<int> queries_; // of all tasks
+    std::vector<Loop> matches_;
     size_t next_ = 0;
 };
 

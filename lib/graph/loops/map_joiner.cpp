@@ -48,18 +48,16 @@ bool MapJoiner::refine(const std::vector<Node> &nodes, const std::vector<Pose> &
     }
     if (!search_) {
         search_.emplace(tasks_after_drive(nodes, poses));
-        changed_.clear();
+        joined_ = false;
     }
     if (search_->step(nodes, poses)) {
         return true;
     }
     found_ = search_->decide(nodes, poses, kind);
-    if (found_) {
-        changed_.push_back(found_->join.into_map_id);
-    } else {
-        rounds_ = changed_.empty() ? most_rounds : rounds_ + 1;
-        search_->go_on(tasks_after_joins(nodes, poses, changed_));
-        changed_.clear();
+    joined_ = joined_ || found_;
+    if (!found_) {
+        search_.reset();
+        rounds_ = joined_ ? rounds_ + 1 : most_rounds;
     }
     return true;
 }

@@ -6,8 +6,7 @@
 //
 // While driving the last nodes of the present map are searched in all places of the others, some places with
 // each node; when all have been seen, the matches decide, and the next sweep begins. After the drive all maps
-// are searched in all others, and those that others have joined again, until nothing joins. Whatever searches
-// may throw std::bad_alloc.
+// are searched in all others, until nothing joins. Whatever searches may throw std::bad_alloc.
 #ifndef ALE_GRAPH_LOOPS_MAP_JOINER_H
 #define ALE_GRAPH_LOOPS_MAP_JOINER_H
 
@@ -59,8 +58,8 @@ class MapJoiner
     std::vector<uint32_t> unknown_; // maps
     uint32_t present_ = 0;          // that the search while driving is of
     bool driving_ = true;
-    int rounds_ = 0;                // after the drive
-    std::vector<uint32_t> changed_; // maps that others have joined in this round
+    int rounds_ = 0;      // after the drive
+    bool joined_ = false; // in this round
 };
 
 } // namespace ale

@@ -2,7 +2,6 @@
 #include "graph/loops/join_search.h"
 
 #include <set>
-#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -44,30 +43,6 @@ TEST(JoinSearch, WhatNoDecisionCanJoinIsNotSearched)
     drive.add_map(0, 9);
     drive.add_map(1, static_cast<int>(ale::JoinDecision::least_nodes) - 1);
     EXPECT_TRUE(ale::tasks_after_drive(drive.nodes, drive.poses).empty());
-}
-
-// Places of the first of three maps are searched for all of the others where it has changed, else for what
-// has.
-TEST(JoinSearch, AfterJoinsOnlyWhatHasChangedIsSearchedAgain)
-{
-    Drive drive;
-    drive.add_map(0, 9);
-    drive.add_map(1, 5);
-    drive.add_map(2, 4);
-    const auto searched_again = [&drive](uint32_t changed) {
-        std::set<std::pair<uint32_t, uint32_t>> pairs;
-        for (const ale::JoinTask &task : ale::tasks_after_joins(drive.nodes, drive.poses, {changed})) {
-            for (const int query : task.queries) {
-                pairs.insert({ale::at(drive.nodes, task.place).map_id, ale::at(drive.nodes, query).map_id});
-            }
-        }
-        return pairs;
-    };
-    using Pairs = std::set<std::pair<uint32_t, uint32_t>>;
-    EXPECT_EQ(searched_again(0), (Pairs{{0, 1}, {0, 2}}));
-    EXPECT_EQ(searched_again(1), (Pairs{{0, 1}, {1, 2}}));
-    EXPECT_EQ(searched_again(2), (Pairs{{0, 2}, {1, 2}}));
-    EXPECT_EQ(searched_again(3), Pairs{});
 }
 
 } // namespace

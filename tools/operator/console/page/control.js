@@ -1,7 +1,7 @@
 // The operator's hands: stick and keys for driving, buttons for the rest. What he asks for goes to the console as
 // words; the console signs them. Nothing here is trusted by the robot, and it stops by itself when nothing more comes.
 
-import { whenPressed } from "./stopping.js";
+import { leavesNoFling, whenPressed } from "./touch.js";
 
 const DRIVE_PERIOD_MS = 80; // the robot stands still 300 ms after the last one
 const STICK_DEAD = 0.12; // part of the stick's way that a thumb's rest covers
@@ -152,7 +152,7 @@ export class Control {
       pointed(event);
     });
     stick.addEventListener("pointermove", (event) => event.pointerId === this.held && pointed(event));
-    stick.addEventListener("touchmove", (event) => event.preventDefault(), { passive: false }); // as of the map
+    leavesNoFling(stick);
     for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) {
       stick.addEventListener(end, () => {
         this.held = undefined;

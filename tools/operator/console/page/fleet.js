@@ -1,7 +1,7 @@
 // The robots of this console: the one that the page shows, how each of them is, and STOP for all. Another one is chosen by
 // a list in the strip; with one robot there is no list.
 
-import { whenPressed } from "./stopping.js";
+import { whenPressed } from "./touch.js";
 import { robotInWords } from "./words.js";
 
 const TROUBLE = ["weak", "lost", "silent"];

@@ -1,6 +1,8 @@
 // Where the operator looks: centre (metres) and scale (CSS pixels a metre), by mouse, touch and keys.
 // Three ways of looking: "whole" keeps all in sight, "follow" keeps the robot in the middle, "free" is his own.
 
+import { leavesNoFling } from "./touch.js";
+
 const NEAREST = 3000; // pixels a metre
 const FARTHEST = 2;
 const MARGIN_PX = 48;
@@ -136,8 +138,7 @@ export class View {
       canvas.classList.add("held");
     });
     canvas.addEventListener("pointermove", (event) => this.#moved(event));
-    // Else Chromium takes a quick one for a fling, and the next tap, wherever it is, for the end of that.
-    canvas.addEventListener("touchmove", (event) => event.preventDefault(), { passive: false });
+    leavesNoFling(canvas);
     for (const end of ["pointerup", "pointercancel"]) {
       canvas.addEventListener(end, (event) => {
         this.pointers.delete(event.pointerId);
