@@ -54,6 +54,14 @@ def test_a_missing_recording_is_named(program, tmp_path):
     assert "none.log" in done.stderr
 
 
+def test_where_a_real_scanner_rests_its_mirror_image_has_the_same_lines(program):
+    recording = shared("data/urg04lx/test_lab.dat")
+    done = subprocess.run([sys.executable, ROOT / "tools/lab/bench/rest_table.py", "--program", program, recording],
+                          check=True, capture_output=True, text=True)
+    assert "| test_lab, scan 260 | 35 | as recorded |" in done.stdout
+    assert done.stdout.endswith("Mirrored the lines are the same.\n")
+
+
 @pytest.mark.parametrize("noise", ["urg", "real"])
 def test_the_score_agrees_with_an_independent_one(program, tmp_path, noise):
     score = shared("bench/lines/score.py")

@@ -16,6 +16,12 @@ bench-lines: deps-test
 	@$(MAKE) --no-print-directory -s $(BUILD)/bench/lines
 	@$(PYTHON) tools/lab/bench/lines_table.py --program $(BUILD)/bench/lines --scans $(BENCH_SCANS) --counted $(BENCH_COUNTED_SCANS)
 
+REST_LOGS ?= $(if $(ALE_SHARED),$(addprefix $(ALE_SHARED)/data/urg04lx/,obstacle_demo_front.scan.gz test_lab.dat exp1.dat))
+.PHONY: bench-rest
+bench-rest: deps-test ## lines where real scanners rest, as a table (REST_LOGS='LOG ...': recordings)
+	@$(MAKE) --no-print-directory -s $(BUILD)/bench/lines
+	@$(PYTHON) tools/lab/bench/rest_table.py --program $(BUILD)/bench/lines $(REST_LOGS)
+
 BENCH_TURNS ?= 1024,512,450
 .PHONY: bench-turns
 bench-turns: deps-test ## lines in whole turns of a scanner, wherever it begins, as a table (BENCH_TURNS=1024,512,450: beams)

@@ -76,7 +76,7 @@ def accuracy_tables(program, scans, counted):
 
 def recording_table(program, name, path):
     progress(f"recording {name} ...")
-    rows = json_lines([program, "rest", path])
+    rows = [row for row in json_lines([program, "rest", path]) if row["view"] == "as recorded"]
     progress("")
     print(f"A real scanner at rest, `{name}`, {rows[0]['scans']} scans:\n")
     table(["extractor", "walls", "seen %", "pieces a wall", "stray lines a scan", "ends, beams"],

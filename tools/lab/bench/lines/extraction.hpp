@@ -14,6 +14,7 @@ struct Line {
     NormalForm form; // rho >= 0
     Point start = Point::Zero();
     Point end = Point::Zero();
+    double sigma_alpha = 0; // deviation of the direction as the extractor states it; 0: it states none
 };
 
 struct Extraction {

@@ -55,7 +55,8 @@ Extraction ale(const ale_scan_t &scan)
                              l.last,
                              {wrapped(l.alpha_bam * radians_per_bam), l.rho_um * 1e-6},
                              metres(l.start),
-                             metres(l.end)});
+                             metres(l.end),
+                             1e-9 * std::sqrt(static_cast<double>(l.var_alpha_nrad2))});
     }
     for (int k = 0; k < features->corner_count; k++) {
         out.corners.push_back(metres(features->corner[k].p));

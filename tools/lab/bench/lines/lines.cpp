@@ -9,10 +9,11 @@
 #include <stdexcept>
 
 #include "common/command_line/command_line.h"
-#include "common/log/log_reader.h"
 #include "lab/bench/lines/extractors.hpp"
 #include "lab/bench/lines/repeatability.hpp"
 #include "lab/bench/lines/score.hpp"
+#include "lab/bench/lines/standstill.hpp"
+#include "lab/bench/lines/stated_error.hpp"
 #include "lab/bench/suite.hpp"
 
 namespace
@@ -28,7 +29,7 @@ constexpr char usage[] =
     "wherever it\n"
     "                                                  begins and whichever way it turns; libale alone\n"
     "       lines run --extractor NAME [--scans N]     only extracts, over the urg suite: for profilers\n"
-    "       lines rest LOG                             repeatability on a recording\n"
+    "       lines rest LOG                             repeatability where a recorded scanner rests\n"
     "       lines write DIR [--scans N] [--noise NAME] scans.log and truth.jsonl\n"
     "The extractors over simulated suites and recordings of a resting scanner; JSON on stdout.\n"
     "  --help, --version\n";
@@ -179,38 +180,54 @@ void run(const Options &options)
     std::cout << json{{"extractor", extractor.name}, {"scans", scans}, {"lines", lines}}.dump() << std::endl;
 }
 
-// Every scan of a log, one after the other.
-void for_each_scan(const std::string &path, const std::function<void(const ale_scan_t &)> &visit)
+constexpr std::size_t least_at_rest = 15; // scans
+
+using View = std::function<std::unique_ptr<ale_scan_t>(const ale_scan_t &)>;
+
+// What is general in how a scene at rest is seen holds in its mirror image and with fewer beams.
+const std::vector<std::pair<const char *, View>> views = {
+    {"as recorded", [](const ale_scan_t &scan) { return std::make_unique<ale_scan_t>(scan); }},
+    {"mirrored", mirrored},
+    {"every second beam", [](const ale_scan_t &scan) { return thinned(scan, 2); }},
+};
+
+json rest_row(const Standstill &standstill, const View &view, const Extractor &extractor)
 {
-    ale::LogReader log(path);
-    const auto event = std::make_unique<ale_log_event_t>();
-    while (log.next(*event)) {
-        if (event->kind == ALE_LOG_SCAN) {
-            visit(event->scan);
-        }
+    std::vector<std::vector<Line>> found;
+    for (const auto &scan : standstill.scans) {
+        found.push_back(extractor.extract(*view(*scan)).lines);
     }
+    const Repeatability r = repeatability(found);
+    const StatedError stated = stated_error(found);
+    return {{"extractor", extractor.name},
+            {"title", extractor.title},
+            {"first_scan", standstill.first_scan},
+            {"scans", found.size()},
+            {"walls", r.walls},
+            {"seen", r.seen},
+            {"pieces", r.pieces},
+            {"stray", r.stray},
+            {"end_beams", r.end_rms},
+            {"surfaces", stated.surfaces},
+            {"direction_squared", stated.squared},
+            {"direction_worst", stated.worst}};
 }
 
 void rest(const Options &options)
 {
-    for (const Extractor &extractor : chosen_extractors(options)) {
-        std::vector<std::vector<Line>> scans;
-        for_each_scan(options.path,
-                      [&](const ale_scan_t &scan) { scans.push_back(extractor.extract(scan).lines); });
-        if (scans.empty()) {
-            throw std::runtime_error(options.path + ": no scan");
+    const std::vector<Standstill> stretches = standstills(options.path, least_at_rest);
+    if (stretches.empty()) {
+        throw std::runtime_error(options.path + ": the scanner never rests for " +
+                                 std::to_string(least_at_rest) + " scans");
+    }
+    for (const Standstill &standstill : stretches) {
+        for (const auto &[name, view] : views) {
+            for (const Extractor &extractor : chosen_extractors(options)) {
+                json row = rest_row(standstill, view, extractor);
+                row["view"] = name;
+                std::cout << row.dump() << std::endl;
+            }
         }
-        const Repeatability r = repeatability(scans);
-        std::cout << json{{"extractor", extractor.name},
-                          {"title", extractor.title},
-                          {"scans", scans.size()},
-                          {"walls", r.walls},
-                          {"seen", r.seen},
-                          {"pieces", r.pieces},
-                          {"stray", r.stray},
-                          {"end_beams", r.end_rms}}
-                         .dump()
-                  << std::endl;
     }
 }
 
