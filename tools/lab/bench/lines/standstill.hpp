@@ -1,5 +1,5 @@
-// Where in a recording the scanner is at rest: what a fixed scanner sees, and what a robot sees while its wheels
-// stand still.
+// Where in a recording the scanner is at rest: what a fixed scanner sees, and what a robot sees while its
+// wheels stand still.
 #pragma once
 
 #include <memory>

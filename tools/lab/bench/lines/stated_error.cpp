@@ -69,8 +69,7 @@ StatedError stated_error(const std::vector<std::vector<Line>> &scans)
     }
     std::sort(squared.begin(), squared.end());
     const int surfaces = static_cast<int>(squared.size());
-    return surfaces == 0 ? StatedError{}
-                         : StatedError{surfaces, squared[squared.size() / 2], squared.back()};
+    return surfaces == 0 ? StatedError{} : StatedError{surfaces, squared[squared.size() / 2], squared.back()};
 }
 
 } // namespace bench
