@@ -102,8 +102,7 @@ static ale_registered_t register_to_scan(ale_pipeline_t *p, const ale_prediction
     };
 }
 
-/* What the last scan says of this one if it was taken from a pose. */
-static ale_testimony_t testimony_at(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t pose)
+ale_testimony_t ale_step_testimony(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t pose)
 {
     const ale_slack_t slack = {SLACK_UM, 0, false};
     const ale_seen_t seen = ale_pipeline_seen_from(p, before, pose);
@@ -114,8 +113,8 @@ static ale_testimony_t testimony_at(const ale_pipeline_t *p, ale_pose_t before, 
  * that what the map says was found by chance. */
 static bool is_preferred(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t registered, ale_pose_t fitted)
 {
-    const ale_testimony_t there = testimony_at(p, before, registered);
-    const ale_testimony_t here = testimony_at(p, before, fitted);
+    const ale_testimony_t there = ale_step_testimony(p, before, registered);
+    const ale_testimony_t here = ale_step_testimony(p, before, fitted);
     return PREFER_PARTS * (there.confirmed_um - there.denied_um - (here.confirmed_um - here.denied_um)) >
            there.shown_um;
 }

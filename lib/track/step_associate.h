@@ -17,6 +17,10 @@ void ale_pipeline_fit(ale_pipeline_t *p, const ale_motion_t *predicted, int32_t 
  * hypotheses with the one selected that the fit started from. Bounded by ALE_SCAN_WORK. */
 ale_ways_t ale_step_associate(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_fit_t *fit);
 
+/* What the last scan says of this one if it was taken from a pose, and the robot was before where it was last
+ * told to be. As ale_witness_hear. */
+ale_testimony_t ale_step_testimony(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t pose);
+
 /* The information of the associations and the covariance of the pose; paper section IV. */
 void ale_step_solve(ale_pipeline_t *p, ale_fit_t *fit);
 
