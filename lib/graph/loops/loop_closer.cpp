@@ -87,10 +87,13 @@ void LoopCloser::add_walls(const Pose &smooth, const std::vector<WallDirection> 
     }
 }
 
-bool LoopCloser::join_maps()
+bool LoopCloser::join_maps(std::vector<FoundJoin> *made)
 {
     const bool goes_on = joiner_.refine(nodes_, graph_.poses(), kind_);
     if (goes_on && joiner_.found()) {
+        if (made) {
+            made->push_back(*joiner_.found());
+        }
         make_found_join();
     }
     return goes_on;
@@ -338,6 +341,11 @@ void LoopCloser::make_found_join()
 {
     const FoundJoin found = *joiner_.found();
     joiner_.forget_found();
+    make_join(found);
+}
+
+void LoopCloser::make_join(const FoundJoin &found)
+{
     unite(found.join);
     for (const Loop &loop : found.loops) {
         graph_.add_edge(joining_edge_of(loop));

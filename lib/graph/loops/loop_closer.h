@@ -80,8 +80,11 @@ class LoopCloser
     // nodes come this way or by add(), and as many as there are: none is removed. O(1).
     void append(Node node, const Pose &motion);
     // That of refine() which joins maps, alone. Called after each of many drives, it spares the search of all
-    // in all.
-    bool join_maps();
+    // in all. What it joins is added to `made`, if that is not null.
+    bool join_maps(std::vector<FoundJoin> *made = nullptr);
+    // Makes a join that was found before, in another graph of the same nodes: its nodes move, loops hold
+    // them. Ten iterations of the graph.
+    void make_join(const FoundJoin &found);
 
     // A map has become part of another: its nodes move with it, here and as tracked. Before the node at
     // `here` is added, in which the tracker has recognised a place of the other map: it ties them. Maps that

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 extern "C" {
@@ -38,6 +39,13 @@ using PoseOfScan = std::function<std::optional<ale_pose_t>(const RecordedScan &s
 class ObservationRecord
 {
   public:
+    ObservationRecord() = default;
+    // Of one drive, as scans() and sensor() told it: more drives may follow, but no more of its scans.
+    ObservationRecord(uint32_t epoch, const ale_pose_t &sensor, std::vector<RecordedScan> scans)
+        : epoch_(epoch), sensor_(sensor), scans_(std::move(scans))
+    {
+    }
+
     // The drive begins in this map: its walls and corners count as observed before the first scan. Call it
     // before the first scan of the epoch; forgets all else. O(lines); may throw std::bad_alloc.
     void set_prior_map(uint32_t epoch, const ale_map_t &map);

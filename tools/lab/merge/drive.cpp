@@ -9,13 +9,16 @@ namespace merge
 namespace
 {
 
-uint32_t frames_of_one(const Drive &drive)
+template <class Renamed> void rename_frames(const Renamed &renamed, std::vector<Drive> *drives)
 {
-    uint32_t frames = 0;
-    for (const DriveScan &scan : drive.scans) {
-        frames = std::max(frames, scan.frame + 1);
+    for (Drive &drive : *drives) {
+        for (DriveScan &scan : drive.scans) {
+            scan.frame = renamed(scan.frame);
+        }
+        for (ale::Node &node : drive.nodes) {
+            node.map_id = renamed(node.map_id);
+        }
     }
-    return frames;
 }
 
 } // namespace
@@ -24,42 +27,25 @@ uint32_t frames_of(const std::vector<Drive> &drives)
 {
     uint32_t frames = 0;
     for (const Drive &drive : drives) {
-        frames = std::max(frames, frames_of_one(drive));
+        for (const DriveScan &scan : drive.scans) {
+            frames = std::max(frames, scan.frame + 1);
+        }
     }
     return frames;
 }
 
-void number_frames(std::vector<Drive> *drives, size_t placed)
+void number_frames(uint32_t first, DriveGroup *group)
 {
-    uint32_t first = 0;
-    for (size_t k = 0; k < placed; k++) {
-        first = std::max(first, frames_of_one((*drives)[k]));
-    }
-    for (size_t k = placed; k < drives->size(); k++) {
-        Drive &drive = (*drives)[k];
-        uint32_t next = first;
-        for (DriveScan &scan : drive.scans) {
-            scan.frame += first;
-            next = std::max(next, scan.frame + 1);
-        }
-        for (ale::Node &node : drive.nodes) {
-            node.map_id += first;
-        }
-        first = next;
+    rename_frames([first](uint32_t id) { return first + id; }, &group->drives);
+    for (ale::FoundJoin &found : group->joins) {
+        found.join.map_id += first;
+        found.join.into_map_id += first;
     }
 }
 
 void make_first(uint32_t frame, std::vector<Drive> *drives)
 {
-    const auto exchanged = [frame](uint32_t id) { return id == frame ? 0 : (id == 0 ? frame : id); };
-    for (Drive &drive : *drives) {
-        for (DriveScan &scan : drive.scans) {
-            scan.frame = exchanged(scan.frame);
-        }
-        for (ale::Node &node : drive.nodes) {
-            node.map_id = exchanged(node.map_id);
-        }
-    }
+    rename_frames([frame](uint32_t id) { return id == frame ? 0 : (id == 0 ? frame : id); }, drives);
 }
 
 bool is_earlier(const Drive &a, const Drive &b)

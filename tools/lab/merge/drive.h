@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "graph/loops/join_decision.h"
 #include "graph/optimise/node.h"
 #include "graph/walls/observation_record.h"
 
@@ -37,12 +38,19 @@ struct Drive {
     ale::ObservationRecord record; /* `scan` likewise */
 };
 
+/* Drives whose places in one another have been looked for, as they were before that: frames that are joined
+ * have ids of their own. A drive that has just been read is a group by itself. */
+struct DriveGroup {
+    std::vector<Drive> drives;
+    std::vector<ale::FoundJoin>
+        joins; /* in the order in which they are made; nodes counted through the group */
+};
+
 /* Ids of frames are below this. */
 uint32_t frames_of(const std::vector<Drive> &drives);
 
-/* Where each drive has numbered its frames from 0: makes the ids unique, those of earlier drives first. The
- * first `placed` drives share theirs already. */
-void number_frames(std::vector<Drive> *drives, size_t placed = 0);
+/* Frames of the group get ids from `first` on. */
+void number_frames(uint32_t first, DriveGroup *group);
 
 /* Exchanges the ids of this frame and the first. */
 void make_first(uint32_t frame, std::vector<Drive> *drives);

@@ -47,8 +47,9 @@ std::vector<NewDrive> new_drives(const Options &options, const History &history)
     return drives;
 }
 
-/* The drives that the building knows, joined, and after them the new ones, each for itself. */
-std::vector<Drive> read_all(const Options &options, const KeptBuilding &kept, std::vector<NewDrive> *added)
+/* The drives that the building knows, where they lie in it, and after them the new ones, each for itself. */
+std::vector<DriveGroup> read_all(const Options &options, const KeptBuilding &kept,
+                                 std::vector<NewDrive> *added)
 {
     std::vector<Drive> found;
     for (NewDrive &drive : *added) {
@@ -56,11 +57,12 @@ std::vector<Drive> read_all(const Options &options, const KeptBuilding &kept, st
         drive.known.date_s = found.back().date_s;
     }
     std::stable_sort(found.begin(), found.end(), is_earlier);
-    std::vector<Drive> drives = kept.read_drives();
-    const size_t placed = drives.size();
-    std::move(found.begin(), found.end(), std::back_inserter(drives));
-    number_frames(&drives, placed);
-    return drives;
+    std::vector<DriveGroup> groups(1);
+    groups.front().drives = kept.read_drives();
+    for (Drive &drive : found) {
+        groups.emplace_back().drives.push_back(std::move(drive));
+    }
+    return groups;
 }
 
 /* Leaves out what is not joined. False: nothing new is in the map. */
@@ -137,9 +139,8 @@ int merge_into(const Options &options)
     const size_t count = added.size();
     const ScanPlaces before = kept.places();
     const std::unique_ptr<ale_map_t> map_before = kept.map();
-    std::vector<Drive> drives = read_all(options, kept, &added);
+    std::vector<Drive> drives = join_drives(search_joins(read_all(options, kept, &added)));
     const size_t placed = drives.size() - count;
-    join_drives(&drives);
     if (placed == 0) {
         make_first(largest_frame(drives), &drives);
     }

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "graph/loops/loop_closer.h"
 #include "graph/optimise/scan_alignment.h"
 
 namespace merge
@@ -29,37 +28,82 @@ Pose set_back(const Pose &pose, uint32_t frame)
     return {pose.x - apart_m * frame, pose.y, pose.theta};
 }
 
-/* The nodes of all drives as one way; each drive looks for its place among those before it. */
-ale::LoopCloser closer_of(const std::vector<Drive> &drives)
+/* The same join of frames that are set apart, and back. */
+ale::MapJoin set_apart(ale::MapJoin join)
+{
+    const Pose back = set_back({0, 0, 0}, join.map_id);
+    join.shift = set_apart(compose(join.shift, back), join.into_map_id);
+    return join;
+}
+
+ale::MapJoin set_back(ale::MapJoin join)
+{
+    const Pose apart = set_apart({0, 0, 0}, join.map_id);
+    join.shift = set_back(compose(join.shift, apart), join.into_map_id);
+    return join;
+}
+
+size_t nodes_of(const std::vector<DriveGroup> &groups)
 {
     size_t count = 0;
-    for (const Drive &drive : drives) {
-        count += drive.nodes.size();
-    }
-    ale::LoopCloser closer(count);
-    uint32_t scans = 0;
-    for (const Drive &drive : drives) {
-        for (size_t k = 0; k < drive.nodes.size(); k++) {
-            ale::Node node = drive.nodes[k];
-            node.scan += scans;
-            node.tracked = set_apart(node.tracked, node.map_id);
-            Pose motion = node.tracked;
-            if (!closer.nodes().empty()) {
-                const ale::Node &before = closer.nodes().back();
-                motion = ale::between(before.tracked, node.tracked);
-                const bool is_beside = before.map_id == node.map_id; /* known to be where they are */
-                const bool follows = k > 0 && is_beside;
-                node.path_m = before.path_m + (follows ? ale::length(motion.x, motion.y) : path_between_m);
-                node.broken = node.broken || (k == 0 && !is_beside);
-                node.weak = node.weak || k == 0;
-            }
-            closer.append(std::move(node), motion);
-        }
-        scans += static_cast<uint32_t>(drive.scans.size());
-        while (closer.join_maps()) {
+    for (const DriveGroup &group : groups) {
+        for (const Drive &drive : group.drives) {
+            count += drive.nodes.size();
         }
     }
-    return closer;
+    return count;
+}
+
+/* The nodes of a drive, on the way after all before them. */
+void append(const Drive &drive, uint32_t first_scan, ale::LoopCloser *closer)
+{
+    for (size_t k = 0; k < drive.nodes.size(); k++) {
+        ale::Node node = drive.nodes[k];
+        node.scan += first_scan;
+        node.tracked = set_apart(node.tracked, node.map_id);
+        Pose motion = node.tracked;
+        if (!closer->nodes().empty()) {
+            const ale::Node &before = closer->nodes().back();
+            const bool is_beside = before.map_id == node.map_id; /* known to be where they are */
+            const bool follows = k > 0 && is_beside;
+            motion = ale::between(is_beside ? before.tracked : closer->poses().back(), node.tracked);
+            node.path_m = before.path_m + (follows ? ale::length(motion.x, motion.y) : path_between_m);
+            node.broken = node.broken || (k == 0 && !is_beside);
+            node.weak = node.weak || k == 0;
+        }
+        closer->append(std::move(node), motion);
+    }
+}
+
+/* The drives of a group, joined as they are known to be. */
+void append(DriveGroup group, SearchedDrives *all)
+{
+    const int first_node = static_cast<int>(all->closer.nodes().size());
+    number_frames(frames_of(all->group.drives), &group);
+    for (Drive &drive : group.drives) {
+        append(drive, all->scans, &all->closer);
+        all->scans += static_cast<uint32_t>(drive.scans.size());
+        all->group.drives.push_back(std::move(drive));
+    }
+    for (ale::FoundJoin &found : group.joins) {
+        for (ale::Loop &loop : found.loops) {
+            loop.from += first_node;
+            loop.to += first_node;
+        }
+        all->closer.make_join({set_apart(found.join), found.loops});
+        all->group.joins.push_back(std::move(found));
+    }
+}
+
+/* What lies among the drives so far. */
+void search(SearchedDrives *all)
+{
+    std::vector<ale::FoundJoin> made;
+    while (all->closer.join_maps(&made)) {
+    }
+    for (ale::FoundJoin &found : made) {
+        all->group.joins.push_back({set_back(found.join), std::move(found.loops)});
+    }
 }
 
 /* From a, `part` of the way to b. */
@@ -157,20 +201,31 @@ void align(uint32_t frame, std::vector<Drive> *drives)
 
 } // namespace
 
-void join_drives(std::vector<Drive> *drives)
+SearchedDrives search_joins(std::vector<DriveGroup> groups)
 {
-    ale::LoopCloser closer = closer_of(*drives);
-    while (closer.refine()) {
+    SearchedDrives all{{}, ale::LoopCloser(nodes_of(groups)), 0};
+    for (DriveGroup &group : groups) {
+        append(std::move(group), &all);
+        search(&all);
     }
-    take_over(closer, drives);
-    for (uint32_t frame = 0; frame < frames_of(*drives); frame++) {
-        align(frame, drives);
+    return all;
+}
+
+std::vector<Drive> join_drives(SearchedDrives searched)
+{
+    std::vector<Drive> drives = std::move(searched.group.drives);
+    while (searched.closer.refine()) {
     }
-    for (Drive &drive : *drives) {
+    take_over(searched.closer, &drives);
+    for (uint32_t frame = 0; frame < frames_of(drives); frame++) {
+        align(frame, &drives);
+    }
+    for (Drive &drive : drives) {
         for (ale::Node &node : drive.nodes) {
             node.tracked = drive.scans[node.scan].pose;
         }
     }
+    return drives;
 }
 
 } // namespace merge

@@ -1,10 +1,13 @@
 #include "lab/merge/merge.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <map>
 #include <memory>
 #include <stdexcept>
 
 #include "lab/merge/building.h"
+#include "lab/merge/drive_file.h"
 #include "lab/merge/join_drives.h"
 #include "lab/merge/read_drive.h"
 #include "lab/merge/report.h"
@@ -16,29 +19,53 @@ namespace merge
 namespace
 {
 
-/* By date. */
-std::vector<Drive> read_drives(const Options &options)
+void refuse_twins(const std::vector<DriveGroup> &groups)
 {
-    std::vector<Drive> drives;
-    for (const std::string &path : options.drives) {
-        drives.push_back(read_drive(path, options));
-    }
-    std::stable_sort(drives.begin(), drives.end(), is_earlier);
-    for (size_t k = 1; k < drives.size(); k++) {
-        if (drives[k].checksum == drives[k - 1].checksum) {
-            throw std::runtime_error(drives[k - 1].name + " and " + drives[k].name + " are the same drive");
+    std::map<uint32_t, std::string> names;
+    for (const DriveGroup &group : groups) {
+        for (const Drive &drive : group.drives) {
+            const auto [other, is_new] = names.emplace(drive.checksum, drive.name);
+            if (!is_new) {
+                throw std::runtime_error(other->second + " and " + drive.name + " are the same drive");
+            }
         }
     }
-    number_frames(&drives);
-    return drives;
 }
 
-} // namespace
-
-int merge(const Options &options)
+/* By date of the earliest drive of each. */
+std::vector<DriveGroup> read_groups(const Options &options)
 {
-    std::vector<Drive> drives = read_drives(options);
-    join_drives(&drives);
+    std::vector<DriveGroup> groups;
+    for (const std::string &path : options.drives) {
+        if (is_drive_file(path)) {
+            groups.push_back(read_drive_file(path));
+        } else {
+            groups.emplace_back().drives.push_back(read_drive(path, options));
+        }
+    }
+    const auto earliest = [](const DriveGroup &group) {
+        return std::min_element(group.drives.begin(), group.drives.end(), is_earlier);
+    };
+    std::stable_sort(groups.begin(), groups.end(), [&](const DriveGroup &a, const DriveGroup &b) {
+        return is_earlier(*earliest(a), *earliest(b));
+    });
+    refuse_twins(groups);
+    return groups;
+}
+
+/* Of drives that another merge will go on from, none is out of place yet. */
+int keep(const Options &options, const SearchedDrives &searched)
+{
+    write_drive_file(options.keep_drives, searched.group);
+    std::fprintf(stderr, "ale-merge: drives: %zu, joins: %zu\n", searched.group.drives.size(),
+                 searched.group.joins.size());
+    return 0;
+}
+
+int draw(const Options &options, SearchedDrives searched)
+{
+    std::vector<Drive> drives = join_drives(std::move(searched));
+    std::stable_sort(drives.begin(), drives.end(), is_earlier);
     const uint32_t frame = largest_frame(drives);
     const bool all = report(drives, frame);
     write_trajectories(options, drives, frame);
@@ -51,6 +78,14 @@ int merge(const Options &options)
     save_tiles(options, building);
     draw_maps(options, *map, building);
     return all ? 0 : 1;
+}
+
+} // namespace
+
+int merge(const Options &options)
+{
+    SearchedDrives searched = search_joins(read_groups(options));
+    return options.keep_drives.empty() ? draw(options, std::move(searched)) : keep(options, searched);
 }
 
 } // namespace merge

@@ -11,11 +11,15 @@ namespace
 
 constexpr char usage[] =
     "usage: ale-merge LOG... [options]\n"
+    "       ale-merge LOG... --drives FILE\n"
     "       ale-merge --into FILE LOG... [options]\n"
     "       ale-merge --versions FILE\n"
     "Makes one map of several drives: of days, of robots; or keeps a building's map, which every drive makes "
     "better.\n"
-    "LOG: as for ale-replay.\n"
+    "LOG: as for ale-replay, or a FILE of --drives.\n"
+    "  --drives FILE         no map, but the drives and which of them join: another merge goes on from "
+    "there\n"
+    "                        without their logs\n"
     "  --into FILE           the map that is kept; what it is made of is in the folder FILE.d: logs of "
     "drives,\n"
     "                        and of every version the map and a picture (new walls green, moved amber, gone "
@@ -37,6 +41,7 @@ constexpr char usage[] =
 
 void bind(cli::CommandLine &line, Options &o)
 {
+    line.text("drives", o.keep_drives);
     line.text("out", o.out);
     line.text("tiles", o.tiles);
     line.option("tile-side", [&o](const std::string &word) {
@@ -56,8 +61,8 @@ void bind(cli::CommandLine &line, Options &o)
 
 void check_maps(const Options &o)
 {
-    if (o.out == "-" || o.into == "-" || o.tiles == "-") {
-        throw cli::WrongUse("a saved map is a file");
+    if (o.out == "-" || o.into == "-" || o.tiles == "-" || o.keep_drives == "-") {
+        throw cli::WrongUse("what is saved is a file");
     }
     if (!o.into.empty() && !o.out.empty()) {
         throw cli::WrongUse("--out and --into: the map is in one of them");
@@ -68,6 +73,14 @@ void check_maps(const Options &o)
     }
 }
 
+void check_drives(const Options &o)
+{
+    const bool writes = !(o.into + o.out + o.tiles + o.trajectories).empty() || !o.maps.empty();
+    if (!o.keep_drives.empty() && (writes || o.versions)) {
+        throw cli::WrongUse("--drives: nothing else is written with it");
+    }
+}
+
 void check_files(const Options &o)
 {
     cli::Files files;
@@ -75,6 +88,7 @@ void check_files(const Options &o)
         files.reads("LOG", path);
     }
     files.reads("--config", o.config);
+    files.writes("--drives", o.keep_drives);
     files.writes("--out", o.out);
     files.writes("--tiles", o.tiles);
     files.writes("--into", o.into);
@@ -92,6 +106,7 @@ int with_options(int argc, char **argv, const std::function<int(const Options &)
     bind(line, options);
     return line.run(argc, argv, [&] {
         check_maps(options);
+        check_drives(options);
         check_files(options);
         return work(options);
     });

@@ -18,6 +18,7 @@ namespace merge
 struct Options : ale::RobotOptions {
     std::vector<std::string> drives;
     std::string out;
+    std::string keep_drives;
     std::string tiles;
     int32_t tile_side_um = ALE_TILE_SIDE_UM;
     std::string into;

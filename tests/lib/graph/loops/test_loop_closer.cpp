@@ -175,8 +175,8 @@ TEST(LoopCloser, APlaceThatLooksLikeAnotherIsNoLoop)
     EXPECT_EQ(closer.statistics().loops, 0U);
 }
 
-// How many maps are left of two drives around the block, each bent its own way and in a frame of its own.
-size_t maps_of_two_drives(double bend_rad_m, unsigned seed)
+// Two drives around the block, each bent its own way and in a frame of its own.
+ale::LoopCloser two_drives(double bend_rad_m, unsigned seed)
 {
     ale::LoopCloser closer(plenty);
     for (uint32_t drive = 0; drive < 2; drive++) {
@@ -194,8 +194,11 @@ size_t maps_of_two_drives(double bend_rad_m, unsigned seed)
             closer.append(node, motion);
         }
     }
-    while (closer.join_maps()) {
-    }
+    return closer;
+}
+
+size_t maps_of(const ale::LoopCloser &closer)
+{
     std::set<uint32_t> maps;
     for (const ale::Node &node : closer.nodes()) {
         maps.insert(node.map_id);
@@ -205,7 +208,27 @@ size_t maps_of_two_drives(double bend_rad_m, unsigned seed)
 
 TEST(LoopCloser, DrivesThatAreBentJoin)
 {
-    EXPECT_EQ(maps_of_two_drives(0.003, 1), 1U);
+    ale::LoopCloser closer = two_drives(0.003, 1);
+    EXPECT_EQ(maps_of(closer), 2U);
+    while (closer.join_maps()) {
+    }
+    EXPECT_EQ(maps_of(closer), 1U);
+}
+
+TEST(LoopCloser, AJoinThatIsKnownIsMadeAsItWasFound)
+{
+    ale::LoopCloser closer = two_drives(0.003, 1);
+    std::vector<ale::FoundJoin> made;
+    while (closer.join_maps(&made)) {
+    }
+    ASSERT_EQ(made.size(), 1U);
+    ale::LoopCloser again = two_drives(0.003, 1);
+    again.make_join(made[0]);
+    EXPECT_EQ(maps_of(again), 1U);
+    for (size_t k = 0; k < closer.poses().size(); k++) {
+        const ale::Pose off = ale::between(closer.poses()[k], again.poses()[k]);
+        EXPECT_EQ(ale::length(off.x, off.y), 0) << k;
+    }
 }
 
 } // namespace

@@ -59,6 +59,8 @@ def test_tiles_hold_the_walls_of_the_map_and_a_robot_drives_in_them(tmp_path):
 
 def test_drives_of_two_buildings_stay_apart_and_that_is_said(tmp_path):
     (home, _), (arena, _) = (drive(tmp_path, name, WORLDS / f"{name}.world", 1, 0) for name in ("home", "arena"))
+    merge(tmp_path, home, arena, "--drives", "apart.drives")
+    assert merge(tmp_path, "apart.drives", code=1) == merge(tmp_path, home, arena, code=1)
     said = merge(tmp_path, home, arena, "--out", "one.map", code=1)
     assert said.splitlines() == ["ale-merge: home.log is not joined: it shows no place of the others, or only what is alike",
                                  "ale-merge: 1 of 2 drives are one map"]
@@ -77,6 +79,31 @@ def test_rooms_that_are_alike_join_no_two_buildings(tmp_path, first):
         world.write_text(f"# start {IN_ROOM[0][0]} {IN_ROOM[0][1]} 0\n{via}" + ROOM + "\n".join(corridor) + "\n", encoding="utf-8")
         logs.append(drive(tmp_path, name, world, ord(name), "ab".index(name) ^ first)[0])
     assert "1 of 2 drives are one map" in merge(tmp_path, *logs, code=1)
+
+
+def test_a_merge_goes_on_from_drives_that_another_has_read_and_joined(tmp_path):
+    """Read alone they give the bytes of their logs; joined two by two as good a map, whatever is named first."""
+    worlds = (WORLDS / "home.world", home_from_the_kitchen(tmp_path / "w"), WORLDS / "home.world")
+    logs = [drive(tmp_path, f"d{k}", world, k + 1, k) for k, world in enumerate(worlds)]
+    merge(tmp_path, *[log for log, _ in logs[:2]], "--out", "logs.map")
+    for log, _ in logs:
+        assert merge(tmp_path, log, "--drives", f"{log.stem}.drives") == "ale-merge: drives: 1, joins: 0\n"
+    merge(tmp_path, *[f"{log.stem}.drives" for log, _ in logs[:2]], "--out", "read.map")
+    assert (tmp_path / "read.map").read_bytes() == (tmp_path / "logs.map").read_bytes()
+    assert merge(tmp_path, "d2.drives", logs[0][0], "--drives", "some.drives") == "ale-merge: drives: 2, joins: 1\n"
+    for log, _ in logs:
+        log.unlink()
+    for name, words in (("one", ("some.drives", "d1.drives")), ("two", ("d1.drives", "some.drives"))):
+        assert merge(tmp_path, *words, "--out", f"{name}.map", "--trajectories", name) == "ale-merge: 3 of 3 drives are one map\n"
+    assert (tmp_path / "one.map").read_bytes() == (tmp_path / "two.map").read_bytes()
+    ways = [(read_tum(tmp_path / "one" / f"{log.stem}.tum"), read_tum(truth)) for log, truth in logs]
+    errors = aligned_errors(np.concatenate([way[1] for way, _ in ways]), np.concatenate([at_times(way[0], truth)[0] for way, truth in ways]))
+    assert np.sqrt(np.mean(errors ** 2)) < MOST_ERROR_M
+    assert "d0.log and d0.log are the same drive" in merge(tmp_path, "d0.drives", "some.drives", "--out", "no.map", code=1)
+    whole = (tmp_path / "d1.drives").read_bytes()
+    (tmp_path / "cut.drives").write_bytes(whole[:-1])
+    assert merge(tmp_path, "cut.drives", "--out", "no.map", code=1) == "ale-merge: cut.drives: damaged\n"
+    assert "nothing else is written with it" in merge(tmp_path, "d1.drives", "--drives", "no.drives", "--out", "no.map", code=2)
 
 
 def test_the_same_drive_twice_is_refused(tmp_path):
