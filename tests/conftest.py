@@ -8,7 +8,7 @@ import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / folder) for folder in ("tests/tools", "tests/tree", "tools/library/python", "tools/lab/bench",
-                                                   "tools/lab/bench/faults", "tools/lab/bench/scanners", "tools/lab/figures", "tools/lab/plot")]
+                                                   "tools/lab/bench/faults", "tools/lab/bench/fleet", "tools/lab/bench/scanners", "tools/lab/figures", "tools/lab/plot")]
 
 from at_hand import BUILD  # noqa: E402
 from lcm_url import NoMulticast, ensure_multicast  # noqa: E402

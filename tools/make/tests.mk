@@ -94,12 +94,14 @@ unit: unit-programs ## unit and property tests (T=part of a path selects)
 	@$(if $(strip $(SELECTED_TESTS)),,$(error no unit test has '$(T)' in its path))$(PYTHON) tools/make/run_tests.py unit $(SELECTED_TESTS)
 
 VENV = $(BUILD)/venv
-# What the tests of the bridges compare with: where it cannot be had they are skipped, and say so.
-$(VENV)/ready: tests/requirements.txt tests/requirements-bridges.txt
+# What the tests of the bridges compare with, and the storage and tables of ale-fleet: where these cannot be had they are skipped, and say so.
+$(VENV)/ready: tests/requirements.txt tests/requirements-bridges.txt tests/requirements-fleet.txt
 	@$(PYTHON) -m venv --system-site-packages $(VENV)
 	@$(VENV)/bin/pip install -q --disable-pip-version-check -r $<
 	@$(VENV)/bin/pip install -q --disable-pip-version-check -r tests/requirements-bridges.txt || \
 	    echo "tests/requirements-bridges.txt cannot be had: tests of ale-ros2 and ale-foxglove are skipped" >&2
+	@$(VENV)/bin/pip install -q --disable-pip-version-check -r tests/requirements-fleet.txt || \
+	    echo "tests/requirements-fleet.txt cannot be had: tests of ale-fleet with S3 and Parquet are skipped" >&2
 	@touch $@
 venv: $(VENV)/ready
 

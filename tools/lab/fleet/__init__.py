@@ -1,1 +1,1 @@
-"""ale-fleet: many drives judged at once."""
+"""ale-fleet: many drives judged at once, or joined."""
