@@ -78,6 +78,16 @@ bench-merge: ## drives that become one map, as tables: minutes (MERGE_SEEDS=1,2;
 	@$(MAKE) --no-print-directory -s $(BUILD)/bin/ale-merge $(BUILD)/bin/ale-sim
 	@$(PYTHON) tools/lab/bench/merge_table.py --build $(BUILD) --seeds $(MERGE_SEEDS) $(addprefix --only ,$(ONLY)) --maps $(BUILD)/merge
 
+# Many short drives by ale-fleet.
+FLEET_DRIVES ?= 200
+FLEET_WORKERS ?= 1,2,4,8
+FLEET_ROUNDS ?= 1
+.PHONY: bench-fleet
+bench-fleet: ## drives by ale-fleet over more and more workers, some of them killed, and over two hosts (as root), as tables: minutes (FLEET_DRIVES=200; FLEET_WORKERS=1,2,4,8; FLEET_ROUNDS=3: interleaved)
+	@tools/make/deps.sh tools/make/packages-build.txt tools/make/packages-test.txt
+	@$(MAKE) --no-print-directory -s $(BUILD)/bin/ale-fleet $(BUILD)/bin/ale-replay $(BUILD)/bin/ale-sim
+	@$(PYTHON) tools/lab/bench/fleet/fleet_table.py --build $(BUILD) --drives $(FLEET_DRIVES) --workers $(FLEET_WORKERS) --rounds $(FLEET_ROUNDS)
+
 POSES ?= 100
 .PHONY: relocalise
 relocalise: programs ## lost at random places of every bundled world, with a saved map (POSES=100)
