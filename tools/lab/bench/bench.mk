@@ -83,10 +83,10 @@ FLEET_DRIVES ?= 200
 FLEET_WORKERS ?= 1,2,4,8
 FLEET_ROUNDS ?= 1
 .PHONY: bench-fleet
-bench-fleet: ## drives by ale-fleet over more and more workers, some of them killed, and over two hosts (as root), as tables: minutes (FLEET_DRIVES=200; FLEET_WORKERS=1,2,4,8; FLEET_ROUNDS=3: interleaved)
-	@tools/make/deps.sh tools/make/packages-build.txt tools/make/packages-test.txt
-	@$(MAKE) --no-print-directory -s $(BUILD)/bin/ale-fleet $(BUILD)/bin/ale-replay $(BUILD)/bin/ale-sim
-	@$(PYTHON) tools/lab/bench/fleet/fleet_table.py --build $(BUILD) --drives $(FLEET_DRIVES) --workers $(FLEET_WORKERS) --rounds $(FLEET_ROUNDS)
+bench-fleet: ## drives by ale-fleet over more and more workers, some of them killed, and over two hosts (as root), as tables: minutes (FLEET_DRIVES=200; FLEET_WORKERS=1,2,4,8; FLEET_ROUNDS=3: interleaved; ONLY=replay or merge)
+	@tools/make/deps.sh tools/make/packages-build.txt tools/make/packages-test.txt tools/make/packages-bench.txt
+	@$(MAKE) --no-print-directory -s $(addprefix $(BUILD)/bin/ale-,fleet merge replay sim)
+	@$(PYTHON) tools/lab/bench/fleet/fleet_table.py --build $(BUILD) --drives $(FLEET_DRIVES) --workers $(FLEET_WORKERS) --rounds $(FLEET_ROUNDS) $(addprefix --only ,$(ONLY))
 
 POSES ?= 100
 .PHONY: relocalise

@@ -20,7 +20,8 @@ by ale-merge, as a tree of tasks. Logs and truths may lie wherever fsspec knows 
   --page FOLDER         a page of maps and the table
  of merge:
   --out MAP             the map; --tiles FILE, --map PICTURE, --points: as of ale-merge
-  --parts FOLDER        what is read and joined on the way; all workers must reach it (default MAP.parts)
+  --parts FOLDER        where MAP.parts is: what is read and joined on the way; all workers must reach it (default:
+                        beside MAP)
  of both:
   --set NAME=V,V        settings, section.key, as in --config of these programs; may be repeated
   --scheduler ADDRESS   of a Dask scheduler, tcp://host:8786; without it the workers are processes of this machine
@@ -78,7 +79,7 @@ def check_merge(options):
         raise WrongUse("a log is named twice")
     options.set = [(name, values[0]) for name, values in options.set]
     options.outputs = [("--out", options.out), *(("--map", path) for path in options.map), *([("--tiles", options.tiles)] if options.tiles else [])]
-    options.parts = distant.absolute(options.parts or f"{options.out}.parts")
+    options.parts = distant.absolute(f"{(options.parts or str(options.out.parent)).rstrip('/')}/{options.out.name}.parts")
     options.needs = []
 
 

@@ -1,36 +1,9 @@
-"""Short drives of a robot through one home, and ale-fleet over them."""
-import subprocess
-import sys
-
+"""What the tests of ale-fleet share."""
 import pytest
 
-from at_hand import BINARIES, WORLDS
-
-SCANS = 60
-LOGS = 4
+from fleet_at_work import short_drives
 
 
 @pytest.fixture(scope="session")
 def drives(tmp_path_factory):
-    """A folder of short logs, and of the truth of each."""
-    folder = tmp_path_factory.mktemp("drives")
-    log, truth = folder / "whole", folder / "truth"
-    subprocess.run([BINARIES / "ale-sim", "--world", WORLDS / "home.world", "--write-log", log, "--truth", truth], check=True, capture_output=True)
-    lines = log.read_text(encoding="ascii").splitlines(keepends=True)
-    head, scans = [line for line in lines if line.startswith("#")], [line for line in lines if not line.startswith("#")]
-    (folder / "truths").mkdir()
-    for k in range(LOGS):
-        (folder / f"d{k}.log").write_text("".join(head + scans[SCANS * k:SCANS * (k + 1)]), encoding="ascii")
-        (folder / "truths" / f"d{k}.tum").write_bytes(truth.read_bytes())
-    return folder
-
-
-def fleet_words(*words):
-    """By the Python of the tests, which knows packages of PyPI."""
-    return [sys.executable, str(BINARIES / "ale-fleet"), *map(str, words)]
-
-
-def said_by(*words, code=0, **how):
-    done = subprocess.run(fleet_words(*words), capture_output=True, text=True, check=False, **how)
-    assert done.returncode == code, done.stderr
-    return done.stderr
+    return short_drives(tmp_path_factory.mktemp("drives"))

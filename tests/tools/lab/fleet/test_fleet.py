@@ -12,7 +12,7 @@ import sys
 import pytest
 
 from at_hand import BINARIES
-from conftest import LOGS, SCANS, fleet_words, said_by
+from fleet_at_work import LOGS, SCANS, fleet_words, said_by
 from waiting import wait_until
 
 pytest.importorskip("distributed", reason="python3-distributed is not here")

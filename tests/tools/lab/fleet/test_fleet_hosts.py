@@ -4,7 +4,7 @@ import subprocess
 
 import pytest
 
-from conftest import LOGS, fleet_words, said_by
+from fleet_at_work import LOGS, fleet_words, said_by
 
 pytest.importorskip("distributed", reason="python3-distributed is not here")
 import two_hosts  # noqa: E402

@@ -2,7 +2,7 @@
 import pytest
 
 from at_hand import BINARIES, WORLDS
-from conftest import said_by
+from fleet_at_work import said_by
 from merging import IN_ROOM, ROOM, drive, merge
 
 pytest.importorskip("distributed", reason="python3-distributed is not here")

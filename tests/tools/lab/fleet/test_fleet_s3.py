@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from at_hand import free_tcp_port
-from conftest import LOGS, said_by
+from fleet_at_work import LOGS, said_by
 from waiting import wait_until
 
 pytest.importorskip("distributed", reason="python3-distributed is not here")

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """How ale-fleet grows with its workers, as Markdown tables on stdout.
 
-    fleet_table.py --build build [--drives 200] [--workers 1,2,4,8] [--rounds 1]
+    fleet_table.py --build build [--drives 200] [--workers 1,2,4,8] [--rounds 1] [--only replay|merge]
 
 Short drives through worlds of the tree go through ale-fleet replay with each number of workers; the start of the workers is counted in.
 Rounds follow one another with all numbers of workers in each, and the fastest run of each number counts: others may use the machine.
 Then two of four workers are killed on the way, and a scheduler and its workers run on two hosts. Every table must be the same.
+merge: the five drives of `make bench-merge` become one map by ale-merge and by ale-fleet merge.
 """
 import argparse
 import os
@@ -19,6 +20,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[4]
 sys.path.insert(0, str(ROOT / "tools/lab/bench"))
 
 import dying_workers  # noqa: E402
+import map_score  # noqa: E402
+import merge_table  # noqa: E402
 import two_hosts  # noqa: E402
 from lines_table import progress, table  # noqa: E402
 
@@ -93,23 +96,16 @@ def wall_times(fleet, workers, rounds):
     return {count: min(times) for count, times in seconds.items()}
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", default="build", type=pathlib.Path)
-    parser.add_argument("--drives", default=200, type=int)
-    parser.add_argument("--workers", default="1,2,4,8")
-    parser.add_argument("--rounds", default=1, type=int)
-    options = parser.parse_args()
-    with tempfile.TemporaryDirectory() as name:
-        folder, build = pathlib.Path(name), options.build.resolve()
-        fleet = Fleet(build, folder, made_drives(build, folder, options.drives))
-        seconds = wall_times(fleet, [int(word) for word in options.workers.split(",")], options.rounds)
-        progress("workers are killed ...")
-        fleet.with_killed_workers()
-        missing = two_hosts.why_not()
-        if not missing:
-            progress("two hosts ...")
-            fleet.on_two_hosts()
+def replay_tables(options, folder):
+    """True: every table is the same."""
+    fleet = Fleet(options.build, folder, made_drives(options.build, folder, options.drives))
+    seconds = wall_times(fleet, options.workers, options.rounds)
+    progress("workers are killed ...")
+    fleet.with_killed_workers()
+    missing = two_hosts.why_not()
+    if not missing:
+        progress("two hosts ...")
+        fleet.on_two_hosts()
     progress("")
     first, cores = next(iter(seconds.values())), os.cpu_count()
     print(f"{options.drives} drives of {SCANS} scans on {cores} cores:\n")
@@ -117,7 +113,49 @@ def main():
           [[str(count), f"{time_s:.1f}", f"{first / time_s:.2f}", f"{first / time_s / min(count, cores):.2f}"] for count, time_s in seconds.items()])
     print()
     table(["run", "its table"], [*fleet.sameness(), *([["two hosts", f"left out: {missing}"]] if missing else [])])
-    return 0 if all(row[1] == "the same" for row in fleet.sameness()) else 1
+    print()
+    return all(row[1] == "the same" for row in fleet.sameness())
+
+
+def merge_row(name, command, folder, world, log):
+    progress(f"{name} ...")
+    begun = time.monotonic()
+    done = subprocess.run([*command, "--out", folder / "one.map", "--map", folder / "one.dxf"], stderr=subprocess.PIPE, text=True, check=False)
+    if done.returncode not in (0, 1):
+        sys.exit(f"fleet_table.py: {name}: {done.stderr}")
+    score = map_score.against_plan(map_score.read_walls(folder / "one.dxf"), world, log)
+    return [name, f"{time.monotonic() - begun:.0f}", done.stderr.splitlines()[-1].partition(": ")[2], ", ".join(f"{100 * part:.1f}" for part in score)]
+
+
+def merge_tables(options, folder):
+    drives, world = merge_table.made_drives(options.build, folder, 1)
+    logs = [log for log, _ in drives]
+    ways = [("ale-merge", [options.build / "bin/ale-merge", *logs])]
+    ways += [(f"ale-fleet merge, {count} workers", [sys.executable, options.build / "bin/ale-fleet", "merge", *logs, "--workers", str(count)])
+             for count in options.workers if count <= len(logs)]
+    rows = [merge_row(name, command, folder, world, drives[0][1]) for name, command in ways]
+    progress("")
+    print(f"{len(logs)} drives through one office on {os.cpu_count()} cores:\n")
+    table(["by", "wall time, s", "", "right, found, %"], rows)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", default="build", type=pathlib.Path)
+    parser.add_argument("--drives", default=200, type=int)
+    parser.add_argument("--workers", default="1,2,4,8", type=lambda words: [int(word) for word in words.split(",")])
+    parser.add_argument("--rounds", default=1, type=int)
+    parser.add_argument("--only", default="", choices=("", "replay", "merge"))
+    options = parser.parse_args()
+    options.build = options.build.resolve()
+    is_same = True
+    with tempfile.TemporaryDirectory() as folder:
+        if options.only in ("", "replay"):
+            is_same = replay_tables(options, pathlib.Path(folder))
+    with tempfile.TemporaryDirectory() as folder:
+        if options.only in ("", "merge"):
+            merge_tables(options, pathlib.Path(folder))
+    return 0 if is_same else 1
 
 
 if __name__ == "__main__":
