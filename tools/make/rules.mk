@@ -193,7 +193,6 @@ $(foreach tool,$(TOOL_FOLDERS),$(eval $(call program,$(tool))))
 PACKED_foxglove = $(BUILD)/python/ale tools/library/python/src/ale/ros_messages.py
 PACKED_plot = $(BUILD)/python/ale
 INTERPRETER_foxglove = /usr/bin/env
-INTERPRETER_fleet = /usr/bin/env
 
 define python_program
 $(BUILD)/bin/ale-$(notdir $(1)): $$(wildcard $(1)/*.py $(1)/*.json) lib/base/version.h tools/make/python_program.py $$(filter %.py,$$(PACKED_$(notdir $(1)))) $$(if $$(PACKED_$(notdir $(1))),$$(LCM_STAMP))

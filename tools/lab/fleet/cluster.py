@@ -8,8 +8,8 @@ import sys
 
 RETRIES = 3
 BAR = 40
-# Of workers on this machine. What Dask takes for half a second, since it has not seen one yet, it puts behind another instead of before
-# an idle worker; and of what waits for nothing none is given to a worker before its turn.
+# Of workers on this machine. Dask takes a task of a kind that it has not seen for half a second, and would rather put it behind another
+# than give it to an idle worker; and it would hand out all logs at once, so that at the end one worker has some left and others none.
 LOCAL = {"distributed.scheduler.default-task-durations": {"replayed": "2s", "read": "2s", "join": "6s", "draw": "20s"},
          "distributed.scheduler.worker-saturation": 1.0}
 

@@ -8,6 +8,16 @@ def is_local(path):
     return "://" not in path
 
 
+def lacking(path):
+    """What this machine lacks to reach it, in words, or None."""
+    from fsspec import get_filesystem_class
+    try:
+        get_filesystem_class(path.partition("://")[0])
+    except (ImportError, ValueError) as error:
+        return str(error)
+    return None
+
+
 def absolute(path):
     """As workers understand it, whatever folder they were started in."""
     return str(pathlib.Path(path).absolute()) if is_local(path) else path

@@ -14,15 +14,16 @@ usage: ale-fleet replay LOG... --out TABLE [--against FOLDER] [--set section.key
 Many drives at once, on all cores of this machine or on many machines. replay: every log goes through ale-replay with
 every combination of the settings: a row of the table each, in the order of the words. merge: one map of all drives
 by ale-merge, as a tree of tasks. Logs and truths may lie wherever fsspec knows the way: a path, s3://, ssh://.
- of replay:
+Of replay:
   --out TABLE           .csv, or .parquet where pyarrow is there
   --against FOLDER      truths, NAME.tum for NAME.log
   --page FOLDER         a page of maps and the table
- of merge:
-  --out MAP             the map; --tiles FILE, --map PICTURE, --points: as of ale-merge
+Of merge:
+  --out MAP             the map, as ale-slamd loads it
+  --map F, --tiles F, --points  as of ale-merge
   --parts FOLDER        where MAP.parts is: what is read and joined on the way; all workers must reach it (default:
                         beside MAP)
- of both:
+Of both:
   --set NAME=V,V        settings, section.key, as in --config of these programs; may be repeated
   --scheduler ADDRESS   of a Dask scheduler, tcp://host:8786; without it the workers are processes of this machine
   --workers N           how many of those (default: as many as cores)
@@ -127,11 +128,19 @@ def check(options):
     check_more(options)
 
 
-def trouble(options):
-    """What cannot be had, as far as this machine sees; None: nothing."""
+def trouble_of_files(options):
     for path in [*options.logs, *options.needs]:
         if distant.is_local(path) and not pathlib.Path(path).exists():
             return f"{path}: No such file or directory"
+        if not (distant.is_local(path) or options.scheduler) and (words := distant.lacking(path)):
+            return f"{path}: {words}"
+    return None
+
+
+def trouble(options):
+    """What cannot be had, as far as this machine sees; None: nothing."""
+    if words := trouble_of_files(options):
+        return words
     folder = options.out.parent
     if not folder.is_dir():
         return f"{folder}: no such folder"

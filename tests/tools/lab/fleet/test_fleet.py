@@ -121,13 +121,14 @@ def test_a_table_for_parquet_has_the_rows_of_csv(drives, tmp_path):
 
 
 @pytest.mark.parametrize("words, code, said", [
-    ("replay", 2, "give replay LOG..."), ("replay a.log --out t.csv --fly", 2, "unknown option --fly"), ("fly a.log --out t.csv", 2, "give replay LOG..."), ("replay a.log", 2, "--out is missing"),
+    ("replay", 2, "give replay LOG..."), ("replay a.log --out t.csv --fly", 2, "unknown option --fly"), ("fly a.log --out t.csv", 2, "give replay LOG..."),
+    ("replay a.log", 2, "--out is missing"),
     ("replay a.log --out t.txt", 2, "neither .csv nor .parquet"), ("replay a.log --out t.csv --points", 2, "--points is of merge"),
     ("merge a.log --out m.map --against x", 2, "--against is of replay"), ("replay a.log --out t.csv --workers 0", 2, "one at least"),
     ("replay a.log --out t.csv --set x=1", 2, "not section.key=VALUE,VALUE"), ("merge a.log a.log --out m.map", 2, "named twice"),
     ("merge a.log --out m.map --set sensor.x=0,1", 2, "one value"), ("replay absent.log --out t.csv", 1, "absent.log: No such file or directory"),
     ("replay a.log --out absent/t.csv", 1, "absent: no such folder"), ("replay a.log --out t.csv --against absent", 1, "absent: No such file or directory"),
-    ("replay a.log --out t.csv --program absent", 1, "absent: no such program")])
+    ("replay elsewhere://a.log --out t.csv", 1, "Protocol not known"), ("replay a.log --out t.csv --program absent", 1, "absent: no such program")])
 def test_what_cannot_be_is_said_before_the_work(tmp_path, words, code, said):
     (tmp_path / "a.log").touch()
     assert said in said_by(*words.split(), code=code, cwd=tmp_path)
