@@ -21,6 +21,19 @@ def short_drives(folder):
     return folder
 
 
+def script(path, text):
+    """A program in place of ale-replay, which it becomes at its end."""
+    path.write_text(f'#!/bin/sh\n{text}\nexec "{BINARIES}/ale-replay" "$@"\n', encoding="utf-8")
+    path.chmod(0o755)
+    return path
+
+
+def gated(folder):
+    """One that does d0.log at once and all others when the gate is there; the gate."""
+    gate = folder / "gate"
+    return script(folder / "replay", f'case "$1" in *d0.log) ;; *) while [ ! -e "{gate}" ]; do sleep 0.02; done;; esac'), gate
+
+
 def fleet_words(*words):
     """By the Python of the tests, which knows packages of PyPI."""
     return [sys.executable, str(BINARIES / "ale-fleet"), *map(str, words)]

@@ -12,7 +12,7 @@ import sys
 import pytest
 
 from at_hand import BINARIES
-from fleet_at_work import LOGS, SCANS, fleet_words, said_by
+from fleet_at_work import LOGS, SCANS, fleet_words, gated, said_by, script
 from waiting import wait_until
 
 pytest.importorskip("distributed", reason="python3-distributed is not here")
@@ -41,13 +41,6 @@ def fleet(*words, code=0):
     return pathlib.Path(out).read_bytes(), said
 
 
-def script(path, text):
-    """A program in place of ale-replay, which it becomes at its end."""
-    path.write_text(f'#!/bin/sh\n{text}\nexec "{BINARIES}/ale-replay" "$@"\n', encoding="utf-8")
-    path.chmod(0o755)
-    return path
-
-
 def test_a_worker_that_is_killed_on_the_way_changes_no_byte(with_one_broken, tmp_path):
     table, said = fleet(*words_of(with_one_broken, tmp_path / "one.csv"), "--page", tmp_path / "page", code=1)
     assert "d2.log: has no line of a known format" in said
@@ -64,8 +57,7 @@ def test_a_worker_that_is_killed_on_the_way_changes_no_byte(with_one_broken, tmp
 
 def test_two_workers_of_four_that_are_killed_change_no_byte(drives, tmp_path):
     table, _ = fleet(*words_of(drives, tmp_path / "one.csv"))
-    gate = tmp_path / "gate"
-    program = script(tmp_path / "replay", f'case "$1" in *d0.log) ;; *) while [ ! -e "{gate}" ]; do sleep 0.02; done;; esac')
+    program, gate = gated(tmp_path)
     out = tmp_path / "two.csv"
     running = subprocess.Popen(fleet_words(*words_of(drives, out, program), "--workers", "4"), stderr=subprocess.DEVNULL)
     assert kill_workers(running, tmp_path / "two.csv.part", 1, 2)
@@ -88,9 +80,8 @@ def test_a_run_goes_on_from_what_is_done(drives, tmp_path):
 
 def test_whoever_presses_ctrl_c_sees_the_bar_and_loses_nothing(drives, tmp_path):
     """On a terminal, of which the workers are, too."""
-    gate, out = tmp_path / "gate", tmp_path / "table.csv"
-    program = script(tmp_path / "replay", f'case "$1" in *d0.log) ;; *) while [ ! -e "{gate}" ]; do sleep 0.02; done;; esac')
-    words = words_of(drives, out, program)
+    program, gate = gated(tmp_path)
+    words = words_of(drives, tmp_path / "table.csv", program)
     leader, terminal = pty.openpty()
     running = subprocess.Popen(["setsid", "--ctty", *fleet_words(*words)], stdin=terminal, stdout=terminal, stderr=terminal)
     os.close(terminal)

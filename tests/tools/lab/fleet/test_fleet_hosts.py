@@ -4,22 +4,28 @@ import subprocess
 
 import pytest
 
-from fleet_at_work import LOGS, fleet_words, said_by
+from fleet_at_work import LOGS, fleet_words, gated, said_by
+from waiting import wait_until
 
 pytest.importorskip("distributed", reason="python3-distributed is not here")
 import two_hosts  # noqa: E402
 
 
-def test_two_hosts_give_the_table_of_one(drives, tmp_path):
+def test_two_hosts_give_the_table_of_one_also_when_the_second_leaves(drives, tmp_path):
     if missing := two_hosts.why_not():
         pytest.skip(missing)
     words = ["replay", *(drives / f"d{k}.log" for k in range(LOGS)), "--against", drives / "truths", "--out"]
     said_by(*words, tmp_path / "here.csv", "--workers", "1")
-    with two_hosts.scheduler(tmp_path) as (address, here):
-        done = subprocess.run([*here, *fleet_words(*words, tmp_path / "there.csv", "--scheduler", address)], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
+    program, gate = gated(tmp_path)
+    part, said = tmp_path / "there.csv.part", tmp_path / "dask.txt"
+    with two_hosts.scheduler(tmp_path) as (address, here, workers):
+        wait_until(lambda: said.read_text(encoding="utf-8").count("Registered to:") == 2, 60, "both workers are there")
+        running = subprocess.Popen([*here, *fleet_words(*words, tmp_path / "there.csv", "--scheduler", address, "--program", program)])
+        wait_until(part.exists, 60, "a row is done")
+        workers[1].kill()
+        gate.touch()
+        assert running.wait() == 0
     assert (tmp_path / "there.csv").read_bytes() == (tmp_path / "here.csv").read_bytes()
-    assert (tmp_path / "dask.txt").read_text(encoding="utf-8").count("Registered to:") == 2
 
 
 def test_a_scheduler_that_is_not_there_is_said(drives, tmp_path):

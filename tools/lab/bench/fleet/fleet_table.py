@@ -77,7 +77,7 @@ class Fleet:
 
     def on_two_hosts(self):
         name = "scheduler and workers on two hosts"
-        with two_hosts.scheduler(self.folder) as (address, here):
+        with two_hosts.scheduler(self.folder) as (address, here, _):
             self.ended(name, self.started(name, "--scheduler", address, before=here))
 
     def sameness(self):

@@ -42,15 +42,15 @@ def hosts():
 
 @contextlib.contextmanager
 def scheduler(folder):
-    """Its address, and what to put before a command on its host."""
+    """Its address, what to put before a command on its host, and the worker of each host, a process."""
     address = f"tcp://{ADDRESSES[0]}:{PORT}"
     with hosts() as there, (folder / "dask.txt").open("w", encoding="utf-8") as said, contextlib.ExitStack() as running:
         def start(host, program, *words):
             process = subprocess.Popen([*host, sys.executable, "-m", f"distributed.cli.{program}", *words], cwd=folder, stdout=said, stderr=said)
             running.callback(process.wait)
             running.callback(process.terminate)
+            return process
 
         start(there[0], "dask_scheduler", "--host", ADDRESSES[0], "--port", str(PORT), "--no-dashboard")
-        for host in there:
-            start(host, "dask_worker", address, "--nthreads", "1", "--no-dashboard", "--local-directory", folder)
-        yield address, there[0]
+        words = (address, "--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", folder)
+        yield address, there[0], [start(host, "dask_worker", *words) for host in there]
