@@ -97,27 +97,12 @@ typedef struct {
     int64_t evidence_um;
 } candidate_t;
 
-/* What poses are compared by: the prediction that each is fitted with and, where it can be asked, the last
- * scan, for which the robot was there before. */
-typedef struct {
-    const ale_motion_t *predicted;
-    const ale_pose_t *before; /* NULL: it cannot */
-} comparison_t;
-
-/* What the map says for a pose, and the last scan of what the two show of each other: half of that for
- * either. Where the map ends the last scan has seen what it does not hold; without it a place like this one,
- * but mapped, would explain more. */
-static int64_t evidence_um(ale_pipeline_t *p, const comparison_t *by, const ale_fit_t *fit)
+static int64_t evidence_um(ale_pipeline_t *p, const ale_fit_t *fit)
 {
-    int64_t heard_um = 0;
-    if (by->before != NULL) {
-        const ale_testimony_t heard = ale_step_testimony(p, *by->before, fit->motion.pose);
-        heard_um = (heard.confirmed_um - heard.denied_um) / 2;
-    }
     const ale_scene_t scene = ale_observed_scene(p);
     const ale_posed_scan_t from = {&p->observed.scan, ale_observed_bearings(&p->observed),
                                    ale_pose_compose(fit->motion.pose, p->config.sensor)};
-    return heard_um + ale_pose_evidence_um(&scene, fit, &from);
+    return ale_pose_evidence_um(&scene, fit, &from);
 }
 
 static ale_motion_t start_at(const ale_motion_t *predicted, ale_pose_t pose)
@@ -156,49 +141,50 @@ static int64_t compare(candidate_t *best, const candidate_t *candidate, int64_t 
 }
 
 /* Fits from a pose, and takes in what is found within the region; returns as compare(). */
-static int64_t compare_from(ale_pipeline_t *p, const comparison_t *by, ale_pose_t pose,
+static int64_t compare_from(ale_pipeline_t *p, const ale_motion_t *predicted, ale_pose_t pose,
                             const ale_vote_region_t *region, candidate_t *best, int64_t rival_um)
 {
     const ale_scene_t scene = ale_observed_scene(p);
-    const ale_motion_t start = start_at(by->predicted, pose);
+    const ale_motion_t start = start_at(predicted, pose);
     ale_register_pose(&start, &scene, &start_gate, &p->other);
     ale_register_associate(&scene, &p->other);
     int64_t explained_um = rival_um;
     if (is_in_region(region, p->other.motion.pose)) {
-        const candidate_t candidate = {&p->other, evidence_um(p, by, &p->other)};
+        const candidate_t candidate = {&p->other, evidence_um(p, &p->other)};
         explained_um = compare(best, &candidate, rival_um);
     }
     return explained_um;
 }
 
 /* The same of a pose that was proposed, and stays within that. */
-static int64_t compare_again(ale_pipeline_t *p, const comparison_t *by, ale_pose_t pose, candidate_t *best,
-                             int64_t rival_um)
+static int64_t compare_again(ale_pipeline_t *p, const ale_motion_t *predicted, ale_pose_t pose,
+                             candidate_t *best, int64_t rival_um)
 {
     ale_vote_region_t around = {.reach_um = SAME_UM};
     around.centre = pose;
-    return compare_from(p, by, pose, &around, best, rival_um);
+    return compare_from(p, predicted, pose, &around, best, rival_um);
 }
 
 /* Fits what the scan before has proposed, where it was found and where the prediction has led it, and the
  * best places of the vote on the region, and takes them in. */
-static int64_t compare_region(ale_pipeline_t *p, const comparison_t *by, const ale_vote_region_t *region,
-                              const ale_proposal_t *proposed, candidate_t *best)
+static int64_t compare_region(ale_pipeline_t *p, const ale_motion_t *predicted,
+                              const ale_vote_region_t *region, const ale_proposal_t *proposed,
+                              candidate_t *best)
 {
     int64_t rival_um = INT64_MIN / 2;
     uint32_t again = 0;
     ale_pipeline_approach(p, region->centre, p->observed.scan.range_max_um);
     ale_pose_vote(&p->vote, &p->map, p->observed.observation, p->observed.count, region);
     if (proposed->advantage_um > 0) {
-        rival_um = compare_again(p, by, proposed->found, best, rival_um);
+        rival_um = compare_again(p, predicted, proposed->found, best, rival_um);
         again++;
         if (!ale_are_near(proposed->found, proposed->pose, SAME_UM, SAME_BAM)) {
-            rival_um = compare_again(p, by, proposed->pose, best, rival_um);
+            rival_um = compare_again(p, predicted, proposed->pose, best, rival_um);
             again++;
         }
     }
     for (uint32_t k = 0; k + again < CANDIDATES && k < p->vote.places; k++) {
-        rival_um = compare_from(p, by, p->vote.place[k].pose, region, best, rival_um);
+        rival_um = compare_from(p, predicted, p->vote.place[k].pose, region, best, rival_um);
     }
     return rival_um;
 }
@@ -210,8 +196,7 @@ bool ale_recover_in_region(ale_pipeline_t *p, ale_pose_t centre)
     const ale_scene_t scene = ale_observed_scene(p);
     ale_register_reject(&p->motion, &scene, &p->best);
     const ale_proposal_t none = {.advantage_um = 0};
-    const comparison_t by = {&p->motion, NULL}; /* the last scan may be of another map */
-    const int64_t rival_um = compare_region(p, &by, &region, &none, &best);
+    const int64_t rival_um = compare_region(p, &p->motion, &region, &none, &best);
     if (!ale_tracking_accepts(&p->best) || best.evidence_um < rival_um + MARGIN_UM) {
         return false;
     }
@@ -227,6 +212,25 @@ static void take(ale_pipeline_t *p, const candidate_t *best, ale_ways_t *ways, a
     ways->counted = false;
     *fit = *best->fit;
     ale_register_weigh(&scene, fit);
+}
+
+/* What the last scan says of a pose, half for the surfaces of either scan. */
+static int64_t heard_um(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t pose)
+{
+    const ale_testimony_t heard = ale_step_testimony(p, before, pose);
+    return (heard.confirmed_um - heard.denied_um) / 2;
+}
+
+/* How much surface the last scan weighs against a pose: what it has seen of this one if that was taken from
+ * the given pose, and has not if from the other. Where the map ends it knows what the map does not hold:
+ * without it a place like this one, but mapped, would explain more. It weighs nothing for a pose: of one
+ * nearer to where it was taken it has always seen more. */
+static int64_t missed_um(const ale_pipeline_t *p, ale_pose_t before, const candidate_t *best,
+                         const candidate_t *given)
+{
+    const int64_t more_um =
+        heard_um(p, before, given->fit->motion.pose) - heard_um(p, before, best->fit->motion.pose);
+    return ale_max64(more_um, 0);
 }
 
 /* How much surface wheels, or velocity, weigh against a pose: the square of the deviation in sigmas, with a
@@ -261,14 +265,15 @@ static int64_t proposed_um(const ale_pipeline_t *p, ale_pose_t pose)
 
 /* A pose that explains clearly more than any other is taken where it is beside the given one, or was proposed
  * by the scan before; else it is proposed to the next. */
-static ale_recovery_t take_or_propose(ale_pipeline_t *p, const candidate_t *given, const candidate_t *best,
-                                      ale_ways_t *ways)
+static ale_recovery_t take_or_propose(ale_pipeline_t *p, ale_pose_t before, const candidate_t *given,
+                                      const candidate_t *best, ale_ways_t *ways)
 {
     const ale_pose_t pose = best->fit->motion.pose;
     const bool near = is_same(best->fit, given->fit);
     const int64_t before_um = proposed_um(p, pose);
-    const int64_t more_um = best->evidence_um - given->evidence_um;
-    const bool enough = before_um + gain_um(&ways->believed, best, given) > MARGIN_UM;
+    const int64_t missed = missed_um(p, before, best, given);
+    const int64_t more_um = best->evidence_um - given->evidence_um - missed;
+    const bool enough = before_um + gain_um(&ways->believed, best, given) - missed > MARGIN_UM;
     if (enough && (near || before_um > 0)) {
         take(p, best, ways, given->fit);
         return near ? ALE_RECOVER_NEAR : ALE_RECOVER_MOVED;
@@ -284,12 +289,11 @@ ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *predi
                                 ale_fit_t *fit)
 {
     const ale_vote_region_t region = region_of(p, prediction);
-    const comparison_t by = {&ways->believed, &prediction->before.pose};
-    const candidate_t given = {fit, evidence_um(p, &by, fit)};
+    const candidate_t given = {fit, evidence_um(p, fit)};
     candidate_t best = {&p->best, given.evidence_um};
     p->best = *fit;
     p->searched = true;
-    const int64_t rival_um = compare_region(p, &by, &region, &p->proposed, &best);
+    const int64_t rival_um = compare_region(p, &ways->believed, &region, &p->proposed, &best);
     if (best.evidence_um <= rival_um + MARGIN_UM) {
         const bool more = best.evidence_um > given.evidence_um + MARGIN_UM;
         const bool open = (more || !ways->counted) && ale_tracking_accepts(best.fit);
@@ -298,5 +302,6 @@ ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *predi
     if (best.evidence_um == given.evidence_um) {
         return ALE_RECOVER_CONFIRMED;
     }
-    return ale_tracking_explains(best.fit) ? take_or_propose(p, &given, &best, ways) : ALE_RECOVER_STAYS;
+    return ale_tracking_explains(best.fit) ? take_or_propose(p, prediction->before.pose, &given, &best, ways)
+                                           : ALE_RECOVER_STAYS;
 }

@@ -174,4 +174,64 @@ TEST(StepRecover, AJumpOfTheWheelsToWhatTheMapDoesNotHoldIsNotFollowed)
     }
 }
 
+/* A corridor with a door recess on either side every four metres: half a turn about the middle of one lays it
+ * on itself. */
+std::vector<room::Wall> corridor_with_recesses()
+{
+    constexpr double apart = 4;
+    std::vector<room::Wall> walls;
+    for (double x = -apart; x < 15 * apart; x += apart) {
+        for (const double side : {-1.0, 1.0}) {
+            const double deep = 1.4 * side;
+            walls.insert(walls.end(), {{x - 1.5, side, x + 1.5, side},
+                                       {x + 1.5, side, x + 1.5, deep},
+                                       {x + 1.5, deep, x + 2.5, deep},
+                                       {x + 2.5, deep, x + 2.5, side}});
+        }
+    }
+    return walls;
+}
+
+/* A robot drives along that corridor and sees a scan of half a turn after each step. Returns by how much it
+ * is ever off, m and rad together. */
+double most_off_along(double step_m, unsigned seed)
+{
+    constexpr double period_s = 3.5;
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    room::Sensor ahead;
+    ahead.beams = 181;
+    ahead.step = reference::pi / 180;
+    ahead.first = -90 * ahead.step;
+    ahead.beam_time_ns = 0;
+    ahead.noise = 0.01;
+    ahead.reach = 8;
+    std::mt19937 rng(seed);
+    const std::vector<room::Wall> walls = corridor_with_recesses();
+    ale_estimate_t e = {};
+    double most = 0;
+    for (int k = 0; k * step_m < 40; k++) {
+        const double x = k * step_m;
+        const ale_odometry_t sample = {std::llround(k * period_s * 1e6),
+                                       {static_cast<int32_t>(std::llround(x * 1e6)), 0, 0}};
+        ale_pipeline_odometry(p.get(), &sample);
+        const reference::Pose place(x, 0, 0);
+        const ale_scan_t scan = room::scan_at(
+            walls, ahead, [&](double) { return place; }, k * period_s, rng);
+        ale_pipeline_scan(p.get(), &scan, &e);
+        most = std::max(most,
+                        std::hypot(e.map.x_um * 1e-6 - x, e.map.y_um * 1e-6) +
+                            std::abs(std::remainder(convert::radians(e.map.theta_bam), 2 * reference::pi)));
+    }
+    return most;
+}
+
+TEST(StepRecover, InACorridorThatRepeatsItselfNoOtherPartOfItIsTaken)
+{
+    for (const double step_m : {1.0, 1.5, 2.0, 2.5, 3.0}) {
+        for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+            EXPECT_LT(most_off_along(step_m, seed), 1) << step_m << " m a scan, seed " << seed;
+        }
+    }
+}
+
 } // namespace
