@@ -29,7 +29,7 @@ constexpr int64_t parallel_bam = int64_t{9} * ALE_BAM_PER_DEGREE;
 struct Shown {
     uint32_t scans = 0;  // whose lines cover it
     uint32_t hits = 0;   // whose beams end there
-    uint32_t passes = 0; // whose beams go through
+    uint32_t passes = 0; // whose beams go through, from either side
 };
 
 struct Cell {
@@ -55,6 +55,16 @@ struct Range {
     int64_t to_um;
 };
 
+// The same line, facing the other way; its tangent is turned, too.
+ale_wall_t back_of(const ale_wall_t &wall)
+{
+    ale_wall_t back = wall;
+    ale_wall_set_normal(&back, wall.normal_bam + ALE_BAM_HALF_TURN);
+    back.start_um = -wall.end_um;
+    back.end_um = -wall.start_um;
+    return back;
+}
+
 Range along(const ale_wall_t &wall, const ale_observation_t &line)
 {
     const ale_wall_error_t e = ale_wall_error(&wall, &line);
@@ -65,7 +75,8 @@ class Cells
 {
   public:
     explicit Cells(const ale_wall_t &wall)
-        : wall_(wall), cells_(static_cast<size_t>((int64_t{wall.end_um} - wall.start_um) / cell_um + 1))
+        : wall_(wall), back_(back_of(wall)),
+          cells_(static_cast<size_t>((int64_t{wall.end_um} - wall.start_um) / cell_um + 1))
     {
     }
 
@@ -80,14 +91,17 @@ class Cells
         }
     }
 
-    // Counts where the beams of a scan end, and where they go through.
+    // Counts where the beams of a scan end, and where they go through. What a scan from behind hits is
+    // another surface, but its beams cannot come through what stands either.
     void count_beams(const PlacedScan &scan)
     {
         ale_posed_scan_t posed = ale_seen_copy_posed(scan.beams);
         posed.sensor = scan.sensor;
+        const bool is_before = ale_wall_offset(&wall_, {scan.sensor.x_um, scan.sensor.y_um}) > 0;
         for (size_t k = 0; k < cells_.size(); k++) {
-            const ale_visibility_t visibility = ale_wall_point_visibility(&wall_, middle_um(k), &posed);
-            cells_[k].now.hits += visibility == ALE_VISIBILITY_SUPPORTED;
+            const ale_visibility_t visibility = ale_wall_point_visibility(
+                is_before ? &wall_ : &back_, is_before ? middle_um(k) : -middle_um(k), &posed);
+            cells_[k].now.hits += is_before && visibility == ALE_VISIBILITY_SUPPORTED;
             cells_[k].now.passes += visibility == ALE_VISIBILITY_VIOLATED;
         }
     }
@@ -171,17 +185,17 @@ class Cells
     }
 
     ale_wall_t wall_;
+    ale_wall_t back_;
     std::vector<Cell> cells_;
 };
 
-// Whether the sensor is within reach and on the side that the wall faces.
+// Whether the sensor is within reach.
 bool may_see(const PlacedScan &scan, const ale_wall_t &wall)
 {
     const ale_point_t at = {scan.sensor.x_um, scan.sensor.y_um};
-    const int64_t height_um = ale_wall_offset(&wall, at);
     const int64_t reach_um = scan.beams->scan.range_max_um;
     const int64_t t_um = ale_wall_along(&wall, at);
-    return height_um > 0 && height_um < reach_um && t_um > wall.start_um - reach_um &&
+    return ale_abs64(ale_wall_offset(&wall, at)) < reach_um && t_um > wall.start_um - reach_um &&
            t_um < wall.end_um + reach_um;
 }
 

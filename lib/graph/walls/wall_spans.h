@@ -1,9 +1,9 @@
 // Where along its line a wall stands, cell by cell of 5 cm.
 //
-// Each cell counts the scans whose lines cover it, and of the scans with beams those whose beams end there or
-// pass through. A cell that hardly any scan shows, or that more scans pass than hit, is free. Of two walls
-// that face the same way side by side only one can have been seen: the one that more scans show. Scans of
-// this drive decide before those of a prior map: what now stands before a known wall hides it.
+// Each cell counts the scans whose lines cover it, and of the scans with beams those whose beams end there
+// or, from either side, pass through. A cell that hardly any scan shows, or that more scans pass than hit, is
+// free. Of two walls that face the same way side by side only one can have been seen: the one that more scans
+// show. Scans of this drive decide before those of a prior map: what now stands before a known wall hides it.
 //
 // Of several drives the later decides: a cell that it shows free, or a wall, is that from then on, and of two
 // walls side by side the one stands that was seen last.

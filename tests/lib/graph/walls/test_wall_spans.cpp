@@ -1,6 +1,9 @@
 // lib/graph/walls/wall_spans: spans of walls by the lines that cover them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
+
 #include "graph/walls/wall_spans.h"
 #include "lib/graph/placed_lines.hpp"
 
@@ -24,6 +27,39 @@ void add_scans(std::vector<ale::PlacedLine> *lines, uint32_t scans, double from_
     for (uint32_t k = 0; k < scans; k++) {
         const auto scan = static_cast<uint32_t>(lines->size());
         lines->push_back(line(scan, 70, from_m, to_m, 0));
+    }
+}
+
+// Beams all round, each of this length.
+std::unique_ptr<ale_seen_copy_t> beams_of(int32_t range_um)
+{
+    auto seen = std::make_unique<ale_seen_copy_t>();
+    ale_scan_t &scan = seen->scan;
+    scan.beams = 720;
+    scan.step_bam = ALE_BAM_PER_DEGREE / 2;
+    scan.range_max_um = 4000000;
+    std::fill_n(scan.range_um, scan.beams, range_um);
+    std::fill_n(scan.flag, scan.beams, uint8_t{ALE_BEAM_VALID});
+    return seen;
+}
+
+// A wall that faces along y, shown by ten scans of a drive; a later one sees it three times from a metre.
+size_t walls_left(int32_t sensor_y_um, int32_t range_um)
+{
+    std::vector<ale::PlacedLine> lines;
+    for (uint32_t k = 0; k < 10; k++) {
+        lines.push_back(line(k, 90, -0.2, 0.2, 0));
+    }
+    const auto seen = beams_of(range_um);
+    const std::vector<ale::PlacedScan> later(3, {seen.get(), {0, sensor_y_um, 0}, 1});
+    return ale::spans_of(ale::group_lines(lines), lines, later).size();
+}
+
+TEST(WallSpans, WhatBeamsPassThroughFromEitherSideIsGone)
+{
+    for (const int32_t sensor_y_um : {1000000, -1000000}) {
+        EXPECT_EQ(walls_left(sensor_y_um, 3000000), 0U) << sensor_y_um;
+        EXPECT_EQ(walls_left(sensor_y_um, 1000000), 1U) << sensor_y_um;
     }
 }
 
