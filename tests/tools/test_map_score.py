@@ -27,6 +27,14 @@ def test_a_wall_beside_itself_stands_twice_and_one_that_faces_away_does_not():
     assert map_score.standing_twice(np.array([[0.0, 0, 4, 0], beside, away])) == (1, 2.0)
 
 
+def test_what_the_plan_has_two_walls_for_does_not_stand_twice():
+    drawn = np.array([[0.0, 0, 4, 0], [0.5, 0.3, 2.5, 0.3], [0.5, 0.02, 2.5, 0.02]])
+    wall, cabinet = [0.0, 0, 4, 0], [0.5, 0.3, 2.5, 0.3]
+    assert map_score.standing_twice(drawn[:2], np.array([wall])) == (1, 2.0)
+    assert map_score.standing_twice(drawn[:2], np.array([wall, cabinet])) == (0, 0)
+    assert map_score.standing_twice(drawn[::2], np.array([wall, cabinet])) == (1, 2.0)
+
+
 def test_what_is_drawn_where_no_wall_is_is_not_right_and_a_wall_that_is_not_drawn_is_not_found(tmp_path):
     (tmp_path / "plan").write_text(PLAN, encoding="ascii")
     (tmp_path / "truth").write_text("0 1 1 0 0 0 0 1\n" * 50, encoding="ascii")

@@ -70,10 +70,10 @@ bench-published: ## the published benchmark, all relations, beside others (ONLY=
 	@$(MAKE) --no-print-directory -s $(BUILD)/bin/ale-replay $(BUILD)/bin/ale-sim
 	@$(PYTHON) tools/lab/bench/published_table.py --build $(BUILD) $(addprefix --only ,$(ONLY)) $(addprefix --log ,$(LOG)) $(addprefix --relations ,$(RELATIONS)) $(addprefix --jitter ,$(JITTER)) $(addprefix --often ,$(OFTEN))
 
-# Buildings of five drives each, Intel in six drives, and a hall driven twice.
+# Buildings of five drives each, homes that are alike, Intel in six drives, and a hall driven twice.
 MERGE_SEEDS ?= 1
 .PHONY: bench-merge
-bench-merge: ## drives that become one map, as tables: minutes (MERGE_SEEDS=1,2; ONLY=office, intel or hall; pictures in build/merge)
+bench-merge: ## drives that become one map, as tables: minutes (MERGE_SEEDS=1,2; ONLY=office, alike, intel or hall; pictures in build/merge)
 	@tools/make/deps.sh tools/make/packages-build.txt tools/make/packages-bench.txt
 	@$(MAKE) --no-print-directory -s $(BUILD)/bin/ale-merge $(BUILD)/bin/ale-sim
 	@$(PYTHON) tools/lab/bench/merge_table.py --build $(BUILD) --seeds $(MERGE_SEEDS) $(addprefix --only ,$(ONLY)) --maps $(BUILD)/merge

@@ -54,20 +54,35 @@ def directions(walls):
     return way / length[:, None], length
 
 
-def standing_twice(walls):
-    """Pairs, and how long they run side by side in all."""
+def side_by_side(walls):
+    """Pairs of walls that may be one, the longer first, and where along it the shorter begins and ends beside it."""
     tangent, length = directions(walls)
-    pairs, along = 0, 0.0
     for i in np.argsort(-length, kind="stable"):
         shorter = (length < length[i]) | ((length == length[i]) & (np.arange(len(walls)) > i))
         ends = [((walls[:, k:k + 2] - walls[i, :2]) @ tangent[i]) for k in (0, 2)]
         middle = (walls[:, :2] + walls[:, 2:]) / 2 - walls[i, :2]
         apart = abs(middle @ np.array([-tangent[i, 1], tangent[i, 0]]))
-        common = np.minimum(length[i], np.maximum(*ends)) - np.maximum(0, np.minimum(*ends))
-        twice = shorter & (tangent @ tangent[i] > TWICE_COS) & (apart < TWICE_M) & (common > TWICE_ALONG_M)
-        pairs += twice.sum()
-        along += common[twice].sum()
-    return pairs, along
+        first, last = np.maximum(0, np.minimum(*ends)), np.minimum(length[i], np.maximum(*ends))
+        beside = shorter & (tangent @ tangent[i] > TWICE_COS) & (apart < TWICE_M) & (last - first > TWICE_ALONG_M)
+        yield from ((i, j, first[j], last[j]) for j in np.flatnonzero(beside))
+
+
+def are_two(walls, i, j, middle_m, plan):
+    """Whether the plan has a wall for each of them there: a cabinet's front, and the wall behind it."""
+    tangent, _ = directions(walls)
+    on_longer = walls[i, :2] + middle_m * tangent[i]
+    on_shorter = walls[j, :2] + (on_longer - walls[j, :2]) @ tangent[j] * tangent[j]
+    along, across = distances(np.stack([on_longer, on_shorter]), plan)
+    plan_tangent, plan_length = directions(plan)
+    off = np.where((along > -RIGHT_M) & (along < plan_length + RIGHT_M) & (abs(plan_tangent @ tangent[i]) > RIGHT_COS), across, np.inf)
+    return (off.min(1) < RIGHT_M).all() and off[0].argmin() != off[1].argmin()
+
+
+def standing_twice(walls, plan=None):
+    """Pairs, and how long they run side by side in all; without those that are two walls in the plan."""
+    common = [last - first for i, j, first, last in side_by_side(walls)
+              if plan is None or not are_two(walls, i, j, (first + last) / 2, plan)]
+    return len(common), sum(common)
 
 
 def samples(walls):
@@ -128,11 +143,13 @@ def in_plan(walls, start):
     return np.concatenate([walls[:, :2] @ turn + [x, y], walls[:, 2:] @ turn + [x, y]], 1)
 
 
-def against_plan(walls, plan_path, truth_path):
-    """Which part of what is drawn is right, and which of what could be seen is found."""
-    plan, truth = read_numbers(plan_path, 4), read_numbers(truth_path, 8)
-    poses = np.stack([truth[:, 1], truth[:, 2], 2 * np.arctan2(truth[:, 6], truth[:, 7])], 1)
-    drawn = in_plan(walls, poses[0])
+def read_poses(path):
+    truth = read_numbers(path, 8)
+    return np.stack([truth[:, 1], truth[:, 2], 2 * np.arctan2(truth[:, 6], truth[:, 7])], 1)
+
+
+def against_plan(drawn, plan, poses):
+    """Which part of what is drawn is right, and which of what could be seen from these poses is found."""
     return are_right(drawn, plan).mean(), are_found(seen_points(plan, poses), drawn).mean()
 
 
@@ -141,7 +158,8 @@ def told(options):
     pairs, along = standing_twice(walls)
     words = f"{len(walls)} walls, {directions(walls)[1].sum():.1f} m; standing twice: {pairs} pairs, {along:.1f} m"
     if options.plan:
-        right, found = against_plan(walls, options.plan, options.truth)
+        plan, poses = read_numbers(options.plan, 4), read_poses(options.truth)
+        right, found = against_plan(in_plan(walls, poses[0]), plan, poses)
         words += f"; right {100 * right:.1f} %, found {100 * found:.1f} %"
     return words
 

@@ -57,11 +57,17 @@ def at_times(times, truth):
         np.interp(times, known, np.unwrap(headings))
 
 
+def best_alignment(places, true_places):
+    """The rigid motion that lays places (complex) best onto the true ones: where the origin comes to lie, and the turn."""
+    middle, true_middle = places.mean(), true_places.mean()
+    turn = np.angle(np.sum((true_places - true_middle) * (places - middle).conj()))
+    return true_middle - middle * np.exp(1j * turn), turn
+
+
 def aligned_errors(places, true_places):
     """How far each place (complex) is off after the best rigid alignment."""
-    here, there = places - places.mean(), true_places - true_places.mean()
-    turn = np.angle(np.sum(there * here.conj()))
-    return np.abs(here * np.exp(1j * turn) - there)
+    origin, turn = best_alignment(places, true_places)
+    return np.abs(origin + places * np.exp(1j * turn) - true_places)
 
 
 def trajectory_error(path, truth_path):
