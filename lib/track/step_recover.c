@@ -271,9 +271,9 @@ static ale_recovery_t take_or_propose(ale_pipeline_t *p, ale_pose_t before, cons
     const ale_pose_t pose = best->fit->motion.pose;
     const bool near = is_same(best->fit, given->fit);
     const int64_t before_um = proposed_um(p, pose);
-    const int64_t missed = missed_um(p, before, best, given);
-    const int64_t more_um = best->evidence_um - given->evidence_um - missed;
-    const bool enough = before_um + gain_um(&ways->believed, best, given) - missed > MARGIN_UM;
+    const int64_t unseen_um = missed_um(p, before, best, given);
+    const int64_t more_um = best->evidence_um - given->evidence_um - unseen_um;
+    const bool enough = before_um + gain_um(&ways->believed, best, given) - unseen_um > MARGIN_UM;
     if (enough && (near || before_um > 0)) {
         take(p, best, ways, given->fit);
         return near ? ALE_RECOVER_NEAR : ALE_RECOVER_MOVED;

@@ -10,10 +10,11 @@ np = pytest.importorskip("numpy")
 
 import published_table  # noqa: E402
 from at_hand import BUILD, shared  # noqa: E402
-from slam_table import Bench, read_tum  # noqa: E402
+from slam_table import Bench, read_tum, score  # noqa: E402
 
 FIRST_SCANS = 1500
 WORST_MEAN_M = 0.05  # of the first relations
+OF_CORRIDOR_M = 2  # with noise on the ranges; gmapping's poses, over 1.9 km
 
 
 def trajectory(*poses):
@@ -108,3 +109,13 @@ def test_wrong_use_is_told_in_words(words, status, part):
     done = subprocess.run([sys.executable, published_table.__file__, "--build", BUILD, *words], check=False, capture_output=True, text=True)
     assert done.returncode == status
     assert part in done.stderr and "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("seed", ["2", "5"])
+def test_a_corridor_that_looks_the_same_after_half_a_turn_is_not_driven_back(seed, tmp_path):
+    log, reference = shared("data/killian/infinite-corridor.clf.gz"), shared("data/killian/infinite-corridor.ref")
+    if not (BUILD / "bin/ale-replay").exists():
+        pytest.skip("ale-replay is not built")
+    bench = Bench(BUILD, tmp_path)
+    _, final, _ = bench.replay(published_table.spoilt(bench, log, "jitter", seed), "--frame", "laser")
+    assert score(shared("bench/slam/score.py"), final, reference)["ate_rmse"] < OF_CORRIDOR_M
