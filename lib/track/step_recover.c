@@ -21,7 +21,8 @@ enum {
     SAME_BAM = 200 * ALE_BAM_PER_MRAD,
     ANY_HEADING_URAD = 3141592,
     SIGMA_UM = 100000, /* of surface that the prediction weighs at one sigma, */
-    DENIED_SIGMAS = 5  /* and it weighs no more than at so many */
+    DENIED_SIGMAS = 5, /* and it weighs no more than at so many */
+    DRIFT_UM = 1500000
 };
 
 static const ale_gate_t start_gate = {300000, 200000, 6, 100000};
@@ -224,10 +225,14 @@ static int64_t heard_um(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t p
 /* How much surface the last scan weighs against a pose: what it has seen of this one if that was taken from
  * the given pose, and has not if from the other. Where the map ends it knows what the map does not hold:
  * without it a place like this one, but mapped, would explain more. It weighs nothing for a pose: of one
- * nearer to where it was taken it has always seen more. */
+ * nearer to where it was taken it has always seen more. Nor against one so near that the robot may have
+ * drifted from it since long before: then the last scan has drifted, too. */
 static int64_t missed_um(const ale_pipeline_t *p, ale_pose_t before, const candidate_t *best,
                          const candidate_t *given)
 {
+    if (ale_are_near(best->fit->motion.pose, given->fit->motion.pose, DRIFT_UM, SAME_BAM)) {
+        return 0;
+    }
     const int64_t more_um =
         heard_um(p, before, given->fit->motion.pose) - heard_um(p, before, best->fit->motion.pose);
     return ale_max64(more_um, 0);
