@@ -21,9 +21,9 @@ def short_drives(folder):
     return folder
 
 
-def script(path, text):
-    """A program in place of ale-replay, which it becomes at its end."""
-    path.write_text(f'#!/bin/sh\n{text}\nexec "{BINARIES}/ale-replay" "$@"\n', encoding="utf-8")
+def script(path, text, program="ale-replay"):
+    """A program in place of this one, which it becomes at its end."""
+    path.write_text(f'#!/bin/sh\n{text}\nexec "{BINARIES}/{program}" "$@"\n', encoding="utf-8")
     path.chmod(0o755)
     return path
 

@@ -72,11 +72,12 @@ bench-published: ## the published benchmark, all relations, beside others (ONLY=
 
 # Buildings of five drives each, homes that are alike, Intel in six drives, and a hall driven twice.
 MERGE_SEEDS ?= 1
+INTEL_DRIVES ?= 6
 .PHONY: bench-merge
-bench-merge: ## drives that become one map, as tables: minutes (MERGE_SEEDS=1,2; ONLY=office, alike, intel or hall; pictures in build/merge)
+bench-merge: ## drives that become one map, as tables: minutes (MERGE_SEEDS=1,2; INTEL_DRIVES=6,4; ONLY=office, alike, intel or hall; pictures in build/merge)
 	@tools/make/deps.sh tools/make/packages-build.txt tools/make/packages-bench.txt
 	@$(MAKE) --no-print-directory -s $(BUILD)/bin/ale-merge $(BUILD)/bin/ale-sim
-	@$(PYTHON) tools/lab/bench/merge_table.py --build $(BUILD) --seeds $(MERGE_SEEDS) $(addprefix --only ,$(ONLY)) --maps $(BUILD)/merge
+	@$(PYTHON) tools/lab/bench/merge_table.py --build $(BUILD) --seeds $(MERGE_SEEDS) --pieces $(INTEL_DRIVES) $(addprefix --only ,$(ONLY)) --maps $(BUILD)/merge
 
 # Many short drives by ale-fleet.
 FLEET_DRIVES ?= 200

@@ -74,14 +74,17 @@ def accuracy_tables(program, scans, counted):
            for r in urg.values()])
 
 
-def recording_table(program, name, path):
+def recording_tables(program, name, path):
+    """One for each stretch in which the scanner rests."""
     progress(f"recording {name} ...")
-    rows = [row for row in json_lines([program, "rest", path]) if row["view"] == "as recorded"]
+    rows = json_lines([program, "rest", path])
     progress("")
-    print(f"A real scanner at rest, `{name}`, {rows[0]['scans']} scans:\n")
-    table(["extractor", "walls", "seen %", "pieces a wall", "stray lines a scan", "ends, beams"],
-          [[r["title"], str(r["walls"]), f"{r['seen']:.1f}", f"{r['pieces']:.2f}", f"{r['stray']:.2f}",
-            f"{r['end_beams']:.2f}"] for r in rows])
+    for first in sorted({row["first_scan"] for row in rows}):
+        stretch = [row for row in rows if row["first_scan"] == first]
+        print(f"A real scanner at rest, `{name}`, {stretch[0]['scans']} scans from scan {first} on:\n")
+        table(["extractor", "walls", "seen %", "pieces a wall", "stray lines a scan", "ends, beams"],
+              [[r["title"], str(r["walls"]), f"{r['seen']:.1f}", f"{r['pieces']:.2f}", f"{r['stray']:.2f}",
+                "" if r["end_beams"] is None else f"{r['end_beams']:.2f}"] for r in stretch])
 
 
 def main():
@@ -97,7 +100,7 @@ def main():
         recordings.append((bundled.name, str(bundled)))
     accuracy_tables(options.program, options.scans, options.counted)
     for name, path in recordings:
-        recording_table(options.program, name, path)
+        recording_tables(options.program, name, path)
 
 
 if __name__ == "__main__":

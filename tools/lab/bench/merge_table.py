@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 """How well drives become one map, as Markdown tables on stdout.
 
-    merge_table.py --build build [--shared FOLDER] [--seeds 1,2] [--only office|alike|intel|hall] [--maps FOLDER]
+    merge_table.py --build build [--shared FOLDER] [--seeds 1,2] [--pieces 6,4] [--only office|alike|intel|hall] [--maps FOLDER]
 
 Buildings: five drives through the office of the tree, each from another place, one way round or the other, with its own wheels and
 noise, and before each but the first four pieces of furniture moved. ATE: of all poses of all drives in the map after one rigid
 alignment, and by it the map lies on the plan. Gone: metres that are drawn where only an earlier day had a wall.
 Alike: two homes that differ in one room, two drives in each, in turn. Their places have the same coordinates: where homes are joined
 the ATE is of all.
-Intel: the recording cut into six drives, named backwards. Hall: exp1 and exp3, two drives of a rover. With --maps their pictures are
+Intel: the recording cut into drives, named backwards. Hall: exp1 and exp3, two drives of a rover. With --maps their pictures are
 kept there.
 """
 import argparse
@@ -32,7 +32,6 @@ DRIVES, MOVED_BOXES, MOVED_M = 5, 4, 0.9
 DAY_S, FIRST_DAY_S = 86400, 1700000000
 BOXES = "# pillars and cabinets along the walls"
 CORRIDORS_Y = (-1.0, 1.0, 15.5, 17.5)  # walls along x that furniture stands at
-PIECES = 6
 KITCHEN, HALL = "# kitchen: counter, dresser, table, fridge", "# hall: cabinet, chest"
 OTHER_KITCHEN = ["8.2 0 8.2 3.95", "5.05 0.9 8.2 0.9"]  # narrower, and without furniture
 
@@ -156,41 +155,46 @@ def told_map(drawing, drives, origin, turn):
     return [f"{pairs}, {along:.1f} m", f"{gone_m(drawn, plans):.1f}", f"{100 * right:.1f}, {100 * found:.1f}"]
 
 
-def office_table(build, seeds, maps):
+def rows_of(name, seeds, row_of):
+    """One for each seed, of the drives and the map in a folder."""
     rows = []
     for seed in map(int, seeds.split(",")):
-        progress(f"office, seed {seed} ...")
-        with tempfile.TemporaryDirectory() as name:
-            folder = pathlib.Path(name)
-            drives, drawing = office_drives(build, folder, seed), folder / "map.dxf"
-            poses, said = merged(build, folder, [drive.log for drive in drives], "--map", drawing, "--points", "--map", maps / f"office-{seed}.png")
-            ways = places_of(poses, drives)
-            rows.append([str(seed), said, *told_errors(*ways), *told_map(drawing, drives, *best_alignment(*ways))])
+        progress(f"{name}, seed {seed} ...")
+        with tempfile.TemporaryDirectory() as folder:
+            rows.append([str(seed), *row_of(pathlib.Path(folder), seed)])
+    return rows
+
+
+def office_table(build, seeds, maps):
+    def row_of(folder, seed):
+        drives, drawing = office_drives(build, folder, seed), folder / "map.dxf"
+        poses, said = merged(build, folder, [drive.log for drive in drives], "--map", drawing, "--points", "--map", maps / f"office-{seed}.png")
+        ways = places_of(poses, drives)
+        return [said, *told_errors(*ways), *told_map(drawing, drives, *best_alignment(*ways))]
+
     titled_table(f"{DRIVES} drives of one office, {MOVED_BOXES} pieces of furniture moved before each but the first; the map against the world as "
                  "it stands at the last:",
-                 ["seed", "", "ATE, mm", "longest, mm", "walls twice", "gone, m", "right, found, %"], rows)
+                 ["seed", "", "ATE, mm", "longest, mm", "walls twice", "gone, m", "right, found, %"], rows_of("office", seeds, row_of))
 
 
 def alike_table(build, seeds, maps):
-    rows = []
-    for seed in map(int, seeds.split(",")):
-        progress(f"alike, seed {seed} ...")
-        with tempfile.TemporaryDirectory() as name:
-            folder = pathlib.Path(name)
-            drives = alike_drives(build, folder, seed)
-            poses, said = merged(build, folder, [drive.log for drive in drives], "--points", "--map", maps / f"alike-{seed}.png")
-            rows.append([str(seed), said, *told_errors(*places_of(poses, drives))])
-    titled_table("Two homes that are alike but for the kitchen, two drives in each:", ["seed", "", "ATE, mm", "longest, mm"], rows)
+    def row_of(folder, seed):
+        drives = alike_drives(build, folder, seed)
+        poses, said = merged(build, folder, [drive.log for drive in drives], "--points", "--map", maps / f"alike-{seed}.png")
+        return [said, *told_errors(*places_of(poses, drives))]
+
+    titled_table("Two homes that are alike but for the kitchen, two drives in each:", ["seed", "", "ATE, mm", "longest, mm"],
+                 rows_of("alike", seeds, row_of))
 
 
-def cut(log, folder):
-    """Six drives of one, by its laser lines."""
+def cut(log, folder, count):
+    """So many drives of one, by its laser lines."""
     with gzip.open(log, "rt", encoding="ascii") as lines:
         scans = [line for line in lines if line.startswith("FLASER")]
     pieces = []
-    for k in range(PIECES):
+    for k in range(count):
         piece = folder / f"piece{k}.clf"
-        piece.write_text("".join(scans[len(scans) * k // PIECES:len(scans) * (k + 1) // PIECES]), encoding="ascii")
+        piece.write_text("".join(scans[len(scans) * k // count:len(scans) * (k + 1) // count]), encoding="ascii")
         pieces.append(piece)
     return pieces
 
@@ -200,23 +204,29 @@ def joined(paths):
     return tuple(np.concatenate(parts) for parts in zip(*(read_tum(path) for path in paths if path.stat().st_size)))
 
 
-def intel_table(build, data, maps):
+def intel_row(build, log, relations, count, picture):
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        pieces = cut(log, folder, count)
+        poses, said = merged(build, folder, pieces[::-1], "--frame", "laser", "--points", "--map", picture)
+        times, places, headings = joined([poses / f"{piece.stem}.tum" for piece in pieces])
+    rows = np.loadtxt(relations, comments="#")
+    stamps, (_, true) = rows[:, 5:7], read_relations(relations)
+    ends = np.array([[np.abs(times - stamp).argmin() for stamp in pair] for pair in stamps])
+    known = (np.abs(times[ends] - stamps) < 0.01).all(axis=1)
+    metres, _ = relation_errors((times, places, headings), ends[known], true[known])
+    return [said, f"{metres.mean():.4f}", f"{len(metres)} of {len(true)}"]
+
+
+def intel_table(build, data, counts, maps):
     log, relations = data / "intel/intel_every5th.clf.gz", data / "intel/intel_every5th.relidx"
     if not log.exists():
         return
-    progress("intel ...")
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        pieces = cut(log, folder)
-        poses, said = merged(build, folder, pieces[::-1], "--frame", "laser", "--points", "--map", maps / "intel.png")
-        rows = np.loadtxt(relations, comments="#")
-        stamps, (_, true) = rows[:, 5:7], read_relations(relations)
-        times, places, headings = joined([poses / f"{piece.stem}.tum" for piece in pieces])
-        ends = np.array([[np.abs(times - stamp).argmin() for stamp in pair] for pair in stamps])
-        known = (np.abs(times[ends] - stamps) < 0.01).all(axis=1)
-        metres, _ = relation_errors((times, places, headings), ends[known], true[known])
-    titled_table(f"The Intel building, cut into {PIECES} drives:", ["", "mean error of known relations, m", "relations"],
-                 [[said, f"{metres.mean():.4f}", f"{len(metres)} of {len(true)}"]])
+    rows = []
+    for count in map(int, counts.split(",")):
+        progress(f"intel, {count} drives ...")
+        rows.append(intel_row(build, log, relations, count, maps / f"intel-{count}.png"))
+    titled_table("The Intel building, cut into drives:", ["", "mean error of known relations, m", "relations"], rows)
 
 
 def sharpness(scorers, log, way):
@@ -225,7 +235,7 @@ def sharpness(scorers, log, way):
 
 
 def every_second(paths, to):
-    """Of several drives as many scans as of one: entropy grows with their number."""
+    """Of two drives as many scans as of one: entropy grows with their number."""
     to.write_text("".join(line for path in paths for line in path.read_text(encoding="ascii").splitlines(keepends=True)[::2]), encoding="ascii")
     return to
 
@@ -247,9 +257,9 @@ def hall_table(build, shared, maps):
             poses, said = merged(build, folder, [logs[k] for k in names], "--frame", "laser", "--points", "--map", picture)
             ways = [poses / f"{logs[k].stem}.tum" for k in names]
             rows += [[logs[k].stem, said, *sharpness(scorers, carmen[k], way)] for k, way in zip(names, ways)]
-        both, way = every_second(carmen, folder / "both.clf"), folder / "both.tum"
-        way.write_text("".join(path.read_text(encoding="ascii") for path in ways), encoding="ascii")
-        rows.append(["every second scan of both", said, sharpness(scorers, both, way)[0], ""])
+            some, way = every_second([carmen[k] for k in names], folder / "some.clf"), folder / "some.tum"
+            way.write_text("".join(path.read_text(encoding="ascii") for path in ways), encoding="ascii")
+            rows.append([f"every second scan of {' and '.join(logs[k].stem for k in names)}", said, sharpness(scorers, some, way)[0], ""])
     titled_table("Two drives of a rover in one hall, no truth: entropy of what their scans show, wall angle in degrees (root mean square):",
                  ["scans of", "poses of", "entropy", "wall angle"], rows)
 
@@ -259,6 +269,7 @@ def main():
     parser.add_argument("--build", default="build", type=pathlib.Path)
     parser.add_argument("--shared", default=os.environ.get("ALE_SHARED") or "/nonexistent", type=pathlib.Path)
     parser.add_argument("--seeds", default="1", help="of the buildings")
+    parser.add_argument("--pieces", default="6", help="drives that the Intel recording is cut into")
     parser.add_argument("--only", default="", choices=("", "office", "alike", "intel", "hall"))
     parser.add_argument("--maps", type=pathlib.Path, help="folder for the pictures")
     options = parser.parse_args()
@@ -272,7 +283,7 @@ def main():
         if options.only in ("", "alike"):
             alike_table(options.build, options.seeds, maps)
         if options.only in ("", "intel"):
-            intel_table(options.build, options.shared / "data", maps)
+            intel_table(options.build, options.shared / "data", options.pieces, maps)
         if options.only in ("", "hall"):
             hall_table(options.build, options.shared, maps)
 

@@ -17,7 +17,7 @@ SAME = 0.02  # by so much two scans may be told apart that tie
 
 
 def stretches(program, log):
-    done = subprocess.run([program, "rest", log, "--extractor", "ale"], check=False, capture_output=True, text=True)
+    done = subprocess.run([program, "rest", log, "--views", "--extractor", "ale"], check=False, capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(done.stderr.strip())
     return [json.loads(line) for line in done.stdout.splitlines()]

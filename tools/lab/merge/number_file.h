@@ -16,6 +16,10 @@
 #include <string_view>
 #include <type_traits>
 
+extern "C" {
+#include "file/little_endian.h"
+}
+
 namespace merge
 {
 
@@ -46,9 +50,9 @@ class NumberWriter
             std::memcpy(&bits, &number, sizeof bits);
             put(bits);
         } else {
-            for (size_t k = 0; k < sizeof number; k++) {
-                bytes_ += static_cast<char>(static_cast<uint64_t>(number) >> (8 * k));
-            }
+            uint8_t lowest_first[sizeof(uint64_t)];
+            ale_put_u64(lowest_first, static_cast<uint64_t>(number));
+            bytes_.append(lowest_first, lowest_first + sizeof number);
         }
     }
 
@@ -90,14 +94,13 @@ class NumberReader
   private:
     template <class T> void take(T *number)
     {
-        using Bits = std::conditional_t<sizeof(T) == 8, uint64_t, uint32_t>;
         require(left_.size() >= sizeof(T));
-        Bits bits = 0;
-        for (size_t k = 0; k < sizeof(T); k++) {
-            bits |= static_cast<Bits>(static_cast<uint8_t>(left_[k])) << (8 * k);
-        }
+        uint8_t lowest_first[sizeof(uint64_t)] = {};
+        std::memcpy(lowest_first, left_.data(), sizeof(T));
         left_.remove_prefix(sizeof(T));
+        const uint64_t bits = ale_get_u64(lowest_first);
         if constexpr (std::is_floating_point_v<T>) {
+            static_assert(sizeof bits == sizeof *number);
             std::memcpy(number, &bits, sizeof bits);
             require(std::isfinite(*number));
         } else {

@@ -1,8 +1,8 @@
 """ale-fleet merge: one map by a tree of tasks, the same whatever the workers did."""
 import pytest
 
-from at_hand import BINARIES, WORLDS
-from fleet_at_work import said_by
+from at_hand import WORLDS
+from fleet_at_work import said_by, script
 from merging import IN_ROOM, ROOM, drive, merge
 
 pytest.importorskip("distributed", reason="python3-distributed is not here")
@@ -29,10 +29,8 @@ def test_the_map_is_that_of_ale_merge_in_the_same_steps(logs, tmp_path):
     """And a worker that dies on the way changes no byte of it."""
     merge(tmp_path, *logs[:2], "--drives", "two.drives")
     merge(tmp_path, "two.drives", logs[2], "--out", "steps.map", "--map", "steps.pgm")
-    program = tmp_path / "merge"  # the first to join ends the worker that has called it
-    program.write_text(f'#!/bin/sh\ncase "$*" in *joined.drives*) mkdir "{tmp_path}/killed" 2>/dev/null && kill -9 $PPID;; esac\nexec "{BINARIES}/ale-merge" "$@"\n',
-                       encoding="utf-8")
-    program.chmod(0o755)
+    # the first to join ends the worker that has called it
+    program = script(tmp_path / "merge", f'case "$*" in *joined.drives*) mkdir "{tmp_path}/killed" 2>/dev/null && kill -9 $PPID;; esac', "ale-merge")
     drawn, said = fleet(tmp_path, "tree", logs[:3], "--program", program)
     assert "3 of 3 drives are one map" in said
     assert (tmp_path / "killed").is_dir()
@@ -49,9 +47,8 @@ def test_what_is_broken_or_does_not_join_is_said_and_the_rest_is_a_map(logs, tmp
 
 def test_a_merge_that_was_given_up_goes_on_from_what_is_joined(logs, tmp_path):
     program, words = tmp_path / "merge", ("--out", tmp_path / "m.map", "--workers", "2", "--program", tmp_path / "merge")
-    program.write_text(f'#!/bin/sh\ncase "$*" in *--out*) exit 3;; esac\nexec "{BINARIES}/ale-merge" "$@"\n', encoding="utf-8")
-    program.chmod(0o755)
+    script(program, 'case "$*" in *--out*) exit 3;; esac', "ale-merge")
     assert "was not written" in said_by("merge", *logs[:2], *words, code=1)
     assert len(list((tmp_path / "m.map.parts").iterdir())) == 2
-    program.write_text(f'#!/bin/sh\ncase "$*" in *read.drives*) exit 3;; esac\nexec "{BINARIES}/ale-merge" "$@"\n', encoding="utf-8")
+    script(program, 'case "$*" in *read.drives*) exit 3;; esac', "ale-merge")
     assert "2 of 2 drives are one map" in said_by("merge", *logs[:2], *words)

@@ -117,23 +117,30 @@ def replay_tables(options, folder):
     return all(row[1] == "the same" for row in fleet.sameness())
 
 
-def merge_row(name, command, folder, world, log):
+def right_and_found(drawing, drives):
+    """Of the map, in the frame of the first drive, against the world of the last."""
+    drawn = map_score.in_plan(map_score.read_walls(drawing), map_score.read_poses(drives[0].truth)[0])
+    return map_score.against_plan(drawn, map_score.read_numbers(drives[-1].world, 4), map_score.read_poses(drives[-1].truth))
+
+
+def merge_row(name, command, folder, drives):
     progress(f"{name} ...")
     begun = time.monotonic()
     done = subprocess.run([*command, "--out", folder / "one.map", "--map", folder / "one.dxf"], stderr=subprocess.PIPE, text=True, check=False)
     if done.returncode not in (0, 1):
         sys.exit(f"fleet_table.py: {name}: {done.stderr}")
-    score = map_score.against_plan(map_score.read_walls(folder / "one.dxf"), world, log)
-    return [name, f"{time.monotonic() - begun:.0f}", done.stderr.splitlines()[-1].partition(": ")[2], ", ".join(f"{100 * part:.1f}" for part in score)]
+    seconds = time.monotonic() - begun
+    return [name, f"{seconds:.0f}", done.stderr.splitlines()[-1].partition(": ")[2],
+            ", ".join(f"{100 * part:.1f}" for part in right_and_found(folder / "one.dxf", drives))]
 
 
 def merge_tables(options, folder):
-    drives, world = merge_table.made_drives(options.build, folder, 1)
-    logs = [log for log, _ in drives]
+    drives = merge_table.office_drives(options.build, folder, 1)
+    logs = [drive.log for drive in drives]
     ways = [("ale-merge", [options.build / "bin/ale-merge", *logs])]
     ways += [(f"ale-fleet merge, {count} workers", [sys.executable, options.build / "bin/ale-fleet", "merge", *logs, "--workers", str(count)])
              for count in options.workers if count <= len(logs)]
-    rows = [merge_row(name, command, folder, world, drives[0][1]) for name, command in ways]
+    rows = [merge_row(name, command, folder, drives) for name, command in ways]
     progress("")
     print(f"{len(logs)} drives through one office on {os.cpu_count()} cores:\n")
     table(["by", "wall time, s", "", "right, found, %"], rows)

@@ -29,7 +29,10 @@ constexpr char usage[] =
     "wherever it\n"
     "                                                  begins and whichever way it turns; libale alone\n"
     "       lines run --extractor NAME [--scans N]     only extracts, over the urg suite: for profilers\n"
-    "       lines rest LOG                             repeatability where a recorded scanner rests\n"
+    "       lines rest LOG [--views]                   repeatability where a recorded scanner rests, "
+    "--views: "
+    "mirrored\n"
+    "                                                  and thinned, too\n"
     "       lines write DIR [--scans N] [--noise NAME] scans.log and truth.jsonl\n"
     "The extractors over simulated suites and recordings of a resting scanner; JSON on stdout.\n"
     "  --help, --version\n";
@@ -42,6 +45,7 @@ struct Options {
     std::uint64_t seed = 1;
     std::optional<Threshold> threshold;
     int turn_beams = 0;
+    bool views = false;
 };
 
 std::vector<Extractor> chosen_extractors(const Options &options)
@@ -220,11 +224,12 @@ void rest(const Options &options)
         throw std::runtime_error(options.path + ": the scanner never rests for " +
                                  std::to_string(least_at_rest) + " scans");
     }
+    const std::size_t shown = options.views ? views.size() : 1;
     for (const Standstill &standstill : stretches) {
-        for (const auto &[name, view] : views) {
+        for (std::size_t k = 0; k < shown; k++) {
             for (const Extractor &extractor : chosen_extractors(options)) {
-                json row = rest_row(standstill, view, extractor);
-                row["view"] = name;
+                json row = rest_row(standstill, views[k].second, extractor);
+                row["view"] = views[k].first;
                 std::cout << row.dump() << std::endl;
             }
         }
@@ -319,6 +324,7 @@ int main(int argc, char **argv)
     line.number("scans", options.scans, 1, 1000000);
     line.number("seed", options.seed, std::uint64_t{0}, UINT64_MAX);
     line.number("turn", options.turn_beams, 90, ALE_MAX_BEAMS);
+    line.flag("views", options.views);
     line.option("threshold", [&](const std::string &word) { options.threshold = threshold_of(word); });
     return line.run(argc, argv, [&] {
         if (options.path.empty() == (command == rest || command == write)) {

@@ -32,7 +32,7 @@ std::vector<Standstill> standstills(const std::string &path, std::size_t least_s
     std::optional<ale_odometry_t> before;
     Standstill here;
     int scans = 0;
-    bool moved = false; // while the next scan was taken
+    bool moved = false; // since the last scan
     const auto end_stretch = [&] {
         if (here.scans.size() >= least_scans) {
             all.push_back(std::move(here));
@@ -41,7 +41,7 @@ std::vector<Standstill> standstills(const std::string &path, std::size_t least_s
     };
     while (log.next(*event)) {
         if (event->kind == ALE_LOG_ODOMETRY) {
-            moved = before && !is_same(*before, event->odometry);
+            moved = moved || (before && !is_same(*before, event->odometry));
             before = event->odometry;
         } else if (event->kind == ALE_LOG_SCAN) {
             if (moved) {
@@ -50,6 +50,7 @@ std::vector<Standstill> standstills(const std::string &path, std::size_t least_s
                 here.first_scan = here.scans.empty() ? scans : here.first_scan;
                 here.scans.push_back(std::make_unique<ale_scan_t>(event->scan));
             }
+            moved = false;
             scans++;
         }
     }

@@ -14,13 +14,13 @@ using namespace bench;
 constexpr int beams = 181;
 
 // A scan of ranges that grow by the beam, taken at a place along x.
-void write_scan(std::ofstream &log, double x)
+void write_scan(std::ofstream &log, double x, double time_s = 1)
 {
     log << "FLASER " << beams;
     for (int k = 0; k < beams; k++) {
         log << " " << 1 + 0.01 * k;
     }
-    log << " " << x << " 0 0 " << x << " 0 0 1 robot 1\n";
+    log << " " << x << " 0 0 " << x << " 0 0 " << time_s << " robot " << time_s << "\n";
 }
 
 TEST(Standstill, LastsWhileTheWheelsStand)
@@ -40,6 +40,28 @@ TEST(Standstill, LastsWhileTheWheelsStand)
     EXPECT_EQ(found[1].first_scan, 6); // the one before was taken on the way
     EXPECT_EQ(found[1].scans.size(), 3u);
     EXPECT_TRUE(standstills(path, 4).empty());
+}
+
+TEST(Standstill, EndsWhereWheelsTurnAndStandAgainBetweenTwoScans)
+{
+    const files::TemporaryFolder folder;
+    const std::string path = folder / "drive.log";
+    {
+        std::ofstream log(path);
+        double time_s = 0;
+        for (const double goes_to : {0.0, 0.0, 0.1, 0.0}) {
+            for (const double x : {goes_to, 0.0, 0.0}) {
+                time_s += 0.1;
+                log << "ODOM " << x << " 0 0 0 0 0 " << time_s << " robot " << time_s << "\n";
+            }
+            time_s += 0.1;
+            write_scan(log, 0, time_s);
+        }
+    }
+    const std::vector<Standstill> found = standstills(path, 2);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].first_scan, 0);
+    EXPECT_EQ(found[0].scans.size(), 2u); // before the third the robot moved, and only one is left after it
 }
 
 TEST(Standstill, WithoutOdometryIsTheWholeRecording)
