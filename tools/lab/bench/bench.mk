@@ -41,10 +41,10 @@ bench-scanners: ## drives with every scanner's model beside the URG's, as tables
 BENCH_SLAM_SEEDS ?= 1,2,3
 ONLY ?=
 .PHONY: bench-slam
-bench-slam: ## localisation and mapping as tables, beside the best of other systems: minutes (BENCH_SLAM_SEEDS=1,2,3; ONLY=home: seconds)
+bench-slam: ## localisation and mapping as tables, beside the best of other systems: minutes (BENCH_SLAM_SEEDS=1,2,3; ONLY=home: seconds; JITTER=1,2: buildings also with noise of these seeds)
 	@tools/make/deps.sh tools/make/packages-build.txt $(if $(ONLY),tools/make/packages-test.txt,tools/make/packages-bench.txt)
 	@$(MAKE) --no-print-directory -s programs
-	@$(PYTHON) tools/lab/bench/slam_table.py --build $(BUILD) --seeds $(BENCH_SLAM_SEEDS) $(addprefix --only ,$(ONLY))
+	@$(PYTHON) tools/lab/bench/slam_table.py --build $(BUILD) --seeds $(BENCH_SLAM_SEEDS) $(addprefix --only ,$(ONLY)) $(addprefix --jitter ,$(JITTER))
 
 # The same drives with faults in wheels, scans or place (faults/spoil.py).
 FAULTS_SEEDS ?= 1,2,3

@@ -18,14 +18,13 @@ import math
 import os
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 
 import numpy as np
 
 from lines_table import progress
-from slam_table import Bench, read_tum, titled_table, with_made_odometry, wrapped
+from slam_table import Bench, read_tum, spoilt, titled_table, with_made_odometry, wrapped
 
 SLACK_S = 0.2  # of a relation beyond the first or last scan
 # Of the field's table: log and relations in the shared data. Unseen ones are kept for judging.
@@ -75,12 +74,6 @@ def as_carmen(bench, log):
     carmen = bench.folder / "made.clf"
     with_made_odometry(log, carmen)
     return carmen
-
-
-def spoilt(bench, log, kind, seed):
-    changed = bench.folder / "spoilt.clf"
-    subprocess.run([sys.executable, pathlib.Path(__file__).with_name("faults") / "spoil.py", log, kind, seed, changed], check=True)
-    return changed
 
 
 def measured(bench, log, relations, *fault):

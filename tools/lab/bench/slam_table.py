@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
 """The benchmark of localisation and mapping as Markdown tables on stdout.
 
-    slam_table.py --build build [--shared FOLDER] [--seeds 1,2,3] [--only NAME]
+    slam_table.py --build build [--shared FOLDER] [--seeds 1,2,3] [--only NAME] [--jitter 1,2]
 
 Drives through the worlds of the tree, with the simulator's truth, always; with the project's shared data at hand (ALE_SHARED) also
 its development runs, and the recordings, scored by its own scripts. Beside each figure stands the best that another system reached
 on the same kind of run, as its README tells: other seeds of the same worlds, defaults or launch-file settings.
+
+With --jitter each building is replayed once more with each of these seeds of noise on its ranges (faults/spoil.py): what of a result is
+luck.
 """
 import argparse
 import gzip
@@ -231,26 +234,45 @@ def recordings_table(bench, scorers, recordings, chosen):
                  ["recording", "entropy", "wall angle", "loop", "best others, each in one"], rows)
 
 
-def buildings_table(bench, scorers, data, chosen):
+def spoilt(bench, log, kind, seed):
+    """The log with a fault of this kind (faults/spoil.py)."""
+    changed = bench.folder / "spoilt.clf"
+    subprocess.run([sys.executable, pathlib.Path(__file__).with_name("faults") / "spoil.py", log, kind, seed, changed], check=True)
+    return changed
+
+
+def with_more_noise(bench, log, seeds):
+    """The log as it is, and with the noise of each seed on its ranges; each with what to add to its name."""
+    yield "", log
+    for seed in seeds:
+        progress(f"  jitter {seed} ...")
+        yield f", jitter {seed}", spoilt(bench, log, "jitter", seed)
+
+
+def buildings_table(bench, scorers, data, chosen, seeds):
     rows = []
+
+    def replay(log, name, measure, peer):
+        progress(f"{name} ...")
+        for noise, replayed in with_more_noise(bench, log, seeds):
+            _, final, time_ms = bench.replay(replayed, "--frame", "laser")
+            lost = [json.loads(line)["state"] for line in bench.poses.read_text(encoding="utf-8").splitlines()].count(0)
+            rows.append([f"{name}{noise}", measure(final), peer, str(lost), time_ms])
+
     for log, (relations, peer) in RELATIONS.items():
         if chosen(pathlib.Path(log).name.split(".")[0]) and (data / log).exists():
-            progress(f"{log} ...")
             carmen = data / log
             if log.endswith(".g2o.gz"):
                 carmen = bench.folder / "made.clf"
                 with_made_odometry(data / log, carmen)
-            _, final, time_ms = bench.replay(carmen, "--frame", "laser")
-            error = score(scorers / "score.py", final, data / relations)["trans_mean"]
-            rows.append([pathlib.Path(log).name, f"{error:.4f} (relations)", peer, time_ms])
+            replay(carmen, pathlib.Path(log).name,
+                   lambda final, true=data / relations: f"{score(scorers / 'score.py', final, true)['trans_mean']:.4f} (relations)", peer)
     for name in POSES:
         if chosen(pathlib.Path(name).name) and (data / f"{name}.clf.gz").exists():
-            progress(f"{name} ...")
-            _, final, time_ms = bench.replay(data / f"{name}.clf.gz", "--frame", "laser")
-            error = score(scorers / "score.py", final, data / f"{name}.ref")["ate_rmse"]
-            rows.append([f"{pathlib.Path(name).name}.clf.gz", f"{error:.3f} (gmapping's poses)", "-", time_ms])
+            replay(data / f"{name}.clf.gz", f"{pathlib.Path(name).name}.clf.gz",
+                   lambda final, true=data / f"{name}.ref": f"{score(scorers / 'score.py', final, true)['ate_rmse']:.3f} (gmapping's poses)", "-")
     titled_table("Buildings: mean translation error of known relations, or ATE against gmapping's poses, m:",
-                 ["recording", "error", "best other", "ms a scan: mean, longest"], rows)
+                 ["recording", "error", "best other", "scans lost", "ms a scan: mean, longest"], rows)
 
 
 def main():
@@ -259,11 +281,15 @@ def main():
     parser.add_argument("--shared", default=os.environ.get("ALE_SHARED", ""))
     parser.add_argument("--seeds", default="1,2,3", help="of the drives through the worlds of the tree")
     parser.add_argument("--only", default="", metavar="NAME", help="the rows of this world, run or recording alone")
+    parser.add_argument("--jitter", default="", metavar="SEEDS", help="buildings also with noise of these seeds on the ranges")
     options = parser.parse_args()
-    if not re.fullmatch(r"\d+(,\d+)*", options.seeds):
-        parser.error(f"--seeds {options.seeds}: not numbers with commas between them")
+    for seeds in filter(None, (options.seeds, options.jitter)):
+        if not re.fullmatch(r"\d+(,\d+)*", seeds):
+            parser.error(f"{seeds}: not numbers with commas between them")
     if not (pathlib.Path(options.build) / "bin/ale-replay").exists():
         sys.exit(f"slam_table.py: no programs in {options.build}/bin (make builds them)")
+    jitter = list(filter(None, options.jitter.split(",")))
+
     def chosen(name):
         return options.only in ("", name)
 
@@ -275,7 +301,7 @@ def main():
             data = pathlib.Path(options.shared) / "data"
             runs_table(bench, scorers, chosen)
             recordings_table(bench, scorers, data / "urg04lx", chosen)
-            buildings_table(bench, scorers, data, chosen)
+            buildings_table(bench, scorers, data, chosen, jitter)
         else:
             print("No development runs and recordings here: ALE_SHARED names no folder with bench/slam.\n")
         print(f"Longest correction of the mapper: {bench.correction_ms:.0f} ms.")
