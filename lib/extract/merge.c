@@ -34,7 +34,7 @@ int64_t ale_merge_ratio_q8(const ale_scan_noise_t *noise, const ale_run_fit_t *o
 }
 
 /* The ratio of the runs k and k + 1; the largest number where they may not be joined. */
-static int64_t ratio_at(ale_run_list_t *r, int32_t k)
+static inline int64_t ratio_at(ale_run_list_t *r, int32_t k)
 {
     ale_run_t *a = &r->run[k];
     ale_run_t *b = &r->run[k + 1];
@@ -61,24 +61,20 @@ static void join_with_next(ale_run_list_t *r, int32_t k)
 bool ale_merge_runs(ale_run_list_t *r)
 {
     const int32_t before = r->count;
-    int64_t ratio[ALE_MAX_RUNS] = {0};
     for (int32_t k = 0; k + 1 < r->count; k++) {
-        ratio[k] = ratio_at(r, k);
+        r->run[k].join_q8 = ratio_at(r, k);
     }
     while (r->count > 1) {
         int32_t best = 0;
         for (int32_t k = 1; k + 1 < r->count; k++) {
-            best = ratio[k] < ratio[best] ? k : best;
+            best = r->run[k].join_q8 < r->run[best].join_q8 ? k : best;
         }
-        if (ratio[best] >= 256) {
+        if (r->run[best].join_q8 >= 256) {
             break;
         }
         join_with_next(r, best);
-        for (int32_t k = best; k + 1 < r->count; k++) {
-            ratio[k] = ratio[k + 1];
-        }
         for (int32_t k = best > 0 ? best - 1 : 0; k <= best && k + 1 < r->count; k++) {
-            ratio[k] = ratio_at(r, k);
+            r->run[k].join_q8 = ratio_at(r, k);
         }
     }
     return r->count < before;

@@ -34,6 +34,7 @@ typedef struct {
     bool no_curve;     /* all of the scan were asked for curves as this one is, and none was found */
     bool settled;      /* its ends have hardly moved when they were placed */
     ale_run_fit_t fit; /* see ale_fit_of_run */
+    int64_t join_q8;   /* whether one line explains it and the next one: scratch of ale_merge_runs */
 } ale_run_t;
 
 typedef struct {
