@@ -73,11 +73,22 @@ static inline __attribute__((always_inline)) void add_thirds_about(const ale_pre
     }
 }
 
+/* Whether all points lie within half of that extent of the sensor: then none is so far off their mean. No
+ * branch: the compiler takes several at once. */
+static bool are_near(const ale_points_t *p, int32_t first, int32_t last)
+{
+    uint32_t reach = 0;
+    for (int32_t i = first; i <= last; i++) {
+        reach |= (uint32_t)(p->x_q4[i] + MAX_EXTENT_Q4 / 2) | (uint32_t)(p->y_q4[i] + MAX_EXTENT_Q4 / 2);
+    }
+    return reach < MAX_EXTENT_Q4;
+}
+
 static circle_sums_t sums_about(const ale_prepared_scan_t *scan, int32_t first, int32_t last, mean_t mean)
 {
     const int64_t most = (int64_t)MAX_EXTENT_Q4 * MAX_EXTENT_Q4;
     circle_sums_t s = squares_about(scan, first, last, mean);
-    if (s.uu <= most && s.vv <= most) { /* then no point is so far off */
+    if ((s.uu <= most && s.vv <= most) || are_near(&scan->points, first, last)) { /* none is so far off */
         add_thirds_about(scan, first, last, mean, false, &s);
         return s;
     }
