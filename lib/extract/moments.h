@@ -83,8 +83,11 @@ static inline ale_moments_t ale_sums_of(const ale_prepared_scan_t *scan, int64_t
  * long, which leaves less than (width / length)^8, and more where it is nearly as wide as long. */
 static inline int64_t ale_small_eigenvalue(int64_t a, int64_t b, int64_t c)
 {
-    const int64_t trace = ale_max64(a + c, 1);
-    const int64_t det = ale_max64(a * c - b * b, 0);
+    const int64_t trace = a + c;
+    const int64_t det = a * c - b * b;
+    if (det <= 0) {
+        return 0; /* else a and c are positive: nothing below divides by zero */
+    }
     const int64_t lambda = det / trace;
     return lambda * ALE_ROUND <= trace ? (det - lambda * lambda) / (trace - 2 * lambda)
                                        : ale_round_eigenvalue(lambda, trace, det);
