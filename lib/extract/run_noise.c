@@ -38,7 +38,7 @@ static const int64_t MOST_OWN_Q20 = (int64_t)1 << 40;
 enum { MOST_CURVATURE_Q30 = 1 << 29, HALF_Q30 = 1 << 29 };
 
 /* Range in the middle of three blocks of points, the same from either side. */
-static uint32_t middle_range_um(const ale_prepared_scan_t *scan, int32_t start)
+static inline uint32_t middle_range_um(const ale_prepared_scan_t *scan, int64_t start)
 {
     const int32_t *middle = &scan->points.range_um[start + THREE_BLOCKS / 2];
     return ((uint32_t)middle[-1] + (uint32_t)middle[0]) / 2;
@@ -46,14 +46,14 @@ static uint32_t middle_range_um(const ale_prepared_scan_t *scan, int32_t start)
 
 /* Squared second difference of three blocks of points from start on, whose middle is at a range, over what
  * own noise would give; Q8. */
-static inline int64_t block_ratio_q8(const ale_prepared_scan_t *scan, int32_t start, int64_t range_um,
+static inline int64_t block_ratio_q8(const ale_prepared_scan_t *scan, int64_t start, int64_t range_um,
                                      int64_t range_mm, int64_t curvature_q30)
 {
     const int64_t *p = &scan->inverse_sum[start];
     const int64_t middle = p[TWO_BLOCKS] - p[BLOCK];
     const int64_t bend = (middle * curvature_q30 + HALF_Q30) >> 30;
     const int64_t d = p[THREE_BLOCKS] - p[0] - 3 * middle + bend;
-    const int64_t d_um = ale_clamp64(d * range_um / middle, -MOST_DIFFERENCE_UM, MOST_DIFFERENCE_UM);
+    const int64_t d_um = ale_min64(ale_abs64(d * range_um / middle), MOST_DIFFERENCE_UM);
     const int64_t own_q20 =
         ale_min64(ale_scan_noise_own_q20(&scan->noise, range_mm * range_mm), MOST_OWN_Q20);
     return d_um * d_um * (BLOCK << 8) / ale_max64((own_q20 * 6000000) >> 20, 1);
@@ -67,7 +67,7 @@ typedef struct {
     uint16_t ratio_q8[ALE_MAX_BEAMS]; /* a run has fewer windows than points */
 } blocks_t;
 
-static inline void add_block(const ale_prepared_scan_t *scan, int32_t start, int64_t curvature_q30,
+static inline void add_block(const ale_prepared_scan_t *scan, int64_t start, int64_t curvature_q30,
                              blocks_t *blocks)
 {
     const uint32_t range_um = middle_range_um(scan, start);
