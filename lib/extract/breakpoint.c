@@ -65,6 +65,13 @@ static void count_fits(ale_run_list_t *r, int32_t fits)
     r->effort += fits * SEARCH_FIT_EFFORT;
 }
 
+/* The fit of the line from a point on to the one so many points behind it. */
+static inline ale_run_fit_t fit_towards(const ale_run_list_t *r, int32_t from, int32_t direction,
+                                        int32_t points)
+{
+    return ale_run_fit(&r->scan, direction > 0 ? from : from - points, direction > 0 ? from + points : from);
+}
+
 /* How many points behind `from` the line that begins there goes on, by binary search between the least,
  * of which the fit is *accepted, and one beyond it; *accepted becomes that of the last one. */
 static int32_t widen(ale_run_list_t *r, int32_t from, int32_t direction, int32_t least, int32_t beyond,
@@ -78,8 +85,7 @@ static int32_t widen(ale_run_list_t *r, int32_t from, int32_t direction, int32_t
     while (high - low > 1) {
         const int32_t half = (low + high) / 2;
         const int32_t p = bracketed ? half : (int32_t)ale_min64(half, (int64_t)COSTLY_REACH * low);
-        const ale_run_fit_t fit =
-            ale_run_fit(&r->scan, direction > 0 ? from : from - p, direction > 0 ? from + p : from);
+        const ale_run_fit_t fit = fit_towards(r, from, direction, p);
         fits++;
         if (acceptable(r, &fit, &best)) {
             low = p;
@@ -102,8 +108,7 @@ int32_t ale_break_search(ale_run_list_t *r, int32_t from, int32_t to, ale_run_fi
     if (low >= high) {
         return from;
     }
-    *accepted = direction > 0 ? ale_moments_fit(&r->scan, from, from + low)
-                              : ale_moments_fit(&r->scan, from - low, from);
+    *accepted = fit_towards(r, from, direction, low);
     count_fits(r, 1);
     if (accepted->sse_q8 > allowed_q8(r, accepted, accepted->n, r->chi_high_q8[accepted->n])) {
         return from;
@@ -268,7 +273,7 @@ static inline int64_t joint_sse_q8(const ale_run_list_t *r, ale_segment_t run, i
 /* The break after which the joint fit is best, of the places of a grid that is the same in both directions.
  * *sse_q8: squared residuals of the two lines; before the call, what they must be less than. -1: at none they
  * are, or the run has no room for two. */
-static int32_t coarse_break(ale_run_list_t *r, ale_segment_t run, int32_t direction, int64_t *sse_q8)
+static inline int32_t coarse_break(ale_run_list_t *r, ale_segment_t run, int32_t direction, int64_t *sse_q8)
 {
     const int32_t n = run.last + 1 - run.first;
     int32_t best = -1;
