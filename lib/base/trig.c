@@ -262,7 +262,7 @@ static int64_t ratio_q40(int64_t num, int64_t den)
   @ requires num <= den;
   @ requires 0 < den;
   @ requires den < 8589934592; */
-static uint32_t octant_arctan(int64_t num, int64_t den)
+static inline uint32_t octant_arctan(int64_t num, int64_t den)
 {
     const int64_t k = ale_round_div(num * 256, den);
     //@ assert 0 <= k <= 256;

@@ -121,7 +121,7 @@ static bool is_wall(ale_run_list_t *r, ale_run_t *run)
     return true;
 }
 
-static uint8_t end_kind(const ale_prepared_scan_t *scan, int32_t end, int32_t side)
+static inline uint8_t end_kind(const ale_prepared_scan_t *scan, int32_t end, int32_t side)
 {
     const ale_points_t *p = &scan->points;
     const ale_beyond_t beyond = ale_segment_beyond(p, &scan->segments, end, side);

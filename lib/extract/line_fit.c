@@ -22,8 +22,8 @@ static int64_t dot_q30(int64_t x, int64_t y, int64_t ux_q30, int64_t uy_q30)
 }
 
 /* Where the beam of a point meets the line; the point's own foot where beam and line are almost parallel. */
-static ale_point_t end_on_line(const ale_prepared_scan_t *scan, int32_t i, const ale_line_t *line,
-                               int64_t c_q30, int64_t s_q30)
+static inline ale_point_t end_on_line(const ale_prepared_scan_t *scan, int32_t i, const ale_line_t *line,
+                                      int64_t c_q30, int64_t s_q30)
 {
     const int64_t x_um = ale_round_shift((int64_t)scan->points.x_q4[i] * 1000, ALE_POINT_SHIFT);
     const int64_t y_um = ale_round_shift((int64_t)scan->points.y_q4[i] * 1000, ALE_POINT_SHIFT);
@@ -114,7 +114,7 @@ typedef struct {
     int64_t across_um; /* from its beam to the next one, across it */
 } end_t;
 
-static end_t end_of(const ale_prepared_scan_t *scan, int32_t i, int32_t side)
+static inline end_t end_of(const ale_prepared_scan_t *scan, int32_t i, int32_t side)
 {
     const int64_t range_um = scan->points.range_um[i];
     return (end_t){ale_segment_beyond(&scan->points, &scan->segments, i, side), range_um,
