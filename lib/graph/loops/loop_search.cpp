@@ -47,7 +47,8 @@ constexpr int confirmations_when_clear = 1;
 constexpr int confirmations_when_sparse = 2;
 // The robust kernel narrows by half every other iteration, to its normal width.
 constexpr double widest_kernel = 10000;
-constexpr int iterations = 32;
+constexpr int narrowing_iterations = 32;
+constexpr int iterations_as_begun = 10; // from where the graph was, at the normal width
 
 SearchWindow window_of(const Deviation &deviation)
 {
@@ -82,7 +83,8 @@ bool LoopSearch::step()
         return true;
     }
     solve();
-    if (solved_ == iterations) {
+    if (is_solved()) {
+        select_solution();
         keep_displaced();
         found_.clear();
         covariance_.reset();
@@ -252,9 +254,28 @@ void LoopSearch::solve()
 {
     if (solved_ == 0) {
         graph_.set_edges(edges());
+        as_begun_ = graph_;
     }
-    graph_.optimise(1, std::max(robust_kernel, std::ldexp(widest_kernel, -(solved_ / 2))));
+    if (solved_ < narrowing_iterations) {
+        graph_.optimise(1, std::max(robust_kernel, std::ldexp(widest_kernel, -(solved_ / 2))));
+    } else {
+        as_begun_->optimise(1);
+    }
     solved_++;
+}
+
+bool LoopSearch::is_solved() const
+{
+    return solved_ == narrowing_iterations + iterations_as_begun;
+}
+
+// Of two minima of the same cost the lower.
+void LoopSearch::select_solution()
+{
+    if (as_begun_->cost() < graph_.cost()) {
+        graph_ = std::move(*as_begun_);
+    }
+    as_begun_.reset();
 }
 
 } // namespace ale

@@ -9,8 +9,10 @@
 // every place is matched with every other visit, with the nodes before and after both, in a window as wide as
 // the covariance of the graph. Loops remain that others confirm and that violate no free space. The graph is
 // then solved by graduated non-convexity (Yang et al., RA-L 2020): at first all loops count, then the robust
-// kernel narrows and those that contradict the rest lose their weight. The second round finds what the first
-// has brought within reach.
+// kernel narrows and those that contradict the rest lose their weight. Where many loops agree on a falsehood,
+// such as walls of two rooms that stand nearly alike, that can end on their side against all else: the graph
+// is also solved from where it was, and the solution that costs less is kept. The second round finds what the
+// first has brought within reach.
 #ifndef ALE_GRAPH_LOOPS_LOOP_SEARCH_H
 #define ALE_GRAPH_LOOPS_LOOP_SEARCH_H
 
@@ -61,13 +63,16 @@ class LoopSearch
     std::vector<GraphEdge> edges() const;
     void keep_displaced();
     void solve();
+    bool is_solved() const;
+    void select_solution();
 
     const std::vector<Node> *nodes_;
     PoseGraph graph_;
     std::vector<GraphEdge> given_;      // odometry, and loops accepted while driving
     std::vector<FreeSpace> free_space_; // by node
     std::optional<PathCovariance> covariance_;
-    std::vector<FoundLoop> found_; // in this round
+    std::optional<PoseGraph> as_begun_; // solved from where it was, beside graph_ from all loops
+    std::vector<FoundLoop> found_;      // in this round
     int round_ = 0;
     int next_ = 0;   // node to search from
     int solved_ = 0; // iterations of this round

@@ -27,11 +27,23 @@ Eigen::Vector3d residual_of(const PosePrior &prior, const std::vector<Pose> &pos
     return {e.x, e.y, e.theta};
 }
 
+double residual_of(const HeadingPrior &prior, const BuildingConstraint &building,
+                   const std::vector<Pose> &poses)
+{
+    return wrapped(at(poses, prior.pose).theta - building.direction_rad - prior.heading_rad);
+}
+
 // Weight of a robust edge with Mahalanobis square chi2: s^2, s = min(1, 2 kernel / (kernel + chi2)).
 double kernel_weight(double chi2, double kernel)
 {
     const double s = 2 * kernel / (kernel + chi2);
     return s < 1 ? s * s : 1;
+}
+
+// The integral of that weight over chi2.
+double kernel_cost(double chi2, double kernel)
+{
+    return chi2 < kernel ? chi2 : 3 * kernel - 4 * kernel * kernel / (kernel + chi2);
 }
 
 LinearisedEdge linearised(const GraphEdge &edge, const std::vector<Pose> &poses)
@@ -114,6 +126,25 @@ double PoseGraph::residual2(const PosePrior &prior) const
 double PoseGraph::misfit(const GraphEdge &edge) const
 {
     return std::min(robust_kernel, residual2(edge));
+}
+
+double PoseGraph::cost() const
+{
+    double sum = 0;
+    const auto add = [&sum](double chi2, bool robust) {
+        sum += robust ? kernel_cost(chi2, robust_kernel) : chi2;
+    };
+    for (const GraphEdge &edge : edges_) {
+        add(residual2(edge), edge.robust);
+    }
+    for (const HeadingPrior &prior : building_.priors) {
+        const double e = residual_of(prior, building_, poses_);
+        add(e * e * prior.information, prior.robust);
+    }
+    for (const PosePrior &prior : pose_priors_) {
+        add(residual2(prior), true);
+    }
+    return sum;
 }
 
 double PoseGraph::weight(const GraphEdge &edge) const
@@ -220,7 +251,7 @@ double PoseGraph::linearise(NormalEquations *equations, double kernel) const
         sum += edges_[k].robust ? robust_cost(chi2, kernel) : chi2;
     }
     for (const HeadingPrior &prior : building_.priors) {
-        const double e = wrapped(at(poses_, prior.pose).theta - building_.direction_rad - prior.heading_rad);
+        const double e = residual_of(prior, building_, poses_);
         const double chi2 = e * e * prior.information;
         equations->add(prior, e, prior.robust ? kernel_weight(chi2, kernel) : 1);
         sum += prior.robust ? robust_cost(chi2, kernel) : chi2;

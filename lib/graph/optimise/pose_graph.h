@@ -109,6 +109,10 @@ class PoseGraph
     double residual2(const PosePrior &prior) const;
     // residual2, at most robust_kernel.
     double misfit(const GraphEdge &edge) const;
+    // What optimise() descends on: squared residuals of all constraints but linearised priors, at the present
+    // poses. A robust one adds ever less above robust_kernel, at most three times that. Of two solutions the
+    // likelier has less. O(edges + priors).
+    double cost() const;
     // Weight of an edge at the present poses, 0..1; 1 unless robust.
     double weight(const GraphEdge &edge) const;
 

@@ -142,6 +142,52 @@ TEST(LoopSearch, RejectsAFalseLoopAcceptedWhileDriving)
     EXPECT_LT(walk.error_m(searched(walk, walk.graph)), 0.4);
 }
 
+// There and back along a line, past which nothing is seen. All loops are given: of the way back most say the
+// truth, and those of its middle agree on a place 0.3 m beside it.
+struct ThereAndBack {
+    static constexpr int count = 40;
+    std::vector<ale::Pose> truth;
+    std::vector<ale::Node> nodes;
+    ale::PoseGraph graph;
+
+    ThereAndBack(int first_false, int last_false)
+    {
+        for (int k = 0; k < count; k++) {
+            const int along = std::min(k, count - 1 - k);
+            add_node({0.5 * along, 0, k < count / 2 ? 0 : ale::pi});
+        }
+        for (int k = count / 2 + 1; k < count; k++) {
+            const int there = count - 1 - k;
+            ale::Pose measured = ale::between(truth, there, k);
+            measured.y += k >= first_false && k <= last_false ? 0.3 : 0;
+            graph.add_edge({there, k, measured, ale::information_from_deviations(0.01, 0.003), true});
+        }
+    }
+
+  private:
+    void add_node(const ale::Pose &pose)
+    {
+        const int k = static_cast<int>(truth.size());
+        truth.push_back(pose);
+        graph.add_pose(pose);
+        if (k > 0) {
+            graph.add_edge({k - 1, k, ale::between(truth, k - 1, k),
+                            ale::information_from_deviations(0.01, 0.005), false});
+        }
+        ale::Node node = {};
+        node.scan = static_cast<uint32_t>(k);
+        node.path_m = 0.5 * k;
+        node.smooth = pose;
+        nodes.push_back(node);
+    }
+};
+
+TEST(LoopSearch, FalseLoopsThatAgreeDoNotOutweighTheWay)
+{
+    const ThereAndBack walk(26, 33);
+    EXPECT_LT(ring_corridor::largest_error_m(walk.truth, searched(walk, walk.graph).poses()), 0.02);
+}
+
 TEST(LoopSearch, WithoutARevisitNothingMoves)
 {
     const Walk walk(0.6);

@@ -55,6 +55,38 @@ TEST(PoseGraph, TrueMeasurementsRestoreDisturbedPoses)
     EXPECT_LT(largest_error(truth, graph.poses()), 1e-6);
 }
 
+// One edge whose squared residual is chi2 where the poses are.
+ale::PoseGraph apart(double chi2, bool robust)
+{
+    ale::PoseGraph graph;
+    graph.add_pose({0, 0, 0});
+    graph.add_pose({1 + 0.01 * std::sqrt(chi2), 0, 0});
+    graph.add_edge({0, 1, {1, 0, 0}, unit_information, robust});
+    return graph;
+}
+
+TEST(PoseGraph, ARobustEdgeCostsTheIntegralOfItsWeight)
+{
+    EXPECT_NEAR(apart(90, false).cost(), 90, 1e-9);
+    EXPECT_NEAR(apart(9, true).cost(), 9, 1e-9);
+    double sum = 0;
+    const double step = 0.01;
+    for (double chi2 = step / 2; chi2 < 90; chi2 += step) {
+        const ale::PoseGraph graph = apart(chi2, true);
+        sum += graph.weight(graph.edges().front()) * step;
+    }
+    EXPECT_NEAR(apart(90, true).cost(), sum, 1e-3);
+    EXPECT_LT(apart(1e9, true).cost(), 3 * ale::robust_kernel);
+}
+
+TEST(PoseGraph, PriorsCostTheirSquaredResiduals)
+{
+    ale::PoseGraph graph = apart(0, false);
+    graph.add_pose_prior({1, {1, 0.01, 0}, unit_information});
+    graph.set_building_constraint({0.02, {{0, 0, 1e4, false}}});
+    EXPECT_NEAR(graph.cost(), 1 + 4, 1e-9);
+}
+
 // Two pieces with a guess between them; the edges of the second say that it is longer than its poses.
 ale::PoseGraph two_pieces()
 {
