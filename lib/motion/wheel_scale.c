@@ -11,13 +11,15 @@ enum {
 };
 
 static const int64_t ppm = 1000000;
-static const int64_t end_um2 = (int64_t)END_SIGMA_UM * END_SIGMA_UM;
+static const int64_t two_ends_um2 = (int64_t)2 * END_SIGMA_UM * END_SIGMA_UM;
+static const int64_t nothing_yet_us = INT64_MIN;
 static const int64_t most_ends_um2 = 1000000000000; /* (1 m)^2: nothing has been learnt */
 
 void ale_wheel_scale_init(ale_wheel_scale_t *scale, int32_t sigma_ppm)
 {
-    *scale = (ale_wheel_scale_t){
-        .sigma_ppm = (int32_t)ale_max64(sigma_ppm, FLOOR_PPM), .ends_um2 = end_um2, .end_us = INT64_MIN};
+    *scale = (ale_wheel_scale_t){.sigma_ppm = (int32_t)ale_max64(sigma_ppm, FLOOR_PPM),
+                                 .ends_um2 = two_ends_um2,
+                                 .end_us = nothing_yet_us};
 }
 
 static void forget(ale_wheel_scale_t *scale)
@@ -28,6 +30,12 @@ static void forget(ale_wheel_scale_t *scale)
     scale->ends_um2 -= scale->ends_um2 / (FORGOTTEN_SHARE / 2);
 }
 
+/* Whether a way brings no ends of its own. Those of the first one are there from the beginning. */
+static bool goes_on(const ale_wheel_scale_t *scale, const ale_wheel_lesson_t *lesson, bool back)
+{
+    return scale->end_us == nothing_yet_us || (lesson->from_us == scale->end_us && back == scale->back);
+}
+
 void ale_wheel_scale_learn(ale_wheel_scale_t *scale, const ale_wheel_lesson_t *lesson)
 {
     const int64_t excess_um = lesson->found_um - lesson->counted_um;
@@ -35,12 +43,12 @@ void ale_wheel_scale_learn(ale_wheel_scale_t *scale, const ale_wheel_lesson_t *l
         return;
     }
     const bool back = lesson->counted_um < 0;
-    const bool goes_on = lesson->from_us == scale->end_us && back == scale->back;
     const int64_t sign = back ? -1 : 1;
     scale->counted_um += sign * lesson->counted_um;
     scale->excess_um += sign * excess_um;
     scale->erred_um += sign * lesson->erred_um;
-    scale->ends_um2 = ale_min64(scale->ends_um2 + (goes_on ? 0 : 2 * end_um2), most_ends_um2);
+    const int64_t ends_um2 = scale->ends_um2 + (goes_on(scale, lesson, back) ? 0 : two_ends_um2);
+    scale->ends_um2 = ale_min64(ends_um2, most_ends_um2);
     scale->end_us = lesson->to_us;
     scale->back = back;
     if (scale->counted_um > MEMORY_UM) {

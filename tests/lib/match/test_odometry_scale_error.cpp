@@ -98,7 +98,7 @@ class CorridorFilter
   public:
     static constexpr double prior_weight = 1 / (0.0025 * 0.0025);
     static constexpr double frame_weight = 1 / (0.015 * 0.015);
-    static constexpr double ends_m2 = 3 * 0.004 * 0.004; // before the first way, and of its two ends
+    static constexpr double ends_m2 = 2 * 0.004 * 0.004; // of the first way
     static constexpr double prior_m2 = ends_m2 / (0.05 * 0.05);
 
     CorridorFilter(double counted_m, double first_match_m) : counted_m_(counted_m), excess_m_(first_match_m)

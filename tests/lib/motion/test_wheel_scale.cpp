@@ -78,7 +78,7 @@ TEST(WheelScale, IsTheMeanOfPriorAndWaysByTheirWeights)
     ale_wheel_scale_t scale = fresh();
     double counted_m = 0;
     double excess_m = 0;
-    double ends_m2 = end_m * end_m;
+    double ends_m2 = 2 * end_m * end_m;
     int64_t at_us = 0;
     for (int k = 0; k < 40; k++) {
         const double step_m = way(rng);
@@ -91,7 +91,7 @@ TEST(WheelScale, IsTheMeanOfPriorAndWaysByTheirWeights)
         at_us += 100000;
         counted_m += step_m;
         excess_m += found_m - step_m;
-        ends_m2 += on ? 0 : 2 * end_m * end_m;
+        ends_m2 += on || k == 0 ? 0 : 2 * end_m * end_m;
         const double prior = ends_m2 / (0.05 * 0.05);
         const double weight = counted_m * counted_m + prior;
         ASSERT_NEAR(factor_of(scale), 1 + excess_m * counted_m / weight, 3e-5);
