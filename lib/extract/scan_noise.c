@@ -23,7 +23,6 @@ enum {
 enum { SIGMA_FLOOR_UM = 400, SIGMA_MOST_UM = 100000 };
 /* Of beams 2 rad apart: times 1 / range it fits int64. */
 static const int64_t MOST_BEND_Q30 = (int64_t)4 << 30;
-static const int64_t twice_q30 = (int64_t)2 << 30;
 static const int64_t micro_q36 = 68719;    /* 2^36 / 10^6 */
 static const int64_t micro2_q60 = 1152922; /* 2^60 / 10^12 */
 static const int64_t most_square_q60 = (int64_t)1 << 29;
@@ -52,8 +51,8 @@ static inline uint64_t as_range_q4(int64_t difference_q44, int64_t range_um)
 static inline void count_difference(ale_scan_noise_t *noise, int64_t difference_q44, int64_t range_um,
                                     octave_sums_t *sums)
 {
-    /* a point's range has that bit or a higher one: it is never 0, for which a bit length has to ask */
-    const uint32_t k = ale_bit_length((uint32_t)range_um | 1u << OCTAVE_BASE) - 1 - OCTAVE_BASE;
+    /* a range has the bit of the least one or a higher one: it is never 0, which a bit length asks for */
+    const uint32_t k = ale_bit_length((uint32_t)range_um | ALE_MIN_RANGE_UM) - 1 - OCTAVE_BASE;
     noise->histogram[k][ale_histogram_bin(as_range_q4(difference_q44, range_um))]++;
     sums->samples[k]++;
     sums->range_um[k] += range_um;
@@ -64,6 +63,7 @@ static inline void count_next(ale_scan_noise_t *noise, const ale_points_t *p, in
                               int64_t curvature_q30, octave_sums_t *sums)
 {
     if (p->beam[i + 1] - p->beam[i - 1] == 2) {
+        const int64_t twice_q30 = (int64_t)2 << 30;
         const int64_t neighbours = (int64_t)p->inverse_q44[i - 1] + p->inverse_q44[i + 1];
         const int64_t d = neighbours + (p->inverse_q44[i] * (curvature_q30 - twice_q30) >> 30);
         count_difference(noise, d, p->range_um[i], sums);
