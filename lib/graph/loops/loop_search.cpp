@@ -115,6 +115,7 @@ std::vector<LoopSearch::Place> LoopSearch::places_near(int k) const
     }
     const std::vector<int> chosen = nearest_of_each_visit(std::move(near), same_visit_nodes, most_places);
     std::vector<Place> places;
+    places.reserve(chosen.size());
     for (const int there : chosen) {
         places.push_back({there, window_of(at(deviation, there))});
     }
