@@ -76,9 +76,8 @@ int32_t ale_wheel_scale_apply(const ale_wheel_scale_t *scale, int64_t counted_um
 
 static int64_t learnt_sigma_ppm(const ale_wheel_scale_t *scale)
 {
-    const int64_t way_um = scale->counted_um;
-    return ale_isqrt((uint64_t)scale->ends_um2) * ppm /
-           ale_max64(ale_isqrt((uint64_t)(way_um * way_um + prior_um2(scale))), 1);
+    const int64_t way_um2 = scale->counted_um * scale->counted_um;
+    return ale_isqrt((uint64_t)ale_mul_div(scale->ends_um2, ppm * ppm, way_um2 + prior_um2(scale)));
 }
 
 int64_t ale_wheel_scale_sigma_ppm(const ale_wheel_scale_t *scale)
