@@ -12,14 +12,11 @@ enum {
 
 static const int64_t ppm = 1000000;
 static const int64_t two_ends_um2 = (int64_t)2 * END_SIGMA_UM * END_SIGMA_UM;
-static const int64_t nothing_yet_us = INT64_MIN;
-static const int64_t most_ends_um2 = 1000000000000; /* (1 m)^2: nothing has been learnt */
 
 void ale_wheel_scale_init(ale_wheel_scale_t *scale, int32_t sigma_ppm)
 {
-    *scale = (ale_wheel_scale_t){.sigma_ppm = (int32_t)ale_max64(sigma_ppm, FLOOR_PPM),
-                                 .ends_um2 = two_ends_um2,
-                                 .end_us = nothing_yet_us};
+    *scale =
+        (ale_wheel_scale_t){.sigma_ppm = (int32_t)ale_max64(sigma_ppm, FLOOR_PPM), .ends_um2 = two_ends_um2};
 }
 
 static void forget(ale_wheel_scale_t *scale)
@@ -33,7 +30,7 @@ static void forget(ale_wheel_scale_t *scale)
 /* Whether a way brings no ends of its own. Those of the first one are there from the beginning. */
 static bool goes_on(const ale_wheel_scale_t *scale, const ale_wheel_lesson_t *lesson, bool back)
 {
-    return scale->end_us == nothing_yet_us || (lesson->from_us == scale->end_us && back == scale->back);
+    return !scale->begun || (lesson->from_us == scale->end_us && back == scale->back);
 }
 
 void ale_wheel_scale_learn(ale_wheel_scale_t *scale, const ale_wheel_lesson_t *lesson)
@@ -47,8 +44,10 @@ void ale_wheel_scale_learn(ale_wheel_scale_t *scale, const ale_wheel_lesson_t *l
     scale->counted_um += sign * lesson->counted_um;
     scale->excess_um += sign * excess_um;
     scale->erred_um += sign * lesson->erred_um;
+    const int64_t most_ends_um2 = ppm * ppm; /* (1 m)^2: nothing has been learnt */
     const int64_t ends_um2 = scale->ends_um2 + (goes_on(scale, lesson, back) ? 0 : two_ends_um2);
     scale->ends_um2 = ale_min64(ends_um2, most_ends_um2);
+    scale->begun = true;
     scale->end_us = lesson->to_us;
     scale->back = back;
     if (scale->counted_um > MEMORY_UM) {
@@ -76,8 +75,9 @@ int32_t ale_wheel_scale_apply(const ale_wheel_scale_t *scale, int64_t counted_um
 
 static int64_t learnt_sigma_ppm(const ale_wheel_scale_t *scale)
 {
-    const int64_t way_um2 = scale->counted_um * scale->counted_um;
-    return ale_isqrt((uint64_t)ale_mul_div(scale->ends_um2, ppm * ppm, way_um2 + prior_um2(scale)));
+    const int64_t way_um = scale->counted_um;
+    return ale_isqrt((uint64_t)scale->ends_um2) * ppm /
+           ale_max64(ale_isqrt((uint64_t)(way_um * way_um + prior_um2(scale))), 1);
 }
 
 int64_t ale_wheel_scale_sigma_ppm(const ale_wheel_scale_t *scale)

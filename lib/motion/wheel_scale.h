@@ -18,8 +18,9 @@ typedef struct {
     int64_t excess_um;  /* what registration found beyond it */
     int64_t erred_um;   /* part of that which one sigma of the factor has made */
     int64_t ends_um2;   /* variance of the excess by errors of matching */
-    int64_t end_us;     /* of the last way, */
-    bool back;          /* which went backwards */
+    bool begun;
+    int64_t end_us; /* of the last way, */
+    bool back;      /* which went backwards */
 } ale_wheel_scale_t;
 
 /* A way between two scans, as long as registration knows it. */
