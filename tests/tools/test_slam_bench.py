@@ -1,6 +1,7 @@
 """The errors of a trajectory as the benchmark of localisation and mapping tells them."""
 import json
 import math
+import re
 import subprocess
 import sys
 
@@ -8,7 +9,8 @@ import pytest
 
 np = pytest.importorskip("numpy")
 
-from at_hand import shared  # noqa: E402
+import slam_table  # noqa: E402
+from at_hand import BUILD, shared  # noqa: E402
 from slam_table import normalised_error, score, trajectory_error  # noqa: E402
 
 SCANS = 200
@@ -79,3 +81,22 @@ def test_the_errors_are_those_of_the_scorer_beside_the_project(tmp_path):
     told = score(scorer, other, truth)
     mine = trajectory_error(other, truth)
     assert mine == pytest.approx((1e3 * told["ate_rmse"], 1e3 * told["rpe_1s_m"], told["rpe_1s_deg"]), rel=0.02)
+
+
+def test_a_building_is_replayed_with_the_noise_of_each_seed_too():
+    shared("data/corrected/freiburg-101.clf.gz")
+    if not (BUILD / "bin/ale-replay").exists():
+        pytest.skip("ale-replay is not built")
+    done = subprocess.run([sys.executable, slam_table.__file__, "--build", BUILD, "--shared", shared("."), "--only", "freiburg-101",
+                           "--jitter", "1,2"], check=True, capture_output=True, text=True)
+    errors = {cells[1]: cells[2] for cells in (re.split(r" *\| *", line) for line in done.stdout.splitlines())
+              if len(cells) > 2 and cells[1].startswith("freiburg-101")}
+    assert list(errors) == ["freiburg-101.clf.gz", "freiburg-101.clf.gz, jitter 1", "freiburg-101.clf.gz, jitter 2"]
+    assert len(set(errors.values())) == 3
+
+
+@pytest.mark.parametrize("words", [["--jitter", "one"], ["--seeds", "1,,2"]])
+def test_seeds_that_are_no_numbers_are_told(words):
+    done = subprocess.run([sys.executable, slam_table.__file__, "--build", BUILD, *words], check=False, capture_output=True, text=True)
+    assert done.returncode == 2
+    assert "not numbers with commas" in done.stderr and "Traceback" not in done.stderr

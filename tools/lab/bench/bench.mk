@@ -40,6 +40,7 @@ bench-scanners: ## drives with every scanner's model beside the URG's, as tables
 # Localisation and mapping: drives through the worlds of the tree, and what lies in $(ALE_SHARED).
 BENCH_SLAM_SEEDS ?= 1,2,3
 ONLY ?=
+JITTER ?=
 .PHONY: bench-slam
 bench-slam: ## localisation and mapping as tables, beside the best of other systems: minutes (BENCH_SLAM_SEEDS=1,2,3; ONLY=home: seconds; JITTER=1,2: buildings also with noise of these seeds)
 	@tools/make/deps.sh tools/make/packages-build.txt $(if $(ONLY),tools/make/packages-test.txt,tools/make/packages-bench.txt)
@@ -62,7 +63,6 @@ bench-faults: ## drives on which something goes wrong, as tables: long (FAULTS_S
 
 LOG ?=
 RELATIONS ?=
-JITTER ?=
 OFTEN ?=
 .PHONY: bench-published
 bench-published: ## the published benchmark, all relations, beside others (ONLY=aces; LOG=path RELATIONS=path: your own recording; JITTER=1,2: also with noise of these seeds; OFTEN=1,2: with wheels that go wrong)

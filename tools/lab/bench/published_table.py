@@ -13,7 +13,6 @@ is luck. With --often, with wheels that go wrong once a minute.
 The error of a relation is true relation^-1 * estimated one; m (degrees for turns). Every relation counts, also where scans were lost.
 """
 import argparse
-import json
 import math
 import os
 import pathlib
@@ -24,7 +23,7 @@ import tempfile
 import numpy as np
 
 from lines_table import progress
-from slam_table import Bench, read_tum, spoilt, titled_table, with_made_odometry, wrapped
+from slam_table import Bench, as_carmen, read_tum, spoilt, titled_table, wrapped
 
 SLACK_S = 0.2  # of a relation beyond the first or last scan
 # Of the field's table: log and relations in the shared data. Unseen ones are kept for judging.
@@ -68,14 +67,6 @@ def relation_errors(trajectory, ends, relations):
     return np.abs(seen - true[:, 0] - 1j * true[:, 1]), np.abs(wrapped(other - heading - true[:, 2]))
 
 
-def as_carmen(bench, log):
-    if not pathlib.Path(log).name.endswith(".g2o.gz"):
-        return log
-    carmen = bench.folder / "made.clf"
-    with_made_odometry(log, carmen)
-    return carmen
-
-
 def measured(bench, log, relations, *fault):
     """The cells of a recording, as it is or with a fault: kind and seed."""
     log = as_carmen(bench, log)
@@ -86,7 +77,7 @@ def measured(bench, log, relations, *fault):
     metres, turns = relation_errors(read_tum(final), ends, true)
     if not len(metres):
         sys.exit(f"published_table.py: {relations}: no relation between scans of {log}")
-    states = [json.loads(line)["state"] for line in bench.poses.read_text(encoding="utf-8").splitlines()]
+    states = bench.states()
     return [f"{metres.mean():.4f} ({metres.std():.3f})", f"{np.median(metres):.4f}", f"{metres.max():.2f}", f"{math.degrees(turns.mean()):.2f}",
             f"{len(metres)} of {len(true)}", f"{states.count(0)} of {len(states)}", time_ms]
 

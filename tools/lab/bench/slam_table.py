@@ -121,6 +121,10 @@ class Bench:
         self.correction_ms = max(self.correction_ms, float(correction.group(1)) if correction else 0.0)
         return live, final, f"{float(mean):.2f}, {float(longest):.2f}"
 
+    def states(self):
+        """Of every scan of the last replay; 0: lost."""
+        return [json.loads(line)["state"] for line in self.poses.read_text(encoding="utf-8").splitlines()]
+
     def drive(self, world, seed):
         """A simulated drive through a world of the tree, or a file, as a log, and its truth."""
         plan = ROOT / f"tools/lab/worlds/{world}.world" if world in WORLDS else world
@@ -215,6 +219,15 @@ def with_made_odometry(path, carmen):
             log.write(f"FLASER {len(ranges)} {' '.join(ranges)} {pose} {pose} {stamp} - {stamp}\n")
 
 
+def as_carmen(bench, log):
+    """A log that ale-replay reads: of corrected poses alone one is made."""
+    if not pathlib.Path(log).name.endswith(".g2o.gz"):
+        return log
+    carmen = bench.folder / "made.clf"
+    with_made_odometry(log, carmen)
+    return carmen
+
+
 def recordings_table(bench, scorers, recordings, chosen):
     rows = []
     for name in filter(chosen, RECORDINGS):
@@ -256,16 +269,11 @@ def buildings_table(bench, scorers, data, chosen, seeds):
         progress(f"{name} ...")
         for noise, replayed in with_more_noise(bench, log, seeds):
             _, final, time_ms = bench.replay(replayed, "--frame", "laser")
-            lost = [json.loads(line)["state"] for line in bench.poses.read_text(encoding="utf-8").splitlines()].count(0)
-            rows.append([f"{name}{noise}", measure(final), peer, str(lost), time_ms])
+            rows.append([f"{name}{noise}", measure(final), peer, str(bench.states().count(0)), time_ms])
 
     for log, (relations, peer) in RELATIONS.items():
         if chosen(pathlib.Path(log).name.split(".")[0]) and (data / log).exists():
-            carmen = data / log
-            if log.endswith(".g2o.gz"):
-                carmen = bench.folder / "made.clf"
-                with_made_odometry(data / log, carmen)
-            replay(carmen, pathlib.Path(log).name,
+            replay(as_carmen(bench, data / log), pathlib.Path(log).name,
                    lambda final, true=data / relations: f"{score(scorers / 'score.py', final, true)['trans_mean']:.4f} (relations)", peer)
     for name in POSES:
         if chosen(pathlib.Path(name).name) and (data / f"{name}.clf.gz").exists():
