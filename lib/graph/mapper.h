@@ -27,7 +27,7 @@ enum { ALE_CORRECTION_DELAY_SCANS = 5 };
 enum { ALE_MAPPER_KEYFRAMES = ALE_CORRECTION_SHIFTS };
 
 /* Heap of a mapper of this capacity, working memory included: 2048 full scans of a URG-04LX are 45 MB, a
- * prior map is less than 1 MB. */
+ * prior map with its views is less than 2 MB. */
 enum { ALE_MAPPER_HEAP_BYTES = 60 * 1024 * 1024 };
 
 typedef struct ale_mapper ale_mapper_t;

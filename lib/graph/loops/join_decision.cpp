@@ -43,12 +43,34 @@ constexpr double compared_m = 8.0; // of a node that lies on the other map; fart
 constexpr double place_reach_m = 3.0;
 constexpr double held_m = 0.03; // in the direction that is held least
 
-double largest_deviation_m(const Eigen::Matrix3d &information)
+Eigen::Matrix2d position_covariance(const Eigen::Matrix3d &information)
 {
     const Eigen::Matrix3d regular = information + Eigen::Matrix3d::Identity() * 1e-3;
-    const Eigen::Matrix3d covariance = regular.inverse();
+    return regular.inverse().topLeftCorner<2, 2>();
+}
+
+double largest_deviation_m(const Eigen::Matrix2d &covariance)
+{
     const double mean = (covariance(0, 0) + covariance(1, 1)) / 2;
     return std::sqrt(mean + length((covariance(0, 0) - covariance(1, 1)) / 2, covariance(0, 1)));
+}
+
+bool is_held_everywhere(const Eigen::Matrix3d &information)
+{
+    return largest_deviation_m(position_covariance(information)) < held_m;
+}
+
+// Where the match lies if it moves from the guess only as far as it is held: along a corridor it slides.
+Pose without_sliding(const LoopMatch &match, const Pose &guess)
+{
+    const Eigen::Matrix2d covariance = position_covariance(match.information);
+    if (largest_deviation_m(covariance) < held_m) {
+        return match.pose;
+    }
+    const double slope = angle_of({covariance(0, 0) - covariance(1, 1), 2 * covariance(0, 1)}) / 2;
+    const Eigen::Vector2d held = rotation(match.pose.theta + slope).col(1);
+    const double off = held.dot(Eigen::Vector2d(match.pose.x - guess.x, match.pose.y - guess.y));
+    return {guess.x + off * held.x(), guess.y + off * held.y(), match.pose.theta};
 }
 
 double distance(const Pose &a, const Pose &b)
@@ -70,9 +92,9 @@ Loop reversed(const Loop &loop)
 
 } // namespace
 
-JoinDecision::JoinDecision(const std::vector<Node> &nodes, const std::vector<Pose> &poses,
-                           std::vector<Loop> matches, std::vector<int> queries, MapKind kind)
-    : nodes_(nodes), poses_(poses), matches_(std::move(matches)), queries_(std::move(queries)), kind_(kind)
+JoinDecision::JoinDecision(const SearchedMaps &maps, std::vector<Loop> matches, std::vector<int> queries,
+                           MapKind kind)
+    : maps_(maps), matches_(std::move(matches)), queries_(std::move(queries)), kind_(kind)
 {
     const auto within_a_map = [this](const Loop &loop) { return map_of(loop.from) == map_of(loop.to); };
     matches_.erase(std::remove_if(matches_.begin(), matches_.end(), within_a_map), matches_.end());
@@ -88,12 +110,17 @@ std::optional<FoundJoin> JoinDecision::find()
         if (!is_sound(best) || !is_unique(best, all)) {
             continue;
         }
-        FoundJoin found{{best.map_id, best.into_map_id, best.shift}, {}};
+        FoundJoin found{{best.map_id, best.into_map_id, best.shift}, {}, {}};
         if (best.map_id == ALE_FIRST_MAP) {
             found.join = {best.into_map_id, best.map_id, inverse(best.shift)};
         }
         for (const Loop &loop : best.loops) {
-            found.loops.push_back(loop.from < loop.to ? loop : reversed(loop));
+            if (loop.from < 0) {
+                const Pose there = compose(maps_.pose_of(loop.from), loop.measured);
+                found.on_prior.push_back({loop.to, there, loop.information});
+            } else {
+                found.loops.push_back(loop.from < loop.to ? loop : reversed(loop));
+            }
         }
         return found;
     }
@@ -103,7 +130,7 @@ std::optional<FoundJoin> JoinDecision::find()
 // How the map of the node must move to lie as this match has it.
 Pose JoinDecision::shift_of(const Loop &loop) const
 {
-    return compose(compose(at(poses_, loop.from), loop.measured), inverse(at(poses_, loop.to)));
+    return compose(compose(maps_.pose_of(loop.from), loop.measured), inverse(maps_.pose_of(loop.to)));
 }
 
 // How the map moves at this node. Drives are long, and either may be bent: as the nearest node that is
@@ -114,7 +141,7 @@ Pose JoinDecision::shift_at(const Hypothesis &hypothesis, int node) const
         return hypothesis.shift;
     }
     const auto distance_to = [&](const Loop &loop) {
-        return distance(at(poses_, loop.to), at(poses_, node));
+        return distance(maps_.pose_of(loop.to), maps_.pose_of(node));
     };
     return shift_of(
         *std::min_element(hypothesis.loops.begin(), hypothesis.loops.end(),
@@ -123,8 +150,8 @@ Pose JoinDecision::shift_at(const Hypothesis &hypothesis, int node) const
 
 bool JoinDecision::puts_alike(const Hypothesis &hypothesis, const Pose &shift, int node) const
 {
-    return is_near(compose(shift_at(hypothesis, node), at(poses_, node)), compose(shift, at(poses_, node)),
-                   alike_m, alike_rad);
+    return is_near(compose(shift_at(hypothesis, node), maps_.pose_of(node)),
+                   compose(shift, maps_.pose_of(node)), alike_m, alike_rad);
 }
 
 // Takes the matches that agree with the seed out of those left, from node to node.
@@ -172,9 +199,9 @@ std::optional<int> JoinDecision::place_near(const Pose &pose, uint32_t map_id) c
 {
     std::optional<int> nearest;
     double least_m = place_reach_m;
-    for (int k = 0; k < static_cast<int>(nodes_.size()); k++) {
-        if (map_of(k) == map_id && distance(at(poses_, k), pose) < least_m) {
-            least_m = distance(at(poses_, k), pose);
+    for (int k = maps_.first(); k < maps_.end(); k++) {
+        if (map_of(k) == map_id && distance(maps_.pose_of(k), pose) < least_m) {
+            least_m = distance(maps_.pose_of(k), pose);
             nearest = k;
         }
     }
@@ -192,38 +219,45 @@ JoinDecision::Account JoinDecision::account(Hypothesis &hypothesis, int node)
 
 JoinDecision::Account JoinDecision::compared(const Hypothesis &hypothesis, int node)
 {
-    const Pose there = compose(shift_at(hypothesis, node), at(poses_, node));
+    const Pose there = compose(shift_at(hypothesis, node), maps_.pose_of(node));
     const std::optional<int> anchor = place_near(there, hypothesis.into_map_id);
     if (!anchor) {
-        return {false, 0, 0};
+        return {false, 0, 0, 0};
     }
     if (!place_ || place_->anchor() != *anchor) {
-        place_.emplace(nodes_, poses_, *anchor);
+        place_.emplace(maps_, *anchor);
     }
-    const View view(nodes_, poses_, node);
-    const Pose guess = between(at(poses_, *anchor), there);
+    const View view(maps_.nodes, maps_.poses, node);
+    const Pose guess = between(maps_.pose_of(*anchor), there);
     const LoopMatch match = match_locally(view.points, place_->field(), guess);
-    const bool stays = is_near(match.pose, guess, alike_m, alike_rad);
-    const Explanation seen = place_->explain(view, stays ? match.pose : guess);
+    const Pose found = without_sliding(match, guess);
+    const bool stays = is_near(found, guess, alike_m, alike_rad);
+    const Explanation seen = place_->explain(view, stays ? found : guess);
     if (seen.in_view < least_in_view) {
-        return {false, 0, 0};
+        return {false, 0, 0, 0};
     }
     const bool fits = stays && match.overlap >= least_overlap * seen.in_view;
     const double agreed = fits ? seen.agreed : 0;
-    return {true, agreed, kind_ == MapKind::drives ? seen.agreed : agreed};
+    return {true, agreed, fits ? seen.told : 0, kind_ == MapKind::drives ? seen.agreed : agreed};
 }
 
 bool JoinDecision::is_far_enough(const Hypothesis &hypothesis, double least_m) const
 {
-    const Pose &first = at(poses_, hypothesis.loops.front().to);
-    return std::any_of(hypothesis.loops.begin(), hypothesis.loops.end(),
-                       [&](const Loop &loop) { return distance(at(poses_, loop.to), first) > least_m; });
+    const std::vector<Loop> &loops = hypothesis.loops;
+    return std::any_of(loops.begin(), loops.end(), [&](const Loop &one) {
+        return std::any_of(loops.begin(), loops.end(), [&](const Loop &other) {
+            return distance(maps_.pose_of(one.to), maps_.pose_of(other.to)) > least_m;
+        });
+    });
 }
 
 bool JoinDecision::is_as_predicted(const Hypothesis &hypothesis) const
 {
-    const Pose &first = at(poses_, hypothesis.loops.front().to);
-    return is_near(compose(hypothesis.shift, first), first, predicted_m, predicted_rad);
+    const Pose &first = maps_.pose_of(hypothesis.loops.front().to);
+    const bool was_there = std::any_of(maps_.nodes.begin(), maps_.nodes.end(), [&](const Node &node) {
+        return node.map_id == hypothesis.into_map_id;
+    });
+    return was_there && is_near(compose(hypothesis.shift, first), first, predicted_m, predicted_rad);
 }
 
 // Nodes enough, apart, and held in every direction. Of a drive some were searched for alone.
@@ -231,7 +265,7 @@ bool JoinDecision::is_held(const Hypothesis &hypothesis) const
 {
     const bool few = kind_ == MapKind::drives || is_as_predicted(hypothesis);
     const Support &least = few ? as_predicted : elsewhere;
-    const auto holds = [](const Loop &loop) { return largest_deviation_m(loop.information) < held_m; };
+    const auto holds = [](const Loop &loop) { return is_held_everywhere(loop.information); };
     return hypothesis.loops.size() >= least.nodes &&
            (kind_ == MapKind::drives || is_far_enough(hypothesis, least.apart_m)) &&
            std::any_of(hypothesis.loops.begin(), hypothesis.loops.end(), holds);
@@ -255,10 +289,10 @@ template <class Chosen> JoinDecision::Tally JoinDecision::tally(Hypothesis &hypo
 // Of a drive that is too small for nodes so far apart: nearly all of it lies there, and most of its extent.
 bool JoinDecision::holds_all_of_it(Hypothesis &hypothesis)
 {
-    const Pose &first = at(poses_, hypothesis.loops.front().to);
+    const Pose &first = maps_.pose_of(hypothesis.loops.front().to);
     double extent_m = least_drive_m;
     const Tally all = tally(hypothesis, [&](int query) {
-        extent_m = std::max(extent_m, distance(at(poses_, query), first));
+        extent_m = std::max(extent_m, distance(maps_.pose_of(query), first));
         return true;
     });
     return is_far_enough(hypothesis, least_extent * extent_m) &&
@@ -274,7 +308,7 @@ bool JoinDecision::is_sound(Hypothesis &hypothesis)
     }
     const Tally near = tally(hypothesis, [&](int query) {
         return std::any_of(hypothesis.loops.begin(), hypothesis.loops.end(), [&](const Loop &loop) {
-            return distance(at(poses_, query), at(poses_, loop.to)) < compared_m;
+            return distance(maps_.pose_of(query), maps_.pose_of(loop.to)) < compared_m;
         });
     });
     const bool few = kind_ == MapKind::pieces || is_as_predicted(hypothesis);
@@ -313,7 +347,7 @@ bool JoinDecision::is_refuted(Hypothesis &rival, Hypothesis &hypothesis)
         if (own[k].agreed < other.agreed - clearly_worse) {
             return false;
         }
-        against += other.agreed < own[k].agreed - clearly_worse;
+        against += other.told < own[k].told - clearly_worse;
     }
     return against >= refuting_nodes;
 }

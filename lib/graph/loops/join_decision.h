@@ -5,7 +5,8 @@
 // - at least three nodes, a metre apart, lie on what the other map saw, held in every direction; twelve, over
 //   eight metres, if that is not where the wheels have put them. Of a map that is a drive of its own, and
 //   smaller, twelve over most of it, if nearly all of it lies there;
-// - wherever the two overlap they agree: neither looks through what the other saw;
+// - wherever the two overlap they agree: neither looks through what the other saw (a match that slides along
+//   what does not hold it says nothing of that direction);
 // - every rival is refuted: another place of any map that explains the same nodes must fail at three of them
 //   where this one does not. A place that cannot be compared is not refuted. Not a rival is what fits
 //   together: a place of a third map that lies at the same place of this one.
@@ -28,7 +29,8 @@ enum class MapKind { pieces, drives };
 
 struct FoundJoin {
     MapJoin join;
-    std::vector<Loop> loops; // that hold it; from the earlier to the later node
+    std::vector<Loop> loops;           // that hold it; from the earlier to the later node
+    std::vector<PosePrior> on_prior{}; // those that hold it on a map from before the drive
 };
 
 class JoinDecision
@@ -37,11 +39,9 @@ class JoinDecision
     // Of a map that may join another.
     static constexpr size_t least_nodes = 3;
 
-    // Nodes and poses stay the caller's and must outlive this. matches: from a place of one map to a node of
-    // another, each with its overlap; queries: the nodes to compare: those that were searched for,
-    // of drives all.
-    JoinDecision(const std::vector<Node> &nodes, const std::vector<Pose> &poses, std::vector<Loop> matches,
-                 std::vector<int> queries, MapKind kind);
+    // matches: from a place of one map to a node of another, each with its overlap; queries: the nodes to
+    // compare: those that were searched for, of drives all.
+    JoinDecision(const SearchedMaps &maps, std::vector<Loop> matches, std::vector<int> queries, MapKind kind);
 
     // The strongest join that may be accepted. The first map (map/atlas.h) does not move. O(matches^2), and
     // at most most_compared hypotheses compared at every query; may throw std::bad_alloc.
@@ -50,8 +50,9 @@ class JoinDecision
   private:
     // What a hypothesis makes of one node.
     struct Account {
-        bool known;      // the place could show enough of the view
-        double agreed;   // see Explanation; 0 if nothing fits
+        bool known;    // the place could show enough of the view
+        double agreed; // see Explanation; 0 if nothing fits
+        double told;
         double undenied; // of drives also where nothing fits, but neither looks through what the other saw
     };
     struct Hypothesis {
@@ -90,11 +91,10 @@ class JoinDecision
     Pose shift_of(const Loop &loop) const;
     uint32_t map_of(int node) const
     {
-        return at(nodes_, node).map_id;
+        return maps_.map_of(node);
     }
 
-    const std::vector<Node> &nodes_;
-    const std::vector<Pose> &poses_;
+    SearchedMaps maps_;
     std::vector<Loop> matches_;
     std::vector<int> queries_;
     MapKind kind_;

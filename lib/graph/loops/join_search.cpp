@@ -15,9 +15,16 @@ namespace ale
 namespace
 {
 
-constexpr double places_apart_m = 2.0; // so that every node of a map is well within PlaceSearch::half_m
-constexpr int queries_while_driving = 4;
-constexpr int query_stride = 2;      // of nodes along the path
+// Queries while driving: how many at least and at most, and how far apart.
+struct Queries {
+    size_t least;
+    size_t most;
+    int stride;     // of nodes along the path
+    double apart_m; // along it
+};
+constexpr Queries predicted{4, 4, 2, 0};
+// Where wheels say nothing of the place a join needs far more.
+constexpr Queries unpredicted{12, JoinSearch::most_queries, 1, 1.0};
 constexpr size_t most_of_a_map = 32; // queries after the drive
 constexpr double least_part = 0.5;   // of the points in view that must lie on surfaces
 constexpr double least_in_view = 1.0 / 3;
@@ -25,16 +32,16 @@ constexpr double least_agreed = 0.85; // as of loops
 // Matches nearer than this say the same.
 constexpr double same_m = 0.30;
 
-using Queries = std::map<uint32_t, std::vector<int>>;
+using QueriesOfMaps = std::map<uint32_t, std::vector<int>>;
 
 // Every node, or every second, third.. of each map that may join another.
-Queries queries_of_maps(const std::vector<Node> &nodes)
+QueriesOfMaps queries_of_maps(const std::vector<Node> &nodes)
 {
-    Queries all;
+    QueriesOfMaps all;
     for (int k = 0; k < static_cast<int>(nodes.size()); k++) {
         all[at(nodes, k).map_id].push_back(k);
     }
-    Queries some;
+    QueriesOfMaps some;
     for (const auto &[map_id, of_map] : all) {
         if (of_map.size() < JoinDecision::least_nodes) {
             continue;
@@ -45,6 +52,42 @@ Queries queries_of_maps(const std::vector<Node> &nodes)
         }
     }
     return some;
+}
+
+// How many nodes each map has. None is larger than one of views: these cannot be searched for.
+std::map<uint32_t, size_t> sizes_of(const SearchedMaps &maps)
+{
+    std::map<uint32_t, size_t> sizes;
+    for (const Node &node : maps.nodes) {
+        sizes[node.map_id]++;
+    }
+    if (maps.first() < 0) {
+        sizes[maps.map_of(maps.first())] = maps.nodes.size() + 1;
+    }
+    return sizes;
+}
+
+// Whether there is a saved map that the robot was never in.
+bool begins_lost(const SearchedMaps &maps)
+{
+    return maps.first() < 0 && std::none_of(maps.nodes.begin(), maps.nodes.end(),
+                                            [](const Node &node) { return node.map_id == ALE_FIRST_MAP; });
+}
+
+// The last nodes of the present map.
+std::vector<int> last_along_path(const std::vector<Node> &nodes, const Queries &wanted)
+{
+    std::vector<int> chosen;
+    int of_map = 0;
+    for (int k = static_cast<int>(nodes.size()) - 1; k >= 0 && chosen.size() < wanted.most; k--) {
+        const bool is_query = at(nodes, k).map_id == nodes.back().map_id && of_map++ % wanted.stride == 0;
+        const double from_last_m =
+            chosen.empty() ? wanted.apart_m : at(nodes, chosen.back()).path_m - at(nodes, k).path_m;
+        if (is_query && from_last_m >= wanted.apart_m) {
+            chosen.push_back(k);
+        }
+    }
+    return chosen.size() < wanted.least ? std::vector<int>() : chosen;
 }
 
 void add_tasks(int place, const std::vector<int> &queries, std::vector<JoinTask> *tasks)
@@ -59,42 +102,31 @@ void add_tasks(int place, const std::vector<int> &queries, std::vector<JoinTask>
 
 } // namespace
 
-std::vector<JoinTask> tasks_while_driving(const std::vector<Node> &nodes, const std::vector<Pose> &poses,
-                                          const std::vector<uint32_t> &left_out)
+std::vector<JoinTask> tasks_while_driving(const SearchedMaps &maps, const std::vector<uint32_t> &left_out)
 {
-    const uint32_t present = nodes.back().map_id;
-    std::vector<int> queries;
-    int of_map = 0;
-    for (int k = static_cast<int>(nodes.size()) - 1; k >= 0; k--) {
-        const bool is_query = at(nodes, k).map_id == present && of_map++ % query_stride == 0;
-        if (is_query && queries.size() < queries_while_driving) {
-            queries.push_back(k);
-        }
-    }
+    const std::vector<int> queries = last_along_path(maps.nodes, begins_lost(maps) ? unpredicted : predicted);
     std::set<uint32_t> others;
-    for (const Node &node : nodes) {
-        if (node.map_id != present &&
-            std::find(left_out.begin(), left_out.end(), node.map_id) == left_out.end()) {
-            others.insert(node.map_id);
+    for (int k = maps.first(); k < maps.end(); k++) {
+        const uint32_t map_id = maps.map_of(k);
+        if (map_id != maps.nodes.back().map_id &&
+            std::find(left_out.begin(), left_out.end(), map_id) == left_out.end()) {
+            others.insert(map_id);
         }
     }
     std::vector<JoinTask> tasks;
     for (const uint32_t map_id : others) {
-        for (const int place : spread_nodes(nodes, poses, map_id, places_apart_m)) {
+        for (const int place : spread_places(maps, map_id)) {
             add_tasks(place, queries, &tasks);
         }
     }
-    return queries.size() < queries_while_driving ? std::vector<JoinTask>() : tasks;
+    return tasks;
 }
 
-std::vector<JoinTask> tasks_after_drive(const std::vector<Node> &nodes, const std::vector<Pose> &poses)
+std::vector<JoinTask> tasks_after_drive(const SearchedMaps &maps)
 {
-    std::map<uint32_t, size_t> sizes;
-    for (const Node &node : nodes) {
-        sizes[node.map_id]++;
-    }
+    std::map<uint32_t, size_t> sizes = sizes_of(maps);
     std::vector<JoinTask> tasks;
-    const Queries queries = queries_of_maps(nodes);
+    const QueriesOfMaps queries = queries_of_maps(maps.nodes);
     for (const auto &[there, size] : sizes) {
         std::vector<int> smaller;
         for (const auto &[here, of_map] : queries) {
@@ -102,7 +134,7 @@ std::vector<JoinTask> tasks_after_drive(const std::vector<Node> &nodes, const st
                 smaller.insert(smaller.end(), of_map.begin(), of_map.end());
             }
         }
-        for (const int place : spread_nodes(nodes, poses, there, places_apart_m)) {
+        for (const int place : spread_places(maps, there)) {
             add_tasks(place, smaller, &tasks);
         }
     }
@@ -118,24 +150,24 @@ JoinSearch::JoinSearch(std::vector<JoinTask> tasks) : tasks_(std::move(tasks))
     queries_.assign(queries.begin(), queries.end());
 }
 
-bool JoinSearch::step(const std::vector<Node> &nodes, const std::vector<Pose> &poses)
+bool JoinSearch::step(const SearchedMaps &maps)
 {
     if (next_ < tasks_.size()) {
-        search(nodes, poses, tasks_[next_]);
+        search(maps, tasks_[next_]);
         next_++;
     }
     return next_ < tasks_.size();
 }
 
-void JoinSearch::search(const std::vector<Node> &nodes, const std::vector<Pose> &poses, const JoinTask &task)
+void JoinSearch::search(const SearchedMaps &maps, const JoinTask &task)
 {
     if (task.queries.empty()) {
         return;
     }
-    const Place place(nodes, poses, task.place);
+    const Place place(maps, task.place);
     const PlaceSearch in_place(place);
     for (const int query : task.queries) {
-        const View view(nodes, poses, query);
+        const View view(maps.nodes, maps.poses, query);
         for (const LoopMatch &match : in_place.find(view.points)) {
             if (match.overlap < least_part * least_in_view) {
                 continue;
@@ -143,21 +175,21 @@ void JoinSearch::search(const std::vector<Node> &nodes, const std::vector<Pose> 
             const Explanation seen = place.explain(view, match.pose);
             if (seen.agreed >= least_agreed &&
                 match.overlap >= least_part * std::max(least_in_view, seen.in_view)) {
-                keep(nodes, poses, loop_from_match(match, task.place, query));
+                keep(maps, loop_from_match(match, task.place, query));
             }
         }
     }
 }
 
 // Of matches that put a node to the same place the best; of all with one map the best few.
-void JoinSearch::keep(const std::vector<Node> &nodes, const std::vector<Pose> &poses, const Loop &match)
+void JoinSearch::keep(const SearchedMaps &maps, const Loop &match)
 {
-    const auto put = [&](const Loop &loop) { return compose(at(poses, loop.from), loop.measured); };
+    const auto put = [&](const Loop &loop) { return compose(maps.pose_of(loop.from), loop.measured); };
     size_t with_map = 0;
     size_t worst = matches_.size();
     for (size_t k = 0; k < matches_.size(); k++) {
         Loop &other = matches_[k];
-        if (other.to != match.to || at(nodes, other.from).map_id != at(nodes, match.from).map_id) {
+        if (other.to != match.to || maps.map_of(other.from) != maps.map_of(match.from)) {
             continue;
         }
         const Pose off = between(put(other), put(match));
@@ -175,15 +207,14 @@ void JoinSearch::keep(const std::vector<Node> &nodes, const std::vector<Pose> &p
     }
 }
 
-std::optional<FoundJoin> JoinSearch::decide(const std::vector<Node> &nodes, const std::vector<Pose> &poses,
-                                            MapKind kind) const
+std::optional<FoundJoin> JoinSearch::decide(const SearchedMaps &maps, MapKind kind) const
 {
     std::vector<int> compared = queries_;
     if (kind == MapKind::drives) {
-        compared.resize(nodes.size());
+        compared.resize(maps.nodes.size());
         std::iota(compared.begin(), compared.end(), 0);
     }
-    return JoinDecision(nodes, poses, matches_, std::move(compared), kind).find();
+    return JoinDecision(maps, matches_, std::move(compared), kind).find();
 }
 
 void JoinSearch::remove_node(int k)

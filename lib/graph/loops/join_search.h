@@ -2,9 +2,9 @@
 // heading, a place a step; then the matches decide (join_decision.h).
 //
 //   JoinSearch search(tasks);
-//   while (search.step(nodes, poses)) {
+//   while (search.step(maps)) {
 //   }
-//   if (const auto found = search.decide(nodes, poses)) ... found->join ...
+//   if (const auto found = search.decide(maps)) ... found->join ...
 //
 // Nodes may be added between the steps, and removed if remove_node() is told.
 #ifndef ALE_GRAPH_LOOPS_JOIN_SEARCH_H
@@ -19,17 +19,18 @@
 namespace ale
 {
 
-// A place of one map, and the nodes of others that are searched there.
+// A place of one map (a node or view), and the nodes of others that are searched there.
 struct JoinTask {
     int place;
     std::vector<int> queries;
 };
 
-// The last nodes of the present map, searched in all other maps but those left out.
-std::vector<JoinTask> tasks_while_driving(const std::vector<Node> &nodes, const std::vector<Pose> &poses,
-                                          const std::vector<uint32_t> &left_out);
-// Nodes of every map, searched in all others. Of two maps that with fewer nodes is searched for.
-std::vector<JoinTask> tasks_after_drive(const std::vector<Node> &nodes, const std::vector<Pose> &poses);
+// The last nodes of the present map, searched in all other maps but those left out: four, or 16 if the robot
+// was never in the saved map that the drive began in.
+std::vector<JoinTask> tasks_while_driving(const SearchedMaps &maps, const std::vector<uint32_t> &left_out);
+// Nodes of every map, searched in all others. Of two maps that with fewer nodes is searched for,
+// and never one that there are views of.
+std::vector<JoinTask> tasks_after_drive(const SearchedMaps &maps);
 
 class JoinSearch
 {
@@ -43,18 +44,17 @@ class JoinSearch
 
     // One place: a PlaceSearch and its find() for each query. False: nothing is left. May throw
     // std::bad_alloc.
-    bool step(const std::vector<Node> &nodes, const std::vector<Pose> &poses);
+    bool step(const SearchedMaps &maps);
 
     // See JoinDecision::find.
-    std::optional<FoundJoin> decide(const std::vector<Node> &nodes, const std::vector<Pose> &poses,
-                                    MapKind kind = MapKind::pieces) const;
+    std::optional<FoundJoin> decide(const SearchedMaps &maps, MapKind kind = MapKind::pieces) const;
 
     // Node k is no more: what refers to it goes, later nodes move down by one. O(tasks + matches).
     void remove_node(int k);
 
   private:
-    void search(const std::vector<Node> &nodes, const std::vector<Pose> &poses, const JoinTask &task);
-    void keep(const std::vector<Node> &nodes, const std::vector<Pose> &poses, const Loop &match);
+    void search(const SearchedMaps &maps, const JoinTask &task);
+    void keep(const SearchedMaps &maps, const Loop &match);
 
     std::vector<JoinTask> tasks_;
     std::vector<int> queries_; // of all tasks

@@ -67,8 +67,16 @@ bool LoopCloser::add(Node node, const Pose &motion)
     }
     moved = (prior_ && present_map() == ALE_FIRST_MAP && match_prior_map()) || moved;
     moved = straighten() || moved;
-    joiner_.drive(nodes_, graph_.poses());
+    joiner_.drive(searched_maps());
     return moved;
+}
+
+// What maps are searched for and in. In the saved map nothing is searched as long as all of the drive is in
+// it.
+SearchedMaps LoopCloser::searched_maps()
+{
+    const bool all_in_first = count_maps(nodes_) == 1 && present_map() == ALE_FIRST_MAP;
+    return {nodes_, graph_.poses(), prior_ && !all_in_first ? &prior_->views() : nullptr};
 }
 
 void LoopCloser::append(Node node, const Pose &motion)
@@ -89,7 +97,7 @@ void LoopCloser::add_walls(const Pose &smooth, const std::vector<WallDirection> 
 
 bool LoopCloser::join_maps(std::vector<FoundJoin> *made)
 {
-    const bool goes_on = joiner_.refine(nodes_, graph_.poses(), kind_);
+    const bool goes_on = joiner_.refine(searched_maps(), kind_);
     if (goes_on && joiner_.found()) {
         if (made) {
             made->push_back(*joiner_.found());
@@ -349,6 +357,9 @@ void LoopCloser::make_join(const FoundJoin &found)
     unite(found.join);
     for (const Loop &loop : found.loops) {
         graph_.add_edge(joining_edge_of(loop));
+    }
+    for (const PosePrior &prior : found.on_prior) {
+        graph_.add_pose_prior(prior);
     }
     optimise_map(found.join.into_map_id);
 }

@@ -68,6 +68,7 @@ class LoopCloser
             prior_.emplace(ale_map_t{});
         }
         prior_->change(change);
+        joiner_.restart();
     }
 
     // Adds a node and searches for loops. `motion`: the node's pose as seen from the node before; of the
@@ -166,6 +167,7 @@ class LoopCloser
     bool close_loop(const Loop &loop, const std::vector<Loop> &confirmations);
     bool straighten();
     bool match_prior_map();
+    SearchedMaps searched_maps();
     bool optimise();
     GraphReport optimise_map(uint32_t map_id);
     void unite(const MapJoin &join);

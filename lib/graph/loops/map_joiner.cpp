@@ -10,50 +10,55 @@ namespace
 
 constexpr int most_rounds = 4; // after the drive: each finds what the one before has brought together
 
+bool is_one_map(const SearchedMaps &maps)
+{
+    return count_maps(maps.nodes) < 2 && (maps.first() == 0 || maps.nodes.back().map_id == ALE_FIRST_MAP);
+}
+
 } // namespace
 
-void MapJoiner::drive(const std::vector<Node> &nodes, const std::vector<Pose> &poses)
+void MapJoiner::drive(const SearchedMaps &maps)
 {
     if (!driving_) {
         restart();
         driving_ = true;
     }
-    if (found_ || count_maps(nodes) < 2) {
+    if (found_ || is_one_map(maps)) {
         return;
     }
-    const uint32_t present = nodes.back().map_id;
+    const uint32_t present = maps.nodes.back().map_id;
     unknown_.erase(std::remove(unknown_.begin(), unknown_.end(), present), unknown_.end());
     if (!search_ || present_ != present) {
-        search_.emplace(tasks_while_driving(nodes, poses, unknown_));
+        search_.emplace(tasks_while_driving(maps, unknown_));
         present_ = present;
     }
     for (int k = 0; k < places_a_node; k++) {
-        if (!search_->step(nodes, poses)) {
-            found_ = search_->decide(nodes, poses);
+        if (!search_->step(maps)) {
+            found_ = search_->decide(maps);
             search_.reset();
             return;
         }
     }
 }
 
-bool MapJoiner::refine(const std::vector<Node> &nodes, const std::vector<Pose> &poses, MapKind kind)
+bool MapJoiner::refine(const SearchedMaps &maps, MapKind kind)
 {
     if (driving_) {
         restart();
         found_.reset();
         driving_ = false;
     }
-    if (rounds_ == most_rounds || count_maps(nodes) < 2) {
+    if (rounds_ == most_rounds || is_one_map(maps)) {
         return false;
     }
     if (!search_) {
-        search_.emplace(tasks_after_drive(nodes, poses));
+        search_.emplace(tasks_after_drive(maps));
         joined_ = false;
     }
-    if (search_->step(nodes, poses)) {
+    if (search_->step(maps)) {
         return true;
     }
-    found_ = search_->decide(nodes, poses, kind);
+    found_ = search_->decide(maps, kind);
     joined_ = joined_ || found_;
     if (!found_) {
         search_.reset();
@@ -92,6 +97,12 @@ void MapJoiner::remove_node(int k)
         for (Loop &loop : loops) {
             loop.from -= loop.from > k ? 1 : 0;
             loop.to -= loop.to > k ? 1 : 0;
+        }
+        const auto is_of_it = [k](const PosePrior &prior) { return prior.pose == k; };
+        std::vector<PosePrior> &priors = found_->on_prior;
+        priors.erase(std::remove_if(priors.begin(), priors.end(), is_of_it), priors.end());
+        for (PosePrior &prior : priors) {
+            prior.pose -= prior.pose > k ? 1 : 0;
         }
     }
 }

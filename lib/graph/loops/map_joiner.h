@@ -1,7 +1,7 @@
 // Looks for the place of a map in others: a bounded piece of the work with every node while driving, and all
 // of it after the drive.
 //
-//   joiner.drive(nodes, poses);                 (with every node)
+//   joiner.drive(maps);                         (with every node)
 //   if (joiner.found()) ... joiner.found()->join ... joiner.forget_found();
 //
 // While driving the last nodes of the present map are searched in all places of the others, some places with
@@ -24,12 +24,12 @@ class MapJoiner
   public:
     static constexpr int places_a_node = 2;
 
-    // After a node was added. Work: places_a_node steps of a JoinSearch with four queries, or its decision.
-    // Nothing while a found join waits. O(nodes) if there is one map.
-    void drive(const std::vector<Node> &nodes, const std::vector<Pose> &poses);
+    // After a node was added. Work: places_a_node steps of a JoinSearch, or its decision. Nothing while a
+    // found join waits. O(nodes) if there is one map.
+    void drive(const SearchedMaps &maps);
 
     // One step of the search after the drive, see JoinSearch. False: nothing is left to join.
-    bool refine(const std::vector<Node> &nodes, const std::vector<Pose> &poses, MapKind kind);
+    bool refine(const SearchedMaps &maps, MapKind kind);
 
     // A join that may be made.
     const std::optional<FoundJoin> &found() const

@@ -3,14 +3,35 @@
 #ifndef ALE_GRAPH_LOOPS_PLACE_H
 #define ALE_GRAPH_LOOPS_PLACE_H
 
+#include <cstdint>
 #include <vector>
 
 #include "graph/fields/free_space.h"
 #include "graph/fields/likelihood_field.h"
+#include "graph/loops/prior_views.h"
 #include "graph/optimise/node.h"
 
 namespace ale
 {
+
+// All that places are of: nodes, and the views of a saved map that the drive began in, or null. A number
+// below 0 is that of a view: -1 the first. They stay the caller's.
+struct SearchedMaps {
+    const std::vector<Node> &nodes;
+    const std::vector<Pose> &poses;
+    const PriorViews *prior;
+
+    int first() const
+    {
+        return prior ? -static_cast<int>(prior->poses().size()) : 0;
+    }
+    int end() const
+    {
+        return static_cast<int>(nodes.size());
+    }
+    uint32_t map_of(int k) const;
+    const Pose &pose_of(int k) const;
+};
 
 // A node, as seen from another.
 struct SeenNode {
@@ -31,17 +52,22 @@ struct View {
 // How a view at some pose agrees with a place.
 struct Explanation {
     double in_view; // part of the points that the place could show: no surface is before them, 0..1
-    double agreed;  // part of what one could show of the other that does not lie in free space, 0..1
+    double agreed;  // part of what one could show of the other that does not lie in free space, 0..1. A saved
+                    // map does not hold everything: things may stand in its free space,
+    double told;    // and yet count here: what tells two places apart
 };
 
 class Place
 {
   public:
     static constexpr double reach_m = 4.0;
-    static constexpr size_t most_nodes = 16; // the nearest
+    static constexpr size_t most_nodes = 16; // the nearest,
+    static constexpr size_t most_views = 48; // or with views so many of both
 
-    // The place around a node: the nodes of its map within reach. O(nodes log nodes + points).
-    Place(const std::vector<Node> &nodes, const std::vector<Pose> &poses, int anchor);
+    // The place around a node or view: those of its map within reach. O(nodes log nodes + points).
+    Place(const SearchedMaps &maps, int anchor);
+    Place(const Place &) = delete; // its nodes are pointed to
+    Place &operator=(const Place &) = delete;
 
     int anchor() const
     {
@@ -61,17 +87,18 @@ class Place
 
   private:
     double part_in_view(const View &view, const Pose &pose) const;
-    double part_agreed(const View &view, const Pose &pose) const;
+    void compare_free_space(const View &view, const Pose &pose, Explanation *out) const;
 
     int anchor_;
+    std::vector<int> near_;   // all that it is of, the nearest first
+    std::vector<Node> views_; // of these, the views
     std::vector<SeenNode> seen_;
     std::vector<SurfacePoint> points_;
     LikelihoodField field_;
 };
 
-// Nodes of a map, such that each other of it is within `apart_m` of one. O(n^2).
-std::vector<int> spread_nodes(const std::vector<Node> &nodes, const std::vector<Pose> &poses, uint32_t map_id,
-                              double apart_m);
+// Nodes and views of a map, such that each other of it is within reach of a search about one. O(n^2).
+std::vector<int> spread_places(const SearchedMaps &maps, uint32_t map_id);
 
 } // namespace ale
 

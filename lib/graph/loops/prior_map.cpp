@@ -38,6 +38,7 @@ PriorMap::PriorMap(const ale_map_t &map)
 
 void PriorMap::change(const ale_tile_change_t &change)
 {
+    views_.reset();
     const auto goes = [&change](const ale_wall_t &wall) {
         return std::binary_search(change.gone, change.gone + change.gone_count, wall.prior_id);
     };
@@ -51,6 +52,14 @@ void PriorMap::change(const ale_tile_change_t &change)
             walls_.push_back(wall);
         }
     }
+}
+
+const PriorViews &PriorMap::views()
+{
+    if (!views_) {
+        views_.emplace(walls_);
+    }
+    return *views_;
 }
 
 // Points of the walls, node_point_spacing_m apart, in a square about the guess that a field holds.

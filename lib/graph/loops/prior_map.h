@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "graph/loops/pairwise_match.h"
+#include "graph/loops/prior_views.h"
 #include "graph/optimise/node.h"
 
 extern "C" {
@@ -34,10 +35,14 @@ class PriorMap
     // None: no match, or no walls near. O(walls) and one LikelihoodField; may throw std::bad_alloc.
     std::optional<PairwiseMatch> find(const std::vector<SurfacePoint> &seen, const Pose &guess) const;
 
+    // What a robot would see of it; computed when first asked for after a change. May throw std::bad_alloc.
+    const PriorViews &views();
+
   private:
     std::vector<SurfacePoint> points_around(const Pose &guess, double reach_m) const;
 
     std::vector<ale_wall_t> walls_;
+    std::optional<PriorViews> views_;
 };
 
 } // namespace ale

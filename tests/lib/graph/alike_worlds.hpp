@@ -95,6 +95,38 @@ inline Path path_through(const std::vector<Eigen::Vector2d> &points)
     return path;
 }
 
+// Whether the middle of the wall is seen from that pose, from the left of the wall's way.
+inline bool is_seen(const Walls &walls, const room::Wall &wall, const ale::Pose &from)
+{
+    const double x = (wall.x1 + wall.x2) / 2 - from.x;
+    const double y = (wall.y1 + wall.y2) / 2 - from.y;
+    const bool is_left = (wall.x2 - wall.x1) * y - (wall.y2 - wall.y1) * x < 0;
+    return is_left && room::distance(walls, from.x, from.y, std::atan2(y, x)) > std::hypot(x, y) - 0.01;
+}
+
+// The map of a drive along that path: of each wall the side that was seen, of a panel of 1 cm.
+inline std::unique_ptr<ale_map_t> map_of(const Walls &walls, const Path &path)
+{
+    auto map = std::make_unique<ale_map_t>();
+    const auto add = [&](const room::Wall &wall) {
+        if (std::none_of(path.begin(), path.end(),
+                         [&](const ale::Pose &pose) { return is_seen(walls, wall, pose); })) {
+            return;
+        }
+        const Eigen::Vector2d normal =
+            0.005 * Eigen::Vector2d(wall.y1 - wall.y2, wall.x2 - wall.x1).normalized();
+        ale_map_line_t &line = map->line[map->line_count++];
+        line.start = {convert::um(wall.x1 + normal.x()), convert::um(wall.y1 + normal.y())};
+        line.end = {convert::um(wall.x2 + normal.x()), convert::um(wall.y2 + normal.y())};
+        line.seen = 50;
+    };
+    for (const room::Wall &wall : walls) {
+        add(wall);
+        add({wall.x2, wall.y2, wall.x1, wall.y1});
+    }
+    return map;
+}
+
 // Keyframes along a path, ten scans apart, at their true poses but for some millimetres of drift.
 inline maps_drive::Keyframes keyframes_along(const Walls &walls, const Path &truth, unsigned seed)
 {

@@ -27,15 +27,21 @@ struct Outcome {
     uint32_t maps_driven = 0; // not joined while driving
     uint32_t joined_at = 0;   // keyframe
     uint32_t maps = 0;        // not joined in the end
+    bool in_first = false;    // and the drive is in the first
     double error_m = 0;       // of the worst node, where all is joined
 };
 
-// Drives with a tracker that begins a new map at keyframe `begun`, and does as corrections say; refines.
-Outcome drive(const Walls &walls, const Path &path, size_t begun, unsigned seed)
+// Drives with a tracker that begins a new map at keyframe `begun`, off by this, and does as corrections say;
+// refines. prior: the first map as it was saved, or null.
+Outcome drive(const Walls &walls, const Path &path, size_t begun, unsigned seed, ale_pose_t off = nearby(),
+              const ale_map_t *prior = nullptr)
 {
     Keyframes keyframes = keyframes_along(walls, path, seed);
-    begin_map(keyframes, begun, keyframes.size(), 1, nearby());
+    begin_map(keyframes, begun, keyframes.size(), 1, off);
     const Mapper mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES));
+    if (prior) {
+        EXPECT_EQ(ale_mapper_set_prior_map(mapper.get(), 1, prior), 0);
+    }
     const auto correction = std::make_unique<ale_correction_t>();
     ale_pose_t shift = {0, 0, 0};
     uint32_t corrections = 0;
@@ -63,6 +69,7 @@ Outcome drive(const Walls &walls, const Path &path, size_t begun, unsigned seed)
     while (ale_mapper_refine(mapper.get())) {
     }
     outcome.maps = ale_mapper_statistics(mapper.get()).maps;
+    outcome.in_first = ale_mapper_pose(mapper.get(), 0).map_id == ALE_FIRST_MAP;
     for (size_t k = 0; outcome.maps == 1 && k < path.size(); k++) {
         outcome.error_m = std::max(outcome.error_m, error_m(mapper.get(), k, path[k]));
     }
@@ -163,6 +170,73 @@ TEST(Joins, ABareCorridorIsNotJoined)
     const Path again = path_through({{-5, 0}, {5, 0}});
     const Outcome outcome = drive(walls, joined_paths(known, again), known.size(), 1);
     EXPECT_EQ(outcome.maps, 2U);
+}
+
+// The whole drive in a map of its own, with a saved one loaded.
+Outcome drive_lost(const Walls &walls, const std::unique_ptr<ale_map_t> &saved, const Path &path,
+                   unsigned seed)
+{
+    return drive(walls, path, 0, seed, elsewhere(), saved.get());
+}
+
+std::unique_ptr<ale_map_t> saved_rooms(double niche)
+{
+    Path whole = through_both_rooms();
+    whole.push_back({16, 1, 0});
+    whole.push_back({-3, 1, 0});
+    return map_of(two_rooms(niche), whole);
+}
+
+std::unique_ptr<ale_map_t> saved_corridor(double extra)
+{
+    return map_of(turned_corridor(extra), path_through({{-7, 0.3}, {7, 0.3}, {7, 0.1}, {-7, 0.1}}));
+}
+
+TEST(Joins, ADriveThatBeginsLostJoinsTheSavedMap)
+{
+    const Path path =
+        path_through({{10.5, 4.2}, {11.6, 4.6}, {10.5, 3.4}, {10.5, 1}, {15, 1}, {4, 1}, {2.5, 1}, {2.5, 3}});
+    for (unsigned seed = 1; seed <= seeds(3); seed++) {
+        const Outcome outcome = drive_lost(two_rooms(0), saved_rooms(0), path, seed);
+        EXPECT_TRUE(outcome.in_first);
+        EXPECT_GT(outcome.joined_at, 0U) << "while driving";
+        EXPECT_LT(outcome.error_m, 0.15);
+    }
+}
+
+// What stands in the room and is in no map hides nothing that the robot can do without.
+TEST(Joins, ASavedMapIsFoundAmongThingsThatItDoesNotHold)
+{
+    Walls walls = two_rooms(0);
+    for (const double x : {1.2, 3.4, 9.3, 11.5}) {
+        add_box(&walls, x, 2.6, x + 0.3, 2.9);
+        add_box(&walls, x - 0.3, 1.6, x, 1.9);
+    }
+    const Path path =
+        path_through({{10.5, 4.2}, {11.6, 4.6}, {10.5, 3.4}, {10.5, 1}, {4, 1}, {2.5, 1}, {2.5, 3}});
+    const Outcome outcome = drive_lost(walls, saved_rooms(0), path, 1);
+    EXPECT_TRUE(outcome.in_first);
+    EXPECT_LT(outcome.error_m, 0.15);
+}
+
+TEST(Joins, ADriveThatBeginsLostJoinsNoMapOfAnotherPlace)
+{
+    const Path path = path_through({{-6, 0.2}, {6, 0.2}, {6.4, 0}, {-6, -0.2}});
+    EXPECT_FALSE(drive_lost(turned_corridor(0.9), saved_rooms(0), path, 1).in_first);
+}
+
+TEST(Joins, InASavedMapOfTwoEqualRoomsNeitherIsTaken)
+{
+    EXPECT_FALSE(drive_lost(two_rooms(0.4), saved_rooms(0.4), in_second_room(), 1).in_first);
+}
+
+TEST(Joins, InASavedCorridorThatIsTheSameAfterHalfATurnNeitherEndIsTaken)
+{
+    const Path path = path_through({{-6, 0.2}, {4.4, 0.2}, {5, 0.4}, {-6, 0.4}});
+    EXPECT_FALSE(drive_lost(turned_corridor(0), saved_corridor(0), path, 1).in_first);
+    const Outcome told_apart = drive_lost(turned_corridor(0.9), saved_corridor(0.9), path, 1);
+    EXPECT_TRUE(told_apart.in_first);
+    EXPECT_LT(told_apart.error_m, 0.15);
 }
 
 // The tracker joins the map itself while the join found here is under way: that is void.

@@ -1,6 +1,7 @@
 // lib/graph/loops/prior_map: scans matched with a prior map, and its memory.
 #include <malloc.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -69,6 +70,12 @@ TEST(PriorMap, FindsNothingWithoutWallsNear)
     EXPECT_FALSE(prior.find(seen_from({0, 0, 0}, 4), {50, 50, 0}));
 }
 
+size_t held()
+{
+    const struct mallinfo2 info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+}
+
 // ALE_MAPPER_HEAP_BYTES counts on it.
 TEST(PriorMap, AFullMapTakesLessThanAMegabyteHoweverLongItsWalls)
 {
@@ -76,13 +83,36 @@ TEST(PriorMap, AFullMapTakesLessThanAMegabyteHoweverLongItsWalls)
     for (int k = 0; k < ALE_MAP_MAX_LINES; k++) {
         add(map.get(), {50000000, 100000 * k}, {-50000000, 100000 * k});
     }
-    const auto held = [] {
-        const struct mallinfo2 info = mallinfo2();
-        return info.uordblks + info.hblkhd;
-    };
     const size_t before = held();
     const ale::PriorMap prior(*map);
     EXPECT_LT(held() - before, 1000000U);
+}
+
+TEST(PriorMap, ItsViewsTakeLessThanAMegabyteMore)
+{
+    const auto map = std::make_unique<ale_map_t>();
+    for (int k = 0; k < 100; k++) {
+        add(map.get(), {500000000, 10000000 * k}, {-500000000, 10000000 * k});
+    }
+    ale::PriorMap prior(*map);
+    const size_t before = held();
+    EXPECT_GT(prior.views().poses().size(), 500U);
+    EXPECT_LT(held() - before, 1000000U);
+}
+
+TEST(PriorMap, ATileThatComesIsSeen)
+{
+    ale::PriorMap prior(*std::make_unique<ale_map_t>());
+    EXPECT_TRUE(prior.views().poses().empty());
+    const auto change = std::make_unique<ale_tile_change_t>();
+    const auto map = long_corner();
+    change->line_count = map->line_count;
+    std::copy_n(map->line, map->line_count, change->line);
+    for (int k = 0; k < change->line_count; k++) {
+        change->line[k].id = static_cast<uint32_t>(k + 1);
+    }
+    prior.change(*change);
+    EXPECT_FALSE(prior.views().poses().empty());
 }
 
 } // namespace
