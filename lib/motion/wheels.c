@@ -4,13 +4,9 @@
 #include "base/trig.h"
 
 enum {
-    WINDOW_US = 100000,         /* over which the velocity is taken */
-    LOOK_AHEAD_US = 50000,      /* its part after the stamp, if samples are there */
-    LEARN_SIGMA_UM = 4000,      /* error of matching at either end of a way */
-    LEARN_MEMORY_UM = 20000000, /* way over which the factor is remembered */
-    SCALE_FLOOR_PPM = 2000,     /* the factor swings by this much */
-    STAYS_PPM = 1000,           /* and by this much for long */
-    FLOOR_UM = 400,             /* errors that are there however short the way */
+    WINDOW_US = 100000,    /* over which the velocity is taken */
+    LOOK_AHEAD_US = 50000, /* its part after the stamp, if samples are there */
+    FLOOR_UM = 400,        /* errors that are there however short the way */
     FLOOR_URAD = 700,
     SIDEWAYS_PPM = 10000,
     LONG_UM = 3000000, /* way that no robot goes between two scans */
@@ -18,48 +14,8 @@ enum {
     ACCELERATION_UM_S2 = 1000000
 };
 
-void ale_wheel_scale_init(ale_wheel_scale_t *scale, const ale_wheel_noise_t *noise)
-{
-    *scale = (ale_wheel_scale_t){.noise = *noise};
-    const int64_t sigma_ppm = ale_max64(noise->scale_sigma_ppm, SCALE_FLOOR_PPM);
-    scale->counted_um = scale->found_um = (int64_t)LEARN_SIGMA_UM * 1000000 / sigma_ppm;
-    scale->erred_um = LEARN_SIGMA_UM;
-}
-
-void ale_wheel_scale_learn(ale_wheel_scale_t *scale, int64_t found_um, int64_t counted_um, int64_t erred_um)
-{
-    const int64_t sign = counted_um < 0 ? -1 : 1;
-    if (ale_abs64(found_um - counted_um) > ale_abs64(counted_um) / 3 + LEARN_SIGMA_UM) {
-        return; /* wheels that spin, or a wrong match */
-    }
-    scale->found_um += sign * found_um;
-    scale->counted_um += sign * counted_um;
-    scale->erred_um += sign * erred_um;
-    if (scale->counted_um > LEARN_MEMORY_UM) {
-        scale->found_um -= scale->found_um / 8;
-        scale->counted_um -= scale->counted_um / 8;
-        scale->erred_um -= scale->erred_um / 8;
-    }
-}
-
-/* One sigma of the learnt factor, parts per million. */
-static int64_t sigma_ppm(const ale_wheel_scale_t *scale)
-{
-    return ale_max64((int64_t)LEARN_SIGMA_UM * 1000000 / scale->counted_um, SCALE_FLOOR_PPM);
-}
-
-int64_t ale_wheel_scale_error_ppm(const ale_wheel_scale_t *scale)
-{
-    return ale_max64(scale->erred_um * 1000000 / scale->counted_um, STAYS_PPM);
-}
-
 /* (10 m)^2: beyond that wheels say nothing. */
 static const int64_t var_most = 100000000000000;
-
-static int32_t rescaled(const ale_wheel_scale_t *scale, int64_t v)
-{
-    return (int32_t)ale_round_div(v * (scale->found_um >> 6), scale->counted_um >> 6);
-}
 
 /* No larger than (100 m)^2, far beyond var_most: broken wheels leap farther than sums of squares can hold. */
 static int64_t square(int64_t v)
@@ -80,20 +36,20 @@ static int64_t turn_urad(ale_pose_t d)
 }
 
 /* Variance of a displacement counted by the wheels: factor, slip, and heading at random with the way. */
-static void way_variance(const ale_wheel_scale_t *scale, ale_pose_t d, int64_t var[ALE_AXES])
+static void way_variance(const ale_wheel_errors_t *errors, ale_pose_t d, int64_t var[ALE_AXES])
 {
     const int64_t way_um = ale_abs64(d.x_um) + ale_abs64(d.y_um);
     const int64_t turn = turn_urad(d);
-    var[0] = square(part(d.x_um, sigma_ppm(scale))) + square(FLOOR_UM);
+    var[0] = square(part(d.x_um, ale_wheel_scale_sigma_ppm(&errors->scale))) + square(FLOOR_UM);
     var[1] =
         square(part(way_um, SIDEWAYS_PPM)) + square(part(d.x_um, ale_abs64(turn) / 4)) + square(FLOOR_UM);
-    var[2] = ale_mul_div(square(scale->noise.turn_urad_m), way_um, 1000000) +
-             square(part(turn, scale->noise.turn_ppm)) + square(FLOOR_URAD);
+    var[2] = ale_mul_div(square(errors->turn_urad_m), way_um, 1000000) +
+             square(part(turn, errors->turn_ppm)) + square(FLOOR_URAD);
 }
 
 /* What a long way adds, as after a while without scans: ways and turns that cancel in the displacement, and
  * the heading, which drifts on it. */
-static void add_detour_variance(const ale_wheels_t *wheels, const ale_wheel_scale_t *scale, int64_t from_us,
+static void add_detour_variance(const ale_wheels_t *wheels, const ale_wheel_errors_t *errors, int64_t from_us,
                                 int64_t to_us, ale_pose_t d, int64_t var[ALE_AXES])
 {
     int64_t turned_urad;
@@ -103,10 +59,10 @@ static void add_detour_variance(const ale_wheels_t *wheels, const ale_wheel_scal
     }
     const int64_t detour_um = ale_max64(way_um - ale_abs64(d.x_um) - ale_abs64(d.y_um), 0);
     const int64_t detour_urad = ale_max64(turned_urad - ale_abs64(turn_urad(d)), 0);
-    var[2] += ale_mul_div(square(scale->noise.turn_urad_m), detour_um, 1000000) +
-              square(part(detour_urad, scale->noise.turn_ppm));
+    var[2] += ale_mul_div(square(errors->turn_urad_m), detour_um, 1000000) +
+              square(part(detour_urad, errors->turn_ppm));
     const int64_t drift_um2 = square(part(way_um, (int64_t)ale_isqrt((uint64_t)var[2]))) / 3;
-    var[0] += square(part(detour_um, sigma_ppm(scale))) + drift_um2;
+    var[0] += square(part(detour_um, ale_wheel_scale_sigma_ppm(&errors->scale))) + drift_um2;
     var[1] += square(part(detour_um, SIDEWAYS_PPM)) + drift_um2;
 }
 
@@ -136,7 +92,7 @@ static void add_extrapolation_variance(int32_t beyond_us, int64_t var[ALE_AXES])
 }
 
 /* The velocity at `t_us` from a window that ends at most LOOK_AHEAD after it. */
-static bool velocity_at(const ale_wheels_t *wheels, const ale_lag_t *lag, const ale_wheel_scale_t *scale,
+static bool velocity_at(const ale_wheels_t *wheels, const ale_lag_t *lag, const ale_wheel_errors_t *errors,
                         int64_t t_us, ale_wheel_motion_t *out)
 {
     ale_pose_t d;
@@ -154,10 +110,11 @@ static bool velocity_at(const ale_wheels_t *wheels, const ale_lag_t *lag, const 
         return false;
     }
     const uint32_t to_end = (uint32_t)((int32_t)d.theta_bam / 2);
-    const ale_point_t p =
-        ale_rotate((ale_point_t){rescaled(scale, d.x_um), rescaled(scale, d.y_um)}, 0u - to_end);
+    const ale_point_t p = ale_rotate((ale_point_t){ale_wheel_scale_apply(&errors->scale, d.x_um),
+                                                   ale_wheel_scale_apply(&errors->scale, d.y_um)},
+                                     0u - to_end);
     const int64_t way[ALE_AXES] = {p.x_um, p.y_um, turn_urad(d)};
-    way_variance(scale, d, var);
+    way_variance(errors, d, var);
     lag_variance(wheels, lag->sigma_us, t_us + ahead_us - WINDOW_US, t_us + ahead_us, d, lag_var);
     add_extrapolation_variance(beyond_us, var);
     /* middle of the window before t; samples farther apart than the window tell but their mean velocity */
@@ -174,7 +131,7 @@ static bool velocity_at(const ale_wheels_t *wheels, const ale_lag_t *lag, const 
     return true;
 }
 
-bool ale_wheel_motion(const ale_wheels_t *wheels, const ale_lag_t *lag, const ale_wheel_scale_t *scale,
+bool ale_wheel_motion(const ale_wheels_t *wheels, const ale_lag_t *lag, const ale_wheel_errors_t *errors,
                       int64_t from_us, int64_t to_us, ale_wheel_motion_t *out)
 {
     ale_pose_t d;
@@ -185,9 +142,10 @@ bool ale_wheel_motion(const ale_wheels_t *wheels, const ale_lag_t *lag, const al
     if (!ale_wheels_motion(wheels, from, to, &d, &beyond_us)) {
         return false;
     }
-    out->displacement = (ale_pose_t){rescaled(scale, d.x_um), rescaled(scale, d.y_um), d.theta_bam};
-    way_variance(scale, d, out->displacement_var);
-    add_detour_variance(wheels, scale, from, to, d, out->displacement_var);
+    out->displacement = (ale_pose_t){ale_wheel_scale_apply(&errors->scale, d.x_um),
+                                     ale_wheel_scale_apply(&errors->scale, d.y_um), d.theta_bam};
+    way_variance(errors, d, out->displacement_var);
+    add_detour_variance(wheels, errors, from, to, d, out->displacement_var);
     add_extrapolation_variance(beyond_us, out->displacement_var);
     lag_variance(wheels, lag->sigma_us, from, to, d, lag_var);
     for (int i = 0; i < ALE_AXES; i++) {
@@ -195,5 +153,5 @@ bool ale_wheel_motion(const ale_wheels_t *wheels, const ale_lag_t *lag, const al
     }
     out->counted_um = d.x_um;
     out->lag_var_um2 = lag_var[0];
-    return velocity_at(wheels, lag, scale, to, out);
+    return velocity_at(wheels, lag, errors, to, out);
 }

@@ -55,12 +55,12 @@ int ale_pipeline_set_noise(ale_pipeline_t *pipeline, const ale_noise_t *noise)
 static void reset_motion(ale_pipeline_t *p)
 {
     const ale_pipeline_config_t *c = &p->config;
-    const ale_wheel_noise_t noise = {c->odometry_scale_ppm, c->odometry_turn_urad_m, c->odometry_turn_ppm};
     ale_wheels_init(&p->wheels, c->max_speed_mm_s, c->max_turn_mrad_s);
     ale_wheel_factors_init(&p->factors, c->odometry_distance_factor_ppm, c->odometry_turn_factor_ppm,
                            c->odometry_turn_bias_urad_m);
     ale_lag_init(&p->lag, c->odometry_lag_us);
-    ale_wheel_scale_init(&p->scale, &noise);
+    p->wheel_errors = (ale_wheel_errors_t){c->odometry_turn_urad_m, c->odometry_turn_ppm, {0}};
+    ale_wheel_scale_init(&p->wheel_errors.scale, c->odometry_scale_ppm);
     ale_wheel_monitor_init(&p->wheel_monitor);
     ale_process_noise_init(&p->process_noise[0]);
     ale_process_noise_init(&p->process_noise[1]);
@@ -296,7 +296,7 @@ void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estima
         follow_proposal(pipeline, before, pipeline->motion.pose);
         if (counted) {
             ale_scale_error_predict(&pipeline->scale_error, before, pipeline->motion.pose,
-                                    ale_wheel_scale_error_ppm(&pipeline->scale));
+                                    ale_wheel_scale_error_ppm(&pipeline->wheel_errors.scale));
         }
         if (!ale_maps_is_home(pipeline)) {
             ale_relocation_follow(&pipeline->relocation, ale_pose_between(before, pipeline->motion.pose),

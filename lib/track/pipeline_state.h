@@ -140,7 +140,7 @@ struct ale_pipeline {
     ale_scale_error_t scale_error;
     int64_t drifted_um; /* since a scan last determined every direction */
     ale_lag_t lag;
-    ale_wheel_scale_t scale;
+    ale_wheel_errors_t wheel_errors;
     ale_wheel_monitor_t wheel_monitor;
     ale_process_noise_t process_noise[2]; /* without wheels, with wheels */
 

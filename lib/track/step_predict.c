@@ -35,7 +35,7 @@ static bool are_believed(const ale_pipeline_t *p)
 static bool predict(const ale_pipeline_t *p, ale_motion_t *motion, int64_t stamp_us,
                     ale_wheel_motion_t *wheels, bool *known)
 {
-    *known = ale_wheel_motion(&p->wheels, &p->lag, &p->scale, motion->stamp_us, stamp_us, wheels);
+    *known = ale_wheel_motion(&p->wheels, &p->lag, &p->wheel_errors, motion->stamp_us, stamp_us, wheels);
     const bool believed = *known && are_believed(p);
     ale_pipeline_predict_motion(p, motion, stamp_us, believed ? wheels : NULL);
     return believed;

@@ -22,7 +22,7 @@ void ale_update_uncertainty(ale_pipeline_t *p, const ale_prediction_t *predictio
         ale_map_uncertainty_here(&p->map, p->still.observation, p->still.count, fit, &p->map_uncertainty);
     if (ways->counted) {
         ale_scale_error_predict(&p->scale_error, before->pose, predicted->pose,
-                                ale_wheel_scale_error_ppm(&p->scale));
+                                ale_wheel_scale_error_ppm(&p->wheel_errors.scale));
     }
     ale_scale_error_update(&p->scale_error, observability, predicted);
     if (observability->determined) {
@@ -45,8 +45,10 @@ static void learn_wheels(ale_pipeline_t *p, const ale_prediction_t *prediction, 
         const ale_scale_error_t erred = {p->scale_error.x_um - before->x_um,
                                          p->scale_error.y_um - before->y_um};
         const ale_direction_t ahead = ale_direction(found->pose.theta_bam);
-        ale_wheel_scale_learn(&p->scale, displacement.x_um, prediction->wheels.counted_um,
-                              ale_scale_error_along(&erred, ahead.cos_q30, ahead.sin_q30));
+        const ale_wheel_lesson_t lesson = {prediction->before.stamp_us, found->stamp_us, displacement.x_um,
+                                           prediction->wheels.counted_um,
+                                           ale_scale_error_along(&erred, ahead.cos_q30, ahead.sin_q30)};
+        ale_wheel_scale_learn(&p->wheel_errors.scale, &lesson);
     }
 }
 

@@ -618,9 +618,8 @@ void wheels(Parts &parts)
     ale_wheels_init(wheels.get(), 3000, 6000);
     ale_lag_t lag;
     ale_lag_init(&lag, 0);
-    const ale_wheel_noise_t noise = {50000, 35000, 20000};
-    ale_wheel_scale_t scale;
-    ale_wheel_scale_init(&scale, &noise);
+    ale_wheel_errors_t errors = {35000, 20000, {}};
+    ale_wheel_scale_init(&errors.scale, 50000);
     const auto turned = [](int64_t t_us) { return static_cast<uint32_t>(t_us * 700); };
     for (int64_t t_us = 0; t_us <= 1500000; t_us += 10000) {
         const ale_odometry_t sample = {t_us, {static_cast<int32_t>(t_us / 4), 0, turned(t_us)}};
@@ -633,7 +632,7 @@ void wheels(Parts &parts)
     lag.done_us = 500000;
     ale_wheel_motion_t motion;
     parts.measure("way of the wheels", 1,
-                  [&] { ale_wheel_motion(wheels.get(), &lag, &scale, 300000, 400000, &motion); });
+                  [&] { ale_wheel_motion(wheels.get(), &lag, &errors, 300000, 400000, &motion); });
     ale_pose_t unwatched;
     int32_t beyond_us;
     parts.measure("way through a time unwatched", 1,
