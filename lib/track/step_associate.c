@@ -13,6 +13,7 @@ enum {
     REGISTER_URAD = 60000,
     REGISTER_MOST_UM = 1000000,
     REGISTER_MOST_URAD = 450000,
+    GOES_ON_PERIODS = 3, /* usual times between scans, in which a robot goes on as before */
     SLACK_UM = 60000,
     PREFER_PARTS = 5, /* of what two scans show of each other, by which one pose is preferred */
     CHANCE_PARTS = 10 /* less than this part of what is shown, found in the map, may be found by chance */
@@ -44,11 +45,15 @@ typedef struct {
 } ale_registered_t;
 
 /* Where the robot would be if it went on as before: as its velocity says or, where that is not known, by as
- * much as from scan to scan before. In a log that holds but some of the scans that says nothing. */
-static ale_pose_t going_on(const ale_pipeline_t *p, const ale_ways_t *ways, ale_pose_t before)
+ * much as from scan to scan before. In a log that holds but some of the scans that says nothing, nor after a
+ * time without scans. */
+static ale_pose_t going_on(const ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
+    const ale_ways_t *ways = &prediction->ways;
+    const ale_pose_t before = prediction->before.pose;
     const bool by_wheels_alone = ways->counted && !ale_ways_rival_is_known(ways);
-    const bool steps = by_wheels_alone && ale_timestamp_filter_is_dense(&p->timestamp_filter);
+    const bool in_time = prediction->dt_us <= GOES_ON_PERIODS * p->timestamp_filter.usual_us;
+    const bool steps = by_wheels_alone && in_time && ale_timestamp_filter_is_dense(&p->timestamp_filter);
     const ale_pose_t one_step_on = steps ? ale_pose_compose(before, p->step) : ways->believed.pose;
     return ways->part ? ways->rival.pose : one_step_on;
 }
@@ -61,11 +66,11 @@ typedef struct {
     int32_t reach_urad;
 } window_t;
 
-static window_t window_of(const ale_pipeline_t *p, const ale_ways_t *ways, ale_pose_t before,
-                          int64_t sigma_um, int64_t sigma_urad)
+static window_t window_of(const ale_pipeline_t *p, const ale_prediction_t *prediction, int64_t sigma_um,
+                          int64_t sigma_urad)
 {
-    const ale_pose_t predicted = ways->believed.pose;
-    const ale_pose_t as_before = going_on(p, ways, before);
+    const ale_pose_t predicted = prediction->ways.believed.pose;
+    const ale_pose_t as_before = going_on(p, prediction);
     const ale_apart_t apart = ale_apart(predicted, as_before);
     const bool far = apart.way_um > REGISTER_MOST_UM || apart.turn_urad > REGISTER_MOST_URAD;
     const int64_t reach_um = REGISTER_UM + ale_max64(5 * sigma_um, far ? 0 : apart.way_um);
@@ -84,7 +89,7 @@ static ale_registered_t register_to_scan(ale_pipeline_t *p, const ale_prediction
     const int64_t sigma_um =
         ale_max64(ale_matrix_sigma(&predicted->cov, 0), ale_matrix_sigma(&predicted->cov, 1));
     const int64_t sigma_urad = ale_matrix_sigma(&predicted->cov, 2);
-    const window_t window = window_of(p, &prediction->ways, before, sigma_um, sigma_urad);
+    const window_t window = window_of(p, prediction, sigma_um, sigma_urad);
     const ale_seen_t last = ale_witness_seen(&p->witness);
     const ale_observations_t then = {last.observation, last.observation_count};
     const ale_observations_t now = {p->observed.observation, p->observed.count};

@@ -80,9 +80,9 @@ std::vector<Pose> PriorViews::grid_near_walls() const
         }
     }
     std::vector<Pose> grid;
-    for (const auto &[x, y] : near) {
-        grid.push_back({x * apart_m, y * apart_m, 0});
-    }
+    std::transform(near.begin(), near.end(), std::back_inserter(grid), [](const std::pair<int, int> &at) {
+        return Pose{at.first * apart_m, at.second * apart_m, 0};
+    });
     return grid;
 }
 
