@@ -52,7 +52,9 @@ static ale_pose_t going_on(const ale_pipeline_t *p, const ale_prediction_t *pred
     const ale_ways_t *ways = &prediction->ways;
     const ale_pose_t before = prediction->before.pose;
     const bool by_wheels_alone = ways->counted && !ale_ways_rival_is_known(ways);
-    const bool in_time = prediction->dt_us <= GOES_ON_PERIODS * p->timestamp_filter.usual_us;
+    const int64_t in_time_us = ale_max64(GOES_ON_PERIODS * p->timestamp_filter.usual_us,
+                                         ale_timestamp_filter_usual_most_us(&p->timestamp_filter));
+    const bool in_time = prediction->dt_us <= in_time_us;
     const bool steps = by_wheels_alone && in_time && ale_timestamp_filter_is_dense(&p->timestamp_filter);
     const ale_pose_t one_step_on = steps ? ale_pose_compose(before, p->step) : ways->believed.pose;
     return ways->part ? ways->rival.pose : one_step_on;

@@ -253,6 +253,15 @@ static int64_t against_um(const ale_motion_t *predicted, ale_pose_t pose)
     return most_um;
 }
 
+/* Whether wheels that have told of a way through the time unwatched deny the pose. They may have led to what
+ * the map does not hold, and such ground may look like a place that it does. */
+static bool is_denied(const ale_pipeline_t *p, const ale_motion_t *predicted, const candidate_t *best,
+                      const candidate_t *given)
+{
+    return p->driven && !is_same(best->fit, given->fit) &&
+           against_um(predicted, best->fit->motion.pose) >= (int64_t)DENIED_SIGMAS * DENIED_SIGMAS * SIGMA_UM;
+}
+
 /* By how much more surface, what the prediction weighs against it taken off, a pose explains than another. */
 static int64_t gain_um(const ale_motion_t *predicted, const candidate_t *best, const candidate_t *given)
 {
@@ -306,6 +315,9 @@ ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *predi
     }
     if (best.evidence_um == given.evidence_um) {
         return ALE_RECOVER_CONFIRMED;
+    }
+    if (is_denied(p, &ways->believed, &best, &given)) {
+        return ALE_RECOVER_OPEN;
     }
     return ale_tracking_explains(best.fit) ? take_or_propose(p, prediction->before.pose, &given, &best, ways)
                                            : ALE_RECOVER_STAYS;

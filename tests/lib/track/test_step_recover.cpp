@@ -234,4 +234,68 @@ TEST(StepRecover, InACorridorThatRepeatsItselfNoOtherPartOfItIsTaken)
     }
 }
 
+/* Two rooms of 5 m by 4 m that are furnished alike, with a door between them at y = 0. */
+std::vector<room::Wall> two_alike_rooms()
+{
+    std::vector<room::Wall> walls;
+    for (const double x : {0.0, 5.0}) {
+        walls.insert(walls.end(), {{x, -2, x + 5, -2},
+                                   {x, 2, x + 5, 2},
+                                   {x, -2, x, -0.5},
+                                   {x, 0.5, x, 2},
+                                   {x + 5, -2, x + 5, -0.5},
+                                   {x + 5, 0.5, x + 5, 2},
+                                   {x + 1, 1.4, x + 2.2, 1.4},
+                                   {x + 2.2, 1.4, x + 2.2, 2},
+                                   {x + 3.6, -2, x + 3.6, -1.1},
+                                   {x + 3.6, -1.1, x + 5, -1.1}});
+    }
+    return walls;
+}
+
+/* A robot drives in the first room to `from`; then the scanner is away for eight seconds while wheels go on,
+ * to `to`, and it drives on there. Returns by how much it is ever off, m, where it says that it knows. */
+double most_off_after_an_outage(double from, double to, unsigned seed)
+{
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    room::Sensor around;
+    around.beam_time_ns = 0;
+    around.noise = 0.01;
+    std::mt19937 rng(seed);
+    const std::vector<room::Wall> walls = two_alike_rooms();
+    constexpr double away_at = 8;
+    constexpr double away = 8;
+    const auto way = [&](double t) {
+        return t < away_at          ? 1 + (from - 1) * t / away_at
+               : t < away_at + away ? from + (to - from) * (t - away_at) / away
+                                    : to + 0.1 * (t - away_at - away);
+    };
+    ale_estimate_t e = {};
+    double most = 0;
+    for (int k = 0; k < 900; k++) {
+        const double t = 0.02 * k;
+        const ale_odometry_t told = {std::llround(t * 1e6),
+                                     {static_cast<int32_t>(std::llround(1.01e6 * (way(t) - 1))), 0, 0}};
+        ale_pipeline_odometry(p.get(), &told);
+        if (k % 5 != 0 || (t > away_at && t < away_at + away)) {
+            continue;
+        }
+        const reference::Pose place(way(t), 0, 0);
+        const ale_scan_t scan = room::scan_at(
+            walls, around, [&](double) { return place; }, t, rng);
+        ale_pipeline_scan(p.get(), &scan, &e);
+        const double off = std::hypot(e.map.x_um * 1e-6 - (way(t) - 1), e.map.y_um * 1e-6);
+        most = e.state == ALE_STATE_GOOD ? std::max(most, off) : most;
+    }
+    return most;
+}
+
+TEST(StepRecover, ARoomLikeTheKnownOneIsNotTakenForItWhenWheelsHaveLedToTheNext)
+{
+    for (const unsigned seed : {1U, 2U, 3U}) {
+        EXPECT_LT(most_off_after_an_outage(2, 7, seed), 0.15) << "at the same place of it, seed " << seed;
+        EXPECT_LT(most_off_after_an_outage(3.6, 6.4, seed), 0.15) << "at another, seed " << seed;
+    }
+}
+
 } // namespace
