@@ -254,11 +254,13 @@ static int64_t against_um(const ale_motion_t *predicted, ale_pose_t pose)
 }
 
 /* Whether wheels that have told of a way through the time unwatched deny the pose. They may have led to what
- * the map does not hold, and such ground may look like a place that it does. */
+ * the map does not hold, and such ground may look like a place that it does. Of a log that holds but some of
+ * the scans wheels may have told a part of the way alone. */
 static bool is_denied(const ale_pipeline_t *p, const ale_motion_t *predicted, const candidate_t *best,
                       const candidate_t *given)
 {
-    return p->driven && !is_same(best->fit, given->fit) &&
+    return p->driven && ale_timestamp_filter_is_dense(&p->timestamp_filter) &&
+           !is_same(best->fit, given->fit) &&
            against_um(predicted, best->fit->motion.pose) >= (int64_t)DENIED_SIGMAS * DENIED_SIGMAS * SIGMA_UM;
 }
 
