@@ -29,7 +29,7 @@ typedef enum {
     ALE_RECOVER_UNDECIDED, /* one does, but the next scan must confirm it */
     ALE_RECOVER_NEAR,      /* one does, beside *fit, which is that one now, solved */
     ALE_RECOVER_MOVED,     /* one does, elsewhere: *fit is that one, solved */
-    ALE_RECOVER_OPEN       /* several do */
+    ALE_RECOVER_OPEN /* several do, or one that wheels deny which have told of a way while nobody watched */
 } ale_recovery_t;
 
 /* Compares all poses that the robot can have reached by what they explain of the scan, less what the

@@ -89,6 +89,10 @@ bench-fleet: ## drives by ale-fleet over more and more workers, some of them kil
 	@$(MAKE) --no-print-directory -s $(addprefix $(BUILD)/bin/ale-,fleet merge replay sim)
 	@$(PYTHON) tools/lab/bench/fleet/fleet_table.py --build $(BUILD) --drives $(FLEET_DRIVES) --workers $(FLEET_WORKERS) --rounds $(FLEET_ROUNDS) $(addprefix --only ,$(ONLY))
 
+.PHONY: bench-saved-map
+bench-saved-map: programs ## recordings that begin anywhere in their own saved map, and in that of others, as a table (ONLY="exp3 aces")
+	@$(PYTHON) tools/lab/bench/saved_map_table.py "$(ALE_SHARED)" --build $(BUILD) $(addprefix --only ,$(ONLY))
+
 POSES ?= 100
 .PHONY: relocalise
 relocalise: programs ## lost at random places of every bundled world, with a saved map (POSES=100)
