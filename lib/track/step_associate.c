@@ -13,7 +13,6 @@ enum {
     REGISTER_URAD = 60000,
     REGISTER_MOST_UM = 1000000,
     REGISTER_MOST_URAD = 450000,
-    GOES_ON_PERIODS = 3, /* usual times between scans, in which a robot goes on as before */
     SLACK_UM = 60000,
     PREFER_PARTS = 5, /* of what two scans show of each other, by which one pose is preferred */
     CHANCE_PARTS = 10 /* less than this part of what is shown, found in the map, may be found by chance */
@@ -52,10 +51,8 @@ static ale_pose_t going_on(const ale_pipeline_t *p, const ale_prediction_t *pred
     const ale_ways_t *ways = &prediction->ways;
     const ale_pose_t before = prediction->before.pose;
     const bool by_wheels_alone = ways->counted && !ale_ways_rival_is_known(ways);
-    const int64_t in_time_us = ale_max64(GOES_ON_PERIODS * p->timestamp_filter.usual_us,
-                                         ale_timestamp_filter_usual_most_us(&p->timestamp_filter));
-    const bool in_time = prediction->dt_us <= in_time_us;
-    const bool steps = by_wheels_alone && in_time && ale_timestamp_filter_is_dense(&p->timestamp_filter);
+    const bool steps = by_wheels_alone && ale_timestamp_filter_is_dense(&p->timestamp_filter) &&
+                       !ale_pipeline_is_gap(p, prediction->dt_us);
     const ale_pose_t one_step_on = steps ? ale_pose_compose(before, p->step) : ways->believed.pose;
     return ways->part ? ways->rival.pose : one_step_on;
 }

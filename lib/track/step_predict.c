@@ -7,8 +7,15 @@
 
 enum {
     SCAN_SET_BACK_US = 1000000, /* a stamp older than the last by less is a wrong stamp */
-    STANDS_UM = 3000            /* way and turn, as which scans see a robot that stands */
+    STANDS_UM = 3000,           /* way and turn, as which scans see a robot that stands */
+    GAP_PERIODS = 3
 };
+
+bool ale_pipeline_is_gap(const ale_pipeline_t *p, int64_t without_us)
+{
+    return without_us > GAP_PERIODS * p->timestamp_filter.usual_us &&
+           without_us > ale_timestamp_filter_usual_most_us(&p->timestamp_filter);
+}
 
 void ale_pipeline_predict_motion(const ale_pipeline_t *p, ale_motion_t *motion, int64_t stamp_us,
                                  const ale_wheel_motion_t *wheels)

@@ -20,6 +20,10 @@ typedef struct {
 /* Writes the timestamp filter alone. Constant time. */
 ale_prediction_t ale_step_predict(ale_pipeline_t *p, int64_t stamp_us);
 
+/* Whether scans are missing from a time without one: it is more than three usual ones, and than stamps are
+ * off them. */
+bool ale_pipeline_is_gap(const ale_pipeline_t *p, int64_t without_us);
+
 /* Moves a motion on to stamp_us; wheels NULL: by its velocity alone. */
 void ale_pipeline_predict_motion(const ale_pipeline_t *p, ale_motion_t *motion, int64_t stamp_us,
                                  const ale_wheel_motion_t *wheels);

@@ -8,8 +8,7 @@
 #include "track/step_observe.h"
 
 enum {
-    UNWATCHED_US = 300000, /* and so many usual periods without a scan that told the pose */
-    UNWATCHED_PERIODS = 3,
+    UNWATCHED_US = 300000, /* without a scan that told the pose */
     ANYWHERE_US = 5000000, /* and for so long that it may have been carried to any place */
     ANYWHERE_PERIODS = 60,
     CANDIDATES = 4, /* poses that are fitted: those proposed, and places of the vote */
@@ -65,8 +64,7 @@ bool ale_recover_has_driven(const ale_pipeline_t *p, const ale_prediction_t *pre
 bool ale_recover_is_unwatched(const ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
     const int64_t t_us = since_watched_us(p, prediction);
-    return t_us > UNWATCHED_US && t_us > UNWATCHED_PERIODS * p->timestamp_filter.usual_us &&
-           t_us > ale_timestamp_filter_usual_most_us(&p->timestamp_filter);
+    return t_us > UNWATCHED_US && ale_pipeline_is_gap(p, t_us);
 }
 
 static int32_t halfway(int32_t from_um, int32_t to_um)

@@ -4,7 +4,6 @@ import hashlib
 import json
 import math
 import random
-import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -283,15 +282,14 @@ def walls_in(path):
     return path.read_text().count("\nwall ")
 
 
-def part_twice(drawn):
-    """Of the length of all walls."""
+def pairs_twice(drawn):
     score = subprocess.run([sys.executable, MAP_SCORE, drawn], capture_output=True, text=True, check=True).stdout
-    all_m, twice_m = re.fullmatch(r"\d+ walls, (\S+) m; standing twice: \d+ pairs, (\S+) m", score.splitlines()[0]).groups()
-    return float(twice_m) / float(all_m)
+    return int(score.split("standing twice: ")[1].split()[0])
 
 
-@pytest.mark.parametrize("name", ["exp1.dat", "exp3.dat"])
-def test_a_map_that_is_driven_in_again_and_again_does_not_fill_up(name, tmp_path):
+# The map of exp3 has its right wall in two parts, 35 cm apart where they overlap: a centimetre decides whether that is a pair.
+@pytest.mark.parametrize("name, pairs", [("exp1.dat", 1), ("exp3.dat", 3)])
+def test_a_map_that_is_driven_in_again_and_again_does_not_fill_up(name, pairs, tmp_path):
     log = shared(f"data/urg04lx/{name}")
     replay(log, "--save-map", tmp_path / "0.map")
     for k in range(3):
@@ -299,15 +297,15 @@ def test_a_map_that_is_driven_in_again_and_again_does_not_fill_up(name, tmp_path
                "--map", tmp_path / "again.dxf")
     walls = walls_in(tmp_path / "0.map")
     assert abs(walls_in(tmp_path / "3.map") - walls) < 0.15 * walls
-    assert part_twice(tmp_path / "again.dxf") < 0.03
+    assert pairs_twice(tmp_path / "again.dxf") <= pairs
 
 
 @pytest.mark.parametrize("name", ["exp3.dat", "test_lab.dat"])
 def test_the_map_of_one_drive_is_found_by_others_through_the_same_room(name, tmp_path):
-    replay(shared("data/urg04lx/exp1.dat"), "--save-map", tmp_path / "exp1.map", "--map", tmp_path / "exp1.dxf")
+    replay(shared("data/urg04lx/exp1.dat"), "--save-map", tmp_path / "exp1.map")
     done = replay(shared(f"data/urg04lx/{name}"), "--load-map", tmp_path / "exp1.map", "--map", tmp_path / "both.dxf")
     assert "a map that was begun anew was joined to an older one" in done.stderr
-    assert part_twice(tmp_path / "both.dxf") < part_twice(tmp_path / "exp1.dxf") + 0.03
+    assert pairs_twice(tmp_path / "both.dxf") <= 1
 
 
 def digest(log, folder, *arguments):

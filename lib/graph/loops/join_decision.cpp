@@ -24,7 +24,7 @@ struct Support {
     double apart_m;
 };
 constexpr Support as_predicted{JoinDecision::least_nodes, 1.0};
-constexpr Support elsewhere{12, 8.0};
+constexpr Support elsewhere{JoinDecision::least_elsewhere, 8.0};
 constexpr double predicted_m = 3.0;
 constexpr double predicted_rad = 0.8;
 // Of a drive that is smaller than that: the part of its extent, and of what can be compared.

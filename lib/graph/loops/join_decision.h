@@ -38,6 +38,8 @@ class JoinDecision
   public:
     // Of a map that may join another.
     static constexpr size_t least_nodes = 3;
+    // That must agree where wheels have not put it there.
+    static constexpr size_t least_elsewhere = 12;
 
     // matches: from a place of one map to a node of another, each with its overlap; queries: the nodes to
     // compare: those that were searched for, of drives all.

@@ -24,7 +24,11 @@ struct Queries {
 };
 constexpr Queries predicted{4, 4, 2, 0};
 // Where wheels say nothing of the place a join needs far more.
-constexpr Queries unpredicted{12, JoinSearch::most_queries, 1, 1.0};
+constexpr Queries unpredicted{JoinDecision::least_elsewhere, JoinSearch::most_queries, 1, 1.0};
+// How far apart places are, so that every one of a robot in that map is well within PlaceSearch::half_m: in a
+// saved map a view is half a step of the grid from it at most.
+constexpr double nodes_apart_m = 2.0;
+constexpr double views_apart_m = PlaceSearch::half_m - PriorViews::apart_m / 2;
 constexpr size_t most_of_a_map = 32; // queries after the drive
 constexpr double least_part = 0.5;   // of the points in view that must lie on surfaces
 constexpr double least_in_view = 1.0 / 3;
@@ -88,6 +92,24 @@ std::vector<int> last_along_path(const std::vector<Node> &nodes, const Queries &
         }
     }
     return chosen.size() < wanted.least ? std::vector<int>() : chosen;
+}
+
+// Nodes and views of a map, such that each other of it is within reach of a search about one. O(n^2).
+std::vector<int> spread_places(const SearchedMaps &maps, uint32_t map_id)
+{
+    std::vector<int> chosen;
+    for (int k = maps.first(); k < maps.end(); k++) {
+        const double apart_m = k < 0 ? views_apart_m : nodes_apart_m;
+        const Pose &here = maps.pose_of(k);
+        const auto covers = [&](int other) {
+            const Pose &there = maps.pose_of(other);
+            return length(here.x - there.x, here.y - there.y) < apart_m;
+        };
+        if (maps.map_of(k) == map_id && std::none_of(chosen.begin(), chosen.end(), covers)) {
+            chosen.push_back(k);
+        }
+    }
+    return chosen;
 }
 
 void add_tasks(int place, const std::vector<int> &queries, std::vector<JoinTask> *tasks)

@@ -12,7 +12,7 @@ constexpr int most_rounds = 4; // after the drive: each finds what the one befor
 
 bool is_one_map(const SearchedMaps &maps)
 {
-    return count_maps(maps.nodes) < 2 && (maps.first() == 0 || maps.nodes.back().map_id == ALE_FIRST_MAP);
+    return count_maps(maps.nodes) < 2 && maps.first() == 0;
 }
 
 } // namespace

@@ -18,9 +18,6 @@ namespace
 constexpr SubmapExtent view_extent{2, 2};
 constexpr size_t checked_stride = 2; // of the nodes
 constexpr size_t view_points = 300;  // thinned() keeps up to twice as many
-// Of places, so that every place of a robot in a map is well within what a PlaceSearch searches: 3.2 m.
-constexpr double nodes_apart_m = 2.0;
-constexpr double views_apart_m = 2.7;
 
 double distance(const Pose &a, const Pose &b)
 {
@@ -164,21 +161,6 @@ void Place::compare_free_space(const View &view, const Pose &pose, Explanation *
     out->agreed = is_saved ? stands : std::min(of_nodes, stands);
     out->told = std::min(
         stands, part(of_view.points + before_saved.points, of_view.violations + before_saved.violations));
-}
-
-std::vector<int> spread_places(const SearchedMaps &maps, uint32_t map_id)
-{
-    std::vector<int> chosen;
-    for (int k = maps.first(); k < maps.end(); k++) {
-        const double apart_m = k < 0 ? views_apart_m : nodes_apart_m;
-        const bool is_covered = std::any_of(chosen.begin(), chosen.end(), [&](int other) {
-            return distance(maps.pose_of(k), maps.pose_of(other)) < apart_m;
-        });
-        if (maps.map_of(k) == map_id && !is_covered) {
-            chosen.push_back(k);
-        }
-    }
-    return chosen;
 }
 
 } // namespace ale

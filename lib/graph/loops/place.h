@@ -14,8 +14,8 @@
 namespace ale
 {
 
-// All that places are of: nodes, and the views of a saved map that the drive began in, or null. A number
-// below 0 is that of a view: -1 the first. They stay the caller's.
+// All that places are of: nodes, and the views of a saved map that the drive began in, or null where nothing
+// is to be looked for in that. A number below 0 is that of a view: -1 the first. They stay the caller's.
 struct SearchedMaps {
     const std::vector<Node> &nodes;
     const std::vector<Pose> &poses;
@@ -96,9 +96,6 @@ class Place
     std::vector<SurfacePoint> points_;
     LikelihoodField field_;
 };
-
-// Nodes and views of a map, such that each other of it is within reach of a search about one. O(n^2).
-std::vector<int> spread_places(const SearchedMaps &maps, uint32_t map_id);
 
 } // namespace ale
 

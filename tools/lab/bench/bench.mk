@@ -90,7 +90,9 @@ bench-fleet: ## drives by ale-fleet over more and more workers, some of them kil
 	@$(PYTHON) tools/lab/bench/fleet/fleet_table.py --build $(BUILD) --drives $(FLEET_DRIVES) --workers $(FLEET_WORKERS) --rounds $(FLEET_ROUNDS) $(addprefix --only ,$(ONLY))
 
 .PHONY: bench-saved-map
-bench-saved-map: programs ## recordings that begin anywhere in their own saved map, and in that of others, as a table (ONLY="exp3 aces")
+bench-saved-map: ## recordings that begin anywhere in their own saved map, and in that of others, as a table (ONLY="exp3 aces")
+	@tools/make/deps.sh tools/make/packages-build.txt tools/make/packages-test.txt
+	@$(MAKE) --no-print-directory -s $(BUILD)/bin/ale-replay
 	@$(PYTHON) tools/lab/bench/saved_map_table.py "$(ALE_SHARED)" --build $(BUILD) $(addprefix --only ,$(ONLY))
 
 POSES ?= 100
