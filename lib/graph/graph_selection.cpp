@@ -33,7 +33,7 @@ std::vector<bool> ties(size_t nodes, const std::vector<GraphEdge> &edges)
 {
     std::vector<bool> tied(nodes, false);
     for (const GraphEdge &edge : edges) {
-        if (!edge.robust && !edge.guessed) {
+        if (!edge.robust && edge.guess == ale::Guess::none) {
             tied[static_cast<size_t>(edge.to)] = true;
         }
     }

@@ -37,6 +37,7 @@
 #include "track/evidence/way_back.h"
 #include "track/evidence/witness.h"
 #include "track/evidence/zero_motion.h"
+#include "track/keyframe.h"
 #include "track/pipeline_config.h"
 #include "track/tracking_monitor.h"
 
@@ -63,14 +64,6 @@ typedef struct {
     ale_observation_t observation[ALE_MAX_OBSERVATIONS];
     uint32_t count;
 } ale_static_scene_t;
-
-/* What is claimed of where a robot is that begins a new map. */
-typedef enum {
-    ALE_CLAIM_NONE,   /* it may be anywhere */
-    ALE_CLAIM_NEAR,   /* around where its pose says */
-    ALE_CLAIM_DRIVEN, /* where its wheels have led it, and nowhere else */
-    ALE_CLAIM_SAID    /* there, as somebody says: one scan that fits is enough */
-} ale_claim_t;
 
 /* Another pose of a scan, that explains it better than the one that is followed: believed when the next scan
  * confirms it. */

@@ -17,8 +17,9 @@ enum {
     EXPECTED_UM = 500000, /* of where the prediction has put the robot: there less will do */
     EXPECTED_BAM = 350 * ALE_BAM_PER_MRAD,
     EXPECTED_LEAST_UM = 2000000,
-    LAID_LEAST_UM = 15000000,   /* of walls of the one map that lie on the other; */
-    LAID_SMALL_UM = 10000000,   /* so much where they are half of all that the other holds */
+    LAID_LEAST_UM = 20000000,   /* of walls of the one map that lie on the other; */
+    LAID_LOADED_UM = 15000000,  /* so much on one that was loaded; */
+    LAID_SMALL_UM = 10000000,   /* so much where the maps are small */
     DENIED_WEIGHT = 10,         /* one that the way there has led through speaks against so many */
     LAID_WALL_MOST_UM = 2000000 /* that one of them counts for */
 };
@@ -51,19 +52,31 @@ static int64_t denied_um(ale_pipeline_t *p, ale_pose_t there)
     return ale_way_back_denied_um(&p->way_back, &p->map, smooth, there);
 }
 
-/* How much of the robot's own map must lie on the selected one. */
+/* Surfaces that a map holds, of each wall so much as it counts for. */
+static int64_t held_um(const ale_local_map_t *map, uint8_t number)
+{
+    int64_t sum_um = 0;
+    for (uint32_t i = 0; i < map->count; i++) {
+        const ale_wall_t *wall = &map->wall[i];
+        const int64_t length_um = (int64_t)wall->end_um - wall->start_um;
+        sum_um += wall->map == number ? ale_min64(length_um, LAID_WALL_MOST_UM) : 0;
+    }
+    return sum_um;
+}
+
+/* How much of the robot's own map must lie on the selected one. A loaded map may hold all that there is; what
+ * this drive has not seen may look like what it has, and the more the longer it goes on. */
 static int64_t least_um(const ale_pipeline_t *p, bool expected)
 {
-    int64_t held_um = 0;
+    const int64_t there_um = held_um(&p->map, p->map.selected);
     if (expected) {
         return EXPECTED_LEAST_UM;
     }
-    for (uint32_t i = 0; i < p->map.count; i++) {
-        const ale_wall_t *wall = &p->map.wall[i];
-        const int64_t length_um = (int64_t)wall->end_um - wall->start_um;
-        held_um += wall->map == p->map.selected ? ale_min64(length_um, LAID_WALL_MOST_UM) : 0;
+    if (p->loaded != 0) {
+        return ale_clamp64(there_um / 2, LAID_SMALL_UM, LAID_LOADED_UM);
     }
-    return ale_clamp64(held_um / 2, LAID_SMALL_UM, LAID_LEAST_UM);
+    const int64_t larger_um = ale_max64(there_um, held_um(&p->map, p->atlas.current));
+    return ale_clamp64(larger_um / 4 * 3, LAID_SMALL_UM, LAID_LEAST_UM);
 }
 
 /* How much of the robot's own map lies on the selected one, when the robot is at this pose of that. Each wall
@@ -94,7 +107,8 @@ static int64_t laid_um(const ale_pipeline_t *p, ale_pose_t there)
 /* By how much more lies there than must; 0 or less: not enough, or not where wheels have led. */
 static int64_t surplus_um(const ale_pipeline_t *p, ale_pose_t there)
 {
-    const bool expected = ale_are_near(p->motion.pose, there, EXPECTED_UM, EXPECTED_BAM);
+    const bool told = p->claim != ALE_CLAIM_NONE && p->claim != ALE_CLAIM_REACHED;
+    const bool expected = told && ale_are_near(p->motion.pose, there, EXPECTED_UM, EXPECTED_BAM);
     if (p->claim == ALE_CLAIM_DRIVEN && !expected) {
         return 0;
     }

@@ -57,7 +57,7 @@ static ale_claim_t claim_of(const ale_pipeline_t *p, const ale_prediction_t *pre
     if (p->monitor.misfits == 0 && p->driven) {
         return ALE_CLAIM_DRIVEN;
     }
-    return ale_recover_may_be_anywhere(p, prediction) ? ALE_CLAIM_NONE : ALE_CLAIM_NEAR;
+    return ale_recover_may_be_anywhere(p, prediction) ? ALE_CLAIM_NONE : ALE_CLAIM_REACHED;
 }
 
 /* Whether *fit explains the scan, and no other pose does as well. */

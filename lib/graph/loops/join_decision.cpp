@@ -107,7 +107,7 @@ std::optional<FoundJoin> JoinDecision::find()
     std::vector<Hypothesis> all = hypotheses();
     for (size_t k = 0; k < std::min(all.size(), most_compared); k++) {
         Hypothesis &best = all[k];
-        if (!is_sound(best) || !is_unique(best, all)) {
+        if (is_denied(best) || !is_sound(best) || !is_unique(best, all)) {
             continue;
         }
         FoundJoin found{{best.map_id, best.into_map_id, best.shift}, {}, {}};
@@ -251,13 +251,38 @@ bool JoinDecision::is_far_enough(const Hypothesis &hypothesis, double least_m) c
     });
 }
 
+// By the nearest way along the path from the one map to the other. Guesses by wheels stay what these have
+// told: since then either map may have been moved.
+JoinDecision::Prediction JoinDecision::predicted(uint32_t map_id, uint32_t into_map_id) const
+{
+    Prediction found{Guess::anywhere, {}};
+    for (const GraphEdge &edge : maps_.edges) {
+        const bool forth = map_of(edge.from) == into_map_id && map_of(edge.to) == map_id;
+        const bool back = map_of(edge.from) == map_id && map_of(edge.to) == into_map_id;
+        if (edge.guess != Guess::none && (forth || back) && edge.guess <= found.guess) {
+            const Pose there = compose(maps_.pose_of(edge.from), edge.measured);
+            const Pose shift = compose(there, inverse(maps_.pose_of(edge.to)));
+            found = {edge.guess, forth ? shift : inverse(shift)};
+        }
+    }
+    return found;
+}
+
 bool JoinDecision::is_as_predicted(const Hypothesis &hypothesis) const
 {
     const Pose &first = maps_.pose_of(hypothesis.loops.front().to);
-    const bool was_there = std::any_of(maps_.nodes.begin(), maps_.nodes.end(), [&](const Node &node) {
-        return node.map_id == hypothesis.into_map_id;
-    });
-    return was_there && is_near(compose(hypothesis.shift, first), first, predicted_m, predicted_rad);
+    const Prediction prediction = predicted(hypothesis.map_id, hypothesis.into_map_id);
+    return prediction.guess != Guess::anywhere &&
+           is_near(compose(hypothesis.shift, first), compose(prediction.shift, first), predicted_m,
+                   predicted_rad);
+}
+
+// Whether wheels have told of the way from the one map to the other, and it leads to another place. That may
+// be on ground that no map holds, and then nothing that is known must be seen there.
+bool JoinDecision::is_denied(const Hypothesis &hypothesis) const
+{
+    return predicted(hypothesis.map_id, hypothesis.into_map_id).guess == Guess::led &&
+           !is_as_predicted(hypothesis);
 }
 
 // Nodes enough, apart, and held in every direction. Of a drive some were searched for alone.
@@ -320,7 +345,7 @@ bool JoinDecision::is_sound(Hypothesis &hypothesis)
 // Whether the other explains enough of the same nodes, or puts other nodes to another place of the same map.
 bool JoinDecision::is_rival(const Hypothesis &hypothesis, const Hypothesis &other) const
 {
-    if (&hypothesis == &other || other.map_id != hypothesis.map_id) {
+    if (&hypothesis == &other || other.map_id != hypothesis.map_id || is_denied(other)) {
         return false;
     }
     double strength = 0;

@@ -3,13 +3,15 @@
 // Matches that put a map to the same place of another are a hypothesis; of drives, which may be bent, from
 // each node to the nearest that is matched. One is accepted if
 // - at least three nodes, a metre apart, lie on what the other map saw, held in every direction; twelve, over
-//   eight metres, if that is not where the wheels have put them. Of a map that is a drive of its own, and
-//   smaller, twelve over most of it, if nearly all of it lies there;
+//   eight metres, if that is not where the prediction has put them, or nobody watched the robot on the way
+//   from the one to the other; none elsewhere where wheels have told of that way. Of a map that is a drive of its own, and smaller, twelve over most of it, if
+//   nearly all of it lies there;
 // - wherever the two overlap they agree: neither looks through what the other saw (a match that slides along
 //   what does not hold it says nothing of that direction);
 // - every rival is refuted: another place of any map that explains the same nodes must fail at three of them
 //   where this one does not. A place that cannot be compared is not refuted. Not a rival is what fits
-//   together: a place of a third map that lies at the same place of this one.
+//   together: a place of a third map that lies at the same place of this one; nor what is not where the
+//   wheels have led to.
 #ifndef ALE_GRAPH_LOOPS_JOIN_DECISION_H
 #define ALE_GRAPH_LOOPS_JOIN_DECISION_H
 
@@ -66,6 +68,12 @@ class JoinDecision
         std::map<int, Account> accounts{}; // by node
     };
 
+    // How one map must move to lie in the other where the prediction has put it, and how that is known.
+    struct Prediction {
+        Guess guess;
+        Pose shift;
+    };
+
     struct Tally {
         size_t known = 0;
         size_t agreed = 0;
@@ -77,7 +85,9 @@ class JoinDecision
     Pose shift_at(const Hypothesis &hypothesis, int node) const;
     bool puts_alike(const Hypothesis &hypothesis, const Pose &shift, int node) const;
     bool is_far_enough(const Hypothesis &hypothesis, double least_m) const;
+    Prediction predicted(uint32_t map_id, uint32_t into_map_id) const;
     bool is_as_predicted(const Hypothesis &hypothesis) const;
+    bool is_denied(const Hypothesis &hypothesis) const;
     bool is_held(const Hypothesis &hypothesis) const;
     template <class Chosen> Tally tally(Hypothesis &hypothesis, Chosen is_chosen);
     bool holds_all_of_it(Hypothesis &hypothesis);

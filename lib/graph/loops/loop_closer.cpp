@@ -76,7 +76,7 @@ bool LoopCloser::add(Node node, const Pose &motion)
 SearchedMaps LoopCloser::searched_maps()
 {
     const bool all_in_first = count_maps(nodes_) == 1 && present_map() == ALE_FIRST_MAP;
-    return {nodes_, graph_.poses(), prior_ && !all_in_first ? &prior_->views() : nullptr};
+    return {nodes_, graph_.poses(), graph_.edges(), prior_ && !all_in_first ? &prior_->views() : nullptr};
 }
 
 void LoopCloser::append(Node node, const Pose &motion)
@@ -214,7 +214,7 @@ std::vector<bool> LoopCloser::removable_nodes() const
     }
     const std::vector<bool> with_beginnings = removable;
     for (const GraphEdge &edge : graph_.edges()) {
-        if (edge.guessed) {
+        if (edge.guess != Guess::none) {
             keep(edge.to);
         }
     }

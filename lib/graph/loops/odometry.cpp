@@ -27,7 +27,7 @@ Eigen::Matrix3d motion_information(const Pose &motion, const Node &to)
 GraphEdge odometry_edge(int k, const Node &before, const Node &here, const Pose &motion)
 {
     if (before.map_id != here.map_id) {
-        return {k - 1, k, motion, guess_information(), false, false, true};
+        return {k - 1, k, motion, guess_information(), false, false, here.guess};
     }
     return {k - 1, k, motion, motion_information(motion, here), false};
 }

@@ -9,16 +9,19 @@
 #include "graph/fields/free_space.h"
 #include "graph/fields/likelihood_field.h"
 #include "graph/loops/prior_views.h"
+#include "graph/optimise/constraints.h"
 #include "graph/optimise/node.h"
 
 namespace ale
 {
 
-// All that places are of: nodes, and the views of a saved map that the drive began in, or null where nothing
-// is to be looked for in that. A number below 0 is that of a view: -1 the first. They stay the caller's.
+// All that places are of: nodes, what ties them, and the views of a saved map that the drive began in, or
+// null where nothing is to be looked for in that. A number below 0 is that of a view: -1 the first. They stay
+// the caller's.
 struct SearchedMaps {
     const std::vector<Node> &nodes;
     const std::vector<Pose> &poses;
+    const std::vector<GraphEdge> &edges;
     const PriorViews *prior;
 
     int first() const

@@ -12,6 +12,10 @@
 namespace ale
 {
 
+// How the way between two maps is known: measured; by wheels alone; the robot is about where the prediction
+// has put it; it may be anywhere.
+enum class Guess { none, led, near, anywhere };
+
 // A relative measurement between two poses: odometry, scan match or loop.
 struct GraphEdge {
     int from;
@@ -20,7 +24,7 @@ struct GraphEdge {
     Eigen::Matrix3d information; // of the measurement
     bool robust;                 // may be wrong: weighted by the robust kernel
     bool recognised = false;     // not measured: the tracker already lies on what was seen then
-    bool guessed = false;        // between two maps: holds them somewhere, and says nothing
+    Guess guess = Guess::none;   // between two maps: holds them somewhere, and bends nothing
     bool joins = false;          // a loop between two maps that nothing tied before
 };
 

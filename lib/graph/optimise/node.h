@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "graph/optimise/constraints.h"
 #include "graph/optimise/se2.h"
 
 namespace ale
@@ -54,8 +55,9 @@ struct Node {
     Eigen::Vector2d sensor{0, 0}; // where it sits
     // Walls of the scans after this keyframe, turned into its frame: for the refinement after the drive.
     std::vector<WallDirection> later_walls{};
-    int later_scans = 0; // how many scans these come from
-    uint32_t map_id = 0; // that its pose is in: after all joins so far
+    int later_scans = 0;       // how many scans these come from
+    uint32_t map_id = 0;       // that its pose is in: after all joins so far
+    Guess guess = Guess::near; // of the way to the first node of that map, from the one before
 };
 
 } // namespace ale

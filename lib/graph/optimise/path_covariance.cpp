@@ -29,7 +29,7 @@ PathCovariance::PathCovariance(const PoseGraph &graph) : steps_(graph.poses().si
 {
     for (const GraphEdge &edge : graph.edges()) {
         const double weight = graph.weight(edge);
-        if (edge.guessed || weight < least_weight) {
+        if (edge.guess != Guess::none || weight < least_weight) {
             continue;
         }
         const Eigen::Matrix3d covariance = edge.information.inverse() / weight;

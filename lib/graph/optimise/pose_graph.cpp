@@ -77,7 +77,7 @@ GraphEdge composed(const GraphEdge &first, const GraphEdge &second, bool robust)
     const Eigen::Matrix3d covariance =
         jacobian * first.information.inverse() * jacobian.transpose() + second.information.inverse();
     return {first.from, second.to, compose(first.measured, second.measured), covariance.inverse(),
-            robust,     false,     first.guessed || second.guessed};
+            robust,     false,     std::max(first.guess, second.guess)};
 }
 
 } // namespace
@@ -210,7 +210,7 @@ void PoseGraph::remove_pose(int k, int max_robust)
         GraphEdge moved = edge.to == k ? composed(edge, after, true) : composed(before, edge, true);
         moved.recognised = edge.recognised;
         moved.joins = edge.joins;
-        if (edge.robust && !moved.guessed && has_room(moved, max_robust)) {
+        if (edge.robust && moved.guess == Guess::none && has_room(moved, max_robust)) {
             edges_.push_back(moved);
         }
     }
@@ -226,7 +226,7 @@ void PoseGraph::move_rigidly(const std::vector<bool> &moved, const Pose &shift)
         }
     }
     for (GraphEdge &edge : edges_) {
-        if (edge.guessed) {
+        if (edge.guess == Guess::near || edge.guess == Guess::anywhere) {
             edge.measured = between(poses_, edge.from, edge.to);
             edge.information = guess_information();
         }

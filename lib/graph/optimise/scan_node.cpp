@@ -74,6 +74,21 @@ Eigen::Vector2d neighbourhood_normal(const Echoes &echoes, size_t at, const Neig
     return towards_sensor(Eigen::Vector2d(-chord.y(), chord.x()).normalized(), echo[at].p);
 }
 
+Guess guess_of(ale_claim_t claim)
+{
+    switch (claim) {
+    case ALE_CLAIM_NONE:
+    case ALE_CLAIM_REACHED:
+        return Guess::anywhere;
+    case ALE_CLAIM_DRIVEN:
+        return Guess::led;
+    case ALE_CLAIM_NEAR:
+    case ALE_CLAIM_SAID:
+        break;
+    }
+    return Guess::near;
+}
+
 // Foot of the point on the line: free of the beam's own noise.
 Eigen::Vector2d on_line(const ale_line_t &line, const Eigen::Vector2d &p)
 {
@@ -144,6 +159,7 @@ Node node_of(const ale_keyframe_t &keyframe)
               {},
               {sensor.x, sensor.y}};
     node.map_id = keyframe.map_id;
+    node.guess = guess_of(keyframe.claim);
     node.walls = walls_of(keyframe.features, sensor);
     each_point(
         {keyframe.taken, keyframe.straightened ? keyframe.bearing_bam : nullptr, keyframe.features, sensor},

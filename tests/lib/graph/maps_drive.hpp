@@ -36,11 +36,13 @@ inline ale_pose_t undo(const ale_pose_t &shift)
     return ale::to_core(ale::inverse(ale::from_core(shift)));
 }
 
-// Keyframes first..last - 1 are of a new map, whose frame is off by this.
-inline void begin_map(const Keyframes &keyframes, size_t first, size_t last, uint32_t map_id, ale_pose_t off)
+// Keyframes first..last - 1 are of a new map, whose frame is off by this, and of which this is claimed.
+inline void begin_map(const Keyframes &keyframes, size_t first, size_t last, uint32_t map_id, ale_pose_t off,
+                      ale_claim_t claim = ALE_CLAIM_NEAR)
 {
     for (size_t k = first; k < std::min(last, keyframes.size()); k++) {
         keyframes[k]->map_id = map_id;
+        keyframes[k]->claim = claim;
         keyframes[k]->map = ale_pose_compose(off, keyframes[k]->map);
     }
     keyframes[first]->broken = true;

@@ -103,14 +103,21 @@ class FullGraph : public testing::Test
             nodes.push_back(node);
             poses.push_back({0.1 * k, 1, 0});
             if (k > 0) {
-                edges.push_back({k - 1, k, {}, information, false, false, k == guess_at});
+                const ale::Guess guess = k == guess_at ? ale::Guess::near : ale::Guess::none;
+                edges.push_back({k - 1, k, {}, information, false, false, guess});
             }
         }
     }
     void add_loop(int from, int to, ale_loop_kind_t kind)
     {
-        edges.push_back(
-            {from, to, {}, information, true, kind == ALE_LOOP_RECOGNISED, false, kind == ALE_LOOP_JOINS});
+        edges.push_back({from,
+                         to,
+                         {},
+                         information,
+                         true,
+                         kind == ALE_LOOP_RECOGNISED,
+                         ale::Guess::none,
+                         kind == ALE_LOOP_JOINS});
         loops.insert({7U * static_cast<uint32_t>(from), 7U * static_cast<uint32_t>(to), kind});
     }
     void select()
@@ -193,7 +200,7 @@ TEST_F(FullGraph, OfASmallGraphOnlyTheNumberOfLoopsIsBounded)
     nodes.resize(ALE_GRAPH_KEYFRAMES);
     poses.resize(ALE_GRAPH_KEYFRAMES);
     edges.resize(ALE_GRAPH_KEYFRAMES - 1);
-    edges[200].guessed = true;
+    edges[200].guess = ale::Guess::near;
     for (size_t k = 201; k < nodes.size(); k++) {
         nodes[k].map_id = 5;
     }

@@ -23,6 +23,12 @@ ale_pose_t nearby()
     return ale::to_core({1.5, -1, 0.4});
 }
 
+// They have told a wrong way.
+ale_pose_t far_off()
+{
+    return ale::to_core({12, -8, 1.5});
+}
+
 struct Outcome {
     uint32_t maps_driven = 0; // not joined while driving
     uint32_t joined_at = 0;   // keyframe
@@ -34,10 +40,10 @@ struct Outcome {
 // Drives with a tracker that begins a new map at keyframe `begun`, off by this, and does as corrections say;
 // refines. prior: the first map as it was saved, or null.
 Outcome drive(const Walls &walls, const Path &path, size_t begun, unsigned seed, ale_pose_t off = nearby(),
-              const ale_map_t *prior = nullptr)
+              const ale_map_t *prior = nullptr, ale_claim_t claim = ALE_CLAIM_NEAR)
 {
     Keyframes keyframes = keyframes_along(walls, path, seed);
-    begin_map(keyframes, begun, keyframes.size(), 1, off);
+    begin_map(keyframes, begun, keyframes.size(), 1, off, claim);
     const Mapper mapper(ale_mapper_create(ALE_MAPPER_KEYFRAMES));
     if (prior) {
         EXPECT_EQ(ale_mapper_set_prior_map(mapper.get(), 1, prior), 0);
@@ -113,6 +119,36 @@ TEST(Joins, OfTwoEqualRoomsNeitherIsTaken)
         EXPECT_EQ(outcome.maps_driven, 2U);
         EXPECT_EQ(outcome.maps, 2U);
     }
+}
+
+// Wheels that have told of the way deny the room that they have not led to.
+TEST(Joins, OfTwoEqualRoomsThatIsTakenWhichWheelsHaveLedTo)
+{
+    const Path path = joined_paths(through_both_rooms(), in_second_room());
+    const size_t begun = through_both_rooms().size();
+    const Outcome outcome = drive(two_rooms(0.4), path, begun, 1, nearby(), nullptr, ALE_CLAIM_DRIVEN);
+    EXPECT_EQ(outcome.maps_driven, 1U);
+    EXPECT_LT(outcome.error_m, 0.15);
+}
+
+TEST(Joins, AMapThatWheelsHaveLedToIsNotJoinedElsewhere)
+{
+    const Path path =
+        joined_paths(through_both_rooms(),
+                     path_through({{10.5, 4.2}, {10.5, 1}, {4, 1}, {2.5, 1}, {2.5, 3}, {2.5, 1}, {10.5, 1}}));
+    const size_t begun = through_both_rooms().size();
+    EXPECT_EQ(drive(two_rooms(0), path, begun, 1, far_off()).maps, 1U);
+    EXPECT_EQ(drive(two_rooms(0), path, begun, 1, far_off(), nullptr, ALE_CLAIM_DRIVEN).maps, 2U);
+}
+
+// Where nothing has told of the way, a few nodes near where the robot stood before are no more than
+// elsewhere.
+TEST(Joins, WhereNobodyWatchedTheRobotMayBeAnywhere)
+{
+    const Path known = through_both_rooms();
+    const Path path = joined_paths(known, path_through({{10.5, 4.2}, {10.5, 1}, {8, 1}}));
+    EXPECT_EQ(drive(two_rooms(0), path, known.size(), 1).maps, 1U);
+    EXPECT_EQ(drive(two_rooms(0), path, known.size(), 1, nearby(), nullptr, ALE_CLAIM_REACHED).maps, 2U);
 }
 
 // The corridor beyond the second room is not known; the first room explains it nearly as well.

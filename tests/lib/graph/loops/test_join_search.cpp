@@ -30,7 +30,7 @@ TEST(JoinSearch, AfterTheDriveTheSmallerMapIsSearchedInTheLarger)
     drive.add_map(0, 9);
     drive.add_map(1, 4);
     std::set<int> queries;
-    for (const ale::JoinTask &task : ale::tasks_after_drive({drive.nodes, drive.poses, nullptr})) {
+    for (const ale::JoinTask &task : ale::tasks_after_drive({drive.nodes, drive.poses, {}, nullptr})) {
         queries.insert(task.queries.begin(), task.queries.end());
         EXPECT_LT(task.place, 9) << "place " << task.place;
     }
@@ -42,7 +42,7 @@ TEST(JoinSearch, WhatNoDecisionCanJoinIsNotSearched)
     Drive drive;
     drive.add_map(0, 9);
     drive.add_map(1, static_cast<int>(ale::JoinDecision::least_nodes) - 1);
-    EXPECT_TRUE(ale::tasks_after_drive({drive.nodes, drive.poses, nullptr}).empty());
+    EXPECT_TRUE(ale::tasks_after_drive({drive.nodes, drive.poses, {}, nullptr}).empty());
 }
 
 } // namespace

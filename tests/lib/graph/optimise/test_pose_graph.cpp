@@ -97,7 +97,7 @@ ale::PoseGraph two_pieces()
     for (int k = 0; k < 7; k++) {
         const ale::Pose motion = ale::between(graph.poses(), k, k + 1);
         if (k == 3) {
-            graph.add_edge({k, k + 1, motion, ale::guess_information(), false, false, true});
+            graph.add_edge({k, k + 1, motion, ale::guess_information(), false, false, ale::Guess::near});
         } else {
             graph.add_edge({k, k + 1, {k < 3 ? 1 : 1.2, 0, 0}, unit_information, false});
         }
@@ -145,7 +145,7 @@ TEST(PoseGraph, ALoopIsNotMovedIntoAnotherPiece)
     ASSERT_EQ(graph.edges().size(), 6U);
     for (const ale::GraphEdge &edge : graph.edges()) {
         EXPECT_FALSE(edge.robust);
-        EXPECT_EQ(edge.guessed, edge.from == 2) << "what spans the guess is one";
+        EXPECT_EQ(edge.guess != ale::Guess::none, edge.from == 2) << "what spans the guess is one";
     }
 }
 
@@ -223,7 +223,7 @@ TEST(PoseGraph, ALoopStaysOfItsKindWhenThePoseThatItEndsAtGoes)
         for (int k = 0; k < 6; k++) {
             graph.add_edge({k, k + 1, {1, 0, 0}, unit_information, false});
         }
-        graph.add_edge({1, 4, {3, 0, 0}, unit_information, true, !joins, false, joins});
+        graph.add_edge({1, 4, {3, 0, 0}, unit_information, true, !joins, ale::Guess::none, joins});
         graph.remove_pose(4, 3);
         const ale::GraphEdge &loop = graph.edges().back();
         ASSERT_TRUE(loop.robust);

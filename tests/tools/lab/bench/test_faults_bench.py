@@ -382,6 +382,18 @@ def test_a_map_of_a_place_that_only_looks_alike_is_not_joined_where_the_way_woul
     assert int(rows["dark-8"][0]) >= 1 and rows["dark-8"][4] == "0"
 
 
+@pytest.mark.parametrize("run, seed, kind", [("maze-bent", 10, "dark-10"), ("maze-bent", 10, "dark"), ("maze", 12, "dark")])
+def test_where_nobody_watched_a_few_walls_alike_nearby_prove_no_place(run, seed, kind):
+    rows = rows_of(bench("--shared", str(shared("bench").parent), "--only", run, "--seeds", str(seed), "--kinds", kind))
+    assert int(rows[kind][0]) >= 1 and rows[kind][5] == "0", rows
+
+
+@pytest.mark.parametrize("seed, kind", [(9, "gap-10"), (10, "gap-12")])
+def test_wheels_that_have_told_of_the_way_tell_equal_rooms_apart(seed, kind):
+    rows = rows_of(bench("--only", "office", "--seeds", str(seed), "--kinds", kind))
+    assert rows[kind][0] == "1" and rows[kind][3] == "1" and rows[kind][5] == "0", rows
+
+
 def test_carried_into_a_room_like_another_the_robot_is_never_wrong_while_good():
     rows = rows_of(bench("--only", "alike", "--seeds", "1,2"))
     runs, _, _, _, wrong, silent, _, ends = rows["alike"]
