@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <Eigen/LU>
@@ -100,6 +101,8 @@ JoinDecision::JoinDecision(const SearchedMaps &maps, std::vector<Loop> matches, 
     matches_.erase(std::remove_if(matches_.begin(), matches_.end(), within_a_map), matches_.end());
     std::stable_sort(matches_.begin(), matches_.end(),
                      [](const Loop &a, const Loop &b) { return a.overlap > b.overlap; });
+    std::copy_if(maps.edges.begin(), maps.edges.end(), std::back_inserter(guesses_),
+                 [](const GraphEdge &edge) { return edge.guess != Guess::none; });
 }
 
 std::optional<FoundJoin> JoinDecision::find()
@@ -251,15 +254,15 @@ bool JoinDecision::is_far_enough(const Hypothesis &hypothesis, double least_m) c
     });
 }
 
-// By the nearest way along the path from the one map to the other. Guesses by wheels stay what these have
-// told: since then either map may have been moved.
+// The best guess where the path goes from the one map to the other; what wheels have told stays as it was
+// when either map has moved since.
 JoinDecision::Prediction JoinDecision::predicted(uint32_t map_id, uint32_t into_map_id) const
 {
     Prediction found{Guess::anywhere, {}};
-    for (const GraphEdge &edge : maps_.edges) {
+    for (const GraphEdge &edge : guesses_) {
         const bool forth = map_of(edge.from) == into_map_id && map_of(edge.to) == map_id;
         const bool back = map_of(edge.from) == map_id && map_of(edge.to) == into_map_id;
-        if (edge.guess != Guess::none && (forth || back) && edge.guess <= found.guess) {
+        if ((forth || back) && edge.guess <= found.guess) {
             const Pose there = compose(maps_.pose_of(edge.from), edge.measured);
             const Pose shift = compose(there, inverse(maps_.pose_of(edge.to)));
             found = {edge.guess, forth ? shift : inverse(shift)};

@@ -4,8 +4,8 @@
 // each node to the nearest that is matched. One is accepted if
 // - at least three nodes, a metre apart, lie on what the other map saw, held in every direction; twelve, over
 //   eight metres, if that is not where the prediction has put them, or nobody watched the robot on the way
-//   from the one to the other; none elsewhere where wheels have told of that way. Of a map that is a drive of its own, and smaller, twelve over most of it, if
-//   nearly all of it lies there;
+//   from the one to the other; none elsewhere where wheels have told of that way. Of a map that is a drive of
+//   its own, and smaller, twelve over most of it, if nearly all of it lies there;
 // - wherever the two overlap they agree: neither looks through what the other saw (a match that slides along
 //   what does not hold it says nothing of that direction);
 // - every rival is refuted: another place of any map that explains the same nodes must fail at three of them
@@ -109,6 +109,7 @@ class JoinDecision
     SearchedMaps maps_;
     std::vector<Loop> matches_;
     std::vector<int> queries_;
+    std::vector<GraphEdge> guesses_; // between two maps
     MapKind kind_;
     std::optional<Place> place_; // the last that was compared with
 };

@@ -12,8 +12,8 @@
 namespace ale
 {
 
-// How the way between two maps is known: measured; by wheels alone; the robot is about where the prediction
-// has put it; it may be anywhere.
+// How the way between two maps is known, the better first: measured, no guess; told by wheels while no scans
+// came; the robot is about where the prediction has put it; it may be anywhere.
 enum class Guess { none, led, near, anywhere };
 
 // A relative measurement between two poses: odometry, scan match or loop.
