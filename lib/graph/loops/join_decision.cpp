@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include "graph/loops/loop_match.h"
+#include "graph/loops/odometry.h"
 
 namespace ale
 {
@@ -18,16 +19,11 @@ namespace
 // Matches of one hypothesis agree this well where they are: both maps may have drifted between them.
 constexpr double alike_m = 0.30;
 constexpr double alike_rad = 0.08;
-// What a hypothesis must rest on: nodes, and how far apart two of them are at least. Ground that no map knows
-// may look like known one; what contradicts the wheels by more than they ever lose must be long.
-struct Support {
-    size_t nodes;
-    double apart_m;
-};
-constexpr Support as_predicted{JoinDecision::least_nodes, 1.0};
-constexpr Support elsewhere{JoinDecision::least_elsewhere, 8.0};
+// Ground that no map knows may look like known one; what contradicts the wheels by more than they ever lose
+// must be long.
 constexpr double predicted_m = 3.0;
 constexpr double predicted_rad = 0.8;
+constexpr double near_m = 10.0;
 // Of a drive that is smaller than that: the part of its extent, and of what can be compared.
 constexpr double least_extent = 0.6;
 constexpr double least_of_drive = 0.75;
@@ -93,6 +89,10 @@ Loop reversed(const Loop &loop)
 
 } // namespace
 
+const JoinDecision::Support JoinDecision::as_predicted{least_nodes, 1.0};
+const JoinDecision::Support JoinDecision::within_reach{4, 2.0};
+const JoinDecision::Support JoinDecision::elsewhere{least_elsewhere, 8.0};
+
 JoinDecision::JoinDecision(const SearchedMaps &maps, std::vector<Loop> matches, std::vector<int> queries,
                            MapKind kind)
     : maps_(maps), matches_(std::move(matches)), queries_(std::move(queries)), kind_(kind)
@@ -140,7 +140,7 @@ Pose JoinDecision::shift_of(const Loop &loop) const
 // matched says.
 Pose JoinDecision::shift_at(const Hypothesis &hypothesis, int node) const
 {
-    if (kind_ == MapKind::pieces || hypothesis.loops.empty()) {
+    if (kind_ != MapKind::drives || hypothesis.loops.empty()) {
         return hypothesis.shift;
     }
     const auto distance_to = [&](const Loop &loop) {
@@ -258,14 +258,14 @@ bool JoinDecision::is_far_enough(const Hypothesis &hypothesis, double least_m) c
 // when either map has moved since.
 JoinDecision::Prediction JoinDecision::predicted(uint32_t map_id, uint32_t into_map_id) const
 {
-    Prediction found{Guess::anywhere, {}};
+    Prediction found{Guess::anywhere, {}, 0, Pace::endless_m};
     for (const GraphEdge &edge : guesses_) {
         const bool forth = map_of(edge.from) == into_map_id && map_of(edge.to) == map_id;
         const bool back = map_of(edge.from) == map_id && map_of(edge.to) == into_map_id;
         if ((forth || back) && edge.guess <= found.guess) {
             const Pose there = compose(maps_.pose_of(edge.from), edge.measured);
             const Pose shift = compose(there, inverse(maps_.pose_of(edge.to)));
-            found = {edge.guess, forth ? shift : inverse(shift)};
+            found = {edge.guess, forth ? shift : inverse(shift), forth ? edge.to : edge.from, edge.reach_m};
         }
     }
     return found;
@@ -280,19 +280,33 @@ bool JoinDecision::is_as_predicted(const Hypothesis &hypothesis) const
                    predicted_rad);
 }
 
-// Whether wheels have told of the way from the one map to the other, and it leads to another place. That may
-// be on ground that no map holds, and then nothing that is known must be seen there.
+// Whether wheels have told of the way from the one map to the other, and it leads to another place, or nobody
+// can have got there in the time. The robot may be on ground that no map holds, and then nothing that is
+// known must be seen there.
 bool JoinDecision::is_denied(const Hypothesis &hypothesis) const
 {
-    return predicted(hypothesis.map_id, hypothesis.into_map_id).guess == Guess::led &&
-           !is_as_predicted(hypothesis);
+    const Prediction prediction = predicted(hypothesis.map_id, hypothesis.into_map_id);
+    if (prediction.guess != Guess::anywhere) {
+        return prediction.guess == Guess::led && !is_as_predicted(hypothesis);
+    }
+    const Pose &node = maps_.pose_of(prediction.node);
+    return distance(compose(hypothesis.shift, node), compose(prediction.shift, node)) > prediction.reach_m;
+}
+
+// Where all is known, and nobody can have got far, few nodes are enough.
+const JoinDecision::Support &JoinDecision::support_of(const Hypothesis &hypothesis) const
+{
+    const Prediction prediction = predicted(hypothesis.map_id, hypothesis.into_map_id);
+    if (kind_ == MapKind::drives || is_as_predicted(hypothesis)) {
+        return as_predicted;
+    }
+    return kind_ == MapKind::pieces && prediction.reach_m < near_m ? within_reach : elsewhere;
 }
 
 // Nodes enough, apart, and held in every direction. Of a drive some were searched for alone.
 bool JoinDecision::is_held(const Hypothesis &hypothesis) const
 {
-    const bool few = kind_ == MapKind::drives || is_as_predicted(hypothesis);
-    const Support &least = few ? as_predicted : elsewhere;
+    const Support &least = support_of(hypothesis);
     const auto holds = [](const Loop &loop) { return is_held_everywhere(loop.information); };
     return hypothesis.loops.size() >= least.nodes &&
            (kind_ == MapKind::drives || is_far_enough(hypothesis, least.apart_m)) &&
@@ -339,7 +353,7 @@ bool JoinDecision::is_sound(Hypothesis &hypothesis)
             return distance(maps_.pose_of(query), maps_.pose_of(loop.to)) < compared_m;
         });
     });
-    const bool few = kind_ == MapKind::pieces || is_as_predicted(hypothesis);
+    const bool few = kind_ != MapKind::drives || is_as_predicted(hypothesis);
     const Support &least = few ? as_predicted : elsewhere;
     return near.agreed >= least.nodes &&
            static_cast<double>(near.denied) <= most_denied * static_cast<double>(near.known);

@@ -4,14 +4,15 @@
 // each node to the nearest that is matched. One is accepted if
 // - at least three nodes, a metre apart, lie on what the other map saw, held in every direction; twelve, over
 //   eight metres, if that is not where the prediction has put them, or nobody watched the robot on the way
-//   from the one to the other; none elsewhere where wheels have told of that way. Of a map that is a drive of
-//   its own, and smaller, twelve over most of it, if nearly all of it lies there;
+//   from the one to the other; none elsewhere where wheels have told of that way. When all is known, four
+//   over two metres where nobody watched, if the robot can have got there in the time, and not far. Of a map
+//   that is a drive of its own, and smaller, twelve over most of it, if nearly all of it lies there;
 // - wherever the two overlap they agree: neither looks through what the other saw (a match that slides along
 //   what does not hold it says nothing of that direction);
 // - every rival is refuted: another place of any map that explains the same nodes must fail at three of them
 //   where this one does not. A place that cannot be compared is not refuted. Not a rival is what fits
 //   together: a place of a third map that lies at the same place of this one; nor what is not where the
-//   wheels have led to.
+//   wheels have led to, nor farther off than the robot can have got.
 #ifndef ALE_GRAPH_LOOPS_JOIN_DECISION_H
 #define ALE_GRAPH_LOOPS_JOIN_DECISION_H
 
@@ -26,8 +27,8 @@
 namespace ale
 {
 
-// What the maps are: pieces of one way, or drives, of which each is known as a whole.
-enum class MapKind { pieces, drives };
+// What the maps are: pieces of one way that goes on, pieces that are known as a whole, or drives that are.
+enum class MapKind { growing, pieces, drives };
 
 struct FoundJoin {
     MapJoin join;
@@ -72,7 +73,18 @@ class JoinDecision
     struct Prediction {
         Guess guess;
         Pose shift;
+        int node; // of the map, where the path goes from the one to the other
+        double reach_m;
     };
+
+    // What a hypothesis must rest on: nodes, and how far apart two of them are at least.
+    struct Support {
+        size_t nodes;
+        double apart_m;
+    };
+    static const Support as_predicted;
+    static const Support within_reach;
+    static const Support elsewhere;
 
     struct Tally {
         size_t known = 0;
@@ -88,6 +100,7 @@ class JoinDecision
     Prediction predicted(uint32_t map_id, uint32_t into_map_id) const;
     bool is_as_predicted(const Hypothesis &hypothesis) const;
     bool is_denied(const Hypothesis &hypothesis) const;
+    const Support &support_of(const Hypothesis &hypothesis) const;
     bool is_held(const Hypothesis &hypothesis) const;
     template <class Chosen> Tally tally(Hypothesis &hypothesis, Chosen is_chosen);
     bool holds_all_of_it(Hypothesis &hypothesis);

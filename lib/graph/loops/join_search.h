@@ -47,7 +47,7 @@ class JoinSearch
     bool step(const SearchedMaps &maps);
 
     // See JoinDecision::find.
-    std::optional<FoundJoin> decide(const SearchedMaps &maps, MapKind kind = MapKind::pieces) const;
+    std::optional<FoundJoin> decide(const SearchedMaps &maps, MapKind kind) const;
 
     // Node k is no more: what refers to it goes, later nodes move down by one. O(tasks + matches).
     void remove_node(int k);

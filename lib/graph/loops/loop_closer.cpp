@@ -5,7 +5,6 @@
 #include <iterator>
 #include <utility>
 
-#include "graph/loops/odometry.h"
 #include "graph/loops/submap.h"
 #include "graph/optimise/scan_node.h"
 #include "graph/optimise/thinning.h"
@@ -252,6 +251,7 @@ void LoopCloser::reset()
     prior_.reset();
     pending_.clear();
     neighbours_.clear();
+    pace_ = {};
     maps_.clear();
     joined_at_.reset();
     joiner_.reset();
@@ -283,7 +283,11 @@ void LoopCloser::link_to_previous(const Pose &motion)
         return;
     }
     graph_.add_pose(compose(graph_.poses().back(), motion));
-    graph_.add_edge(odometry_edge(k, at(nodes_, k - 1), nodes_.back(), motion));
+    const Node &before = at(nodes_, k - 1);
+    GraphEdge edge = odometry_edge(k, before, nodes_.back(), motion);
+    pace_.add(before, nodes_.back(), motion);
+    edge.reach_m = edge.guess == Guess::anywhere ? pace_.reach_m(before, nodes_.back()) : 0;
+    graph_.add_edge(edge);
 }
 
 // Matches a candidate. A displaced place is tied if others confirm it, else it waits; a recognised one is

@@ -25,6 +25,7 @@
 #include "graph/loops/map_joiner.h"
 #include "graph/loops/map_table.h"
 #include "graph/loops/neighbour_matches.h"
+#include "graph/loops/odometry.h"
 #include "graph/loops/pairwise_refinement.h"
 #include "graph/loops/prior_map.h"
 #include "graph/loops/visit_match.h"
@@ -180,6 +181,7 @@ class LoopCloser
     std::optional<PriorMap> prior_;
     std::deque<Loop> pending_; // wait for confirmation
     NeighbourMatches neighbours_;
+    Pace pace_;
     MapTable maps_;
     MapJoiner joiner_;
     std::optional<Visit> joined_at_; // of an older map: there the next node joins that

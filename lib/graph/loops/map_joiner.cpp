@@ -34,7 +34,7 @@ void MapJoiner::drive(const SearchedMaps &maps)
     }
     for (int k = 0; k < places_a_node; k++) {
         if (!search_->step(maps)) {
-            found_ = search_->decide(maps);
+            found_ = search_->decide(maps, MapKind::growing);
             search_.reset();
             return;
         }

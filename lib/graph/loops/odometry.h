@@ -12,6 +12,21 @@ namespace ale
 // Between two maps the motion is a guess. O(1).
 GraphEdge odometry_edge(int k, const Node &before, const Node &here, const Pose &motion);
 
+// How fast the robot has been seen to drive: so far it can have got while nobody watched.
+class Pace
+{
+  public:
+    // What it drove between two nodes of one map. O(1).
+    void add(const Node &before, const Node &here, const Pose &motion);
+    // How far apart these two nodes may be; endless_m where no speed or no time is known. O(1).
+    double reach_m(const Node &before, const Node &here) const;
+
+    static constexpr double endless_m = 1e6;
+
+  private:
+    double fastest_m_s_ = 0;
+};
+
 } // namespace ale
 
 #endif

@@ -26,6 +26,7 @@ struct GraphEdge {
     bool recognised = false;     // not measured: the tracker already lies on what was seen then
     Guess guess = Guess::none;   // between two maps: holds them somewhere, and bends nothing
     bool joins = false;          // a loop between two maps that nothing tied before
+    double reach_m = 0;          // of a guess of anywhere: it is no farther off
 };
 
 // The heading of a pose against the direction of the building, which all priors share.

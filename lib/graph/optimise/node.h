@@ -58,6 +58,7 @@ struct Node {
     int later_scans = 0;       // how many scans these come from
     uint32_t map_id = 0;       // that its pose is in: after all joins so far
     Guess guess = Guess::near; // of the way to the first node of that map, from the one before
+    int64_t stamp_us = 0;
 };
 
 } // namespace ale

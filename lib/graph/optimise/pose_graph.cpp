@@ -76,8 +76,15 @@ GraphEdge composed(const GraphEdge &first, const GraphEdge &second, bool robust)
     const Eigen::Matrix3d jacobian = displacement_jacobian(second.measured);
     const Eigen::Matrix3d covariance =
         jacobian * first.information.inverse() * jacobian.transpose() + second.information.inverse();
-    return {first.from, second.to, compose(first.measured, second.measured), covariance.inverse(),
-            robust,     false,     std::max(first.guess, second.guess)};
+    return {first.from,
+            second.to,
+            compose(first.measured, second.measured),
+            covariance.inverse(),
+            robust,
+            false,
+            std::max(first.guess, second.guess),
+            false,
+            std::max(first.reach_m, second.reach_m)};
 }
 
 } // namespace

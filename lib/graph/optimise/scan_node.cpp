@@ -160,6 +160,7 @@ Node node_of(const ale_keyframe_t &keyframe)
               {sensor.x, sensor.y}};
     node.map_id = keyframe.map_id;
     node.guess = guess_of(keyframe.claim);
+    node.stamp_us = keyframe.stamp_us;
     node.walls = walls_of(keyframe.features, sensor);
     each_point(
         {keyframe.taken, keyframe.straightened ? keyframe.bearing_bam : nullptr, keyframe.features, sensor},
