@@ -14,6 +14,15 @@
 
 enum { ALE_ATLAS_MAPS = 8, ALE_FIRST_MAP = 0, ALE_NO_MAP = -1 };
 
+/* What is claimed of where a robot is that begins a new map. */
+typedef enum {
+    ALE_CLAIM_NONE,    /* it may be anywhere */
+    ALE_CLAIM_REACHED, /* around there, so far as it can have got while nobody watched */
+    ALE_CLAIM_NEAR,    /* around where its pose says */
+    ALE_CLAIM_DRIVEN,  /* where its wheels have led it, and nowhere else */
+    ALE_CLAIM_SAID     /* there, as somebody says: one scan that fits is enough */
+} ale_claim_t;
+
 /* One map has become part of another. */
 typedef struct {
     uint32_t number;      /* of joins so far, from 1; 0: none yet */

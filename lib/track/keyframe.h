@@ -16,15 +16,6 @@
 
 enum { ALE_KEYFRAME_STEP_UM = 500000, ALE_KEYFRAME_TURN_MRAD = 500 };
 
-/* What is claimed of where a robot is that begins a new map. */
-typedef enum {
-    ALE_CLAIM_NONE,    /* it may be anywhere */
-    ALE_CLAIM_REACHED, /* around there, so far as it can have got while nobody watched */
-    ALE_CLAIM_NEAR,    /* around where its pose says */
-    ALE_CLAIM_DRIVEN,  /* where its wheels have led it, and nowhere else */
-    ALE_CLAIM_SAID     /* there, as somebody says: one scan that fits is enough */
-} ale_claim_t;
-
 struct ale_keyframe {
     uint32_t epoch;       /* grows when the map is begun anew: what was mapped before is then void */
     uint32_t loaded;      /* the number of that map, see ale_pipeline_load_map; 0: begun by this drive */

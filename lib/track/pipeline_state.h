@@ -37,7 +37,6 @@
 #include "track/evidence/way_back.h"
 #include "track/evidence/witness.h"
 #include "track/evidence/zero_motion.h"
-#include "track/keyframe.h"
 #include "track/pipeline_config.h"
 #include "track/tracking_monitor.h"
 

@@ -107,7 +107,8 @@ static int64_t laid_um(const ale_pipeline_t *p, ale_pose_t there)
 /* By how much more lies there than must; 0 or less: not enough, or not where wheels have led. */
 static int64_t surplus_um(const ale_pipeline_t *p, ale_pose_t there)
 {
-    const bool told = p->claim != ALE_CLAIM_NONE && p->claim != ALE_CLAIM_REACHED;
+    /* in a loaded map a drive may begin where the one before has begun */
+    const bool told = p->loaded != 0 || (p->claim != ALE_CLAIM_NONE && p->claim != ALE_CLAIM_REACHED);
     const bool expected = told && ale_are_near(p->motion.pose, there, EXPECTED_UM, EXPECTED_BAM);
     if (p->claim == ALE_CLAIM_DRIVEN && !expected) {
         return 0;
