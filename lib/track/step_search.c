@@ -68,10 +68,10 @@ static int64_t held_um(const ale_local_map_t *map, uint8_t number)
  * this drive has not seen may look like what it has, and the more the longer it goes on. */
 static int64_t least_um(const ale_pipeline_t *p, bool expected)
 {
-    const int64_t there_um = held_um(&p->map, p->map.selected);
     if (expected) {
         return EXPECTED_LEAST_UM;
     }
+    const int64_t there_um = held_um(&p->map, p->map.selected);
     if (p->loaded != 0) {
         return ale_clamp64(there_um / 2, LAID_SMALL_UM, LAID_LOADED_UM);
     }

@@ -19,11 +19,18 @@ namespace
 // Matches of one hypothesis agree this well where they are: both maps may have drifted between them.
 constexpr double alike_m = 0.30;
 constexpr double alike_rad = 0.08;
-// Ground that no map knows may look like known one; what contradicts the wheels by more than they ever lose
-// must be long.
+// What a hypothesis must rest on: nodes, and how far apart two of them are at least. Ground that no map knows
+// may look like known one; what contradicts the wheels by more than they ever lose must be long.
+struct Support {
+    size_t nodes;
+    double apart_m;
+};
+constexpr Support as_predicted{JoinDecision::least_nodes, 1.0};
+constexpr Support within_reach{JoinDecision::least_nodes + 1, 2.0};
+constexpr Support elsewhere{JoinDecision::least_elsewhere, 8.0};
 constexpr double predicted_m = 3.0;
 constexpr double predicted_rad = 0.8;
-constexpr double near_m = 10.0;
+constexpr double reach_most_m = 10.0; // farther off it may be anywhere
 // Of a drive that is smaller than that: the part of its extent, and of what can be compared.
 constexpr double least_extent = 0.6;
 constexpr double least_of_drive = 0.75;
@@ -88,10 +95,6 @@ Loop reversed(const Loop &loop)
 }
 
 } // namespace
-
-const JoinDecision::Support JoinDecision::as_predicted{least_nodes, 1.0};
-const JoinDecision::Support JoinDecision::within_reach{4, 2.0};
-const JoinDecision::Support JoinDecision::elsewhere{least_elsewhere, 8.0};
 
 JoinDecision::JoinDecision(const SearchedMaps &maps, std::vector<Loop> matches, std::vector<int> queries,
                            MapKind kind)
@@ -160,7 +163,12 @@ bool JoinDecision::puts_alike(const Hypothesis &hypothesis, const Pose &shift, i
 // Takes the matches that agree with the seed out of those left, from node to node.
 JoinDecision::Hypothesis JoinDecision::hypothesis_of(const Loop &seed, std::vector<Loop> *left) const
 {
-    Hypothesis hypothesis{map_of(seed.to), map_of(seed.from), shift_of(seed), {}, 0};
+    Hypothesis hypothesis{map_of(seed.to),
+                          map_of(seed.from),
+                          shift_of(seed),
+                          {},
+                          0,
+                          predicted(map_of(seed.to), map_of(seed.from))};
     const auto agrees = [&](const Loop &loop) {
         return map_of(loop.to) == hypothesis.map_id && map_of(loop.from) == hypothesis.into_map_id &&
                puts_alike(hypothesis, shift_of(loop), loop.to);
@@ -274,7 +282,7 @@ JoinDecision::Prediction JoinDecision::predicted(uint32_t map_id, uint32_t into_
 bool JoinDecision::is_as_predicted(const Hypothesis &hypothesis) const
 {
     const Pose &first = maps_.pose_of(hypothesis.loops.front().to);
-    const Prediction prediction = predicted(hypothesis.map_id, hypothesis.into_map_id);
+    const Prediction &prediction = hypothesis.prediction;
     return prediction.guess != Guess::anywhere &&
            is_near(compose(hypothesis.shift, first), compose(prediction.shift, first), predicted_m,
                    predicted_rad);
@@ -285,7 +293,7 @@ bool JoinDecision::is_as_predicted(const Hypothesis &hypothesis) const
 // known must be seen there.
 bool JoinDecision::is_denied(const Hypothesis &hypothesis) const
 {
-    const Prediction prediction = predicted(hypothesis.map_id, hypothesis.into_map_id);
+    const Prediction &prediction = hypothesis.prediction;
     if (prediction.guess != Guess::anywhere) {
         return prediction.guess == Guess::led && !is_as_predicted(hypothesis);
     }
@@ -293,20 +301,20 @@ bool JoinDecision::is_denied(const Hypothesis &hypothesis) const
     return distance(compose(hypothesis.shift, node), compose(prediction.shift, node)) > prediction.reach_m;
 }
 
-// Where all is known, and nobody can have got far, few nodes are enough.
-const JoinDecision::Support &JoinDecision::support_of(const Hypothesis &hypothesis) const
+// Whether all is known, and the robot, which nobody watched, cannot have got far.
+bool JoinDecision::is_within_reach(const Hypothesis &hypothesis) const
 {
-    const Prediction prediction = predicted(hypothesis.map_id, hypothesis.into_map_id);
-    if (kind_ == MapKind::drives || is_as_predicted(hypothesis)) {
-        return as_predicted;
-    }
-    return kind_ == MapKind::pieces && prediction.reach_m < near_m ? within_reach : elsewhere;
+    const Prediction &prediction = hypothesis.prediction;
+    return kind_ == MapKind::pieces && prediction.guess == Guess::anywhere &&
+           prediction.reach_m < reach_most_m;
 }
 
 // Nodes enough, apart, and held in every direction. Of a drive some were searched for alone.
 bool JoinDecision::is_held(const Hypothesis &hypothesis) const
 {
-    const Support &least = support_of(hypothesis);
+    const bool few = kind_ == MapKind::drives || is_as_predicted(hypothesis);
+    const Support &farther = is_within_reach(hypothesis) ? within_reach : elsewhere;
+    const Support &least = few ? as_predicted : farther;
     const auto holds = [](const Loop &loop) { return is_held_everywhere(loop.information); };
     return hypothesis.loops.size() >= least.nodes &&
            (kind_ == MapKind::drives || is_far_enough(hypothesis, least.apart_m)) &&

@@ -53,6 +53,13 @@ class JoinDecision
     std::optional<FoundJoin> find();
 
   private:
+    // How one map must move to lie in the other where the prediction has put it, and how that is known.
+    struct Prediction {
+        Guess guess;
+        Pose shift;
+        int node; // of the map, where the path goes from the one to the other
+        double reach_m;
+    };
     // What a hypothesis makes of one node.
     struct Account {
         bool known;    // the place could show enough of the view
@@ -63,28 +70,12 @@ class JoinDecision
     struct Hypothesis {
         uint32_t map_id;
         uint32_t into_map_id;
-        Pose shift;                        // of the first, into the frame of the second, at the best match
-        std::vector<Loop> loops;           // the best of each node
-        double strength;                   // sum of overlaps
+        Pose shift;              // of the first, into the frame of the second, at the best match
+        std::vector<Loop> loops; // the best of each node
+        double strength;         // sum of overlaps
+        Prediction prediction;
         std::map<int, Account> accounts{}; // by node
     };
-
-    // How one map must move to lie in the other where the prediction has put it, and how that is known.
-    struct Prediction {
-        Guess guess;
-        Pose shift;
-        int node; // of the map, where the path goes from the one to the other
-        double reach_m;
-    };
-
-    // What a hypothesis must rest on: nodes, and how far apart two of them are at least.
-    struct Support {
-        size_t nodes;
-        double apart_m;
-    };
-    static const Support as_predicted;
-    static const Support within_reach;
-    static const Support elsewhere;
 
     struct Tally {
         size_t known = 0;
@@ -100,7 +91,7 @@ class JoinDecision
     Prediction predicted(uint32_t map_id, uint32_t into_map_id) const;
     bool is_as_predicted(const Hypothesis &hypothesis) const;
     bool is_denied(const Hypothesis &hypothesis) const;
-    const Support &support_of(const Hypothesis &hypothesis) const;
+    bool is_within_reach(const Hypothesis &hypothesis) const;
     bool is_held(const Hypothesis &hypothesis) const;
     template <class Chosen> Tally tally(Hypothesis &hypothesis, Chosen is_chosen);
     bool holds_all_of_it(Hypothesis &hypothesis);

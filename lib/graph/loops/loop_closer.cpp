@@ -82,6 +82,8 @@ void LoopCloser::append(Node node, const Pose &motion)
 {
     refined_ = false;
     kind_ = MapKind::drives;
+    node.guess = Guess::anywhere; // where a drive begins, and by which clock, is its own
+    node.stamp_us = 0;
     nodes_.push_back(std::move(node));
     link_to_previous(motion);
     joiner_.restart();

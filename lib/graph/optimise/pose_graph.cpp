@@ -233,6 +233,7 @@ void PoseGraph::move_rigidly(const std::vector<bool> &moved, const Pose &shift)
         }
     }
     for (GraphEdge &edge : edges_) {
+        // What wheels have told of the way stays.
         if (edge.guess == Guess::near || edge.guess == Guess::anywhere) {
             edge.measured = between(poses_, edge.from, edge.to);
             edge.information = guess_information();

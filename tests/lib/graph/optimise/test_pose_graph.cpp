@@ -88,7 +88,7 @@ TEST(PoseGraph, PriorsCostTheirSquaredResiduals)
 }
 
 // Two pieces with a guess between them; the edges of the second say that it is longer than its poses.
-ale::PoseGraph two_pieces()
+ale::PoseGraph two_pieces(ale::Guess guess = ale::Guess::near)
 {
     ale::PoseGraph graph;
     for (int k = 0; k < 8; k++) {
@@ -97,7 +97,7 @@ ale::PoseGraph two_pieces()
     for (int k = 0; k < 7; k++) {
         const ale::Pose motion = ale::between(graph.poses(), k, k + 1);
         if (k == 3) {
-            graph.add_edge({k, k + 1, motion, ale::guess_information(), false, false, ale::Guess::near});
+            graph.add_edge({k, k + 1, motion, ale::guess_information(), false, false, guess});
         } else {
             graph.add_edge({k, k + 1, {k < 3 ? 1 : 1.2, 0, 0}, unit_information, false});
         }
@@ -134,6 +134,15 @@ TEST(PoseGraph, APieceMovesAsOne)
     EXPECT_NEAR(graph.poses()[4].y, 1, 1e-9);
     EXPECT_NEAR(graph.poses()[3].x, 3, 1e-9);
     EXPECT_NEAR(graph.residual2(graph.edges()[3]), 0, 1e-9) << "the guess says what holds now";
+}
+
+TEST(PoseGraph, WhatWheelsHaveToldOfTheWayStaysWhenAPieceMoves)
+{
+    ale::PoseGraph graph = two_pieces(ale::Guess::led);
+    const ale::Pose told = graph.edges()[3].measured;
+    graph.move_rigidly({false, false, false, false, true, true, true, true}, {-30, 1, 0});
+    EXPECT_NEAR(graph.edges()[3].measured.x, told.x, 1e-9);
+    EXPECT_NEAR(graph.edges()[3].measured.y, told.y, 1e-9);
 }
 
 TEST(PoseGraph, ALoopIsNotMovedIntoAnotherPiece)
