@@ -1,5 +1,6 @@
 /* What wheels do wrong: their displacements held against those that scans have found, over the last second or
- * two. Says it; the pose does not rest on it. Pure functions, constant time. */
+ * two. While it lasts the robot is predicted by constant velocity, and wheels are the rival. Pure functions,
+ * constant time. */
 #ifndef ALE_MOTION_WHEEL_MONITOR_H
 #define ALE_MOTION_WHEEL_MONITOR_H
 

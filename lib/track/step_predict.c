@@ -64,12 +64,14 @@ static int64_t instant_of(ale_pipeline_t *p, int64_t stamp_us)
     return instant_us <= last_us && instant_us > last_us - SCAN_SET_BACK_US ? last_us + 1 : instant_us;
 }
 
-/* The wheels and constant velocity; as long as the wheels slip, constant velocity is selected. */
+/* The wheels and constant velocity; as long as the wheels slip, or contradict the scans, constant velocity is
+ * selected. */
 static ale_ways_t hypotheses(const ale_pipeline_t *p, const ale_motion_t *by_wheels)
 {
     ale_motion_t constant_velocity = p->motion;
     ale_pipeline_predict_motion(p, &constant_velocity, by_wheels->stamp_us, NULL);
-    return ale_ways_of(by_wheels, &constant_velocity, p->slips && p->monitor.state != ALE_STATE_LOST);
+    const bool lie = p->slips || p->wheel_monitor.fault != ALE_WHEELS_FINE;
+    return ale_ways_of(by_wheels, &constant_velocity, lie && p->monitor.state != ALE_STATE_LOST);
 }
 
 ale_prediction_t ale_step_predict(ale_pipeline_t *p, int64_t stamp_us)

@@ -39,12 +39,14 @@ bool ale_recover_may_be_anywhere(const ale_pipeline_t *p, const ale_prediction_t
 }
 
 /* Whether wheels that may have told of a way have told of none but at the ends of the time unwatched: what
- * they count until the last scan before it and from the first one after it is no way through it. */
+ * they count until the last scan before it, and from the first one after it, which may have been waited from,
+ * is no way through it. Of a log that holds but some of the scans they tell nothing in between. */
 static bool has_stood(const ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
     const int64_t end_us = p->timestamp_filter.usual_us;
+    const int64_t back_us = p->waited > 0 ? p->back_us : prediction->ways.believed.stamp_us;
     const int64_t from_us = p->watched_us + end_us - p->lag.lag_us;
-    const int64_t to_us = prediction->ways.believed.stamp_us - end_us - p->lag.lag_us;
+    const int64_t to_us = back_us - end_us - p->lag.lag_us;
     const ale_pose_t nowhere = {0};
     ale_pose_t between;
     int32_t beyond_us;
@@ -57,8 +59,9 @@ bool ale_recover_has_driven(const ale_pipeline_t *p, const ale_prediction_t *pre
     const ale_pose_t before = ale_witness_seen(&p->witness).robot;
     const ale_pose_t now =
         ale_pipeline_smooth_pose(p, prediction->before.pose, prediction->ways.believed.pose);
+    const bool stood = ale_timestamp_filter_is_dense(&p->timestamp_filter) && has_stood(p, prediction);
     return ale_recover_is_unwatched(p, prediction) && prediction->ways.counted &&
-           !ale_are_near(before, now, SAME_UM, SAME_BAM) && !has_stood(p, prediction);
+           !ale_are_near(before, now, SAME_UM, SAME_BAM) && !stood;
 }
 
 bool ale_recover_is_unwatched(const ale_pipeline_t *p, const ale_prediction_t *prediction)
@@ -112,9 +115,14 @@ static ale_motion_t start_at(const ale_motion_t *predicted, ale_pose_t pose)
     return start;
 }
 
+bool ale_recover_is_same(const ale_motion_t *a, const ale_motion_t *b)
+{
+    return ale_are_near(a->pose, b->pose, SAME_UM, SAME_BAM);
+}
+
 static bool is_same(const ale_fit_t *a, const ale_fit_t *b)
 {
-    return ale_are_near(a->motion.pose, b->motion.pose, SAME_UM, SAME_BAM);
+    return ale_recover_is_same(&a->motion, &b->motion);
 }
 
 /* Least squares may have left the region. */
@@ -213,11 +221,10 @@ static void take(ale_pipeline_t *p, const candidate_t *best, ale_ways_t *ways, a
     ale_register_weigh(&scene, fit);
 }
 
-/* What the last scan says of a pose, half for the surfaces of either scan. */
-static int64_t heard_um(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t pose)
+/* What the last scan says for a pose, half for the surfaces of either scan. */
+static int64_t heard_um(const ale_testimony_t *heard)
 {
-    const ale_testimony_t heard = ale_step_testimony(p, before, pose);
-    return (heard.confirmed_um - heard.denied_um) / 2;
+    return (heard->confirmed_um - heard->denied_um) / 2;
 }
 
 /* How much surface the last scan weighs against a pose: what it has seen of this one if that was taken from
@@ -225,15 +232,15 @@ static int64_t heard_um(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t p
  * without it a place like this one, but mapped, would explain more. It weighs nothing for a pose: of one
  * nearer to where it was taken it has always seen more. Nor against one so near that the robot may have
  * drifted from it since long before: then the last scan has drifted, too. */
-static int64_t missed_um(const ale_pipeline_t *p, ale_pose_t before, const candidate_t *best,
+static int64_t missed_um(ale_pipeline_t *p, ale_pose_t before, const candidate_t *best,
                          const candidate_t *given)
 {
     if (ale_are_near(best->fit->motion.pose, given->fit->motion.pose, DRIFT_UM, SAME_BAM)) {
         return 0;
     }
-    const int64_t more_um =
-        heard_um(p, before, given->fit->motion.pose) - heard_um(p, before, best->fit->motion.pose);
-    return ale_max64(more_um, 0);
+    p->best_heard = ale_step_testimony(p, before, best->fit->motion.pose);
+    const ale_testimony_t there = ale_step_testimony(p, before, given->fit->motion.pose);
+    return ale_max64(heard_um(&there) - heard_um(&p->best_heard), 0);
 }
 
 /* How much surface wheels, or velocity, weigh against a pose: the square of the deviation in sigmas, with a
@@ -306,6 +313,7 @@ ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *predi
     const candidate_t given = {fit, evidence_um(p, fit)};
     candidate_t best = {&p->best, given.evidence_um};
     p->best = *fit;
+    p->best_heard.shown_um = 0;
     p->searched = true;
     const int64_t rival_um = compare_region(p, &ways->believed, &region, &p->proposed, &best);
     if (best.evidence_um <= rival_um + MARGIN_UM) {

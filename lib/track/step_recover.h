@@ -19,6 +19,9 @@ bool ale_recover_may_be_anywhere(const ale_pipeline_t *p, const ale_prediction_t
  * robot. */
 bool ale_recover_has_driven(const ale_pipeline_t *p, const ale_prediction_t *prediction);
 
+/* Whether two poses are one: least squares joins them. */
+bool ale_recover_is_same(const ale_motion_t *a, const ale_motion_t *b);
+
 /* Whether one pose within the reach of the vote explains the scan by the selected map clearly better than any
  * other: it is p->best then, solved. */
 bool ale_recover_in_region(ale_pipeline_t *p, ale_pose_t centre);

@@ -99,6 +99,12 @@ bool ale_tracking_denies(const ale_testimony_t *testimony)
     return denies(testimony, UNWATCHED_PERCENT);
 }
 
+bool ale_tracking_witnesses(const ale_testimony_t *testimony)
+{
+    return testimony->shown_um > SHOWN_LEAST_UM &&
+           testimony->confirmed_um * 100 >= testimony->shown_um * CLOSE_PERCENT;
+}
+
 void ale_tracking_notice(ale_tracking_monitor_t *monitor, const ale_testimony_t *testimony, bool counted,
                          bool mapped)
 {

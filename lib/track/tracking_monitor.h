@@ -37,6 +37,9 @@ bool ale_tracking_is_strange(const ale_tracking_monitor_t *monitor, const ale_fi
 /* Whether two scans, of whose way from the one to the other nothing was seen, contradict each other. */
 bool ale_tracking_denies(const ale_testimony_t *testimony);
 
+/* Whether two scans, of whose way from the one to the other nothing was seen, confirm much of each other. */
+bool ale_tracking_witnesses(const ale_testimony_t *testimony);
+
 /* Decides whether the last scan contradicts this one, before it goes into the map. testimony: what the last
  * scan says of it, NULL where it was not asked. counted: wheels measured the motion between the two. mapped:
  * the map holds walls. */

@@ -278,6 +278,17 @@ TEST(TrackingMonitor, TwoScansOfARobotThatStoodMustNotDenyAMetreAndATwentiethOfW
     EXPECT_TRUE(ale_tracking_denies(&elsewhere));
 }
 
+TEST(TrackingMonitor, AfterATimeUnwatchedTheLastScanMustConfirmNearlyHalfOfWhatBothShow)
+{
+    const ale_testimony_t seen = {30000000, 14000000, 0, false};
+    const ale_testimony_t in_part = {30000000, 13000000, 0, false};
+    const ale_testimony_t little = {1500000, 1500000, 0, true};
+    EXPECT_TRUE(ale_tracking_witnesses(&seen));
+    EXPECT_FALSE(ale_tracking_witnesses(&in_part));
+    EXPECT_FALSE(ale_tracking_witnesses(&little))
+        << "two scans that show less than two metres cannot be compared";
+}
+
 TEST(TrackingMonitor,
      WhatIsNotWhereAPoseOfLittleCertaintyPutsItIsNoNewPlaceButLostUnlessWheelsToldOrNothingIsMapped)
 {

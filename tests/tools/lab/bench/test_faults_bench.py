@@ -376,6 +376,16 @@ def test_in_darkness_driven_on_unseen_by_dead_wheels_the_robot_is_never_wrong_wh
         assert rows["dark-4"][0] == "1" and rows["dark-4"][4] == "0"
 
 
+def test_where_nobody_watched_a_place_that_looks_alike_is_not_taken_unless_the_last_scan_confirms_it():
+    rows = rows_of(bench("--only", "arena", "--seeds", "14", "--kinds", "dark-4"))
+    assert rows["dark-4"][0] == "1" and rows["dark-4"][5] == "0", rows
+
+
+def test_wheels_that_tell_of_long_ago_and_now_and_then_rightly_do_not_lead_the_robot_astray():
+    rows = rows_of(bench("--shared", str(shared("bench").parent), "--only", "maze-real", "--seeds", "22", "--kinds", "stale"))
+    assert rows["stale"][0] == "1" and rows["stale"][5] == "0", rows
+
+
 def test_a_map_of_a_place_that_only_looks_alike_is_not_joined_where_the_way_would_have_led_through_walls():
     done = bench("--shared", str(shared("bench").parent), "--only", "maze", "--seeds", "6", "--kinds", "dark-8")
     rows = rows_of(done)
