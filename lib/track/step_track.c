@@ -68,11 +68,13 @@ static bool explains(ale_recovery_t recovery, const ale_fit_t *fit)
 }
 
 /* Whether the next scan is waited for: wheels may be told of late after a gap, a pose that is proposed needs
- * to be confirmed, and of several poses that explain the scan one may turn out to be right. */
+ * to be confirmed, and of several poses that explain the scan one may turn out to be right. Where wheels have
+ * told of a way, it may be none, and of a log that holds but some of the scans the next is far away. */
 static bool may_wait(const ale_pipeline_t *p, ale_recovery_t recovery, bool counted)
 {
-    const bool undecided = recovery == ALE_RECOVER_OPEN || recovery == ALE_RECOVER_UNDECIDED;
-    return p->waited < WAITS_MOST && (undecided || counted);
+    const bool several = recovery == ALE_RECOVER_OPEN;
+    const bool cheap = !p->driven || ale_timestamp_filter_is_dense(&p->timestamp_filter);
+    return p->waited < WAITS_MOST && (several ? cheap : counted || recovery == ALE_RECOVER_UNDECIDED);
 }
 
 /* Whether this scan speaks against the pose after a time that nobody watched: the map has changed, several
