@@ -187,7 +187,9 @@ static void observe(ale_pipeline_t *p, const ale_scan_t *scan, const int32_t vel
     ale_filter_begin(p);
     p->searched = false;
     p->waited = p->waits;
-    p->back_us = p->waited > 1 ? p->back_us : p->motion.stamp_us;
+    if (p->waited == 1) {
+        p->back_us = p->motion.stamp_us;
+    }
     p->waits = 0;
     p->proposed = p->proposal;
     p->proposal.advantage_um = 0;

@@ -92,9 +92,8 @@ struct ale_pipeline {
     ale_scan_match_t scan_match;
     ale_fit_t other; /* of the same scan, from another pose */
     ale_pose_vote_t vote;
-    bool searched;              /* the scan at hand, elsewhere than it was tracked: once a scan */
-    ale_fit_t best;             /* of the places of the vote */
-    ale_testimony_t best_heard; /* what the last scan says of it, where it was asked */
+    bool searched;  /* the scan at hand, elsewhere than it was tracked: once a scan */
+    ale_fit_t best; /* of the places of the vote */
     ale_proposal_t proposal;
     ale_proposal_t proposed; /* by the scan before, where the prediction has led it */
 
@@ -102,7 +101,7 @@ struct ale_pipeline {
     ale_tracking_monitor_t monitor;
     uint8_t waits; /* scans in a row, to this one, that wait for the next one to tell where they were taken */
     uint8_t waited;       /* to the one before */
-    int64_t back_us;      /* the first of those: when the time unwatched ended */
+    int64_t back_us;      /* the stamp of the first of those: the time unwatched ended there */
     bool denied_to_stand; /* by one of those, or this one */
     bool driven;          /* wheels have told of a way through the time unwatched before this scan */
     uint32_t

@@ -50,7 +50,8 @@ static bool has_stood(const ale_pipeline_t *p, const ale_prediction_t *predictio
     const ale_pose_t nowhere = {0};
     ale_pose_t between;
     int32_t beyond_us;
-    return from_us < to_us && ale_wheels_motion(&p->wheels, from_us, to_us, &between, &beyond_us) &&
+    return ale_timestamp_filter_is_dense(&p->timestamp_filter) && from_us < to_us &&
+           ale_wheels_motion(&p->wheels, from_us, to_us, &between, &beyond_us) &&
            ale_are_near(nowhere, between, SAME_UM, SAME_BAM);
 }
 
@@ -59,9 +60,8 @@ bool ale_recover_has_driven(const ale_pipeline_t *p, const ale_prediction_t *pre
     const ale_pose_t before = ale_witness_seen(&p->witness).robot;
     const ale_pose_t now =
         ale_pipeline_smooth_pose(p, prediction->before.pose, prediction->ways.believed.pose);
-    const bool stood = ale_timestamp_filter_is_dense(&p->timestamp_filter) && has_stood(p, prediction);
     return ale_recover_is_unwatched(p, prediction) && prediction->ways.counted &&
-           !ale_are_near(before, now, SAME_UM, SAME_BAM) && !stood;
+           !ale_are_near(before, now, SAME_UM, SAME_BAM) && !has_stood(p, prediction);
 }
 
 bool ale_recover_is_unwatched(const ale_pipeline_t *p, const ale_prediction_t *prediction)
@@ -97,6 +97,8 @@ static ale_vote_region_t region_of(const ale_pipeline_t *p, const ale_prediction
 typedef struct {
     ale_fit_t *fit;
     int64_t evidence_um;
+    bool heard; /* the last scan has been asked */
+    ale_testimony_t testimony;
 } candidate_t;
 
 static int64_t evidence_um(ale_pipeline_t *p, const ale_fit_t *fit)
@@ -115,14 +117,9 @@ static ale_motion_t start_at(const ale_motion_t *predicted, ale_pose_t pose)
     return start;
 }
 
-bool ale_recover_is_same(const ale_motion_t *a, const ale_motion_t *b)
-{
-    return ale_are_near(a->pose, b->pose, SAME_UM, SAME_BAM);
-}
-
 static bool is_same(const ale_fit_t *a, const ale_fit_t *b)
 {
-    return ale_recover_is_same(&a->motion, &b->motion);
+    return ale_are_near(a->motion.pose, b->motion.pose, SAME_UM, SAME_BAM);
 }
 
 /* Least squares may have left the region. */
@@ -157,7 +154,7 @@ static int64_t compare_from(ale_pipeline_t *p, const ale_motion_t *predicted, al
     ale_register_associate(&scene, &p->other);
     int64_t explained_um = rival_um;
     if (is_in_region(region, p->other.motion.pose)) {
-        const candidate_t candidate = {&p->other, evidence_um(p, &p->other)};
+        const candidate_t candidate = {.fit = &p->other, .evidence_um = evidence_um(p, &p->other)};
         explained_um = compare(best, &candidate, rival_um);
     }
     return explained_um;
@@ -199,7 +196,7 @@ static int64_t compare_region(ale_pipeline_t *p, const ale_motion_t *predicted,
 bool ale_recover_in_region(ale_pipeline_t *p, ale_pose_t centre)
 {
     const ale_vote_region_t region = {centre, ALE_VOTE_REACH_UM, ANY_HEADING_URAD};
-    candidate_t best = {&p->best, INT64_MIN / 2};
+    candidate_t best = {.fit = &p->best, .evidence_um = INT64_MIN / 2};
     const ale_scene_t scene = ale_observed_scene(p);
     ale_register_reject(&p->motion, &scene, &p->best);
     const ale_proposal_t none = {.advantage_um = 0};
@@ -221,9 +218,20 @@ static void take(ale_pipeline_t *p, const candidate_t *best, ale_ways_t *ways, a
     ale_register_weigh(&scene, fit);
 }
 
-/* What the last scan says for a pose, half for the surfaces of either scan. */
-static int64_t heard_um(const ale_testimony_t *heard)
+/* What the last scan says of a pose: asked once. */
+static const ale_testimony_t *hear(const ale_pipeline_t *p, ale_pose_t before, candidate_t *candidate)
 {
+    if (!candidate->heard) {
+        candidate->heard = true;
+        candidate->testimony = ale_step_testimony(p, before, candidate->fit->motion.pose);
+    }
+    return &candidate->testimony;
+}
+
+/* What it says for that, half for the surfaces of either scan. */
+static int64_t heard_um(const ale_pipeline_t *p, ale_pose_t before, candidate_t *candidate)
+{
+    const ale_testimony_t *heard = hear(p, before, candidate);
     return (heard->confirmed_um - heard->denied_um) / 2;
 }
 
@@ -232,15 +240,23 @@ static int64_t heard_um(const ale_testimony_t *heard)
  * without it a place like this one, but mapped, would explain more. It weighs nothing for a pose: of one
  * nearer to where it was taken it has always seen more. Nor against one so near that the robot may have
  * drifted from it since long before: then the last scan has drifted, too. */
-static int64_t missed_um(ale_pipeline_t *p, ale_pose_t before, const candidate_t *best,
-                         const candidate_t *given)
+static int64_t missed_um(const ale_pipeline_t *p, ale_pose_t before, candidate_t *best, candidate_t *given)
 {
     if (ale_are_near(best->fit->motion.pose, given->fit->motion.pose, DRIFT_UM, SAME_BAM)) {
         return 0;
     }
-    p->best_heard = ale_step_testimony(p, before, best->fit->motion.pose);
-    const ale_testimony_t there = ale_step_testimony(p, before, given->fit->motion.pose);
-    return ale_max64(heard_um(&there) - heard_um(&p->best_heard), 0);
+    const int64_t more_um = heard_um(p, before, given) - heard_um(p, before, best);
+    return ale_max64(more_um, 0);
+}
+
+/* Whether anything but the map tells that the robot is there after a time that nobody watched: that is where
+ * the prediction has led, wheels have told of a way, or the last scan before confirms what is seen from
+ * there. The map alone does not: a place that it does not hold may look like one that it does. */
+static bool is_told(const ale_pipeline_t *p, const ale_prediction_t *prediction, candidate_t *candidate)
+{
+    return p->driven || !ale_recover_is_unwatched(p, prediction) ||
+           ale_are_near(prediction->ways.believed.pose, candidate->fit->motion.pose, SAME_UM, SAME_BAM) ||
+           ale_tracking_witnesses(hear(p, prediction->before.pose, candidate));
 }
 
 /* How much surface wheels, or velocity, weigh against a pose: the square of the deviation in sigmas, with a
@@ -286,16 +302,16 @@ static int64_t proposed_um(const ale_pipeline_t *p, ale_pose_t pose)
 
 /* A pose that explains clearly more than any other is taken where it is beside the given one, or was proposed
  * by the scan before; else it is proposed to the next. */
-static ale_recovery_t take_or_propose(ale_pipeline_t *p, ale_pose_t before, const candidate_t *given,
-                                      const candidate_t *best, ale_ways_t *ways)
+static ale_recovery_t take_or_propose(ale_pipeline_t *p, const ale_prediction_t *prediction,
+                                      candidate_t *given, candidate_t *best, ale_ways_t *ways)
 {
     const ale_pose_t pose = best->fit->motion.pose;
     const bool near = is_same(best->fit, given->fit);
     const int64_t before_um = proposed_um(p, pose);
-    const int64_t unseen_um = missed_um(p, before, best, given);
+    const int64_t unseen_um = missed_um(p, prediction->before.pose, best, given);
     const int64_t more_um = best->evidence_um - given->evidence_um - unseen_um;
     const bool enough = before_um + gain_um(&ways->believed, best, given) - unseen_um > MARGIN_UM;
-    if (enough && (near || before_um > 0)) {
+    if (enough && (near || before_um > 0) && is_told(p, prediction, best)) {
         take(p, best, ways, given->fit);
         return near ? ALE_RECOVER_NEAR : ALE_RECOVER_MOVED;
     }
@@ -306,27 +322,40 @@ static ale_recovery_t take_or_propose(ale_pipeline_t *p, ale_pose_t before, cons
     return ALE_RECOVER_STAYS;
 }
 
+/* What the comparison comes to, whatever tells of the given pose. rival_um: as compare(). */
+static ale_recovery_t decide(ale_pipeline_t *p, const ale_prediction_t *prediction, candidate_t *given,
+                             candidate_t *best, int64_t rival_um, ale_ways_t *ways)
+{
+    if (best->evidence_um <= rival_um + MARGIN_UM) {
+        const bool more = best->evidence_um > given->evidence_um + MARGIN_UM;
+        const bool open = (more || !ways->counted) && ale_tracking_accepts(best->fit);
+        return open ? ALE_RECOVER_OPEN : ALE_RECOVER_STAYS;
+    }
+    if (best->evidence_um == given->evidence_um) {
+        return ALE_RECOVER_CONFIRMED;
+    }
+    if (is_denied(p, &ways->believed, best, given)) {
+        return ALE_RECOVER_UNDECIDED;
+    }
+    return ale_tracking_explains(best->fit) ? take_or_propose(p, prediction, given, best, ways)
+                                            : ALE_RECOVER_STAYS;
+}
+
 ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_ways_t *ways,
                                 ale_fit_t *fit)
 {
     const ale_vote_region_t region = region_of(p, prediction);
-    const candidate_t given = {fit, evidence_um(p, fit)};
-    candidate_t best = {&p->best, given.evidence_um};
+    candidate_t given = {.fit = fit, .evidence_um = evidence_um(p, fit)};
+    candidate_t best = {.fit = &p->best, .evidence_um = given.evidence_um};
     p->best = *fit;
-    p->best_heard.shown_um = 0;
     p->searched = true;
     const int64_t rival_um = compare_region(p, &ways->believed, &region, &p->proposed, &best);
-    if (best.evidence_um <= rival_um + MARGIN_UM) {
-        const bool more = best.evidence_um > given.evidence_um + MARGIN_UM;
-        const bool open = (more || !ways->counted) && ale_tracking_accepts(best.fit);
-        return open ? ALE_RECOVER_OPEN : ALE_RECOVER_STAYS;
+    const ale_recovery_t recovery = decide(p, prediction, &given, &best, rival_um, ways);
+    switch (recovery) {
+    case ALE_RECOVER_CONFIRMED:
+    case ALE_RECOVER_STAYS:
+        return is_told(p, prediction, &given) ? recovery : ALE_RECOVER_OPEN;
+    default:
+        return recovery;
     }
-    if (best.evidence_um == given.evidence_um) {
-        return ALE_RECOVER_CONFIRMED;
-    }
-    if (is_denied(p, &ways->believed, &best, &given)) {
-        return ALE_RECOVER_OPEN;
-    }
-    return ale_tracking_explains(best.fit) ? take_or_propose(p, prediction->before.pose, &given, &best, ways)
-                                           : ALE_RECOVER_STAYS;
 }

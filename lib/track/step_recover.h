@@ -19,9 +19,6 @@ bool ale_recover_may_be_anywhere(const ale_pipeline_t *p, const ale_prediction_t
  * robot. */
 bool ale_recover_has_driven(const ale_pipeline_t *p, const ale_prediction_t *prediction);
 
-/* Whether two poses are one: least squares joins them. */
-bool ale_recover_is_same(const ale_motion_t *a, const ale_motion_t *b);
-
 /* Whether one pose within the reach of the vote explains the scan by the selected map clearly better than any
  * other: it is p->best then, solved. */
 bool ale_recover_in_region(ale_pipeline_t *p, ale_pose_t centre);
@@ -29,16 +26,17 @@ bool ale_recover_in_region(ale_pipeline_t *p, ale_pose_t centre);
 typedef enum {
     ALE_RECOVER_CONFIRMED, /* none explains as much as *fit does */
     ALE_RECOVER_STAYS,     /* none explains clearly more */
-    ALE_RECOVER_UNDECIDED, /* one does, but the next scan must confirm it */
+    ALE_RECOVER_UNDECIDED, /* one does, but the next scan must confirm it, or wheels told of late may */
     ALE_RECOVER_NEAR,      /* one does, beside *fit, which is that one now, solved */
     ALE_RECOVER_MOVED,     /* one does, elsewhere: *fit is that one, solved */
-    ALE_RECOVER_OPEN /* several do, or one that wheels deny which have told of a way while nobody watched */
+    ALE_RECOVER_OPEN       /* several do, or nothing but the map tells of *fit after a time unwatched */
 } ale_recovery_t;
 
 /* Compares all poses that the robot can have reached by what they explain of the scan, less what the
  * prediction weighs against them. Another pose is proposed, and taken with the next scan that finds it again;
  * what scans in a row say for it adds up. fit: what the prediction has led to, solved. ways: the pose
- * selected, where that is another. Writes p->proposal. Bounded by the vote and four fits. */
+ * selected, where that is another. Writes p->proposal. Bounded by the vote, four fits
+ * and the last scan heard of two poses. */
 ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_ways_t *ways,
                                 ale_fit_t *fit);
 

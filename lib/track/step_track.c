@@ -68,13 +68,12 @@ static bool explains(ale_recovery_t recovery, const ale_fit_t *fit)
 }
 
 /* Whether the next scan is waited for: wheels may be told of late after a gap, a pose that is proposed needs
- * to be confirmed, and of several poses that explain the scan one may turn out to be right. Where wheels have
- * told of a way, it may be none, and of a log that holds but some of the scans the next is far away. */
-static bool may_wait(const ale_pipeline_t *p, ale_recovery_t recovery, bool counted)
+ * to be confirmed, and of several poses that explain the scan one may turn out to be right. Not where wheels
+ * have told of a way: it may have led to what the map does not hold, and then none of them is. */
+static bool may_wait(const ale_pipeline_t *p, ale_recovery_t recovery, bool counted, bool driven)
 {
     const bool several = recovery == ALE_RECOVER_OPEN;
-    const bool cheap = !p->driven || ale_timestamp_filter_is_dense(&p->timestamp_filter);
-    return p->waited < WAITS_MOST && (several ? cheap : counted || recovery == ALE_RECOVER_UNDECIDED);
+    return p->waited < WAITS_MOST && (several ? !driven : counted || recovery == ALE_RECOVER_UNDECIDED);
 }
 
 /* Whether this scan speaks against the pose after a time that nobody watched: the map has changed, several
@@ -93,49 +92,23 @@ static ale_scene_verdict_t leave_open(ale_scene_verdict_t verdict)
     return verdict == ALE_SCENE_CHANGED ? verdict : ALE_SCENE_UNDECIDED;
 }
 
-/* What the comparison with all poses within reach makes of a scan. */
-static ale_scene_verdict_t verdict_of(ale_pipeline_t *p, const ale_prediction_t *prediction,
-                                      ale_scene_verdict_t verdict, ale_recovery_t recovery, bool counted,
-                                      const ale_fit_t *fit)
-{
-    if (explains(recovery, fit)) {
-        p->monitor.contradicted = false;
-        return ALE_SCENE_KNOWN;
-    }
-    if (ale_recover_is_unwatched(p, prediction) && is_refuted(verdict, recovery, p->driven, fit)) {
-        p->waits = (uint8_t)(may_wait(p, recovery, counted) ? p->waited + 1 : 0);
-        return p->waits > 0 ? ALE_SCENE_CHANGED : lose(p);
-    }
-    return recovery == ALE_RECOVER_UNDECIDED ? leave_open(verdict) : verdict;
-}
-
-/* Whether anything but the map tells that the robot is there after a time that nobody watched: that is where
- * the prediction has led, wheels have told of a way, or the last scan before confirms what is seen from
- * there. The map alone does not: a place that it does not hold may look like one that it does. */
-static bool is_told(const ale_pipeline_t *p, const ale_prediction_t *prediction, bool moved,
-                    const ale_fit_t *fit)
-{
-    if (p->driven || ale_recover_is_same(&prediction->ways.believed, &fit->motion)) {
-        return true;
-    }
-    const bool asked = moved && p->best_heard.shown_um > 0;
-    const ale_testimony_t heard =
-        asked ? p->best_heard : ale_step_testimony(p, prediction->before.pose, fit->motion.pose);
-    return ale_tracking_witnesses(&heard);
-}
-
 /* What a scan that the prediction does not explain, or that nobody watched, comes to. */
 static ale_scene_verdict_t recover(ale_pipeline_t *p, const ale_prediction_t *prediction,
                                    ale_scene_verdict_t verdict, ale_ways_t *ways, ale_fit_t *fit)
 {
     const ale_recovery_t recovery = ale_step_recover(p, prediction, ways, fit);
-    const bool moved = recovery == ALE_RECOVER_MOVED;
-    if (moved) {
+    if (recovery == ALE_RECOVER_MOVED) {
         ale_tracking_found(&p->monitor);
     }
-    const ale_scene_verdict_t found = verdict_of(p, prediction, verdict, recovery, ways->counted, fit);
-    const bool believed = found != ALE_SCENE_CHANGED && ale_recover_is_unwatched(p, prediction);
-    return believed && !is_told(p, prediction, moved, fit) ? lose(p) : found;
+    if (explains(recovery, fit)) {
+        p->monitor.contradicted = false;
+        return ALE_SCENE_KNOWN;
+    }
+    if (ale_recover_is_unwatched(p, prediction) && is_refuted(verdict, recovery, p->driven, fit)) {
+        p->waits = (uint8_t)(may_wait(p, recovery, ways->counted, p->driven) ? p->waited + 1 : 0);
+        return p->waits > 0 ? ALE_SCENE_CHANGED : lose(p);
+    }
+    return recovery == ALE_RECOVER_UNDECIDED ? leave_open(verdict) : verdict;
 }
 
 /* A piece of a tile takes the time of the comparison with other poses: what the last scan has proposed stands

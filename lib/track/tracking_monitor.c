@@ -73,13 +73,18 @@ static bool is_unwatched(const ale_tracking_monitor_t *monitor)
     return monitor->empty_scans >= EMPTY_LEAST;
 }
 
+static bool confirms(const ale_testimony_t *testimony, int64_t percent)
+{
+    return testimony->confirmed_um * 100 >= testimony->shown_um * percent;
+}
+
 /* Once a scan did not fit, the next must be confirmed, not only not denied. */
 static bool is_confirmed(const ale_tracking_monitor_t *monitor, const ale_testimony_t *testimony)
 {
     const bool much = testimony->close || is_unwatched(monitor);
     const int64_t percent =
         (much ? CLOSE_PERCENT : CONFIRM_PERCENT) + (monitor->misfits > 0 ? MISFIT_PERCENT : 0);
-    return testimony->confirmed_um * 100 >= testimony->shown_um * percent;
+    return confirms(testimony, percent);
 }
 
 /* Without wheels nobody knows where the robot went while a scan did not fit: only the map can say. */
@@ -101,8 +106,7 @@ bool ale_tracking_denies(const ale_testimony_t *testimony)
 
 bool ale_tracking_witnesses(const ale_testimony_t *testimony)
 {
-    return testimony->shown_um > SHOWN_LEAST_UM &&
-           testimony->confirmed_um * 100 >= testimony->shown_um * CLOSE_PERCENT;
+    return testimony->shown_um > SHOWN_LEAST_UM && confirms(testimony, CLOSE_PERCENT);
 }
 
 void ale_tracking_notice(ale_tracking_monitor_t *monitor, const ale_testimony_t *testimony, bool counted,

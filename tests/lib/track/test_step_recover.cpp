@@ -298,4 +298,49 @@ TEST(StepRecover, ARoomLikeTheKnownOneIsNotTakenForItWhenWheelsHaveLedToTheNext)
     }
 }
 
+/* A robot turns on the spot while the scanner is away for three seconds; wheels tell how it began to turn,
+ * the same with the first scan that comes again, and the rest after it. Returns how many scans it is lost. */
+int lost_after_a_turn_told_of_late(unsigned seed)
+{
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    room::Sensor around;
+    around.beam_time_ns = 0;
+    around.noise = 0.01;
+    std::mt19937 rng(seed);
+    std::vector<room::Wall> walls = two_alike_rooms();
+    walls.resize(walls.size() / 2); // the first of them
+    const auto way = [](double t) {
+        return reference::Pose(0.2 * std::min(t, 7.0), 0,
+                               0.9 * std::min(t, 7.0) + 0.5 * std::max(t - 7, 0.0));
+    };
+    const auto place = [&](double t) { return reference::Pose(way(t) + reference::Pose(1, 0, 0)); };
+    const auto tell = [&](double t, double of_t) {
+        const ale_odometry_t told = {std::llround(t * 1e6), convert::pose(way(of_t))};
+        ale_pipeline_odometry(p.get(), &told);
+    };
+    ale_estimate_t e = {};
+    int lost = 0;
+    for (int k = 0; k < 150; k++) {
+        const double t = 0.1 * k;
+        const bool away = k > 80 && k < 110;
+        if (!away) {
+            tell(t, k == 110 ? 8.75 : t);
+            const ale_scan_t scan = room::scan_at(walls, around, place, t, rng);
+            ale_pipeline_scan(p.get(), &scan, &e);
+            lost += e.state == ALE_STATE_LOST;
+        }
+        if (!away || k <= 87) {
+            tell(t + 0.05, t + 0.05);
+        }
+    }
+    return lost;
+}
+
+TEST(StepRecover, WheelsThatAreToldOfLateAfterATimeWithoutScansAreWaitedFor)
+{
+    for (const unsigned seed : {1U, 2U, 3U}) {
+        EXPECT_EQ(lost_after_a_turn_told_of_late(seed), 0) << "seed " << seed;
+    }
+}
+
 } // namespace
