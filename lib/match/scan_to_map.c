@@ -358,7 +358,7 @@ void ale_register_scan(const ale_motion_t *predicted, const ale_scene_t *scene, 
     ale_register_weigh(scene, out);
 }
 
-void ale_register_again(const ale_scene_t *scene, const ale_second_fit_t *second, ale_fit_t *other,
+bool ale_register_again(const ale_scene_t *scene, const ale_second_fit_t *second, ale_fit_t *other,
                         ale_fit_t *fit)
 {
     const ale_gate_t *const gates[ALE_REGISTER_ITERATIONS] = {second->gate, &later, &later};
@@ -371,7 +371,10 @@ void ale_register_again(const ale_scene_t *scene, const ale_second_fit_t *second
     }
     fit_from(second->predicted, scene, gates, second->most_work - fit->work, other);
     ale_register_associate(scene, other);
-    if (other->matched_um >= fit->matched_um) {
+    const int64_t least_um = fit->matched_um + second->least_more_um;
+    const bool kept = other->matched_um >= least_um;
+    if (kept) {
         *fit = *other;
     }
+    return kept;
 }

@@ -72,11 +72,12 @@ typedef struct {
     ale_pose_t start;       /* where the iterations begin */
     const ale_gate_t *gate; /* of the first iteration */
     int32_t most_work; /* of both fits together; where two more passes would exceed it, one step is made */
+    int64_t least_more_um; /* that it must explain more than the first; 0: it is kept of two equals */
 } ale_second_fit_t;
 
-/* Fits once more and keeps the fit that explains more, the second of two equals. fit: associated and not yet
- * weighed, on return again. other: working memory. */
-void ale_register_again(const ale_scene_t *scene, const ale_second_fit_t *second, ale_fit_t *other,
+/* Fits once more, and keeps that fit if it explains so much more. True: it is kept. fit: associated and not
+ * yet weighed, on return again. other: working memory. */
+bool ale_register_again(const ale_scene_t *scene, const ale_second_fit_t *second, ale_fit_t *other,
                         ale_fit_t *fit);
 
 /* The fit of a rejected scan: the prediction stands, nothing is associated. O(observations). */

@@ -1,6 +1,7 @@
 #include "track/step_associate.h"
 
 #include "base/fixed.h"
+#include "match/pose_evidence.h"
 #include "track/step_filter.h"
 #include "track/step_observe.h"
 
@@ -146,6 +147,12 @@ static ale_motion_t registered_motion(const ale_motion_t *predicted, const ale_r
     return motion;
 }
 
+/* Of all fits of a scan. */
+static int32_t most_work(const ale_pipeline_t *p)
+{
+    return ALE_SCAN_WORK - ALE_BEAM_WORK * p->observed.scan.beams;
+}
+
 /* From where, with which prediction, a scan is fitted a second time. */
 typedef enum { FROM_SELECTED, FROM_ALTERNATIVE, FROM_LAST_SCAN } second_start_t;
 
@@ -178,14 +185,45 @@ static void associate_again(ale_pipeline_t *p, const ale_prediction_t *predictio
     const bool turns = start == FROM_ALTERNATIVE;
     const ale_motion_t *prior = turns ? &ways->rival : &ways->believed;
     const ale_gate_t *unguided = turns ? &acquire_gate : &narrow_gate;
-    const int32_t most_work = ALE_SCAN_WORK - ALE_BEAM_WORK * p->observed.scan.beams;
     const ale_second_fit_t second = {.predicted = prior,
                                      .is_new_prior = start != FROM_SELECTED,
                                      .start = registered.found ? registered.pose : prior->pose,
                                      .gate = registered.found ? &register_gate : unguided,
-                                     .most_work = most_work};
+                                     .most_work = most_work(p)};
     ale_register_again(&scene, &second, &p->other, fit);
     if (turns && (fit->matched_um > found_um || is_rival_preferred(p, prediction, ways, fit))) {
+        ale_ways_swap(ways);
+    }
+}
+
+/* By how much more surface the other tale of the way must explain the scan: what either tale says against the
+ * other is weighed. Wheels that are not believed say nothing. */
+static int64_t rival_needs_um(const ale_ways_t *ways)
+{
+    const int64_t against_rival_um = ale_pose_against_um(&ways->believed, ways->rival.pose);
+    const int64_t against_wheels_um =
+        ways->counted ? ale_pose_against_um(&ways->rival, ways->believed.pose) : 0;
+    return ale_max64(against_rival_um - against_wheels_um, 0);
+}
+
+/* Fits from the other tale of the way, where it may explain enough, and believes it if it does: a scan that
+ * is put beside the walls that tell how far it has come does not find them, and says nothing of it. */
+static void hear_rival(ale_pipeline_t *p, ale_ways_t *ways, ale_fit_t *fit)
+{
+    const int64_t needs_um = rival_needs_um(ways);
+    const int64_t unexplained_um = fit->shown_um - fit->matched_um;
+    const bool may_explain = unexplained_um > needs_um;
+    if (!ways->part || !may_explain) {
+        return;
+    }
+    const ale_scene_t scene = ale_observed_scene(p);
+    const ale_second_fit_t second = {.predicted = &ways->rival,
+                                     .is_new_prior = true,
+                                     .start = ways->rival.pose,
+                                     .gate = &acquire_gate,
+                                     .most_work = most_work(p),
+                                     .least_more_um = needs_um + 1};
+    if (ale_register_again(&scene, &second, &p->other, fit)) {
         ale_ways_swap(ways);
     }
 }
@@ -202,6 +240,8 @@ ale_ways_t ale_step_associate(ale_pipeline_t *p, const ale_prediction_t *predict
         if (is_by_chance(fit)) {
             ale_register_reject(&ways.believed, &scene, fit);
         }
+    } else {
+        hear_rival(p, &ways, fit);
     }
     return ways;
 }

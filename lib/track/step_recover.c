@@ -19,8 +19,6 @@ enum {
     SAME_UM = 300000,    /* poses nearer than this are one: least squares joins them */
     SAME_BAM = 200 * ALE_BAM_PER_MRAD,
     ANY_HEADING_URAD = 3141592,
-    SIGMA_UM = 100000, /* of surface that the prediction weighs at one sigma, */
-    DENIED_SIGMAS = 5, /* and it weighs no more than at so many */
     DRIFT_UM = 1500000
 };
 
@@ -259,21 +257,6 @@ static bool is_told(const ale_pipeline_t *p, const ale_prediction_t *prediction,
            ale_tracking_witnesses(hear(p, prediction->before.pose, candidate));
 }
 
-/* How much surface wheels, or velocity, weigh against a pose: the square of the deviation in sigmas, with a
- * heavy tail. */
-static int64_t against_um(const ale_motion_t *predicted, ale_pose_t pose)
-{
-    const ale_pose_t off = ale_pose_between(predicted->pose, pose);
-    const int64_t apart[ALE_AXES] = {off.x_um, off.y_um, ale_bam_to_nrad((int32_t)off.theta_bam) / 1000};
-    int64_t most_um = 0;
-    for (int i = 0; i < ALE_AXES; i++) {
-        const int64_t sigma = ale_max64(ale_matrix_sigma(&predicted->cov, i), 1);
-        const int64_t sigmas_q8 = ale_min64(ale_abs64(apart[i]) * 256 / sigma, (int64_t)DENIED_SIGMAS * 256);
-        most_um = ale_max64(most_um, SIGMA_UM * sigmas_q8 * sigmas_q8 >> 16);
-    }
-    return most_um;
-}
-
 /* Whether wheels that have told of a way through the time unwatched deny the pose. They may have led to what
  * the map does not hold, and such ground may look like a place that it does. Of a log that holds but some of
  * the scans wheels may have told a part of the way alone. */
@@ -282,14 +265,14 @@ static bool is_denied(const ale_pipeline_t *p, const ale_motion_t *predicted, co
 {
     return p->driven && ale_timestamp_filter_is_dense(&p->timestamp_filter) &&
            !is_same(best->fit, given->fit) &&
-           against_um(predicted, best->fit->motion.pose) >= (int64_t)DENIED_SIGMAS * DENIED_SIGMAS * SIGMA_UM;
+           ale_pose_against_um(predicted, best->fit->motion.pose) >= ALE_EVIDENCE_AGAINST_UM;
 }
 
 /* By how much more surface, what the prediction weighs against it taken off, a pose explains than another. */
 static int64_t gain_um(const ale_motion_t *predicted, const candidate_t *best, const candidate_t *given)
 {
-    return best->evidence_um - against_um(predicted, best->fit->motion.pose) - given->evidence_um +
-           against_um(predicted, given->fit->motion.pose);
+    return best->evidence_um - ale_pose_against_um(predicted, best->fit->motion.pose) - given->evidence_um +
+           ale_pose_against_um(predicted, given->fit->motion.pose);
 }
 
 /* What the scan before has found for a pose, where it has proposed it; else 0. */

@@ -3,9 +3,9 @@
  * A wheel that spins in the air, or under a robot that something holds up, counts what nobody drives, and
  * does so for a while. Where the tales part by more than wheels promise, the wheels are believed until they
  * were off by 0.1 m and rad together and twice as far as the other tale, which is believed then until they
- * were nearer again. Wheels that part from the other tale are believed less along the line between the two:
- * wheels that slip by little, but by many of their sigmas, would hold the scan off its walls and make new
- * ones. Pure functions, constant time. */
+ * were nearer again; or, for this scan, as the map says (step_associate). Wheels that part from the other
+ * tale are believed less along the line between the two: wheels that slip by little, but by many of their
+ * sigmas, would hold the scan off its walls and make new ones. Pure functions, constant time. */
 #ifndef ALE_TRACK_EVIDENCE_SLIP_H
 #define ALE_TRACK_EVIDENCE_SLIP_H
 

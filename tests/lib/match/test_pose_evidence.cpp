@@ -172,3 +172,27 @@ TEST(PoseEvidence, TheTruePoseHasMoreThanAnyOther)
         }
     }
 }
+
+/* Twin in double: the axis that is most sigmas off, squared. */
+TEST(Against, IsTheSquareOfTheDeviationInSigmasAndBounded)
+{
+    std::mt19937 rng(5);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    for (int trial = 0; trial < 500; trial++) {
+        const double sigmas[] = {0.01 + 0.1 * std::abs(unit(rng)), 0.01 + 0.1 * std::abs(unit(rng)), 0.02};
+        const reference::Pose predicted(5 * unit(rng), 5 * unit(rng), 3 * unit(rng));
+        const reference::Pose off(0.3 * unit(rng), 0.3 * unit(rng), 0.06 * unit(rng));
+        ale_motion_t motion = {};
+        motion.pose = convert::pose(predicted);
+        double most = 0;
+        for (int i = 0; i < ALE_AXES; i++) {
+            motion.cov.m[i][i] = std::llround(sigmas[i] * sigmas[i] * 1e12);
+            most = std::max(most, std::pow(off[i] / sigmas[i], 2));
+        }
+        const ale_pose_t pose = convert::pose(reference::compose(predicted, off));
+        const double told = static_cast<double>(ale_pose_against_um(&motion, pose));
+        EXPECT_NEAR(told, 100000 * std::min(most, 25.0), 2000 + 0.02 * told) << trial;
+        EXPECT_LE(told, ALE_EVIDENCE_AGAINST_UM);
+        EXPECT_EQ(ale_pose_against_um(&motion, motion.pose), 0);
+    }
+}

@@ -207,7 +207,7 @@ TEST(Refine, ASecondFitLooksAtNoMoreThanIsLeftUnlessItTakesOneStep)
     for (int32_t most_work = 0; most_work < 4 * first.work; most_work += 50) {
         ale_fit_t fit = first;
         ale_fit_t other;
-        const ale_second_fit_t second = {&predicted, false, predicted.pose, &gate, most_work};
+        const ale_second_fit_t second = {&predicted, false, predicted.pose, &gate, most_work, 0};
         ale_register_again(&scene, &second, &other, &fit);
         const double off_m =
             (convert::pose(fit.motion.pose) - reference::Pose(0.4, 0.3, -1.2)).head<2>().norm();
@@ -225,6 +225,25 @@ TEST(Refine, ASecondFitLooksAtNoMoreThanIsLeftUnlessItTakesOneStep)
     }
     EXPECT_GT(brief, 10);
     EXPECT_GT(whole, 10);
+}
+
+/* Of two fits that explain alike the second is kept, unless it is to explain more. */
+TEST(Refine, ASecondFitIsKeptIfItExplainsAsMuchMoreAsItMust)
+{
+    std::mt19937 rng(12);
+    Scene s;
+    s.look({0.4, 0.3, -1.2}, 0, rng);
+    const ale_scene_t scene = {s.map.get(), s.observations.data(), 5, nullptr};
+    const ale_motion_t predicted = at({0.48, 0.25, -1.17}, 0.1, 0.05);
+    const ale_gate_t gate = {250000, 200000, 6, 100000};
+    for (const int64_t more_um : {0, 1}) {
+        ale_fit_t fit = s.fit(predicted);
+        fit.motion.stamp_us = 7;
+        ale_fit_t other;
+        const ale_second_fit_t second = {&predicted, false, predicted.pose, &gate, ALE_SCAN_WORK, more_um};
+        EXPECT_EQ(ale_register_again(&scene, &second, &other, &fit), more_um == 0);
+        EXPECT_EQ(fit.motion.stamp_us == 7, more_um > 0);
+    }
 }
 
 TEST(Refine, AScanOf682BeamsHasLooksEnoughForTwoWholeFits)

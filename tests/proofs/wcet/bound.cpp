@@ -231,7 +231,7 @@ std::unique_ptr<ale_fit_t> fits(Parts &parts, const ale_motion_t &predicted, Cro
         parts.measure("two fits", 1, [&] {
             ale_register_pose(&predicted, &some, &first_gate, fit.get());
             ale_register_associate(&some, fit.get());
-            const ale_second_fit_t second = {&predicted, true, predicted.pose, &second_gate, most_looks};
+            const ale_second_fit_t second = {&predicted, true, predicted.pose, &second_gate, most_looks, 0};
             ale_register_again(&some, &second, other.get(), fit.get());
             ale_register_weigh(&some, fit.get());
         });
