@@ -1,6 +1,7 @@
 #include "graph/loops/join_search.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <set>
@@ -30,22 +31,25 @@ constexpr Queries unpredicted{JoinDecision::least_elsewhere, JoinSearch::most_qu
 constexpr double nodes_apart_m = 2.0;
 constexpr double views_apart_m = PlaceSearch::half_m - PriorViews::apart_m / 2;
 constexpr size_t most_of_a_map = 32; // queries after the drive
-constexpr double least_part = 0.5;   // of the points in view that must lie on surfaces
+// Queries with places after a drive, two minutes of work: one on which the robot was lost again and again is
+// in hundreds of maps, of some nodes each.
+constexpr size_t most_pairs = 40000;
+constexpr double least_part = 0.5; // of the points in view that must lie on surfaces
 constexpr double least_in_view = 1.0 / 3;
 constexpr double least_agreed = 0.85; // as of loops
 // Matches nearer than this say the same.
 constexpr double same_m = 0.30;
 
-using QueriesOfMaps = std::map<uint32_t, std::vector<int>>;
+using NodesOfMaps = std::map<uint32_t, std::vector<int>>;
 
 // Every node, or every second, third.. of each map that may join another.
-QueriesOfMaps queries_of_maps(const std::vector<Node> &nodes)
+NodesOfMaps queries_of_maps(const std::vector<Node> &nodes)
 {
-    QueriesOfMaps all;
+    NodesOfMaps all;
     for (int k = 0; k < static_cast<int>(nodes.size()); k++) {
         all[at(nodes, k).map_id].push_back(k);
     }
-    QueriesOfMaps some;
+    NodesOfMaps some;
     for (const auto &[map_id, of_map] : all) {
         if (of_map.size() < JoinDecision::least_nodes) {
             continue;
@@ -112,6 +116,30 @@ std::vector<int> spread_places(const SearchedMaps &maps, uint32_t map_id)
     return chosen;
 }
 
+// The largest maps, as many as can be searched in each other with most_pairs, but as many as the robot may
+// have at once.
+std::map<uint32_t, size_t> largest_of(const std::map<uint32_t, size_t> &sizes, const NodesOfMaps &queries,
+                                      const NodesOfMaps &places)
+{
+    std::set<std::pair<size_t, uint32_t>, std::greater<>> largest_first;
+    for (const auto &[map_id, size] : sizes) {
+        largest_first.emplace(size, map_id);
+    }
+    std::map<uint32_t, size_t> largest;
+    size_t pairs = 0;
+    size_t larger_places = 0;
+    for (const auto &[size, map_id] : largest_first) {
+        const auto of_map = queries.find(map_id);
+        pairs += of_map == queries.end() ? 0 : of_map->second.size() * larger_places;
+        if (pairs > most_pairs && largest.size() >= ALE_ATLAS_MAPS) {
+            break;
+        }
+        larger_places += places.at(map_id).size();
+        largest.emplace(map_id, size);
+    }
+    return largest;
+}
+
 void add_tasks(int place, const std::vector<int> &queries, std::vector<JoinTask> *tasks)
 {
     for (size_t k = 0; k < queries.size(); k += JoinSearch::most_queries) {
@@ -144,19 +172,27 @@ std::vector<JoinTask> tasks_while_driving(const SearchedMaps &maps, const std::v
     return tasks;
 }
 
-std::vector<JoinTask> tasks_after_drive(const SearchedMaps &maps)
+std::vector<JoinTask> tasks_after_drive(const SearchedMaps &maps, MapKind kind)
 {
+    const NodesOfMaps queries = queries_of_maps(maps.nodes);
     std::map<uint32_t, size_t> sizes = sizes_of(maps);
+    NodesOfMaps places;
+    for (const auto &[map_id, size] : sizes) {
+        places[map_id] = spread_places(maps, map_id);
+    }
+    if (kind != MapKind::drives) {
+        sizes = largest_of(sizes, queries, places);
+    }
     std::vector<JoinTask> tasks;
-    const QueriesOfMaps queries = queries_of_maps(maps.nodes);
     for (const auto &[there, size] : sizes) {
         std::vector<int> smaller;
         for (const auto &[here, of_map] : queries) {
-            if (std::make_pair(sizes[here], here) < std::make_pair(size, there)) {
+            const auto own = sizes.find(here);
+            if (own != sizes.end() && std::make_pair(own->second, here) < std::make_pair(size, there)) {
                 smaller.insert(smaller.end(), of_map.begin(), of_map.end());
             }
         }
-        for (const int place : spread_places(maps, there)) {
+        for (const int place : places[there]) {
             add_tasks(place, smaller, &tasks);
         }
     }

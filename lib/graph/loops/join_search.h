@@ -29,8 +29,9 @@ struct JoinTask {
 // was never in the saved map that the drive began in.
 std::vector<JoinTask> tasks_while_driving(const SearchedMaps &maps, const std::vector<uint32_t> &left_out);
 // Nodes of every map, searched in all others. Of two maps that with fewer nodes is searched for,
-// and never one that there are views of.
-std::vector<JoinTask> tasks_after_drive(const SearchedMaps &maps);
+// and never one that there are views of. Of pieces of one way that are too many the smallest are left out:
+// their places are as wheels have put them.
+std::vector<JoinTask> tasks_after_drive(const SearchedMaps &maps, MapKind kind);
 
 class JoinSearch
 {

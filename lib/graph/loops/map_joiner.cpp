@@ -52,7 +52,7 @@ bool MapJoiner::refine(const SearchedMaps &maps, MapKind kind)
         return false;
     }
     if (!search_) {
-        search_.emplace(tasks_after_drive(maps));
+        search_.emplace(tasks_after_drive(maps, kind));
         joined_ = false;
     }
     if (search_->step(maps)) {
