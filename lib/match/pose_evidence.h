@@ -20,7 +20,7 @@ enum {
 int64_t ale_pose_evidence_um(const ale_scene_t *scene, const ale_fit_t *fit, const ale_posed_scan_t *from);
 
 /* How much surface wheels, or velocity, weigh against a pose: the square of the deviation in sigmas, a tenth
- * of a metre at one, up to ALE_EVIDENCE_AGAINST_UM at five, for either may be wrong. */
+ * of a metre at one, up to ALE_EVIDENCE_AGAINST_UM at five, for either may be wrong. Constant work. */
 int64_t ale_pose_against_um(const ale_motion_t *predicted, ale_pose_t pose);
 
 #endif

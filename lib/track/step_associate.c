@@ -206,14 +206,16 @@ static int64_t rival_needs_um(const ale_ways_t *ways)
     return ale_max64(against_rival_um - against_wheels_um, 0);
 }
 
-/* Fits from the other tale of the way, where it may explain enough, and believes it if it does: a scan that
- * is put beside the walls that tell how far it has come does not find them, and says nothing of it. */
+/* Fits from the other tale of the way where it may explain enough, and believes it if it does: a scan that is
+ * put beside the walls that tell how far it has come does not find them, and says nothing of it. */
 static void hear_rival(ale_pipeline_t *p, ale_ways_t *ways, ale_fit_t *fit)
 {
+    if (!ways->part) {
+        return;
+    }
     const int64_t needs_um = rival_needs_um(ways);
     const int64_t unexplained_um = fit->shown_um - fit->matched_um;
-    const bool may_explain = unexplained_um > needs_um;
-    if (!ways->part || !may_explain) {
+    if (unexplained_um <= needs_um) {
         return;
     }
     const ale_scene_t scene = ale_observed_scene(p);

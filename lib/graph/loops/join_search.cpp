@@ -31,8 +31,8 @@ constexpr Queries unpredicted{JoinDecision::least_elsewhere, JoinSearch::most_qu
 constexpr double nodes_apart_m = 2.0;
 constexpr double views_apart_m = PlaceSearch::half_m - PriorViews::apart_m / 2;
 constexpr size_t most_of_a_map = 32; // queries after the drive
-// Queries with places after a drive, two minutes of work: one on which the robot was lost again and again is
-// in hundreds of maps, of some nodes each.
+// Queries with places after a drive: one on which the robot was lost again and again is in hundreds of maps,
+// of some nodes each.
 constexpr size_t most_pairs = 40000;
 constexpr double least_part = 0.5; // of the points in view that must lie on surfaces
 constexpr double least_in_view = 1.0 / 3;
@@ -116,8 +116,8 @@ std::vector<int> spread_places(const SearchedMaps &maps, uint32_t map_id)
     return chosen;
 }
 
-// The largest maps, as many as can be searched in each other with most_pairs, but as many as the robot may
-// have at once.
+// The largest maps, as many as can be searched in each other with most_pairs, and never fewer than the robot
+// may have at once.
 std::map<uint32_t, size_t> largest_of(const std::map<uint32_t, size_t> &sizes, const NodesOfMaps &queries,
                                       const NodesOfMaps &places)
 {

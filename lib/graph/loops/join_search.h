@@ -30,7 +30,7 @@ struct JoinTask {
 std::vector<JoinTask> tasks_while_driving(const SearchedMaps &maps, const std::vector<uint32_t> &left_out);
 // Nodes of every map, searched in all others. Of two maps that with fewer nodes is searched for,
 // and never one that there are views of. Of pieces of one way that are too many the smallest are left out:
-// their places are as wheels have put them.
+// their places are as wheels have put them. O(nodes^2).
 std::vector<JoinTask> tasks_after_drive(const SearchedMaps &maps, MapKind kind);
 
 class JoinSearch

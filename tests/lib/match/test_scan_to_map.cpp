@@ -192,23 +192,42 @@ TEST(Refine, WithoutAnyViewThePredictionStays)
     EXPECT_NEAR(static_cast<double>(fit.motion.cov.m[0][0]), 1e10, 1e6);
 }
 
+/* A scan without noise, fitted once. */
+struct FittedOnce {
+    Scene s;
+    ale_scene_t scene;
+    ale_motion_t predicted = at({0.48, 0.25, -1.17}, 0.1, 0.05);
+    ale_fit_t first;
+    ale_gate_t gate = {250000, 200000, 6, 100000};
+
+    FittedOnce()
+    {
+        std::mt19937 rng(12);
+        s.look({0.4, 0.3, -1.2}, 0, rng);
+        scene = {s.map.get(), s.observations.data(), 5, nullptr};
+        first = s.fit(predicted);
+    }
+
+    /* Into `fit`, with `other` as working memory. */
+    bool again(int32_t most_work, int64_t least_more_um, ale_fit_t *other, ale_fit_t *fit) const
+    {
+        const ale_second_fit_t second = {&predicted, false, predicted.pose, &gate, most_work, least_more_um};
+        *fit = first;
+        return ale_register_again(&scene, &second, other, fit);
+    }
+};
+
 TEST(Refine, ASecondFitLooksAtNoMoreThanIsLeftUnlessItTakesOneStep)
 {
-    std::mt19937 rng(12);
-    Scene s;
-    s.look({0.4, 0.3, -1.2}, 0, rng);
-    const ale_scene_t scene = {s.map.get(), s.observations.data(), 5, nullptr};
-    const ale_motion_t predicted = at({0.48, 0.25, -1.17}, 0.1, 0.05);
-    const ale_fit_t first = s.fit(predicted);
-    const ale_gate_t gate = {250000, 200000, 6, 100000};
+    const FittedOnce fitted;
+    const ale_fit_t &first = fitted.first;
     EXPECT_GE(first.work, 3 * 5 * ALE_OBSERVATION_WORK);
     int brief = 0;
     int whole = 0;
     for (int32_t most_work = 0; most_work < 4 * first.work; most_work += 50) {
-        ale_fit_t fit = first;
+        ale_fit_t fit;
         ale_fit_t other;
-        const ale_second_fit_t second = {&predicted, false, predicted.pose, &gate, most_work, 0};
-        ale_register_again(&scene, &second, &other, &fit);
+        fitted.again(most_work, 0, &other, &fit);
         const double off_m =
             (convert::pose(fit.motion.pose) - reference::Pose(0.4, 0.3, -1.2)).head<2>().norm();
         EXPECT_EQ(fit.matched, 5);
@@ -230,19 +249,13 @@ TEST(Refine, ASecondFitLooksAtNoMoreThanIsLeftUnlessItTakesOneStep)
 /* Of two fits that explain alike the second is kept, unless it is to explain more. */
 TEST(Refine, ASecondFitIsKeptIfItExplainsAsMuchMoreAsItMust)
 {
-    std::mt19937 rng(12);
-    Scene s;
-    s.look({0.4, 0.3, -1.2}, 0, rng);
-    const ale_scene_t scene = {s.map.get(), s.observations.data(), 5, nullptr};
-    const ale_motion_t predicted = at({0.48, 0.25, -1.17}, 0.1, 0.05);
-    const ale_gate_t gate = {250000, 200000, 6, 100000};
+    FittedOnce fitted;
+    fitted.first.motion.stamp_us = 7;
     for (const int64_t more_um : {0, 1}) {
-        ale_fit_t fit = s.fit(predicted);
-        fit.motion.stamp_us = 7;
+        ale_fit_t fit;
         ale_fit_t other;
-        const ale_second_fit_t second = {&predicted, false, predicted.pose, &gate, ALE_SCAN_WORK, more_um};
-        EXPECT_EQ(ale_register_again(&scene, &second, &other, &fit), more_um == 0);
-        EXPECT_EQ(fit.motion.stamp_us == 7, more_um > 0);
+        EXPECT_EQ(fitted.again(ALE_SCAN_WORK, more_um, &other, &fit), more_um == 0);
+        EXPECT_EQ(fit.motion.stamp_us == 7, more_um > 0) << "which one is kept";
     }
 }
 

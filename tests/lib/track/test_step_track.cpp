@@ -1,5 +1,7 @@
 // lib/track/step_track.c: a robot that stands among people who walk, one whose wheels slip, and one
 // between bare walls.
+#include <functional>
+
 #include <gtest/gtest.h>
 
 #include "room_pipeline.h"
@@ -383,7 +385,6 @@ struct CorridorDrive {
         std::mt19937 rng(seed);
         room::Sensor sensor;
         sensor.noise = 0.01;
-        const auto path = along_corridor;
         for (int k = 0; k < 120; k++) {
             const double t = 1 + 0.1 * k;
             for (int i = 0; wheels && i < 10; i++) {
@@ -391,11 +392,11 @@ struct CorridorDrive {
                 const ale_odometry_t sample = {std::llround(at * 1e6), convert::pose(wheels(at))};
                 ale_pipeline_odometry(pipeline.get(), &sample);
             }
-            const ale_scan_t scan = room::scan_at(corridor, sensor, path, t, rng);
+            const ale_scan_t scan = room::scan_at(corridor, sensor, along_corridor, t, rng);
             ale_estimate_t e;
             ale_pipeline_scan(pipeline.get(), &scan, &e);
             estimates.push_back(e);
-            way.push_back(path(t)[0] - path(1)[0]);
+            way.push_back(along_corridor(t)[0] - along_corridor(1)[0]);
         }
     }
 
