@@ -2,9 +2,9 @@
  * stamps.
  *
  * A phase-locked loop follows the stamps. Stamps that jitter about an even period by more than 2 ms are
- * replaced by the loop's; even stamps, stamps without a period, and those of logs with a scan now and then
- * are kept. Where stamps swing by 20 ms, 2 rad/s make 2 degrees between scan and odometry. One owner;
- * constant work. */
+ * replaced by the loop's, however far a queue has held them up and in whatever order it let them go; even
+ * stamps, stamps without a period, and those of logs with a scan now and then are kept. Where stamps swing by
+ * 20 ms, 2 rad/s make 2 degrees between scan and odometry. One owner; constant work. */
 #ifndef ALE_MOTION_TIMESTAMP_FILTER_H
 #define ALE_MOTION_TIMESTAMP_FILTER_H
 
@@ -17,6 +17,7 @@ typedef struct {
     int64_t even_us;  /* its instant by the loop */
     int64_t period_q8_us;
     int64_t jitter2_us2;     /* mean square of stamp minus loop */
+    int64_t walk_us2;        /* mean; below 0: the stamps do not walk off the loop */
     int64_t usual_us;        /* mean time between scans, even or not; 0: unknown */
     int64_t usual_before_us; /* and before the last one came */
     int64_t off_us;          /* what the last of these times was off, */
@@ -26,7 +27,7 @@ typedef struct {
 void ale_timestamp_filter_init(ale_timestamp_filter_t *timestamp_filter);
 
 /* Instant of the next scan, on the clock of its stamp. A step back, or of more than two seconds, restarts the
- * loop. */
+ * loop; where stamps are held up by more than a quarter of the period, one of more than four seconds. */
 int64_t ale_timestamp_filter_instant(ale_timestamp_filter_t *timestamp_filter, int64_t stamp_us);
 
 /* Whether scans come as the mirror turns, not only some of them. */

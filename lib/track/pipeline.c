@@ -56,6 +56,7 @@ static void reset_motion(ale_pipeline_t *p)
 {
     const ale_pipeline_config_t *c = &p->config;
     ale_wheels_init(&p->wheels, c->max_speed_mm_s, c->max_turn_mrad_s);
+    p->is_told = false;
     ale_wheel_factors_init(&p->factors, c->odometry_distance_factor_ppm, c->odometry_turn_factor_ppm,
                            c->odometry_turn_bias_urad_m);
     ale_lag_init(&p->lag, c->odometry_lag_us);
@@ -125,12 +126,10 @@ void ale_pipeline_reset(ale_pipeline_t *p)
 void ale_pipeline_odometry(ale_pipeline_t *pipeline, const ale_odometry_t *sample)
 {
     if (pipeline->config.use_odometry) {
-        const ale_odometry_t corrected = {sample->stamp_us,
-                                          ale_wheel_factors_correct(&pipeline->factors, sample->pose)};
-        if (pipeline->started) { /* the next prediction begins where the pose is, however long it takes */
-            ale_wheels_keep(&pipeline->wheels, pipeline->motion.stamp_us - pipeline->lag.lag_us);
-        }
-        ale_wheels_add(&pipeline->wheels, &corrected);
+        ale_pipeline_take_odometry(pipeline);
+        pipeline->told =
+            (ale_odometry_t){sample->stamp_us, ale_wheel_factors_correct(&pipeline->factors, sample->pose)};
+        pipeline->is_told = true;
     }
 }
 
@@ -198,8 +197,8 @@ static void observe(ale_pipeline_t *p, const ale_scan_t *scan, const int32_t vel
 
 static void begin(ale_pipeline_t *p, const ale_scan_t *scan)
 {
-    ale_motion_init(&p->motion, ale_timestamp_filter_instant(&p->timestamp_filter, scan->stamp_us),
-                    p->motion.pose, START_SPEED_MM_S, START_TURN_MRAD_S);
+    ale_motion_init(&p->motion, ale_pipeline_instant(p, scan->stamp_us), p->motion.pose, START_SPEED_MM_S,
+                    START_TURN_MRAD_S);
     observe(p, scan, p->motion.velocity);
     const ale_tracked_t tracked = ale_step_track_first(p);
     conclude(p, &tracked);
@@ -293,6 +292,7 @@ void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estima
     ale_wheel_motion_t wheels;
     pipeline->looked = false;
     pipeline->searched = false;
+    ale_pipeline_take_odometry(pipeline);
     if (pipeline->started) {
         const ale_pose_t before = pipeline->motion.pose;
         const bool counted = ale_pipeline_predict_by_wheels(pipeline, &pipeline->motion, stamp_us, &wheels);

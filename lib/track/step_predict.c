@@ -55,13 +55,33 @@ bool ale_pipeline_predict_by_wheels(const ale_pipeline_t *p, ale_motion_t *motio
     return predict(p, motion, stamp_us, wheels, &known);
 }
 
-/* When a scan was taken: scans come in their order, whatever their stamps say of it. A clock that was set
- * back is followed. */
-static int64_t instant_of(ale_pipeline_t *p, int64_t stamp_us)
+/* Scans come in their order, whatever their stamps say of it. A clock that was set back is followed. */
+static int64_t in_order(const ale_pipeline_t *p, int64_t instant_us)
 {
-    const int64_t instant_us = ale_timestamp_filter_instant(&p->timestamp_filter, stamp_us);
     const int64_t last_us = p->motion.stamp_us;
-    return instant_us <= last_us && instant_us > last_us - SCAN_SET_BACK_US ? last_us + 1 : instant_us;
+    const bool late = p->started && instant_us <= last_us && instant_us > last_us - SCAN_SET_BACK_US;
+    return late ? last_us + 1 : instant_us;
+}
+
+void ale_pipeline_take_odometry(ale_pipeline_t *p)
+{
+    if (p->is_told) {
+        if (p->started) { /* the next prediction begins where the pose is, however long it takes */
+            ale_wheels_keep(&p->wheels, p->motion.stamp_us - p->lag.lag_us);
+        }
+        ale_wheels_add(&p->wheels, &p->told);
+        p->is_told = false;
+    }
+}
+
+int64_t ale_pipeline_instant(ale_pipeline_t *p, int64_t stamp_us)
+{
+    const int64_t instant_us = in_order(p, ale_timestamp_filter_instant(&p->timestamp_filter, stamp_us));
+    if (p->told.stamp_us == stamp_us) {
+        p->told.stamp_us = instant_us;
+    }
+    ale_pipeline_take_odometry(p);
+    return instant_us;
 }
 
 /* The wheels and constant velocity; as long as the wheels slip, or contradict the scans, constant velocity is
@@ -77,7 +97,7 @@ static ale_ways_t hypotheses(const ale_pipeline_t *p, const ale_motion_t *by_whe
 ale_prediction_t ale_step_predict(ale_pipeline_t *p, int64_t stamp_us)
 {
     ale_prediction_t prediction = {.before = p->motion};
-    const int64_t instant_us = instant_of(p, stamp_us);
+    const int64_t instant_us = ale_pipeline_instant(p, stamp_us);
     const int64_t dt_us = instant_us - p->motion.stamp_us;
     ale_motion_t predicted = p->motion;
     const bool believed = predict(p, &predicted, instant_us, &prediction.wheels, &prediction.counted);

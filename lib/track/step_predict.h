@@ -17,8 +17,15 @@ typedef struct {
     int64_t dt_us;             /* since the last scan; the usual period where the stamps are not credible */
 } ale_prediction_t;
 
-/* Writes the timestamp filter alone. Constant time. */
+/* Writes the timestamp filter, and takes the odometry that is told. Constant time. */
 ale_prediction_t ale_step_predict(ale_pipeline_t *p, int64_t stamp_us);
+
+/* When a scan was taken, by its stamp: after the last one, unless the clock was set back. Odometry that was
+ * told with it, by its stamp, was counted then; the wheels take it. Once a scan, in constant time. */
+int64_t ale_pipeline_instant(ale_pipeline_t *p, int64_t stamp_us);
+
+/* The wheels take the sample that was told last, if they have not yet. */
+void ale_pipeline_take_odometry(ale_pipeline_t *p);
 
 /* Whether scans are missing from a time without one: it is more than three usual ones, and than stamps are
  * off them. */

@@ -1,6 +1,7 @@
 // lib/motion/timestamp_filter.c: the even pace behind stamps that jitter.
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -154,5 +155,78 @@ TEST(Pace, ALogOfEveryFifthScanIsNotDense)
             ale_timestamp_filter_instant(&timestamp_filter, int64_t{k} * (dense ? 100000 : 500000));
         }
         EXPECT_EQ(ale_timestamp_filter_is_dense(&timestamp_filter), dense);
+    }
+}
+
+// A queue that lets go what it holds once in a while, and a part of it in the wrong order.
+static std::vector<int64_t> queued_stamps(int scans, double period_us, std::mt19937 &rng)
+{
+    std::uniform_real_distribution<double> chance(0, 1);
+    std::vector<int64_t> stamps;
+    double flushed = 0;
+    for (int k = 0; k < scans; k++) {
+        const double taken = period_us * k;
+        flushed = flushed < taken ? taken + chance(rng) * 4 * period_us : flushed;
+        const double held_up = chance(rng) < 0.1 ? chance(rng) * 2 * period_us : 0;
+        stamps.push_back(std::llround(flushed + held_up) + k % 3 * 500);
+    }
+    return stamps;
+}
+
+TEST(Pace, ScansThatAQueueHeldUpWereTakenAtAnEvenPace)
+{
+    for (const unsigned seed : {1U, 2U, 3U, 4U, 5U}) {
+        std::mt19937 rng(seed);
+        ale_timestamp_filter_t timestamp_filter;
+        ale_timestamp_filter_init(&timestamp_filter);
+        int64_t before = 0;
+        int64_t at_once = 0;
+        int uneven = 0;
+        const std::vector<int64_t> stamps = queued_stamps(1000, 200000, rng);
+        for (size_t k = 0; k < stamps.size(); k++) {
+            const int64_t instant = ale_timestamp_filter_instant(&timestamp_filter, stamps[k]);
+            uneven += k > 200 && std::abs(instant - before - 200000) > 50000;
+            at_once += k > 200 && std::abs(stamps[k] - stamps[k - 1] - 200000) > 50000;
+            before = instant;
+        }
+        EXPECT_GT(at_once, 500);
+        EXPECT_LT(uneven, 10);
+    }
+}
+
+TEST(Pace, ScansThatComeAtUnevenTimesAreNotTakenForQueued)
+{
+    for (const unsigned seed : {1U, 2U, 3U, 4U, 5U}) {
+        std::mt19937 rng(seed);
+        std::uniform_real_distribution<double> gap(50000, 350000);
+        ale_timestamp_filter_t timestamp_filter;
+        ale_timestamp_filter_init(&timestamp_filter);
+        double t = 0;
+        int changed = 0;
+        for (int k = 0; k < 1000; k++) {
+            t += gap(rng);
+            changed += k > 100 &&
+                       ale_timestamp_filter_instant(&timestamp_filter, std::llround(t)) != std::llround(t);
+        }
+        EXPECT_LT(changed, 20);
+    }
+}
+
+TEST(Pace, AQueueThatWasEmptyForALongTimeKeepsItsPace)
+{
+    std::mt19937 rng(6);
+    ale_timestamp_filter_t timestamp_filter;
+    ale_timestamp_filter_init(&timestamp_filter);
+    const std::vector<int64_t> stamps = queued_stamps(600, 200000, rng);
+    int64_t before = 0;
+    for (size_t k = 0; k < stamps.size(); k++) {
+        const int64_t pause = k < 300 ? 0 : 20000000;
+        const int64_t instant = ale_timestamp_filter_instant(&timestamp_filter, stamps[k] + pause);
+        if (k == 300) {
+            EXPECT_EQ(instant, stamps[k] + pause);
+        } else if (k > 200) {
+            EXPECT_NEAR(static_cast<double>(instant - before), 200000, 60000);
+        }
+        before = instant;
     }
 }

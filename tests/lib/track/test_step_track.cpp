@@ -371,13 +371,14 @@ std::function<reference::Pose(double)> wheels_that_count(double per_metre)
 
 const std::function<reference::Pose(double)> no_wheels;
 
-// A drive along a corridor.
+// A drive along a corridor. Wheels are told as they come or, where scans are stamped late, with each of them.
 struct CorridorDrive {
     std::vector<ale_estimate_t> estimates;
     std::vector<double> way;
 
     CorridorDrive(const std::vector<room::Wall> &corridor,
-                  const std::function<reference::Pose(double)> &wheels, unsigned seed = 7)
+                  const std::function<reference::Pose(double)> &wheels, unsigned seed = 7,
+                  const std::vector<double> &late_s = {})
     {
         ale_pipeline_config_t config = ale_pipeline_default_config();
         config.use_odometry = wheels != nullptr;
@@ -385,14 +386,20 @@ struct CorridorDrive {
         std::mt19937 rng(seed);
         room::Sensor sensor;
         sensor.noise = 0.01;
-        for (int k = 0; k < 120; k++) {
-            const double t = 1 + 0.1 * k;
-            for (int i = 0; wheels && i < 10; i++) {
+        const size_t scans = late_s.empty() ? 120 : late_s.size();
+        for (size_t k = 0; k < scans; k++) {
+            const double t = 1 + 0.1 * static_cast<double>(k);
+            ale_scan_t scan = room::scan_at(corridor, sensor, along_corridor, t, rng);
+            if (!late_s.empty()) {
+                scan.stamp_us = std::llround((t + late_s[k]) * 1e6);
+                const ale_odometry_t sample = {scan.stamp_us, convert::pose(wheels(t))};
+                ale_pipeline_odometry(pipeline.get(), &sample);
+            }
+            for (int i = 0; late_s.empty() && wheels && i < 10; i++) {
                 const double at = t - 0.04 + 0.01 * i;
                 const ale_odometry_t sample = {std::llround(at * 1e6), convert::pose(wheels(at))};
                 ale_pipeline_odometry(pipeline.get(), &sample);
             }
-            const ale_scan_t scan = room::scan_at(corridor, sensor, along_corridor, t, rng);
             ale_estimate_t e;
             ale_pipeline_scan(pipeline.get(), &scan, &e);
             estimates.push_back(e);
@@ -466,6 +473,37 @@ TEST(PipelineTrack, WheelsThatTellAheadAsBackInACorridorAreRefutedByItsDoors)
                 ASSERT_LT(drive.error_m(k), 0.1) << k << " seed " << seed << " doors every " << every_m;
             }
         }
+    }
+}
+
+// By how much scans are stamped late that a queue lets go many at once, some after later ones.
+std::vector<double> held_up(size_t scans, unsigned seed)
+{
+    std::mt19937 rng(seed);
+    std::uniform_real_distribution<double> chance(0, 1);
+    std::vector<double> late_s;
+    double lets_go = 0;
+    for (size_t k = 0; k < scans; k++) {
+        const double taken = 0.1 * static_cast<double>(k);
+        lets_go = taken > lets_go ? taken + 0.5 * chance(rng) : lets_go;
+        late_s.push_back(lets_go - taken + (chance(rng) < 0.1 ? 0.25 * chance(rng) : 0));
+    }
+    return late_s;
+}
+
+/* Between bare walls wheels alone tell how far the robot has come: what is told with a scan is of its
+ * instant, whenever it was stamped. */
+TEST(PipelineTrack, WheelsThatAreToldWithScansKeepTheWayHoweverLateBothAreStamped)
+{
+    for (unsigned seed = 1; seed <= 4; seed++) {
+        const CorridorDrive drive(bare_corridor(), wheels_that_count(1), seed, held_up(500, seed));
+        const size_t end = drive.estimates.size() - 1;
+        for (size_t k = 300; k <= end; k++) {
+            const double gone_m = drive.estimates[k].map.x_um * 1e-6 - drive.estimates[k - 1].map.x_um * 1e-6;
+            ASSERT_NEAR(gone_m, 0.05, 0.015) << k << " seed " << seed;
+            ASSERT_EQ(drive.estimates[k].wheel_fault, ALE_WHEELS_FINE) << k << " seed " << seed;
+        }
+        EXPECT_NEAR(drive.error_m(end), drive.error_m(300), 0.1) << seed;
     }
 }
 

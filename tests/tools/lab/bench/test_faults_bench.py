@@ -246,6 +246,14 @@ def test_the_truth_is_told_as_the_drive(log):
     assert np.array_equal(spoil.Spoilt(np.array([4, 2])).told(np.arange(5) + 0j, np.zeros(5))[0], [4, 2])
 
 
+def test_a_queue_holds_scans_up_and_lets_many_go_at_once(log, clean):
+    left = spoil.spoil(log, "queued", 1)
+    late = log.stamps - clean.stamps
+    assert np.array_equal(left.index, np.arange(SCANS)) and np.array_equal(log.odometry, clean.odometry) and log.scans == clean.scans
+    assert late.min() >= 0 and 0.5 < late.max() <= 1.5
+    assert np.mean(np.diff(log.stamps) == 0) > 0.5 and np.any(np.diff(log.stamps) < 0)
+
+
 def test_fewer_and_rougher_ranges(path, clean):
     was = all_ranges(clean)
     now = {}

@@ -32,6 +32,7 @@ otherwise  every-other  every other beam without an echo  near      no echo beyo
            jitter       4 mm of noise more on every range: as if driven on another day
            crop         120 degrees ahead                rough      10 mm and 1 % of noise on every range
            sparse       every third scan                 tail       begins after a third of the drive
+           queued       scans are stamped when a queue lets them go, up to 1 s late and partly in the wrong order
 """
 import argparse
 import dataclasses
@@ -47,7 +48,7 @@ PASSING = ("stall", "swallow", "jump", "reset", "sign", "slip", "late", "track",
 LYING = ("frozen", "mirrored", "degrees", "millimetres", "stale")
 SCANS = ("blind", "gap", "dark", "half")
 OUTAGES = tuple(f"{kind}-{seconds}" for kind in ("gap", "dark") for seconds in (4, 6, 8, 10, 12))
-TOLD_OTHERWISE = ("mirror", "backward", "every-other", "near", "crop", "rough", "jitter", "sparse", "tail")
+TOLD_OTHERWISE = ("mirror", "backward", "every-other", "near", "crop", "rough", "jitter", "sparse", "tail", "queued")
 WHEELS = PASSING + LYING
 KINDS = PASSING + SCANS + ("carried",) + LYING + OUTAGES + TOLD_OTHERWISE
 
@@ -62,6 +63,7 @@ OFTEN = ("stall", "swallow", "jump", "sign", "slip")
 OFTEN_S = (30, 90)  # from one to the next
 NEAR_M = 8
 CROP_RAD = math.radians(60)
+HELD_UP_S, OUT_OF_ORDER, LATER_S = 1, 0.1, 0.5  # the longest time in a queue; the share of scans that come later still, and how much
 NOISE = {"rough": (0.01, 0.01), "jitter": (0.004, 0)}  # m, and share of the range
 
 
@@ -236,6 +238,17 @@ def mirror(log):
     log.odometry = log.odometry * (1, -1, -1)
 
 
+def queued(times, chance):
+    """When a queue lets scans go that were taken at these times: many at once."""
+    stamps, lets_go = [], times[0]
+    for taken in times:
+        if taken > lets_go:
+            lets_go = taken + chance.uniform(0, HELD_UP_S)
+        later = chance.uniform(0, LATER_S) if chance.uniform() < OUT_OF_ORDER else 0
+        stamps.append(lets_go + later)
+    return np.array(stamps)
+
+
 def tell_otherwise(log, kind, seed):
     """The same drive, told in another way."""
     index = np.arange(len(log.scans))
@@ -248,6 +261,8 @@ def tell_otherwise(log, kind, seed):
         times = log.stamps[-1] - log.stamps[::-1] + log.stamps[0]
         log.keep(index)
         log.stamps = times
+    elif kind == "queued":
+        log.stamps = queued(log.stamps, np.random.default_rng(seed))
     elif kind in ("sparse", "tail"):
         index = index[::3] if kind == "sparse" else index[len(index) // 3:]
         log.keep(index)
