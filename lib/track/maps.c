@@ -43,7 +43,7 @@ void ale_maps_begin(ale_pipeline_t *p)
     p->claims = p->claim == ALE_CLAIM_NONE ? 0 : CLAIM_SCANS;
     p->next_claim = ALE_CLAIM_NEAR;
     p->speed_known = false;
-    p->watched_us = p->motion.stamp_us;
+    p->watched = p->motion;
     p->begun = p->scans;
     p->led_by_wheels = 0;
     p->broken = true;
@@ -75,6 +75,7 @@ void ale_maps_join(ale_pipeline_t *p, uint8_t into, const ale_fit_t *fit)
     ale_local_map_join(&p->map, &join, &p->spare_landmarks);
     ale_atlas_join(&p->atlas, into, shift);
     p->motion = fit->motion;
+    p->watched = p->motion;
     ale_smooth_hold(&p->smooth, p->motion.pose);
     ale_lag_turn(&p->lag, shift.theta_bam);
     p->moved = true;

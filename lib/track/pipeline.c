@@ -75,6 +75,7 @@ static void reset_motion(ale_pipeline_t *p)
 static void place(ale_pipeline_t *p, ale_pose_t pose)
 {
     ale_motion_init(&p->motion, 0, pose, START_SPEED_MM_S, START_TURN_MRAD_S);
+    p->watched = p->motion;
     ale_smooth_init(&p->smooth, pose);
 }
 
@@ -172,7 +173,9 @@ static void conclude(ale_pipeline_t *p, const ale_tracked_t *tracked)
     p->speed_known = tracked->speed_known;
     p->slips = tracked->slips;
     p->kept = tracked->kept;
-    p->watched_us = tracked->kept ? tracked->fit.motion.stamp_us : p->watched_us;
+    if (tracked->kept) {
+        p->watched = p->motion;
+    }
 }
 
 static void follow_proposal(ale_pipeline_t *p, ale_pose_t before, ale_pose_t now)
@@ -203,7 +206,7 @@ static void begin(ale_pipeline_t *p, const ale_scan_t *scan)
     const ale_tracked_t tracked = ale_step_track_first(p);
     conclude(p, &tracked);
     p->started = p->observed.count > 0;
-    p->watched_us = p->motion.stamp_us;
+    p->watched = p->motion;
 }
 
 /* A robot that knows nothing of where it is goes by the prediction, until a scan shows enough to begin a map
@@ -227,7 +230,7 @@ static void track(ale_pipeline_t *p, const ale_prediction_t *prediction)
 static void follow(ale_pipeline_t *p, const ale_scan_t *scan)
 {
     const ale_prediction_t prediction = ale_step_predict(p, scan->stamp_us);
-    follow_proposal(p, prediction.before.pose, prediction.ways.believed.pose);
+    follow_proposal(p, prediction.before.pose, prediction.next);
     observe(p, scan, prediction.ways.believed.velocity);
     track(p, &prediction);
     if (!ale_maps_is_home(p)) {

@@ -106,6 +106,7 @@ static void correct_robot(ale_pipeline_t *p, ale_pose_t shift)
 {
     const ale_pose_t before = p->motion.pose;
     p->motion.pose = ale_pose_compose(shift, before);
+    p->watched.pose = ale_pose_compose(shift, p->watched.pose);
     ale_smooth_hold(&p->smooth, p->motion.pose);
     ale_lag_turn(&p->lag, shift.theta_bam);
     const bool moved = ale_abs64((int64_t)p->motion.pose.x_um - before.x_um) > MOVED_UM ||
@@ -169,6 +170,7 @@ bool ale_pipeline_change_tiles(ale_pipeline_t *p, const ale_tile_change_t *chang
 void ale_pipeline_relocate(ale_pipeline_t *p, ale_pose_t pose)
 {
     p->motion.pose = pose;
+    p->watched = p->motion;
     ale_smooth_hold(&p->smooth, pose);
     ale_maps_lose(p, ALE_CLAIM_SAID);
     ale_update_restart(p);

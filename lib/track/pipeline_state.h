@@ -140,18 +140,18 @@ struct ale_pipeline {
 
     /* conclude: what a scan came to */
     ale_motion_t motion;
-    ale_pose_t step; /* from the scan before the last one to the last one */
+    ale_motion_t watched; /* where and when a scan has last told where the robot is */
+    ale_pose_t step;      /* from the scan before the last one to the last one */
     ale_smooth_t smooth;
     ale_fit_t fit; /* of the last scan that was fitted */
     uint16_t matched_corners;
-    bool determined;    /* every direction, by the last scan */
-    bool speed_known;   /* a scan determined it, and the robot has gone on evenly since */
-    bool slips;         /* the last time that wheels could have slipped they did */
-    bool kept;          /* the last scan that was tracked is the one that the next is compared with */
-    bool looked;        /* the last answer had a scan */
-    int64_t watched_us; /* when a scan last told where the robot is */
-    bool is_told;       /* odometry that the wheels have not taken yet */
-    bool started;       /* the first scan has set the origin */
+    bool determined;  /* every direction, by the last scan */
+    bool speed_known; /* a scan determined it, and the robot has gone on evenly since */
+    bool slips;       /* the last time that wheels could have slipped they did */
+    bool kept;        /* the last scan that was tracked is the one that the next is compared with */
+    bool looked;      /* the last answer had a scan */
+    bool is_told;     /* odometry that the wheels have not taken yet */
+    bool started;     /* the first scan has set the origin */
     uint32_t scans;
 
     /* commands, and what passes to the mapper: pipeline_mapper.c */

@@ -66,8 +66,10 @@ static int64_t in_order(const ale_pipeline_t *p, int64_t instant_us)
 void ale_pipeline_take_odometry(ale_pipeline_t *p)
 {
     if (p->is_told) {
-        if (p->started) { /* the next prediction begins where the pose is, however long it takes */
-            ale_wheels_keep(&p->wheels, p->motion.stamp_us - p->lag.lag_us);
+        if (p->started) { /* the next prediction begins there, however long it takes */
+            const bool waits = p->waits > 0;
+            const int64_t from_us = waits ? p->watched.stamp_us : p->motion.stamp_us;
+            ale_wheels_keep(&p->wheels, from_us - p->lag.lag_us);
         }
         ale_wheels_add(&p->wheels, &p->told);
         p->is_told = false;
@@ -94,6 +96,16 @@ static ale_ways_t hypotheses(const ale_pipeline_t *p, const ale_motion_t *by_whe
     return ale_ways_of(by_wheels, &constant_velocity, lie && p->monitor.state != ALE_STATE_LOST);
 }
 
+/* Over all of a time unwatched at once: from scan to scan that were waited from, wheels that are told late
+ * were wrong at each of them. */
+static ale_motion_t since_watched(const ale_pipeline_t *p, const ale_motion_t *predicted)
+{
+    ale_motion_t motion = p->watched;
+    ale_wheel_motion_t wheels;
+    const bool counted = ale_pipeline_predict_by_wheels(p, &motion, predicted->stamp_us, &wheels);
+    return counted ? motion : *predicted;
+}
+
 ale_prediction_t ale_step_predict(ale_pipeline_t *p, int64_t stamp_us)
 {
     ale_prediction_t prediction = {.before = p->motion};
@@ -101,6 +113,11 @@ ale_prediction_t ale_step_predict(ale_pipeline_t *p, int64_t stamp_us)
     const int64_t dt_us = instant_us - p->motion.stamp_us;
     ale_motion_t predicted = p->motion;
     const bool believed = predict(p, &predicted, instant_us, &prediction.wheels, &prediction.counted);
+    prediction.next = predicted.pose;
+    const bool waits = p->waits > 0;
+    if (waits && believed) {
+        predicted = since_watched(p, &predicted);
+    }
     prediction.ways =
         believed ? hypotheses(p, &predicted) : (ale_ways_t){.believed = predicted, .rival = predicted};
     prediction.dt_us =

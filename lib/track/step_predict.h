@@ -11,6 +11,7 @@ enum { ALE_SCAN_PERIOD_MAX_US = 2000000 }; /* scans farther apart say nothing of
 
 typedef struct {
     ale_motion_t before;       /* where the last scan has left the robot */
+    ale_pose_t next;           /* where wheels and time have led from there */
     ale_ways_t ways;           /* motion hypotheses for the scan at hand */
     bool counted;              /* wheels tell what the robot has gone since the last scan: */
     ale_wheel_motion_t wheels; /* this */

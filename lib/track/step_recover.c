@@ -26,7 +26,7 @@ static const ale_gate_t start_gate = {300000, 200000, 6, 100000};
 
 static int64_t since_watched_us(const ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
-    return ale_max64(prediction->ways.believed.stamp_us - p->watched_us, prediction->dt_us);
+    return ale_max64(prediction->ways.believed.stamp_us - p->watched.stamp_us, prediction->dt_us);
 }
 
 bool ale_recover_may_be_anywhere(const ale_pipeline_t *p, const ale_prediction_t *prediction)
@@ -43,7 +43,7 @@ static bool has_stood(const ale_pipeline_t *p, const ale_prediction_t *predictio
 {
     const int64_t end_us = p->timestamp_filter.usual_us;
     const int64_t back_us = p->waited > 0 ? p->back_us : prediction->ways.believed.stamp_us;
-    const int64_t from_us = p->watched_us + end_us - p->lag.lag_us;
+    const int64_t from_us = p->watched.stamp_us + end_us - p->lag.lag_us;
     const int64_t to_us = back_us - end_us - p->lag.lag_us;
     const ale_pose_t nowhere = {0};
     ale_pose_t between;

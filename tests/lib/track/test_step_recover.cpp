@@ -298,6 +298,41 @@ TEST(StepRecover, ARoomLikeTheKnownOneIsNotTakenForItWhenWheelsHaveLedToTheNext)
     }
 }
 
+/* A robot turns on the spot while the scanner is away for three seconds, and nothing of what it sees then is
+ * in its map; wheels tell of a part of the turn with the first scan that comes again, and the rest after it.
+ * Returns by how much it is turned wrongly two scans later, rad. */
+double turned_after_wheels_told_late(unsigned seed)
+{
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    room::Sensor around;
+    around.beam_time_ns = 0;
+    around.noise = 0.01;
+    std::mt19937 rng(seed);
+    const auto way = [](double t) {
+        return reference::Pose(0, 0, 0.1 * std::min(t, 2.0) + 0.5 * std::clamp(t - 2, 0.0, 3.0));
+    };
+    const auto place = [&](double t) { return reference::Pose(way(t) + reference::Pose(1, 0, 0)); };
+    ale_estimate_t e = {};
+    for (int k = 0; k <= 52; k++) {
+        const double t = 0.1 * k;
+        if (k <= 20 || k >= 50) {
+            const ale_odometry_t told = {std::llround(t * 1e6), convert::pose(way(k == 50 ? 3 : t))};
+            ale_pipeline_odometry(p.get(), &told);
+            const ale_scan_t scan =
+                room::scan_at(k <= 20 ? room::l_shape() : two_alike_rooms(), around, place, t, rng);
+            ale_pipeline_scan(p.get(), &scan, &e);
+        }
+    }
+    return std::abs(reference::wrap(convert::pose(e.map)[2] - way(5)[2]));
+}
+
+TEST(StepRecover, WhileItWaitsForWheelsThatAreToldLateTheWayIsThatOfTheWheels)
+{
+    for (const unsigned seed : {1U, 2U, 3U}) {
+        EXPECT_LT(turned_after_wheels_told_late(seed), 0.05) << "seed " << seed;
+    }
+}
+
 /* A robot turns on the spot while the scanner is away for three seconds; wheels tell how it began to turn,
  * the same with the first scan that comes again, and the rest after it. Returns how many scans it is lost. */
 int lost_after_a_turn_told_of_late(unsigned seed)

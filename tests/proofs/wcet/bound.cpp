@@ -423,7 +423,7 @@ class Lost
     {
         ale_prediction_t prediction{};
         prediction.before = prediction.ways.believed = prediction.ways.rival = predicted;
-        prediction.ways.believed.stamp_us = pipeline_->watched_us + unwatched_us;
+        prediction.ways.believed.stamp_us = pipeline_->watched.stamp_us + unwatched_us;
         prediction.dt_us = unwatched_us;
         return prediction;
     }
@@ -631,8 +631,9 @@ void wheels(Parts &parts)
     }
     lag.done_us = 500000;
     ale_wheel_motion_t motion;
-    parts.measure("way of the wheels", 1,
-                  [&] { ale_wheel_motion(wheels.get(), &lag, &errors, 300000, 400000, &motion); });
+    /* since the last scan and, where it was waited from, since one has told the pose */
+    parts.measure("way of the wheels", 2,
+                  [&] { ale_wheel_motion(wheels.get(), &lag, &errors, 300000, 1450000, &motion); });
     ale_pose_t unwatched;
     int32_t beyond_us;
     parts.measure("way through a time unwatched", 1,
@@ -654,7 +655,8 @@ void always(Parts &parts)
                   [&] { ale_pipeline_dropped(pipeline.get(), scan.stamp_us + 100000, &estimate); });
     const ale_motion_t by_wheels = pipeline->motion;
     ale_ways_t ways;
-    parts.measure("going on as before", 1, [&] {
+    /* and by wheels, where it was waited from */
+    parts.measure("going on as before", 2, [&] {
         ale_motion_t as_before = by_wheels;
         ale_pipeline_predict_motion(pipeline.get(), &as_before, by_wheels.stamp_us + 100000, nullptr);
         ways = ale_ways_of(&by_wheels, &as_before, true);
