@@ -56,7 +56,7 @@ static void reset_motion(ale_pipeline_t *p)
 {
     const ale_pipeline_config_t *c = &p->config;
     ale_wheels_init(&p->wheels, c->max_speed_mm_s, c->max_turn_mrad_s);
-    p->is_told = false;
+    p->is_pending = false;
     ale_wheel_factors_init(&p->factors, c->odometry_distance_factor_ppm, c->odometry_turn_factor_ppm,
                            c->odometry_turn_bias_urad_m);
     ale_lag_init(&p->lag, c->odometry_lag_us);
@@ -128,9 +128,9 @@ void ale_pipeline_odometry(ale_pipeline_t *pipeline, const ale_odometry_t *sampl
 {
     if (pipeline->config.use_odometry) {
         ale_pipeline_take_odometry(pipeline);
-        pipeline->told =
+        pipeline->pending =
             (ale_odometry_t){sample->stamp_us, ale_wheel_factors_correct(&pipeline->factors, sample->pose)};
-        pipeline->is_told = true;
+        pipeline->is_pending = true;
     }
 }
 

@@ -46,6 +46,8 @@ void ale_pipeline_set_hook(ale_pipeline_t *pipeline, const ale_stage_hook_t *hoo
 /* Forgets map and pose; keeps the configuration. The next scan is the origin. */
 void ale_pipeline_reset(ale_pipeline_t *pipeline);
 
+/* A sample with the very stamp of the scan that comes next was taken with it: it is of the instant of that
+ * scan, however late both were stamped. */
 void ale_pipeline_odometry(ale_pipeline_t *pipeline, const ale_odometry_t *sample);
 void ale_pipeline_scan(ale_pipeline_t *pipeline, const ale_scan_t *scan, ale_estimate_t *out);
 void ale_pipeline_dropped(ale_pipeline_t *pipeline, int64_t stamp_us, ale_estimate_t *out);

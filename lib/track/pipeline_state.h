@@ -78,7 +78,7 @@ struct ale_pipeline {
 
     /* ale_pipeline_odometry */
     ale_wheel_factors_t factors;
-    ale_odometry_t told; /* last; the wheels take it when it is known whether a scan was told with it */
+    ale_odometry_t pending; /* last; the wheels take it when it is known whether a scan was told with it */
     ale_wheels_t wheels;
 
     /* predict */
@@ -150,7 +150,7 @@ struct ale_pipeline {
     bool slips;       /* the last time that wheels could have slipped they did */
     bool kept;        /* the last scan that was tracked is the one that the next is compared with */
     bool looked;      /* the last answer had a scan */
-    bool is_told;     /* odometry that the wheels have not taken yet */
+    bool is_pending;  /* odometry that the wheels have not taken yet */
     bool started;     /* the first scan has set the origin */
     uint32_t scans;
 

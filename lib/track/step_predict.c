@@ -65,22 +65,22 @@ static int64_t in_order(const ale_pipeline_t *p, int64_t instant_us)
 
 void ale_pipeline_take_odometry(ale_pipeline_t *p)
 {
-    if (p->is_told) {
+    if (p->is_pending) {
         if (p->started) { /* the next prediction begins there, however long it takes */
             const bool waits = p->waits > 0;
             const int64_t from_us = waits ? p->watched.stamp_us : p->motion.stamp_us;
             ale_wheels_keep(&p->wheels, from_us - p->lag.lag_us);
         }
-        ale_wheels_add(&p->wheels, &p->told);
-        p->is_told = false;
+        ale_wheels_add(&p->wheels, &p->pending);
+        p->is_pending = false;
     }
 }
 
 int64_t ale_pipeline_instant(ale_pipeline_t *p, int64_t stamp_us)
 {
     const int64_t instant_us = in_order(p, ale_timestamp_filter_instant(&p->timestamp_filter, stamp_us));
-    if (p->told.stamp_us == stamp_us) {
-        p->told.stamp_us = instant_us;
+    if (p->pending.stamp_us == stamp_us) {
+        p->pending.stamp_us = instant_us;
     }
     ale_pipeline_take_odometry(p);
     return instant_us;

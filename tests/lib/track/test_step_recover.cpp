@@ -234,6 +234,15 @@ TEST(StepRecover, InACorridorThatRepeatsItselfNoOtherPartOfItIsTaken)
     }
 }
 
+// A scanner whose beams are all of one instant.
+room::Sensor sees_at_once()
+{
+    room::Sensor sensor;
+    sensor.beam_time_ns = 0;
+    sensor.noise = 0.01;
+    return sensor;
+}
+
 /* Two rooms of 5 m by 4 m that are furnished alike, with a door between them at y = 0. */
 std::vector<room::Wall> two_alike_rooms()
 {
@@ -258,9 +267,7 @@ std::vector<room::Wall> two_alike_rooms()
 double most_off_after_an_outage(double from, double to, unsigned seed)
 {
     const room::Pipeline p = room::make(ale_pipeline_default_config());
-    room::Sensor around;
-    around.beam_time_ns = 0;
-    around.noise = 0.01;
+    const room::Sensor around = sees_at_once();
     std::mt19937 rng(seed);
     const std::vector<room::Wall> walls = two_alike_rooms();
     constexpr double away_at = 8;
@@ -304,9 +311,7 @@ TEST(StepRecover, ARoomLikeTheKnownOneIsNotTakenForItWhenWheelsHaveLedToTheNext)
 double turned_after_wheels_told_late(unsigned seed)
 {
     const room::Pipeline p = room::make(ale_pipeline_default_config());
-    room::Sensor around;
-    around.beam_time_ns = 0;
-    around.noise = 0.01;
+    const room::Sensor around = sees_at_once();
     std::mt19937 rng(seed);
     const auto way = [](double t) {
         return reference::Pose(0, 0, 0.1 * std::min(t, 2.0) + 0.5 * std::clamp(t - 2, 0.0, 3.0));
@@ -338,9 +343,7 @@ TEST(StepRecover, WhileItWaitsForWheelsThatAreToldLateTheWayIsThatOfTheWheels)
 int lost_after_a_turn_told_of_late(unsigned seed)
 {
     const room::Pipeline p = room::make(ale_pipeline_default_config());
-    room::Sensor around;
-    around.beam_time_ns = 0;
-    around.noise = 0.01;
+    const room::Sensor around = sees_at_once();
     std::mt19937 rng(seed);
     std::vector<room::Wall> walls = two_alike_rooms();
     walls.resize(walls.size() / 2); // the first of them

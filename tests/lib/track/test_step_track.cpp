@@ -390,15 +390,18 @@ struct CorridorDrive {
         for (size_t k = 0; k < scans; k++) {
             const double t = 1 + 0.1 * static_cast<double>(k);
             ale_scan_t scan = room::scan_at(corridor, sensor, along_corridor, t, rng);
+            const auto tell = [&](int64_t stamp_us, double at) {
+                const ale_odometry_t sample = {stamp_us, convert::pose(wheels(at))};
+                ale_pipeline_odometry(pipeline.get(), &sample);
+            };
             if (!late_s.empty()) {
                 scan.stamp_us = std::llround((t + late_s[k]) * 1e6);
-                const ale_odometry_t sample = {scan.stamp_us, convert::pose(wheels(t))};
-                ale_pipeline_odometry(pipeline.get(), &sample);
-            }
-            for (int i = 0; late_s.empty() && wheels && i < 10; i++) {
-                const double at = t - 0.04 + 0.01 * i;
-                const ale_odometry_t sample = {std::llround(at * 1e6), convert::pose(wheels(at))};
-                ale_pipeline_odometry(pipeline.get(), &sample);
+                tell(scan.stamp_us, t);
+            } else if (wheels) {
+                for (int i = 0; i < 10; i++) {
+                    const double at = t - 0.04 + 0.01 * i;
+                    tell(std::llround(at * 1e6), at);
+                }
             }
             ale_estimate_t e;
             ale_pipeline_scan(pipeline.get(), &scan, &e);

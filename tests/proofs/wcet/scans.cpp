@@ -143,4 +143,22 @@ std::unique_ptr<ale_map_t> map_of(const Costly &costly, Random &random)
     return map;
 }
 
+ale_scan_t any_scan(Random &random)
+{
+    Costly costly;
+    for (int k = 0; k < 12; k++) {
+        costly = changed(costly, random);
+    }
+    return scan_of(costly, 0, random);
+}
+
+ale_scan_t far_scan(Random &random)
+{
+    ale_scan_t scan = any_scan(random);
+    for (uint16_t k = 0; k < scan.beams; k++) {
+        ale_scan_set_range(&scan, k, 25000000);
+    }
+    return scan;
+}
+
 } // namespace bench

@@ -46,6 +46,12 @@ ale_scan_t scan_of(const Costly &costly, int k, Random &random);
 /* The known map around it; empty without walls. */
 std::unique_ptr<ale_map_t> map_of(const Costly &costly, Random &random);
 
+/* A scan of full size of anything between walls and noise. */
+ale_scan_t any_scan(Random &random);
+
+/* Scans with the ranges of a robot that sees through every wall. */
+ale_scan_t far_scan(Random &random);
+
 } // namespace bench
 
 #endif

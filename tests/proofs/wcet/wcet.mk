@@ -1,5 +1,5 @@
 # The most expensive scans: of the whole estimate task, and of the extractor alone.
-$(BUILD)/bench/wcet: $(call objects,$(patsubst %,tests/proofs/wcet/%.cpp,wcet bound crowd scans)) $(addprefix $(BUILD)/,libale_tools.a libale_drivers.a libale.a)
+$(BUILD)/bench/wcet: $(call objects,$(patsubst %,tests/proofs/wcet/%.cpp,wcet bound every_scan_parts tracked_parts lost_parts crowd scans)) $(addprefix $(BUILD)/,libale_tools.a libale_drivers.a libale.a)
 	$(call link)
 
 # Instructions of one scan's way through the estimate task: recorded ones, and the most expensive that a search finds.
