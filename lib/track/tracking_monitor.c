@@ -104,6 +104,11 @@ bool ale_tracking_denies(const ale_testimony_t *testimony)
     return denies(testimony, UNWATCHED_PERCENT);
 }
 
+bool ale_tracking_denies_step(const ale_testimony_t *testimony)
+{
+    return denies(testimony, DENIED_PERCENT);
+}
+
 bool ale_tracking_witnesses(const ale_testimony_t *testimony)
 {
     return testimony->shown_um > SHOWN_LEAST_UM && confirms(testimony, CLOSE_PERCENT);

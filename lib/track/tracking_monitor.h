@@ -37,6 +37,9 @@ bool ale_tracking_is_strange(const ale_tracking_monitor_t *monitor, const ale_fi
 /* Whether two scans, of whose way from the one to the other nothing was seen, contradict each other. */
 bool ale_tracking_denies(const ale_testimony_t *testimony);
 
+/* Whether two scans contradict each other, where wheels have told of the step from the one to the other. */
+bool ale_tracking_denies_step(const ale_testimony_t *testimony);
+
 /* Whether two scans, of whose way from the one to the other nothing was seen, confirm much of each other. */
 bool ale_tracking_witnesses(const ale_testimony_t *testimony);
 

@@ -42,7 +42,7 @@ template <typename Way> bool has_driven(const Way &way)
     }
     const ale_prediction_t prediction = ale_step_predict(p.get(), std::llround((begun + unseen) * 1e6));
     EXPECT_TRUE(prediction.counted);
-    EXPECT_TRUE(ale_recover_is_unwatched(p.get(), &prediction));
+    EXPECT_TRUE(ale_recover_is_gap(p.get(), &prediction));
     return ale_recover_has_driven(p.get(), &prediction);
 }
 
@@ -192,9 +192,14 @@ std::vector<room::Wall> corridor_with_recesses()
     return walls;
 }
 
-/* A robot drives along that corridor and sees a scan of half a turn after each step. Returns by how much it
- * is ever off, m and rad together. */
-double most_off_along(double step_m, unsigned seed)
+struct Along {
+    double off = 0; /* at most, m and rad together */
+    bool lost = false;
+};
+
+/* A robot drives along that corridor and sees a scan of half a turn after each step; before every fifth it
+ * waits. */
+Along along_recesses(double step_m, unsigned seed, double wait_s)
 {
     constexpr double period_s = 3.5;
     const room::Pipeline p = room::make(ale_pipeline_default_config());
@@ -208,19 +213,21 @@ double most_off_along(double step_m, unsigned seed)
     std::mt19937 rng(seed);
     const std::vector<room::Wall> walls = corridor_with_recesses();
     ale_estimate_t e = {};
-    double most = 0;
+    Along most;
     for (int k = 0; k * step_m < 40; k++) {
         const double x = k * step_m;
-        const ale_odometry_t sample = {std::llround(k * period_s * 1e6),
+        const double t = k * period_s + k / 5 * wait_s;
+        const ale_odometry_t sample = {std::llround(t * 1e6),
                                        {static_cast<int32_t>(std::llround(x * 1e6)), 0, 0}};
         ale_pipeline_odometry(p.get(), &sample);
         const reference::Pose place(x, 0, 0);
         const ale_scan_t scan = room::scan_at(
-            walls, ahead, [&](double) { return place; }, k * period_s, rng);
+            walls, ahead, [&](double) { return place; }, t, rng);
         ale_pipeline_scan(p.get(), &scan, &e);
-        most = std::max(most,
-                        std::hypot(e.map.x_um * 1e-6 - x, e.map.y_um * 1e-6) +
-                            std::abs(std::remainder(convert::radians(e.map.theta_bam), 2 * reference::pi)));
+        most.lost = most.lost || e.state == ALE_STATE_LOST;
+        most.off = std::max(
+            most.off, std::hypot(e.map.x_um * 1e-6 - x, e.map.y_um * 1e-6) +
+                          std::abs(std::remainder(convert::radians(e.map.theta_bam), 2 * reference::pi)));
     }
     return most;
 }
@@ -229,7 +236,19 @@ TEST(StepRecover, InACorridorThatRepeatsItselfNoOtherPartOfItIsTaken)
 {
     for (const double step_m : {1.0, 1.5, 2.0, 2.5, 3.0}) {
         for (const unsigned seed : {1U, 2U, 3U, 4U}) {
-            EXPECT_LT(most_off_along(step_m, seed), 1) << step_m << " m a scan, seed " << seed;
+            EXPECT_LT(along_recesses(step_m, seed, 0).off, 1) << step_m << " m a scan, seed " << seed;
+        }
+    }
+}
+
+/* A log with a scan after every step, however long that took. */
+TEST(StepRecover, AStepThatTakesLongIsNoTimeThatNobodyWatched)
+{
+    for (const double step_m : {0.7, 1.0}) {
+        for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+            const Along drive = along_recesses(step_m, seed, 16);
+            EXPECT_FALSE(drive.lost) << step_m << " m a scan, seed " << seed;
+            EXPECT_LT(drive.off, 0.5) << step_m << " m a scan, seed " << seed;
         }
     }
 }
@@ -241,6 +260,39 @@ room::Sensor sees_at_once()
     sensor.beam_time_ns = 0;
     sensor.noise = 0.01;
     return sensor;
+}
+
+/* A robot goes on and back in a room, a scan after each step of half a metre that wheels tell of; before the
+ * last one, which takes long, it goes `gone` such steps instead. Returns whether the robot says that nobody
+ * has watched that. */
+bool is_unwatched_after(double gone)
+{
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    const room::Sensor around = sees_at_once();
+    std::mt19937 rng(1);
+    ale_estimate_t e = {};
+    const auto see = [&](double told, double x, double t) {
+        const ale_odometry_t sample = {std::llround(t * 1e6),
+                                       {static_cast<int32_t>(std::llround(told * 1e6)), 0, 0}};
+        ale_pipeline_odometry(p.get(), &sample);
+        const reference::Pose place(0.5 + x, 0, 0);
+        const ale_scan_t scan = room::scan_at(
+            room::l_shape(), around, [&](double) { return place; }, t, rng);
+        ale_pipeline_scan(p.get(), &scan, &e);
+    };
+    int steps = 0;
+    for (; steps < 24; steps++) {
+        const double x = 0.5 * std::abs(2 - steps % 4);
+        see(x, x, 3.0 * steps);
+    }
+    see(1, 0.5 + 0.5 * gone, 3.0 * steps + 12);
+    return p->unwatched;
+}
+
+TEST(StepRecover, AfterALongStepTheLastScanTellsWhetherWheelsHaveToldOfIt)
+{
+    EXPECT_FALSE(is_unwatched_after(1));
+    EXPECT_TRUE(is_unwatched_after(4));
 }
 
 /* Two rooms of 5 m by 4 m that are furnished alike, with a door between them at y = 0. */
