@@ -52,9 +52,14 @@ ale_scene_verdict_t ale_step_monitor(ale_pipeline_t *p, const ale_prediction_t *
         const ale_slack_t known = {SLACK_UM, SLACK_URAD, false};
         testimony = ale_witness_hear(&p->witness, &now, step ? known : slack_of(&fit->motion.cov, counted));
     }
-    ale_tracking_notice(&p->monitor, strange && !step ? &testimony : NULL, counted, p->map.count > 0);
-    p->denied =
-        step ? ale_tracking_denies_step(&testimony) : gap && !driven && is_denied_to_stand(p, strange, &now);
+    const bool alone = strange && !step;
+    ale_tracking_notice(&p->monitor, alone ? &testimony : NULL, counted, p->map.count > 0);
+    if (step) {
+        const bool late = ale_pipeline_is_gap(p, prediction->dt_us); /* not only doubted before */
+        p->denied = late && ale_tracking_denies_step(&testimony);
+    } else {
+        p->denied = gap && !driven && is_denied_to_stand(p, strange, &now);
+    }
     p->unwatched = gap && (!step || p->denied);
     p->driven = driven || (step && !p->denied);
     p->monitor.contradicted = p->monitor.contradicted || p->denied;
