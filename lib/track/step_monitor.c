@@ -37,14 +37,13 @@ static bool is_denied_to_stand(const ale_pipeline_t *p, bool strange, const ale_
     return ale_tracking_denies(&testimony);
 }
 
-/* A time without scans that ends with a step was watched unless the last scan denies that it has led here.
- * Scans that are waited for belong to the time before. */
+/* A time without scans that ends with a step was watched unless the last scan denies that it has led here. */
 ale_scene_verdict_t ale_step_monitor(ale_pipeline_t *p, const ale_prediction_t *prediction, bool counted,
                                      const ale_fit_t *fit)
 {
     const bool strange = ale_tracking_is_strange(&p->monitor, fit);
     const bool gap = ale_recover_is_gap(p, prediction);
-    const bool step = gap && p->waited == 0 && ale_recover_is_step(p, prediction);
+    const bool step = gap && ale_recover_is_step(p, prediction);
     const bool driven = gap && ale_recover_has_driven(p, prediction);
     const ale_seen_t now = ale_pipeline_seen_from(p, prediction->before.pose, fit->motion.pose);
     ale_testimony_t testimony = {0};
@@ -61,7 +60,7 @@ ale_scene_verdict_t ale_step_monitor(ale_pipeline_t *p, const ale_prediction_t *
         p->denied = gap && !driven && is_denied_to_stand(p, strange, &now);
     }
     p->unwatched = gap && (!step || p->denied);
-    p->driven = driven || (step && !p->denied);
+    p->driven = driven || (step && !p->denied && p->waited == 0);
     p->monitor.contradicted = p->monitor.contradicted || p->denied;
     if (p->monitor.contradicted) {
         return ALE_SCENE_CHANGED;
