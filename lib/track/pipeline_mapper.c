@@ -30,6 +30,13 @@ static bool has_gone_on(const ale_pipeline_t *p)
            ale_abs64((int32_t)way.theta_bam) > (int64_t)ALE_KEYFRAME_TURN_MRAD * ALE_BAM_PER_MRAD;
 }
 
+/* Of a log that holds but some of the scans wheels may have told a part of the way alone. */
+static ale_claim_t claim_told(const ale_pipeline_t *p)
+{
+    const bool part = p->claim == ALE_CLAIM_DRIVEN && !ale_timestamp_filter_is_dense(&p->timestamp_filter);
+    return part ? ALE_CLAIM_NEAR : p->claim;
+}
+
 bool ale_pipeline_keyframe(ale_pipeline_t *p, ale_keyframe_t *out)
 {
     const bool waits = p->waits > 0; /* for the next scan to tell where this one was taken */
@@ -50,7 +57,7 @@ bool ale_pipeline_keyframe(ale_pipeline_t *p, ale_keyframe_t *out)
     out->join = p->atlas.join;
     out->broken = p->broken;
     out->tied_from = out->scan - p->waited;
-    out->claim = p->claim;
+    out->claim = claim_told(p);
     out->weak = p->monitor.state != ALE_STATE_GOOD;
     out->sensor = p->config.sensor;
     out->taken = p->still.scan;

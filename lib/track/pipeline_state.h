@@ -101,11 +101,10 @@ struct ale_pipeline {
     /* monitor */
     ale_tracking_monitor_t monitor;
     uint8_t waits; /* scans in a row, to this one, that wait for the next one to tell where they were taken */
-    uint8_t waited;  /* to the one before */
-    int64_t back_us; /* the stamp of the first of those: the time unwatched ended there */
-    bool unwatched;  /* the time before this scan: nobody knows what was done with the robot */
-    bool driven;     /* wheels have told of a way through more time than is usual */
-    bool denied;     /* that the robot is where they have put it, or where it was: by the last scan */
+    uint8_t waited;       /* to the one before */
+    int64_t back_us;      /* the stamp of the first of those: the time unwatched ended there */
+    bool denied_to_stand; /* by one of those, or this one */
+    bool driven;          /* wheels have told of a way through the time unwatched before this scan */
     uint32_t
         led_by_wheels; /* the scan to which they alone have led, unseen; 0 where a map has confirmed it */
 

@@ -22,11 +22,16 @@ static ale_slack_t slack_of(const ale_matrix_t *cov, bool counted)
         (int32_t)ale_min64(2 * ale_matrix_sigma(cov, 2), counted ? SLACK_MOST_URAD : SLACK_URAD), false};
 }
 
-/* Whether the last scan denies that the robot is where it was: a robot that stood sees what it saw. What has
- * denied it once does so while scans are waited for. */
-static bool is_denied_to_stand(const ale_pipeline_t *p, bool strange, const ale_seen_t *now)
+/* Whether the last scan denies that the robot is where it was, after a time that nobody watched and in which
+ * no wheels told of a way: a robot that stood sees what it saw. What has denied it once does so while scans
+ * are waited for. */
+static bool is_denied_to_stand(const ale_pipeline_t *p, const ale_prediction_t *prediction, bool strange,
+                               const ale_seen_t *now)
 {
-    if (p->waited > 0 && p->denied) {
+    if (!ale_recover_is_unwatched(p, prediction) || p->driven) {
+        return false;
+    }
+    if (p->waited > 0 && p->denied_to_stand) {
         return true;
     }
     if (strange) {
@@ -37,31 +42,18 @@ static bool is_denied_to_stand(const ale_pipeline_t *p, bool strange, const ale_
     return ale_tracking_denies(&testimony);
 }
 
-/* A time without scans that ends with a step was watched unless the last scan denies that it has led here. */
 ale_scene_verdict_t ale_step_monitor(ale_pipeline_t *p, const ale_prediction_t *prediction, bool counted,
                                      const ale_fit_t *fit)
 {
     const bool strange = ale_tracking_is_strange(&p->monitor, fit);
-    const bool gap = ale_recover_is_gap(p, prediction);
-    const bool step = gap && ale_recover_is_step(p, prediction);
-    const bool driven = gap && ale_recover_has_driven(p, prediction);
     const ale_seen_t now = ale_pipeline_seen_from(p, prediction->before.pose, fit->motion.pose);
     ale_testimony_t testimony = {0};
-    if (strange || step) {
-        const ale_slack_t known = {SLACK_UM, SLACK_URAD, false};
-        testimony = ale_witness_hear(&p->witness, &now, step ? known : slack_of(&fit->motion.cov, counted));
+    if (strange) {
+        testimony = ale_witness_hear(&p->witness, &now, slack_of(&fit->motion.cov, counted));
     }
-    const bool alone = strange && !step;
-    ale_tracking_notice(&p->monitor, alone ? &testimony : NULL, counted, p->map.count > 0);
-    if (step) {
-        const bool late = ale_pipeline_is_gap(p, prediction->dt_us); /* not only doubted before */
-        p->denied = late && ale_tracking_denies_step(&testimony);
-    } else {
-        p->denied = gap && !driven && is_denied_to_stand(p, strange, &now);
-    }
-    p->unwatched = gap && (!step || p->denied);
-    p->driven = driven || (step && !p->denied && p->waited == 0);
-    p->monitor.contradicted = p->monitor.contradicted || p->denied;
+    ale_tracking_notice(&p->monitor, strange ? &testimony : NULL, counted, p->map.count > 0);
+    p->denied_to_stand = is_denied_to_stand(p, prediction, strange, &now);
+    p->monitor.contradicted = p->monitor.contradicted || p->denied_to_stand;
     if (p->monitor.contradicted) {
         return ALE_SCENE_CHANGED;
     }

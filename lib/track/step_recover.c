@@ -38,7 +38,7 @@ bool ale_recover_may_be_anywhere(const ale_pipeline_t *p, const ale_prediction_t
 
 /* Whether wheels that may have told of a way have told of none but at the ends of the time unwatched: what
  * they count until the last scan before it, and from the first one after it, which may have been waited from,
- * is no way through it. */
+ * is no way through it. Of a log that holds but some of the scans they tell nothing in between. */
 static bool has_stood(const ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
     const int64_t end_us = p->timestamp_filter.usual_us;
@@ -48,34 +48,24 @@ static bool has_stood(const ale_pipeline_t *p, const ale_prediction_t *predictio
     const ale_pose_t nowhere = {0};
     ale_pose_t between;
     int32_t beyond_us;
-    return from_us < to_us && ale_wheels_motion(&p->wheels, from_us, to_us, &between, &beyond_us) &&
+    return ale_timestamp_filter_is_dense(&p->timestamp_filter) && from_us < to_us &&
+           ale_wheels_motion(&p->wheels, from_us, to_us, &between, &beyond_us) &&
            ale_are_near(nowhere, between, SAME_UM, SAME_BAM);
-}
-
-/* Whether wheels have told of a way since the last scan. */
-static bool is_told_a_way(const ale_pipeline_t *p, const ale_prediction_t *prediction)
-{
-    const ale_pose_t before = ale_witness_seen(&p->witness).robot;
-    const ale_pose_t now =
-        ale_pipeline_smooth_pose(p, prediction->before.pose, prediction->ways.believed.pose);
-    return prediction->ways.counted && !ale_are_near(before, now, SAME_UM, SAME_BAM);
-}
-
-bool ale_recover_is_gap(const ale_pipeline_t *p, const ale_prediction_t *prediction)
-{
-    const int64_t t_us = since_watched_us(p, prediction);
-    return t_us > UNWATCHED_US && ale_pipeline_is_gap(p, t_us);
-}
-
-bool ale_recover_is_step(const ale_pipeline_t *p, const ale_prediction_t *prediction)
-{
-    return !ale_timestamp_filter_is_dense(&p->timestamp_filter) && is_told_a_way(p, prediction);
 }
 
 bool ale_recover_has_driven(const ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
-    return ale_timestamp_filter_is_dense(&p->timestamp_filter) && is_told_a_way(p, prediction) &&
-           !has_stood(p, prediction);
+    const ale_pose_t before = ale_witness_seen(&p->witness).robot;
+    const ale_pose_t now =
+        ale_pipeline_smooth_pose(p, prediction->before.pose, prediction->ways.believed.pose);
+    return ale_recover_is_unwatched(p, prediction) && prediction->ways.counted &&
+           !ale_are_near(before, now, SAME_UM, SAME_BAM) && !has_stood(p, prediction);
+}
+
+bool ale_recover_is_unwatched(const ale_pipeline_t *p, const ale_prediction_t *prediction)
+{
+    const int64_t t_us = since_watched_us(p, prediction);
+    return t_us > UNWATCHED_US && ale_pipeline_is_gap(p, t_us);
 }
 
 static int32_t halfway(int32_t from_um, int32_t to_um)
@@ -262,13 +252,21 @@ static int64_t missed_um(const ale_pipeline_t *p, ale_pose_t before, candidate_t
  * there. The map alone does not: a place that it does not hold may look like one that it does. */
 static bool is_told(const ale_pipeline_t *p, const ale_prediction_t *prediction, candidate_t *candidate)
 {
-    return p->driven || !p->unwatched ||
+    return p->driven || !ale_recover_is_unwatched(p, prediction) ||
            ale_are_near(prediction->ways.believed.pose, candidate->fit->motion.pose, SAME_UM, SAME_BAM) ||
            ale_tracking_witnesses(hear(p, prediction->before.pose, candidate));
 }
 
-/* Whether wheels that have told of a way through the time unwatched deny the pose. They may have led to what
- * the map does not hold, and such ground may look like a place that it does. */
+/* Whether wheels and the last scan agree on the given pose. A log that holds but some of the scans has one
+ * after each so much of a way, however long that took: of such a step the last scan has seen both ends. */
+static bool is_step_witnessed(const ale_pipeline_t *p, const ale_prediction_t *prediction, candidate_t *given)
+{
+    return p->driven && !ale_timestamp_filter_is_dense(&p->timestamp_filter) &&
+           !ale_tracking_denies_step(hear(p, prediction->before.pose, given));
+}
+
+/* Whether wheels that have told of a way deny the pose. They may have led to what the map does not hold, and
+ * such ground may look like a place that it does. */
 static bool is_denied(const ale_pipeline_t *p, const ale_motion_t *predicted, const candidate_t *best,
                       const candidate_t *given)
 {
@@ -313,19 +311,25 @@ static ale_recovery_t take_or_propose(ale_pipeline_t *p, const ale_prediction_t 
     return ALE_RECOVER_STAYS;
 }
 
-/* What the comparison comes to, whatever tells of the given pose. rival_um: as compare(). */
+/* What the comparison comes to, whatever tells of the given pose. Of a log that holds but some of the scans
+ * wheels may have told a part of the way alone, unless the last scan agrees. rival_um: as compare(). */
 static ale_recovery_t decide(ale_pipeline_t *p, const ale_prediction_t *prediction, candidate_t *given,
                              candidate_t *best, int64_t rival_um, ale_ways_t *ways)
 {
+    const bool witnessed = is_step_witnessed(p, prediction, given);
     if (best->evidence_um <= rival_um + MARGIN_UM) {
         const bool more = best->evidence_um > given->evidence_um + MARGIN_UM;
         const bool open = (more || !ways->counted) && ale_tracking_accepts(best->fit);
-        return open ? ALE_RECOVER_OPEN : ALE_RECOVER_STAYS;
+        return open && !witnessed ? ALE_RECOVER_OPEN : ALE_RECOVER_STAYS;
     }
     if (best->evidence_um == given->evidence_um) {
         return ALE_RECOVER_CONFIRMED;
     }
-    if (is_denied(p, &ways->believed, best, given)) {
+    const bool denied = is_denied(p, &ways->believed, best, given);
+    if (denied && witnessed) {
+        return ALE_RECOVER_STAYS;
+    }
+    if (denied && ale_timestamp_filter_is_dense(&p->timestamp_filter)) {
         return ALE_RECOVER_UNDECIDED;
     }
     return ale_tracking_explains(best->fit) ? take_or_propose(p, prediction, given, best, ways)

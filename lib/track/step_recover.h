@@ -9,18 +9,14 @@
 #include "track/step_predict.h"
 
 /* Whether more time than usual has gone since a scan last told where the robot is: what wheels and velocity
- * say of it is then not confirmed by anything but the scans before and after it. */
-bool ale_recover_is_gap(const ale_pipeline_t *p, const ale_prediction_t *prediction);
-
-/* Whether wheels have told of a way, in a log that holds but some of the scans: one after every so much of a
- * way, however long that took. */
-bool ale_recover_is_step(const ale_pipeline_t *p, const ale_prediction_t *prediction);
+ * say of it is then not confirmed by anything. */
+bool ale_recover_is_unwatched(const ale_pipeline_t *p, const ale_prediction_t *prediction);
 
 /* Whether so much time has gone that somebody may have carried it anywhere. */
 bool ale_recover_may_be_anywhere(const ale_pipeline_t *p, const ale_prediction_t *prediction);
 
-/* Whether wheels have told of a way through a gap between scans that else come as the mirror turns: they were
- * on the floor, nobody has carried the robot. */
+/* Whether wheels have told of a way through a time unwatched: they were on the floor, nobody has carried the
+ * robot. */
 bool ale_recover_has_driven(const ale_pipeline_t *p, const ale_prediction_t *prediction);
 
 /* Whether one pose within the reach of the vote explains the scan by the selected map clearly better than any

@@ -51,7 +51,7 @@ static ale_claim_t claim_of(const ale_pipeline_t *p, const ale_prediction_t *pre
     if (p->waited > 0) {
         return p->next_claim;
     }
-    if (!p->unwatched) {
+    if (!ale_recover_is_unwatched(p, prediction)) {
         return ALE_CLAIM_NEAR;
     }
     if (p->monitor.misfits == 0 && p->driven) {
@@ -104,7 +104,7 @@ static ale_scene_verdict_t recover(ale_pipeline_t *p, const ale_prediction_t *pr
         p->monitor.contradicted = false;
         return ALE_SCENE_KNOWN;
     }
-    if (p->unwatched && is_refuted(verdict, recovery, p->driven, fit)) {
+    if (ale_recover_is_unwatched(p, prediction) && is_refuted(verdict, recovery, p->driven, fit)) {
         p->waits = (uint8_t)(may_wait(p, recovery, ways->counted, p->driven) ? p->waited + 1 : 0);
         return p->waits > 0 ? ALE_SCENE_CHANGED : lose(p);
     }
@@ -124,9 +124,11 @@ static ale_scene_verdict_t put_off(ale_pipeline_t *p, ale_scene_verdict_t verdic
 static ale_scene_verdict_t judge(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_ways_t *ways,
                                  ale_fit_t *fit)
 {
+    p->driven = ale_recover_has_driven(p, prediction);
     const ale_scene_verdict_t verdict = ale_step_monitor(p, prediction, ways->counted, fit);
     p->next_claim = claim_of(p, prediction);
-    const bool doubtful = p->unwatched || ale_tracking_doubts(fit) || verdict == ALE_SCENE_CHANGED;
+    const bool unwatched = ale_recover_is_unwatched(p, prediction);
+    const bool doubtful = unwatched || ale_tracking_doubts(fit) || verdict == ALE_SCENE_CHANGED;
     if (p->observed.count == 0 || !doubtful) {
         return verdict;
     }
@@ -136,7 +138,7 @@ static ale_scene_verdict_t judge(ale_pipeline_t *p, const ale_prediction_t *pred
     if (ale_recover_may_be_anywhere(p, prediction)) {
         p->led_by_wheels = p->scans;
     }
-    if (p->tile_waits && !p->unwatched && p->waited == 0) {
+    if (p->tile_waits && !unwatched && p->waited == 0) {
         return put_off(p, verdict);
     }
     return recover(p, prediction, verdict, ways, fit);

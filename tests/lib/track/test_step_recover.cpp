@@ -42,7 +42,7 @@ template <typename Way> bool has_driven(const Way &way)
     }
     const ale_prediction_t prediction = ale_step_predict(p.get(), std::llround((begun + unseen) * 1e6));
     EXPECT_TRUE(prediction.counted);
-    EXPECT_TRUE(ale_recover_is_gap(p.get(), &prediction));
+    EXPECT_TRUE(ale_recover_is_unwatched(p.get(), &prediction));
     return ale_recover_has_driven(p.get(), &prediction);
 }
 
@@ -260,39 +260,6 @@ room::Sensor sees_at_once()
     sensor.beam_time_ns = 0;
     sensor.noise = 0.01;
     return sensor;
-}
-
-/* A robot goes on and back in a room, a scan after each step of half a metre that wheels tell of; before the
- * last one, which takes long, it goes `gone` such steps instead. Returns whether the robot says that nobody
- * has watched that. */
-bool is_unwatched_after(double gone)
-{
-    const room::Pipeline p = room::make(ale_pipeline_default_config());
-    const room::Sensor around = sees_at_once();
-    std::mt19937 rng(1);
-    ale_estimate_t e = {};
-    const auto see = [&](double told, double x, double t) {
-        const ale_odometry_t sample = {std::llround(t * 1e6),
-                                       {static_cast<int32_t>(std::llround(told * 1e6)), 0, 0}};
-        ale_pipeline_odometry(p.get(), &sample);
-        const reference::Pose place(0.5 + x, 0, 0);
-        const ale_scan_t scan = room::scan_at(
-            room::l_shape(), around, [&](double) { return place; }, t, rng);
-        ale_pipeline_scan(p.get(), &scan, &e);
-    };
-    int steps = 0;
-    for (; steps < 24; steps++) {
-        const double x = 0.5 * std::abs(2 - steps % 4);
-        see(x, x, 3.0 * steps);
-    }
-    see(1, 0.5 + 0.5 * gone, 3.0 * steps + 12);
-    return p->unwatched;
-}
-
-TEST(StepRecover, AfterALongStepTheLastScanTellsWhetherWheelsHaveToldOfIt)
-{
-    EXPECT_FALSE(is_unwatched_after(1));
-    EXPECT_TRUE(is_unwatched_after(4));
 }
 
 /* Two rooms of 5 m by 4 m that are furnished alike, with a door between them at y = 0. */

@@ -278,6 +278,16 @@ TEST(TrackingMonitor, TwoScansOfARobotThatStoodMustNotDenyAMetreAndATwentiethOfW
     EXPECT_TRUE(ale_tracking_denies(&elsewhere));
 }
 
+TEST(TrackingMonitor, TwoScansAtTheEndsOfAStepMustNotDenyAFifthOfWhatBothLookAt)
+{
+    const ale_testimony_t clutter = {40000000, 20000000, 4900000, false};
+    const ale_testimony_t a_little = {4000000, 1000000, 950000, false};
+    const ale_testimony_t elsewhere = {40000000, 20000000, 5100000, false};
+    EXPECT_FALSE(ale_tracking_denies_step(&clutter));
+    EXPECT_FALSE(ale_tracking_denies_step(&a_little)) << "less than a metre is denied";
+    EXPECT_TRUE(ale_tracking_denies_step(&elsewhere));
+}
+
 TEST(TrackingMonitor, AfterATimeUnwatchedTheLastScanMustConfirmNearlyHalfOfWhatBothShow)
 {
     const ale_testimony_t seen = {30000000, 14000000, 0, false};
