@@ -16,7 +16,6 @@ constexpr size_t coarse_points = 32; // score all hypotheses, to choose those th
 constexpr size_t scored_points = 120;
 constexpr size_t scored_hypotheses = 600;
 constexpr size_t max_corner_hypotheses = 2000;
-constexpr int max_window_places = 20000; // wider windows are searched over fewer rotations
 constexpr int window_step_cells = 2;
 constexpr double window_step_m = window_step_cells * LikelihoodField::cell_m;
 constexpr double window_step_rad = 0.035;
@@ -80,9 +79,13 @@ class WindowGrid
   public:
     WindowGrid(const Pose &guess, const SearchWindow &window)
         : guess_(guess), steps_(static_cast<int>(std::ceil(window.half_m / window_step_m))),
-          turns_(std::min(static_cast<int>(std::ceil(window.half_rad / window_step_rad)),
-                          (max_window_places / (side() * side()) - 1) / 2))
+          turns_(static_cast<int>(std::ceil(window.half_rad / window_step_rad)))
     {
+    }
+
+    size_t size() const
+    {
+        return places() * static_cast<size_t>(2 * turns_ + 1);
     }
 
     Pose pose(size_t k) const
@@ -206,7 +209,7 @@ std::vector<Hypothesis> best_scored(const std::vector<Pose> &from_corners, const
 {
     const std::vector<SurfacePoint> few = thinned(scan, coarse_points);
     std::vector<double> coarse_scores;
-    coarse_scores.reserve(from_corners.size() + max_window_places);
+    coarse_scores.reserve(from_corners.size() + window.size());
     for (const Pose &pose : from_corners) {
         coarse_scores.push_back(score_of(pose, few, field));
     }

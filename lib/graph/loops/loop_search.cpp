@@ -15,7 +15,7 @@ namespace ale
 namespace
 {
 
-constexpr int rounds = 2;
+constexpr int most_rounds = 4;
 constexpr size_t searched_nodes = 700; // of more, every second, third..
 constexpr size_t most_places = 3;
 constexpr int same_visit_nodes = 12;
@@ -29,7 +29,7 @@ constexpr SubmapExtent corners_here{2, 2};
 constexpr double deviations = 3;
 constexpr double window_m = 0.20;
 constexpr double window_rad = 0.05;
-constexpr double max_window_m = 3.0;
+constexpr double max_window_m = 10.0; // the field of a place has 12.8 m each way
 constexpr double max_window_rad = 0.5;
 // A clear match this near to its pose in the graph needs no further search.
 constexpr double near_m = 0.15;
@@ -74,7 +74,7 @@ LoopSearch::LoopSearch(const std::vector<Node> *nodes, PoseGraph graph)
 
 bool LoopSearch::step()
 {
-    if (round_ == rounds) {
+    if (round_ == most_rounds) {
         return false;
     }
     if (next_ < static_cast<int>(nodes_->size())) {
@@ -85,11 +85,10 @@ bool LoopSearch::step()
     solve();
     if (is_solved()) {
         select_solution();
-        keep_displaced();
+        round_ = keep_displaced() ? round_ + 1 : most_rounds;
         found_.clear();
         covariance_.reset();
         next_ = solved_ = 0;
-        round_++;
     }
     return true;
 }
@@ -240,15 +239,19 @@ std::vector<GraphEdge> LoopSearch::edges() const
     return edges;
 }
 
-// A loop that displaced two visits may not be found again from where they then lie.
-void LoopSearch::keep_displaced()
+// A loop that displaced two visits may not be found again from where they then lie. Returns whether there is
+// one: else another round would find the same.
+bool LoopSearch::keep_displaced()
 {
+    bool kept = false;
     for (const FoundLoop &found : found_) {
         const GraphEdge edge = edge_of(found.loop);
         if (found.displaced && is_confirmed(found) && graph_.weight(edge) > least_weight_kept) {
             given_.push_back(edge);
+            kept = true;
         }
     }
+    return kept;
 }
 
 void LoopSearch::solve()

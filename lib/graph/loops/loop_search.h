@@ -11,8 +11,8 @@
 // then solved by graduated non-convexity (Yang et al., RA-L 2020): at first all loops count, then the robust
 // kernel narrows and those that contradict the rest lose their weight. Where many loops agree on a falsehood,
 // such as walls of two rooms that stand nearly alike, that can end on their side against all else: the graph
-// is also solved from where it was, and the solution that costs less is kept. The second round finds what the
-// first has brought within reach.
+// is also solved from where it was, and the solution that costs less is kept. Each round finds what the one
+// before has brought within reach, until none moves anything, four at most.
 #ifndef ALE_GRAPH_LOOPS_LOOP_SEARCH_H
 #define ALE_GRAPH_LOOPS_LOOP_SEARCH_H
 
@@ -61,7 +61,7 @@ class LoopSearch
     bool violates_free_space(const Loop &loop) const;
     bool is_confirmed(const FoundLoop &found) const;
     std::vector<GraphEdge> edges() const;
-    void keep_displaced();
+    bool keep_displaced();
     void solve();
     bool is_solved() const;
     void select_solution();
