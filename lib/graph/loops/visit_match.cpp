@@ -15,7 +15,7 @@ namespace
 constexpr double loop_reach_m = 2.5; // of places, beside drift
 constexpr double drift_rad_per_metre = 0.002;
 constexpr double max_window_m = 2.0;
-constexpr double max_window_rad = 0.175;
+constexpr double max_window_rad = 0.35;
 constexpr SubmapExtent corners_there{2, 2};
 // Accuracy of the tracker there.
 constexpr double recognised_m = 0.015;
