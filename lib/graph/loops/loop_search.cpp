@@ -15,6 +15,7 @@ namespace ale
 namespace
 {
 
+constexpr int least_rounds = 2; // the second matches from where the first has put the nodes
 constexpr int most_rounds = 4;
 constexpr size_t searched_nodes = 700; // of more, every second, third..
 constexpr size_t most_places = 3;
@@ -85,7 +86,8 @@ bool LoopSearch::step()
     solve();
     if (is_solved()) {
         select_solution();
-        round_ = keep_displaced() ? round_ + 1 : most_rounds;
+        const bool more = keep_displaced() || round_ + 1 < least_rounds;
+        round_ = more ? round_ + 1 : most_rounds;
         found_.clear();
         covariance_.reset();
         next_ = solved_ = 0;
@@ -240,7 +242,7 @@ std::vector<GraphEdge> LoopSearch::edges() const
 }
 
 // A loop that displaced two visits may not be found again from where they then lie. Returns whether there is
-// one: else another round would find the same.
+// one.
 bool LoopSearch::keep_displaced()
 {
     bool kept = false;

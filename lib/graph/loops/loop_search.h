@@ -12,7 +12,7 @@
 // kernel narrows and those that contradict the rest lose their weight. Where many loops agree on a falsehood,
 // such as walls of two rooms that stand nearly alike, that can end on their side against all else: the graph
 // is also solved from where it was, and the solution that costs less is kept. Each round finds what the one
-// before has brought within reach, until none moves anything, four at most.
+// before has brought within reach, two at least, until none displaces anything, four at most.
 #ifndef ALE_GRAPH_LOOPS_LOOP_SEARCH_H
 #define ALE_GRAPH_LOOPS_LOOP_SEARCH_H
 
