@@ -34,7 +34,8 @@ class LoopSearch
     // The nodes stay the caller's and must outlive this, unchanged. May throw std::bad_alloc, as step() may.
     LoopSearch(const std::vector<Node> *nodes, PoseGraph graph);
 
-    // Matches one node with three places at most, or solves one iteration. False: done.
+    // Matches one node with three places at most, in windows of 10 m and 0.5 rad at most (loop_match.h), or
+    // solves one iteration. False: done.
     bool step();
 
     // The result once step() has returned false.

@@ -57,7 +57,7 @@ TEST(LoopSearch, FindsLoopsMissedWhileDriving)
     EXPECT_LT(walk.error_m(searched(walk, walk.graph)), 0.4);
 }
 
-// As far as the graph itself says that it may be off.
+// The graph itself says that it may be so far off.
 TEST(LoopSearch, FindsALoopThatTheWayMissesByManyMetres)
 {
     const Walk walk(1.3, 3 * bend_rad_m, {0.02, 0.02});
