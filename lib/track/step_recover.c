@@ -15,6 +15,7 @@ enum {
     START_SIGMA_UM = 150000,
     START_SIGMA_URAD = 60000,
     MARGIN_UM = 1500000, /* surface by which a pose must explain more than another one */
+    OUTLIER_PARTS = 10,  /* of what the last scan confirms it may deny so small a part */
     CONFIRM_UM = 500000, /* the next scan finds it there, with what the robot has gone otherwise than told */
     SAME_UM = 300000,    /* poses nearer than this are one: least squares joins them */
     SAME_BAM = 200 * ALE_BAM_PER_MRAD,
@@ -233,18 +234,42 @@ static int64_t heard_um(const ale_pipeline_t *p, ale_pose_t before, candidate_t 
     return (heard->confirmed_um - heard->denied_um) / 2;
 }
 
-/* How much surface the last scan weighs against a pose: what it has seen of this one if that was taken from
- * the given pose, and has not if from the other. Where the map ends it knows what the map does not hold:
- * without it a place like this one, but mapped, would explain more. It weighs nothing for a pose: of one
- * nearer to where it was taken it has always seen more. Nor against one so near that the robot may have
- * drifted from it since long before: then the last scan has drifted, too. */
-static int64_t missed_um(const ale_pipeline_t *p, ale_pose_t before, candidate_t *best, candidate_t *given)
+/* By how much more surface it speaks for a pose than for the given one. */
+static int64_t heard_more_um(const ale_pipeline_t *p, ale_pose_t before, candidate_t *best,
+                             candidate_t *given)
 {
+    return heard_um(p, before, best) - heard_um(p, before, given);
+}
+
+/* Whether the last scan has seen that the robot went there: it confirms much of that pose and denies none of
+ * it but outliers; it denies the given one; and it speaks for this one by clearly more surface. Of a log that
+ * holds but some of the scans: where they come one upon the other the next one tells, and shows nothing new.
+ */
+static bool is_seen_there(const ale_pipeline_t *p, ale_pose_t before, candidate_t *best, candidate_t *given)
+{
+    if (ale_timestamp_filter_is_dense(&p->timestamp_filter) || !ale_tracking_denies(hear(p, before, given))) {
+        return false;
+    }
+    const ale_testimony_t *there = hear(p, before, best);
+    const int64_t outliers_um = there->confirmed_um / OUTLIER_PARTS;
+    return ale_tracking_witnesses(there) && (there->denied_um <= outliers_um) &&
+           (heard_more_um(p, before, best, given) > MARGIN_UM);
+}
+
+/* How much surface the last scan weighs for a pose against the given one. Where the map ends it knows what
+ * the map does not hold: without it a place like this one, but mapped, would explain more. It weighs for a
+ * pose only where it has seen the robot go there: of one nearer to where it was taken it has always seen
+ * more. Nor does it weigh against one so near that the robot may have drifted from it since long before: then
+ * the last scan has drifted, too. */
+static int64_t last_scan_um(const ale_pipeline_t *p, ale_pose_t before, candidate_t *best, candidate_t *given)
+{
+    if (is_seen_there(p, before, best, given)) {
+        return heard_more_um(p, before, best, given);
+    }
     if (ale_are_near(best->fit->motion.pose, given->fit->motion.pose, DRIFT_UM, SAME_BAM)) {
         return 0;
     }
-    const int64_t more_um = heard_um(p, before, given) - heard_um(p, before, best);
-    return ale_max64(more_um, 0);
+    return ale_min64(heard_more_um(p, before, best, given), 0);
 }
 
 /* Whether anything but the map tells that the robot is there after a time that nobody watched: that is where
@@ -289,20 +314,21 @@ static int64_t proposed_um(const ale_pipeline_t *p, ale_pose_t pose)
     return again ? p->proposed.advantage_um : 0;
 }
 
-/* A pose that explains clearly more than any other is taken where it is beside the given one, or was proposed
- * by the scan before; else it is proposed to the next. */
+/* A pose that explains clearly more than any other is taken where it is beside the given one, where the last
+ * scan has seen the robot go, or where the scan before has proposed it; else it is proposed to the next. */
 static ale_recovery_t take_or_propose(ale_pipeline_t *p, const ale_prediction_t *prediction,
                                       candidate_t *given, candidate_t *best, ale_ways_t *ways)
 {
+    const ale_pose_t before = prediction->before.pose;
     const ale_pose_t pose = best->fit->motion.pose;
-    const bool near = is_same(best->fit, given->fit);
+    const bool followed = is_same(best->fit, given->fit) || is_seen_there(p, before, best, given);
     const int64_t before_um = proposed_um(p, pose);
-    const int64_t unseen_um = missed_um(p, prediction->before.pose, best, given);
-    const int64_t more_um = best->evidence_um - given->evidence_um - unseen_um;
-    const bool enough = before_um + gain_um(&ways->believed, best, given) - unseen_um > MARGIN_UM;
-    if (enough && (near || before_um > 0) && is_told(p, prediction, best)) {
+    const int64_t seen_um = last_scan_um(p, before, best, given);
+    const int64_t more_um = best->evidence_um - given->evidence_um + seen_um;
+    const bool enough = before_um + gain_um(&ways->believed, best, given) + seen_um > MARGIN_UM;
+    if (enough && (followed || before_um > 0) && is_told(p, prediction, best)) {
         take(p, best, ways, given->fit);
-        return near ? ALE_RECOVER_NEAR : ALE_RECOVER_MOVED;
+        return followed ? ALE_RECOVER_FOLLOWED : ALE_RECOVER_MOVED;
     }
     if (enough || more_um > MARGIN_UM) {
         p->proposal = (ale_proposal_t){pose, pose, before_um + ale_max64(more_um, 1)};
@@ -311,22 +337,17 @@ static ale_recovery_t take_or_propose(ale_pipeline_t *p, const ale_prediction_t 
     return ALE_RECOVER_STAYS;
 }
 
-/* What the comparison comes to, whatever tells of the given pose. Of a log that holds but some of the scans
- * wheels may have told a part of the way alone, unless the last scan agrees. rival_um: as compare(). */
-static ale_recovery_t decide(ale_pipeline_t *p, const ale_prediction_t *prediction, candidate_t *given,
-                             candidate_t *best, int64_t rival_um, ale_ways_t *ways)
+/* What comes of a pose that explains more than any other. Where the last scan has seen the robot go neither
+ * wheels are asked nor how much of the scan the map holds: new ground comes into view. Of a log that holds
+ * but some of the scans wheels may have told a part of the way alone, unless the last scan agrees. */
+static ale_recovery_t decide_on_best(ale_pipeline_t *p, const ale_prediction_t *prediction,
+                                     candidate_t *given, candidate_t *best, ale_ways_t *ways)
 {
-    const bool witnessed = is_step_witnessed(p, prediction, given);
-    if (best->evidence_um <= rival_um + MARGIN_UM) {
-        const bool more = best->evidence_um > given->evidence_um + MARGIN_UM;
-        const bool open = (more || !ways->counted) && ale_tracking_accepts(best->fit);
-        return open && !witnessed ? ALE_RECOVER_OPEN : ALE_RECOVER_STAYS;
-    }
-    if (best->evidence_um == given->evidence_um) {
-        return ALE_RECOVER_CONFIRMED;
+    if (is_seen_there(p, prediction->before.pose, best, given)) {
+        return take_or_propose(p, prediction, given, best, ways);
     }
     const bool denied = is_denied(p, &ways->believed, best, given);
-    if (denied && witnessed) {
+    if (denied && is_step_witnessed(p, prediction, given)) {
         return ALE_RECOVER_STAYS;
     }
     if (denied && ale_timestamp_filter_is_dense(&p->timestamp_filter)) {
@@ -334,6 +355,19 @@ static ale_recovery_t decide(ale_pipeline_t *p, const ale_prediction_t *predicti
     }
     return ale_tracking_explains(best->fit) ? take_or_propose(p, prediction, given, best, ways)
                                             : ALE_RECOVER_STAYS;
+}
+
+/* What the comparison comes to, whatever tells of the given pose. rival_um: as compare(). */
+static ale_recovery_t decide(ale_pipeline_t *p, const ale_prediction_t *prediction, candidate_t *given,
+                             candidate_t *best, int64_t rival_um, ale_ways_t *ways)
+{
+    if (best->evidence_um <= rival_um + MARGIN_UM) {
+        const bool more = best->evidence_um > given->evidence_um + MARGIN_UM;
+        const bool open = (more || !ways->counted) && ale_tracking_accepts(best->fit);
+        return open && !is_step_witnessed(p, prediction, given) ? ALE_RECOVER_OPEN : ALE_RECOVER_STAYS;
+    }
+    return best->evidence_um == given->evidence_um ? ALE_RECOVER_CONFIRMED
+                                                   : decide_on_best(p, prediction, given, best, ways);
 }
 
 ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_ways_t *ways,

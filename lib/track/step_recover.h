@@ -27,7 +27,8 @@ typedef enum {
     ALE_RECOVER_CONFIRMED, /* none explains as much as *fit does */
     ALE_RECOVER_STAYS,     /* none explains clearly more */
     ALE_RECOVER_UNDECIDED, /* one does, but the next scan must confirm it, or wheels told of late may */
-    ALE_RECOVER_NEAR,      /* one does, beside *fit, which is that one now, solved */
+    ALE_RECOVER_FOLLOWED,  /* one does, beside *fit or where the last scan has seen the robot go: *fit is
+                              that one, solved */
     ALE_RECOVER_MOVED,     /* one does, elsewhere: *fit is that one, solved */
     ALE_RECOVER_OPEN       /* several do, or nothing but the map tells of *fit after a time unwatched */
 } ale_recovery_t;

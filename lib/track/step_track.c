@@ -63,7 +63,7 @@ static ale_claim_t claim_of(const ale_pipeline_t *p, const ale_prediction_t *pre
 /* Whether *fit explains the scan, and no other pose does as well. */
 static bool explains(ale_recovery_t recovery, const ale_fit_t *fit)
 {
-    return recovery == ALE_RECOVER_MOVED || recovery == ALE_RECOVER_NEAR ||
+    return recovery == ALE_RECOVER_MOVED || recovery == ALE_RECOVER_FOLLOWED ||
            (recovery == ALE_RECOVER_CONFIRMED && !ale_tracking_doubts(fit));
 }
 

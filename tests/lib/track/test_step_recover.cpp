@@ -192,6 +192,19 @@ std::vector<room::Wall> corridor_with_recesses()
     return walls;
 }
 
+/* A scanner that looks ahead, half a turn and far, as those of such logs. */
+room::Sensor looks_ahead()
+{
+    room::Sensor ahead;
+    ahead.beams = 181;
+    ahead.step = reference::pi / 180;
+    ahead.first = -90 * ahead.step;
+    ahead.beam_time_ns = 0;
+    ahead.noise = 0.01;
+    ahead.reach = 8;
+    return ahead;
+}
+
 struct Along {
     double off = 0; /* at most, m and rad together */
     bool lost = false;
@@ -203,13 +216,7 @@ Along along_recesses(double step_m, unsigned seed, double wait_s)
 {
     constexpr double period_s = 3.5;
     const room::Pipeline p = room::make(ale_pipeline_default_config());
-    room::Sensor ahead;
-    ahead.beams = 181;
-    ahead.step = reference::pi / 180;
-    ahead.first = -90 * ahead.step;
-    ahead.beam_time_ns = 0;
-    ahead.noise = 0.01;
-    ahead.reach = 8;
+    const room::Sensor ahead = looks_ahead();
     std::mt19937 rng(seed);
     const std::vector<room::Wall> walls = corridor_with_recesses();
     ale_estimate_t e = {};
@@ -249,6 +256,55 @@ TEST(StepRecover, AStepThatTakesLongIsNoTimeThatNobodyWatched)
             const Along drive = along_recesses(step_m, seed, 16);
             EXPECT_FALSE(drive.lost) << step_m << " m a scan, seed " << seed;
             EXPECT_LT(drive.off, 0.5) << step_m << " m a scan, seed " << seed;
+        }
+    }
+}
+
+/* A corridor of rooms no two of which are alike, seen by a scan after every 0.9 m. Before one of them wheels
+ * tell a step that the robot has not gone. How far it is off in the end, m and rad together. */
+double off_after_a_wrong_step(const reference::Pose &wrong, int at_scan, unsigned seed)
+{
+    constexpr double step_m = 0.9;
+    constexpr double period_s = 2.5;
+    const std::vector<room::Wall> walls = {
+        {-1, -1, 3, -1},    {3, -1, 3, -3},       {3, -3, 6.5, -3},     {6.5, -3, 6.5, -1},
+        {6.5, -1, 17, -1},  {-1, -1, -1, 1.2},    {-1, 1.2, 5, 1.2},    {5, 1.2, 5, 2.6},
+        {5, 2.6, 8.2, 2.6}, {8.2, 2.6, 8.2, 1.2}, {8.2, 1.2, 11, 1.2},  {11, 1.2, 11, 4},
+        {11, 4, 12.4, 4},   {12.4, 4, 12.4, 1.2}, {12.4, 1.2, 17, 1.2}, {17, -1, 17, 1.2}};
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    const room::Sensor ahead = looks_ahead();
+    std::mt19937 rng(seed);
+    ale_estimate_t e = {};
+    double x = 0;
+    for (int k = 0; k < 16; k++) {
+        x = k * step_m;
+        const ale_pose_t before = convert::pose(reference::Pose{(at_scan - 1) * step_m, 0, 0});
+        const ale_pose_t since = convert::pose(reference::Pose{(k - at_scan) * step_m, 0, 0});
+        const ale_pose_t wheels =
+            k < at_scan ? convert::pose(reference::Pose{x, 0, 0})
+                        : ale_pose_compose(ale_pose_compose(before, convert::pose(wrong)), since);
+        const double t = k * period_s;
+        const ale_odometry_t sample = {std::llround(t * 1e6), wheels};
+        ale_pipeline_odometry(p.get(), &sample);
+        const ale_scan_t scan = room::scan_at(
+            walls, ahead, [&](double) { return reference::Pose(x, 0, 0); }, t, rng);
+        ale_pipeline_scan(p.get(), &scan, &e);
+    }
+    return std::hypot(e.map.x_um * 1e-6 - x, e.map.y_um * 1e-6) +
+           std::abs(std::remainder(convert::radians(e.map.theta_bam), 2 * reference::pi));
+}
+
+/* New ground comes into view with every scan: what the map holds of it does not explain it, but the last scan
+ * has seen the robot go. */
+TEST(StepRecover, AWrongStepOfALogWithAScanNowAndThenIsSeenByTheLastScan)
+{
+    const reference::Pose steps[] = {{-0.3, 0.6, -1.4}, {0, 0, 1.2}, {-0.9, 0, 0}};
+    for (const reference::Pose &wrong : steps) {
+        for (const int at_scan : {3, 5, 6}) {
+            for (const unsigned seed : {1U, 2U, 3U}) {
+                EXPECT_LT(off_after_a_wrong_step(wrong, at_scan, seed), 0.15)
+                    << wrong.transpose() << " before scan " << at_scan << ", seed " << seed;
+            }
         }
     }
 }
