@@ -260,16 +260,16 @@ static bool is_seen_there(const ale_pipeline_t *p, ale_pose_t before, candidate_
  * the map does not hold: without it a place like this one, but mapped, would explain more. It weighs for a
  * pose only where it has seen the robot go there: of one nearer to where it was taken it has always seen
  * more. Nor does it weigh against one so near that the robot may have drifted from it since long before: then
- * the last scan has drifted, too. */
-static int64_t last_scan_um(const ale_pipeline_t *p, ale_pose_t before, candidate_t *best, candidate_t *given)
+ * the last scan has drifted, too. seen: is_seen_there(). */
+static int64_t last_scan_um(const ale_pipeline_t *p, ale_pose_t before, candidate_t *best, candidate_t *given,
+                            bool seen)
 {
-    if (is_seen_there(p, before, best, given)) {
-        return heard_more_um(p, before, best, given);
+    const int64_t more_um = heard_more_um(p, before, best, given);
+    if (seen) {
+        return more_um;
     }
-    if (ale_are_near(best->fit->motion.pose, given->fit->motion.pose, DRIFT_UM, SAME_BAM)) {
-        return 0;
-    }
-    return ale_min64(heard_more_um(p, before, best, given), 0);
+    const bool near = ale_are_near(best->fit->motion.pose, given->fit->motion.pose, DRIFT_UM, SAME_BAM);
+    return near ? 0 : ale_min64(more_um, 0);
 }
 
 /* Whether anything but the map tells that the robot is there after a time that nobody watched: that is where
@@ -315,15 +315,15 @@ static int64_t proposed_um(const ale_pipeline_t *p, ale_pose_t pose)
 }
 
 /* A pose that explains clearly more than any other is taken where it is beside the given one, where the last
- * scan has seen the robot go, or where the scan before has proposed it; else it is proposed to the next. */
+ * scan has seen the robot go, or where the scan before has proposed it; else it is proposed to the next.
+ * seen: is_seen_there(). */
 static ale_recovery_t take_or_propose(ale_pipeline_t *p, const ale_prediction_t *prediction,
-                                      candidate_t *given, candidate_t *best, ale_ways_t *ways)
+                                      candidate_t *given, candidate_t *best, bool seen, ale_ways_t *ways)
 {
-    const ale_pose_t before = prediction->before.pose;
     const ale_pose_t pose = best->fit->motion.pose;
-    const bool followed = is_same(best->fit, given->fit) || is_seen_there(p, before, best, given);
+    const bool followed = is_same(best->fit, given->fit) || seen;
     const int64_t before_um = proposed_um(p, pose);
-    const int64_t seen_um = last_scan_um(p, before, best, given);
+    const int64_t seen_um = last_scan_um(p, prediction->before.pose, best, given, seen);
     const int64_t more_um = best->evidence_um - given->evidence_um + seen_um;
     const bool enough = before_um + gain_um(&ways->believed, best, given) + seen_um > MARGIN_UM;
     if (enough && (followed || before_um > 0) && is_told(p, prediction, best)) {
@@ -337,24 +337,23 @@ static ale_recovery_t take_or_propose(ale_pipeline_t *p, const ale_prediction_t 
     return ALE_RECOVER_STAYS;
 }
 
-/* What comes of a pose that explains more than any other. Where the last scan has seen the robot go neither
- * wheels are asked nor how much of the scan the map holds: new ground comes into view. Of a log that holds
- * but some of the scans wheels may have told a part of the way alone, unless the last scan agrees. */
+/* What comes of a pose that explains more than any other. Where the last scan has seen the robot go there, it
+ * does not matter that wheels deny it, nor that the map holds but little of the scan: new ground comes into
+ * view. Of a log that holds but some of the scans wheels may have told a part of the way alone, unless the
+ * last scan agrees. */
 static ale_recovery_t decide_on_best(ale_pipeline_t *p, const ale_prediction_t *prediction,
                                      candidate_t *given, candidate_t *best, ale_ways_t *ways)
 {
-    if (is_seen_there(p, prediction->before.pose, best, given)) {
-        return take_or_propose(p, prediction, given, best, ways);
-    }
-    const bool denied = is_denied(p, &ways->believed, best, given);
+    const bool seen = is_seen_there(p, prediction->before.pose, best, given);
+    const bool denied = !seen && is_denied(p, &ways->believed, best, given);
     if (denied && is_step_witnessed(p, prediction, given)) {
         return ALE_RECOVER_STAYS;
     }
     if (denied && ale_timestamp_filter_is_dense(&p->timestamp_filter)) {
         return ALE_RECOVER_UNDECIDED;
     }
-    return ale_tracking_explains(best->fit) ? take_or_propose(p, prediction, given, best, ways)
-                                            : ALE_RECOVER_STAYS;
+    return seen || ale_tracking_explains(best->fit) ? take_or_propose(p, prediction, given, best, seen, ways)
+                                                    : ALE_RECOVER_STAYS;
 }
 
 /* What the comparison comes to, whatever tells of the given pose. rival_um: as compare(). */

@@ -205,6 +205,13 @@ room::Sensor looks_ahead()
     return ahead;
 }
 
+/* How far a robot that has driven straight on is off, m and rad together. */
+double off_straight(const ale_estimate_t &e, double x)
+{
+    return std::hypot(e.map.x_um * 1e-6 - x, e.map.y_um * 1e-6) +
+           std::abs(std::remainder(convert::radians(e.map.theta_bam), 2 * reference::pi));
+}
+
 struct Along {
     double off = 0; /* at most, m and rad together */
     bool lost = false;
@@ -232,9 +239,7 @@ Along along_recesses(double step_m, unsigned seed, double wait_s)
             walls, ahead, [&](double) { return place; }, t, rng);
         ale_pipeline_scan(p.get(), &scan, &e);
         most.lost = most.lost || e.state == ALE_STATE_LOST;
-        most.off = std::max(
-            most.off, std::hypot(e.map.x_um * 1e-6 - x, e.map.y_um * 1e-6) +
-                          std::abs(std::remainder(convert::radians(e.map.theta_bam), 2 * reference::pi)));
+        most.off = std::max(most.off, off_straight(e, x));
     }
     return most;
 }
@@ -290,8 +295,7 @@ double off_after_a_wrong_step(const reference::Pose &wrong, int at_scan, unsigne
             walls, ahead, [&](double) { return reference::Pose(x, 0, 0); }, t, rng);
         ale_pipeline_scan(p.get(), &scan, &e);
     }
-    return std::hypot(e.map.x_um * 1e-6 - x, e.map.y_um * 1e-6) +
-           std::abs(std::remainder(convert::radians(e.map.theta_bam), 2 * reference::pi));
+    return off_straight(e, x);
 }
 
 /* New ground comes into view with every scan: what the map holds of it does not explain it, but the last scan
