@@ -39,18 +39,18 @@ bool ale_recover_may_be_anywhere(const ale_pipeline_t *p, const ale_prediction_t
 
 /* Whether wheels that may have told of a way have told of none but at the ends of the time unwatched: what
  * they count until the last scan before it, and from the first one after it, which may have been waited from,
- * is no way through it. Of a log that holds but some of the scans they tell nothing in between. */
+ * is no way through it. Where scans come one upon the other they may be told of late, by as much. */
 static bool has_stood(const ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
-    const int64_t end_us = p->timestamp_filter.usual_us;
+    const int64_t late_us =
+        ale_timestamp_filter_is_dense(&p->timestamp_filter) ? p->timestamp_filter.usual_us : 0;
     const int64_t back_us = p->waited > 0 ? p->back_us : prediction->ways.believed.stamp_us;
-    const int64_t from_us = p->watched.stamp_us + end_us - p->lag.lag_us;
-    const int64_t to_us = back_us - end_us - p->lag.lag_us;
+    const int64_t from_us = p->watched.stamp_us + late_us - p->lag.lag_us;
+    const int64_t to_us = back_us - late_us - p->lag.lag_us;
     const ale_pose_t nowhere = {0};
     ale_pose_t between;
     int32_t beyond_us;
-    return ale_timestamp_filter_is_dense(&p->timestamp_filter) && from_us < to_us &&
-           ale_wheels_motion(&p->wheels, from_us, to_us, &between, &beyond_us) &&
+    return from_us < to_us && ale_wheels_motion(&p->wheels, from_us, to_us, &between, &beyond_us) &&
            ale_are_near(nowhere, between, SAME_UM, SAME_BAM);
 }
 

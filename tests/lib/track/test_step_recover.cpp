@@ -265,17 +265,25 @@ TEST(StepRecover, AStepThatTakesLongIsNoTimeThatNobodyWatched)
     }
 }
 
-/* A corridor of rooms no two of which are alike, seen by a scan after every 0.9 m. Before one of them wheels
- * tell a step that the robot has not gone. How far it is off in the end, m and rad together. */
+/* A corridor of rooms no two of which are alike. */
+std::vector<room::Wall> corridor_of_rooms()
+{
+    return {{-1, -1, 3, -1},    {3, -1, 3, -3},       {3, -3, 6.5, -3},     {6.5, -3, 6.5, -1},
+            {6.5, -1, 17, -1},  {-1, -1, -1, 1.2},    {-1, 1.2, 5, 1.2},    {5, 1.2, 5, 2.6},
+            {5, 2.6, 8.2, 2.6}, {8.2, 2.6, 8.2, 1.2}, {8.2, 1.2, 11, 1.2},  {11, 1.2, 11, 4},
+            {11, 4, 12.4, 4},   {12.4, 4, 12.4, 1.2}, {12.4, 1.2, 17, 1.2}, {17, -1, 17, 1.2}};
+}
+
+constexpr double step_of_a_scan = 0.9;   // m
+constexpr double period_of_a_scan = 2.5; // s
+
+/* It is seen by a scan after every step. Before one of them wheels tell a step that the robot has not gone.
+ * How far it is off in the end, m and rad together. */
 double off_after_a_wrong_step(const reference::Pose &wrong, int at_scan, unsigned seed)
 {
-    constexpr double step_m = 0.9;
-    constexpr double period_s = 2.5;
-    const std::vector<room::Wall> walls = {
-        {-1, -1, 3, -1},    {3, -1, 3, -3},       {3, -3, 6.5, -3},     {6.5, -3, 6.5, -1},
-        {6.5, -1, 17, -1},  {-1, -1, -1, 1.2},    {-1, 1.2, 5, 1.2},    {5, 1.2, 5, 2.6},
-        {5, 2.6, 8.2, 2.6}, {8.2, 2.6, 8.2, 1.2}, {8.2, 1.2, 11, 1.2},  {11, 1.2, 11, 4},
-        {11, 4, 12.4, 4},   {12.4, 4, 12.4, 1.2}, {12.4, 1.2, 17, 1.2}, {17, -1, 17, 1.2}};
+    constexpr double step_m = step_of_a_scan;
+    constexpr double period_s = period_of_a_scan;
+    const std::vector<room::Wall> walls = corridor_of_rooms();
     const room::Pipeline p = room::make(ale_pipeline_default_config());
     const room::Sensor ahead = looks_ahead();
     std::mt19937 rng(seed);
@@ -308,6 +316,43 @@ TEST(StepRecover, AWrongStepOfALogWithAScanNowAndThenIsSeenByTheLastScan)
             for (const unsigned seed : {1U, 2U, 3U}) {
                 EXPECT_LT(off_after_a_wrong_step(wrong, at_scan, seed), 0.15)
                     << wrong.transpose() << " before scan " << at_scan << ", seed " << seed;
+            }
+        }
+    }
+}
+
+/* The same, but before one of the scans the robot is carried on in `away_s`, and wheels tell of nothing. How
+ * many scans are good and more than 0.3 m off. */
+int wrong_after_being_carried(double carried_m, double away_s, int at_scan, unsigned seed)
+{
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    const room::Sensor ahead = looks_ahead();
+    std::mt19937 rng(seed);
+    ale_estimate_t e = {};
+    int wrong = 0;
+    for (int k = 0; k < 13; k++) {
+        const bool carried = k >= at_scan;
+        const double told_m = (carried ? k - 1 : k) * step_of_a_scan;
+        const double x = told_m + (carried ? carried_m : 0);
+        const double t = k * period_of_a_scan + (carried ? away_s : 0);
+        const ale_odometry_t sample = {std::llround(t * 1e6), convert::pose(reference::Pose{told_m, 0, 0})};
+        ale_pipeline_odometry(p.get(), &sample);
+        const ale_scan_t scan = room::scan_at(
+            corridor_of_rooms(), ahead, [&](double) { return reference::Pose(x, 0, 0); }, t, rng);
+        ale_pipeline_scan(p.get(), &scan, &e);
+        wrong += e.state == ALE_STATE_GOOD && off_straight(e, x) > 0.3;
+    }
+    return wrong;
+}
+
+/* What wheels tell from one scan to the next after that time is no way through it. */
+TEST(StepRecover, CarriedOnWhereAScanComesNowAndThenTheRobotDoesNotGoOnFromWhereItStood)
+{
+    for (const double carried_m : {3.0, 5.0, 6.8, 7.0, 7.2}) {
+        for (const double away_s : {15.0, 30.0}) {
+            for (const unsigned seed : {1U, 2U, 3U}) {
+                EXPECT_EQ(wrong_after_being_carried(carried_m, away_s, 5, seed), 0)
+                    << carried_m << " m in " << away_s << " s, seed " << seed;
             }
         }
     }
