@@ -45,7 +45,7 @@ void ale_maps_begin(ale_pipeline_t *p)
     p->speed_known = false;
     p->watched = p->motion;
     p->begun = p->scans;
-    p->led_by_wheels = 0;
+    p->unconfirmed_from = 0;
     p->broken = true;
 }
 

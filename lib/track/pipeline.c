@@ -111,7 +111,7 @@ void ale_pipeline_reset(ale_pipeline_t *p)
     p->next_claim = ALE_CLAIM_NEAR;
     p->joined = false;
     p->waits = 0;
-    p->led_by_wheels = 0;
+    p->unconfirmed_from = 0;
     p->begun = 0;
     p->moved_map = (ale_moved_map_t){0, 0, {0, 0, 0}};
     p->scans = 0;

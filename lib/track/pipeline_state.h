@@ -101,12 +101,12 @@ struct ale_pipeline {
     /* monitor */
     ale_tracking_monitor_t monitor;
     uint8_t waits; /* scans in a row, to this one, that wait for the next one to tell where they were taken */
-    uint8_t waited;       /* to the one before */
-    int64_t back_us;      /* the stamp of the first of those: the time unwatched ended there */
-    bool denied_to_stand; /* by one of those, or this one */
-    bool driven;          /* wheels have told of a way through the time unwatched before this scan */
-    uint32_t
-        led_by_wheels; /* the scan to which they alone have led, unseen; 0 where a map has confirmed it */
+    uint8_t waited;            /* to the one before */
+    int64_t back_us;           /* the stamp of the first of those: the time unwatched ended there */
+    bool denied_to_stand;      /* by one of those, or this one */
+    bool driven;               /* wheels have told of a way through the time unwatched before this scan */
+    uint32_t unconfirmed_from; /* the scan from which on nothing but the prediction tells where the robot is;
+                                  0 where walls of before have confirmed it */
 
     /* filter: what moves, and what is kept to tell */
     ale_static_scene_t still;

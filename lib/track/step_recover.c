@@ -50,7 +50,7 @@ static bool has_stood(const ale_pipeline_t *p, const ale_prediction_t *predictio
     const ale_pose_t nowhere = {0};
     ale_pose_t between;
     int32_t beyond_us;
-    return from_us < to_us && ale_wheels_motion(&p->wheels, from_us, to_us, &between, &beyond_us) &&
+    return (from_us < to_us) && ale_wheels_motion(&p->wheels, from_us, to_us, &between, &beyond_us) &&
            ale_are_near(nowhere, between, SAME_UM, SAME_BAM);
 }
 
@@ -369,6 +369,18 @@ static ale_recovery_t decide(ale_pipeline_t *p, const ale_prediction_t *predicti
                                                    : decide_on_best(p, prediction, given, best, ways);
 }
 
+/* Whether another pose explains the scan clearly better than the given one, by the map and by the last scan,
+ * but not so surely that it is taken: then nothing but the prediction tells that the robot is here. */
+static bool is_doubted(const ale_pipeline_t *p, ale_pose_t before, candidate_t *best, candidate_t *given)
+{
+    const int64_t more_um = best->evidence_um - given->evidence_um;
+    if ((more_um <= 0) || is_same(best->fit, given->fit)) {
+        return false;
+    }
+    const int64_t last_um = heard_more_um(p, before, best, given);
+    return (last_um > 0) && ((more_um + last_um) > MARGIN_UM);
+}
+
 ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_ways_t *ways,
                                 ale_fit_t *fit)
 {
@@ -379,6 +391,9 @@ ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *predi
     p->searched = true;
     const int64_t rival_um = compare_region(p, &ways->believed, &region, &p->proposed, &best);
     const ale_recovery_t recovery = decide(p, prediction, &given, &best, rival_um, ways);
+    if ((p->unconfirmed_from == 0) && is_doubted(p, prediction->before.pose, &best, &given)) {
+        p->unconfirmed_from = p->scans;
+    }
     switch (recovery) {
     case ALE_RECOVER_CONFIRMED:
     case ALE_RECOVER_STAYS:

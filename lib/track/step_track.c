@@ -135,8 +135,8 @@ static ale_scene_verdict_t judge(ale_pipeline_t *p, const ale_prediction_t *pred
     if (p->next_claim == ALE_CLAIM_NONE) {
         return lose(p);
     }
-    if (ale_recover_may_be_anywhere(p, prediction)) {
-        p->led_by_wheels = p->scans;
+    if ((p->unconfirmed_from == 0) && ale_recover_may_be_anywhere(p, prediction)) {
+        p->unconfirmed_from = p->scans;
     }
     if (p->tile_waits && !unwatched && p->waited == 0) {
         return put_off(p, verdict);
@@ -144,16 +144,16 @@ static ale_scene_verdict_t judge(ale_pipeline_t *p, const ale_prediction_t *pred
     return recover(p, prediction, verdict, ways, fit);
 }
 
-/* What the walls of before a drive that nobody saw tell of this scan: where they determine every direction,
- * they confirm what wheels alone have said. p->other: the fit by them alone. */
-static void confirm_drive(ale_pipeline_t *p, const ale_fit_t *fit)
+/* What the walls tell of this scan that were there before nothing but the prediction told where the robot is:
+ * where they determine every direction they confirm it. p->other: the fit by them alone. */
+static void confirm_prediction(ale_pipeline_t *p, const ale_fit_t *fit)
 {
     p->other = *fit;
     int64_t matched_um = 0;
     for (uint32_t i = 0; i < p->observed.count; i++) {
         ale_association_t *a = &p->other.association[i];
         a->landmark = ALE_NO_LANDMARK;
-        if (a->wall != ALE_NO_WALL && p->map.wall[a->wall].born >= p->led_by_wheels &&
+        if (a->wall != ALE_NO_WALL && p->map.wall[a->wall].born >= p->unconfirmed_from &&
             p->map.wall[a->wall].born != ALE_BORN_BEFORE) {
             a->wall = ALE_NO_WALL;
         }
@@ -163,7 +163,7 @@ static void confirm_drive(ale_pipeline_t *p, const ale_fit_t *fit)
         ale_observability_of(&p->map, p->observed.observation, p->observed.count, &p->other);
     p->other.matched_um = matched_um;
     if (told.determined && ale_tracking_explains(&p->other)) {
-        p->led_by_wheels = 0;
+        p->unconfirmed_from = 0;
     }
 }
 
@@ -182,10 +182,10 @@ ale_tracked_t ale_step_track(ale_pipeline_t *p, const ale_prediction_t *predicti
         ale_observability_of(&p->map, p->still.observation, p->still.count, fit);
     ale_update_uncertainty(p, prediction, &ways, &observability, fit);
     tracked.undecided = verdict == ALE_SCENE_UNDECIDED;
-    if (p->led_by_wheels != 0 && verdict == ALE_SCENE_KNOWN) {
-        confirm_drive(p, fit);
+    if ((p->unconfirmed_from != 0) && (verdict == ALE_SCENE_KNOWN)) {
+        confirm_prediction(p, fit);
     }
-    tracked.determined = observability.determined && !tracked.undecided && p->led_by_wheels == 0;
+    tracked.determined = observability.determined && !tracked.undecided && (p->unconfirmed_from == 0);
     tracked.speed_known = is_speed_known(p, prediction, &observability);
     if (observability.degenerate && tracked.speed_known && !ways.counted) {
         /* chance matches go along with the robot and would stop it; wheels outvote them */
