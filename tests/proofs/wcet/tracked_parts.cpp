@@ -141,8 +141,9 @@ void witnesses(Parts &parts, Random &random, Crowd &crowd)
                              crowd.views.data(),
                              static_cast<uint32_t>(crowd.views.size())};
     parts.measure("last scan kept", 1, [&] { ale_witness_keep(&pipeline->witness, &seen); });
-    parts.measure("last scan heard of two poses", 2, [&] {
-        ale_witness_hear(&pipeline->witness, &seen, {200000, 100000, false});
+    /* where the last scan puts the robot, and where the map does; the given pose, and the best of all others */
+    parts.measure("last scan heard of four poses", 4, [&] {
+        ale_witness_hear(&pipeline->witness, &seen, {60000, 0, false}); /* as ale_step_testimony */
     });
     const std::string heard = "last scan heard, or what has come"; /* the one or the other */
     parts.measure(heard, 1, [&] { ale_witness_hear(&pipeline->witness, &seen, {200000, 100000, false}); });
