@@ -144,6 +144,15 @@ def test_one_wheel_slips(log, clean):
     assert sorted(round(np.mean(shares), 2) for shares in wheels) == [1, 3]
 
 
+def test_a_scan_after_so_much_of_a_way(log, clean):
+    left = spoil.spoil(log, "by-way", 1)
+    apart = np.diff(clean.odometry[left.index], axis=0)
+    ways, turns = np.hypot(apart[:, 0], apart[:, 1]), np.abs(wrapped(apart[:, 2]))
+    reached = (ways >= spoil.BY_WAY_M) | (turns >= spoil.BY_WAY_RAD)
+    assert left.index[0] == 0 and reached.all()
+    assert ways.max() <= spoil.BY_WAY_M + 2 * AHEAD and turns.max() <= spoil.BY_WAY_RAD + TURN + 1e-9
+
+
 @pytest.mark.parametrize("kind, late_s", [("late", 0.4), ("stale", 100)])
 def test_poses_are_old(kind, late_s, log, clean):
     spoil.spoil(log, kind, 1)

@@ -32,6 +32,7 @@ otherwise  every-other  every other beam without an echo  near      no echo beyo
            jitter       4 mm of noise more on every range: as if driven on another day
            crop         120 degrees ahead                rough      10 mm and 1 % of noise on every range
            sparse       every third scan                 tail       begins after a third of the drive
+           by-way       a scan after every metre or half a radian that the wheels tell, as in logs of key scans
            queued       scans are stamped when a queue lets them go, up to 1 s late and partly in the wrong order
 """
 import argparse
@@ -48,7 +49,7 @@ PASSING = ("stall", "swallow", "jump", "reset", "sign", "slip", "late", "track",
 LYING = ("frozen", "mirrored", "degrees", "millimetres", "stale")
 SCANS = ("blind", "gap", "dark", "half")
 OUTAGES = tuple(f"{kind}-{seconds}" for kind in ("gap", "dark") for seconds in (4, 6, 8, 10, 12))
-TOLD_OTHERWISE = ("mirror", "backward", "every-other", "near", "crop", "rough", "jitter", "sparse", "tail", "queued")
+TOLD_OTHERWISE = ("mirror", "backward", "every-other", "near", "crop", "rough", "jitter", "sparse", "by-way", "tail", "queued")
 WHEELS = PASSING + LYING
 KINDS = PASSING + SCANS + ("carried",) + LYING + OUTAGES + TOLD_OTHERWISE
 
@@ -62,6 +63,7 @@ HANGS_M, HANGS_SIGMA_M = 0.3, 0.004
 OFTEN = ("stall", "swallow", "jump", "sign", "slip")
 OFTEN_S = (30, 90)  # from one to the next
 NEAR_M = 8
+BY_WAY_M, BY_WAY_RAD = 1, 0.5
 CROP_RAD = math.radians(60)
 HELD_UP_S, OUT_OF_ORDER, LATER_S = 1, 0.1, 0.5  # the longest time in a queue; the share of scans that come later still, and how much
 NOISE = {"rough": (0.01, 0.01), "jitter": (0.004, 0)}  # m, and share of the range
@@ -249,6 +251,16 @@ def queued(times, chance):
     return np.array(stamps)
 
 
+def by_way(odometry):
+    """Numbers of the scans that a log of key scans would hold."""
+    kept = [0]
+    for k in range(1, len(odometry)):
+        ahead, left, turn = seen_from(odometry[kept[-1]], odometry[k:k + 1])[0]
+        if math.hypot(ahead, left) >= BY_WAY_M or abs(turn) >= BY_WAY_RAD:
+            kept.append(k)
+    return np.array(kept)
+
+
 def tell_otherwise(log, kind, seed):
     """The same drive, told in another way."""
     index = np.arange(len(log.scans))
@@ -263,8 +275,8 @@ def tell_otherwise(log, kind, seed):
         log.stamps = times
     elif kind == "queued":
         log.stamps = queued(log.stamps, np.random.default_rng(seed))
-    elif kind in ("sparse", "tail"):
-        index = index[::3] if kind == "sparse" else index[len(index) // 3:]
+    elif kind in ("sparse", "by-way", "tail"):
+        index = {"sparse": index[::3], "by-way": by_way(log.odometry), "tail": index[len(index) // 3:]}[kind]
         log.keep(index)
     else:
         tell_ranges(log, kind, np.random.default_rng(seed + 4))
