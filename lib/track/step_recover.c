@@ -39,7 +39,7 @@ bool ale_recover_may_be_anywhere(const ale_pipeline_t *p, const ale_prediction_t
 
 /* Whether wheels that may have told of a way have told of none but at the ends of the time unwatched: what
  * they count until the last scan before it, and from the first one after it, which may have been waited from,
- * is no way through it. Where scans come one upon the other they may be told of late, by as much. */
+ * is no way through it. In a dense log they may be told of late by the time from scan to scan. */
 static bool has_stood(const ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
     const int64_t late_us =
@@ -264,12 +264,10 @@ static bool is_seen_there(const ale_pipeline_t *p, ale_pose_t before, candidate_
 static int64_t last_scan_um(const ale_pipeline_t *p, ale_pose_t before, candidate_t *best, candidate_t *given,
                             bool seen)
 {
-    const int64_t more_um = heard_more_um(p, before, best, given);
-    if (seen) {
-        return more_um;
-    }
-    const bool near = ale_are_near(best->fit->motion.pose, given->fit->motion.pose, DRIFT_UM, SAME_BAM);
-    return near ? 0 : ale_min64(more_um, 0);
+    const bool near =
+        !seen && ale_are_near(best->fit->motion.pose, given->fit->motion.pose, DRIFT_UM, SAME_BAM);
+    const int64_t more_um = near ? 0 : heard_more_um(p, before, best, given);
+    return seen ? more_um : ale_min64(more_um, 0);
 }
 
 /* Whether anything but the map tells that the robot is there after a time that nobody watched: that is where
@@ -370,7 +368,8 @@ static ale_recovery_t decide(ale_pipeline_t *p, const ale_prediction_t *predicti
 }
 
 /* Whether another pose explains the scan clearly better than the given one, by the map and by the last scan,
- * but not so surely that it is taken: then nothing but the prediction tells that the robot is here. */
+ * but not so surely that it was taken, for then they are the same: nothing but the prediction tells that the
+ * robot is here. */
 static bool is_doubted(const ale_pipeline_t *p, ale_pose_t before, candidate_t *best, candidate_t *given)
 {
     const int64_t more_um = best->evidence_um - given->evidence_um;
@@ -391,7 +390,8 @@ ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *predi
     p->searched = true;
     const int64_t rival_um = compare_region(p, &ways->believed, &region, &p->proposed, &best);
     const ale_recovery_t recovery = decide(p, prediction, &given, &best, rival_um, ways);
-    if ((p->unconfirmed_from == 0) && is_doubted(p, prediction->before.pose, &best, &given)) {
+    if ((p->unconfirmed_from == 0) && (ale_recover_may_be_anywhere(p, prediction) ||
+                                       is_doubted(p, prediction->before.pose, &best, &given))) {
         p->unconfirmed_from = p->scans;
     }
     switch (recovery) {

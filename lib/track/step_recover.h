@@ -37,7 +37,8 @@ typedef enum {
  * prediction weighs against them. Another pose is taken at once where the last scan has seen the robot go,
  * else proposed, and taken with the next scan that finds it again; what scans in a row say for it adds up.
  * fit: what the prediction has led to, solved. ways: the pose selected, where that is another. Writes
- * p->proposal. Bounded by the vote, four fits and the last scan heard of two poses. */
+ * p->proposal, and p->unconfirmed_from where nothing but the prediction tells of *fit. Bounded by the vote,
+ * four fits and the last scan heard of two poses. */
 ale_recovery_t ale_step_recover(ale_pipeline_t *p, const ale_prediction_t *prediction, ale_ways_t *ways,
                                 ale_fit_t *fit);
 

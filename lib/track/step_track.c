@@ -135,9 +135,6 @@ static ale_scene_verdict_t judge(ale_pipeline_t *p, const ale_prediction_t *pred
     if (p->next_claim == ALE_CLAIM_NONE) {
         return lose(p);
     }
-    if ((p->unconfirmed_from == 0) && ale_recover_may_be_anywhere(p, prediction)) {
-        p->unconfirmed_from = p->scans;
-    }
     if (p->tile_waits && !unwatched && p->waited == 0) {
         return put_off(p, verdict);
     }

@@ -286,8 +286,6 @@ struct After {
  * gone. */
 After after_a_wrong_step(const reference::Pose &wrong, int at_scan, unsigned seed)
 {
-    constexpr double step_m = step_of_a_scan;
-    constexpr double period_s = period_of_a_scan;
     const std::vector<room::Wall> walls = corridor_of_rooms();
     const room::Pipeline p = room::make(ale_pipeline_default_config());
     const room::Sensor ahead = looks_ahead();
@@ -295,13 +293,13 @@ After after_a_wrong_step(const reference::Pose &wrong, int at_scan, unsigned see
     ale_estimate_t e = {};
     After after;
     for (int k = 0; k < 16; k++) {
-        const double x = k * step_m;
-        const ale_pose_t before = convert::pose(reference::Pose{(at_scan - 1) * step_m, 0, 0});
-        const ale_pose_t since = convert::pose(reference::Pose{(k - at_scan) * step_m, 0, 0});
+        const double x = k * step_of_a_scan;
+        const ale_pose_t before = convert::pose(reference::Pose{(at_scan - 1) * step_of_a_scan, 0, 0});
+        const ale_pose_t since = convert::pose(reference::Pose{(k - at_scan) * step_of_a_scan, 0, 0});
         const ale_pose_t wheels =
             k < at_scan ? convert::pose(reference::Pose{x, 0, 0})
                         : ale_pose_compose(ale_pose_compose(before, convert::pose(wrong)), since);
-        const double t = k * period_s;
+        const double t = k * period_of_a_scan;
         const ale_odometry_t sample = {std::llround(t * 1e6), wheels};
         ale_pipeline_odometry(p.get(), &sample);
         const ale_scan_t scan = room::scan_at(
@@ -347,12 +345,13 @@ TEST(StepRecover, AWrongStepThatIsNotTakenBackIsNotGood)
     }
 }
 
-/* The same, but before one of the scans the robot is carried on in `away_s`, and wheels tell of nothing. How
- * many scans are good and more than 0.3 m off. */
+/* Through the same corridor, but before one of the scans the robot is carried on in `away_s`, and wheels tell
+ * of nothing. How many scans are good and more than 0.3 m off. */
 int wrong_after_being_carried(double carried_m, double away_s, int at_scan, unsigned seed)
 {
     const room::Pipeline p = room::make(ale_pipeline_default_config());
     const room::Sensor ahead = looks_ahead();
+    const std::vector<room::Wall> walls = corridor_of_rooms();
     std::mt19937 rng(seed);
     ale_estimate_t e = {};
     int wrong = 0;
@@ -364,7 +363,7 @@ int wrong_after_being_carried(double carried_m, double away_s, int at_scan, unsi
         const ale_odometry_t sample = {std::llround(t * 1e6), convert::pose(reference::Pose{told_m, 0, 0})};
         ale_pipeline_odometry(p.get(), &sample);
         const ale_scan_t scan = room::scan_at(
-            corridor_of_rooms(), ahead, [&](double) { return reference::Pose(x, 0, 0); }, t, rng);
+            walls, ahead, [&](double) { return reference::Pose(x, 0, 0); }, t, rng);
         ale_pipeline_scan(p.get(), &scan, &e);
         wrong += e.state == ALE_STATE_GOOD && off_straight(e, x) > 0.3;
     }

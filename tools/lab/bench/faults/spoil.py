@@ -275,8 +275,11 @@ def tell_otherwise(log, kind, seed):
         log.stamps = times
     elif kind == "queued":
         log.stamps = queued(log.stamps, np.random.default_rng(seed))
-    elif kind in ("sparse", "by-way", "tail"):
-        index = {"sparse": index[::3], "by-way": by_way(log.odometry), "tail": index[len(index) // 3:]}[kind]
+    elif kind == "by-way":
+        index = by_way(log.odometry)
+        log.keep(index)
+    elif kind in ("sparse", "tail"):
+        index = index[::3] if kind == "sparse" else index[len(index) // 3:]
         log.keep(index)
     else:
         tell_ranges(log, kind, np.random.default_rng(seed + 4))
