@@ -14,8 +14,8 @@ V ?= 0
 
 .DEFAULT_GOAL = all
 include tools/make/rules.mk
-include tools/make/tests.mk
 include tools/make/cross.mk
+include tools/make/tests.mk
 include tools/make/toolchains.mk
 include tools/make/deploy.mk
 -include $(wildcard tools/*/*/*.mk)

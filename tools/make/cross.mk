@@ -20,13 +20,16 @@ $(CROSS_BUILD)/%/libraries/ready:
 
 # What is compared needs no LCM, keys or ports: what wants those libraries (ale-replay --lcm) is left open by the linker, and must not
 # be called there.
+# $(call cross_make,machine,build folder,flags,target), in a rule whose first prerequisite is $(CROSS_BUILD)/machine/libraries/ready.
+cross_make = $(MAKE) --no-print-directory BUILD=$(2) \
+    CC="$(CCACHE)$(triple_$(1))-gcc" CXX="$(CCACHE)$(triple_$(1))-g++" AR=$(triple_$(1))-ar \
+    CFLAGS="$(3) -isystem $(<D)/usr/include" CXXFLAGS="$(3) -isystem $(<D)/usr/include -Wno-psabi" \
+    LDFLAGS="-static -L$(<D)/usr/lib/$(triple_$(1)) -Wl,--gc-sections -Wl,--unresolved-symbols=ignore-all" LIBRARIES="-lpng -lz -lbz2 -linih -lm" \
+    $(4)
+
 .PHONY: $(addprefix cross-,$(CROSS)) cross
 $(addprefix cross-,$(CROSS)): cross-%: $(CROSS_BUILD)/%/libraries/ready
-	$(Q)$(MAKE) --no-print-directory BUILD=$(CROSS_BUILD)/$* \
-	    CC="$(CCACHE)$(triple_$*)-gcc" CXX="$(CCACHE)$(triple_$*)-g++" AR=$(triple_$*)-ar \
-	    CFLAGS="-isystem $(<D)/usr/include" CXXFLAGS="-isystem $(<D)/usr/include -Wno-psabi" \
-	    LDFLAGS="-static -L$(<D)/usr/lib/$(triple_$*) -Wl,--gc-sections -Wl,--unresolved-symbols=ignore-all" LIBRARIES="-lpng -lz -lbz2 -linih -lm" \
-	    $(CROSS_BUILD)/$*/bin/ale-replay
+	$(Q)$(call cross_make,$*,$(CROSS_BUILD)/$*,,$(CROSS_BUILD)/$*/bin/ale-replay)
 
 cross: programs ## the same bytes from aarch64, armhf and s390x, emulated
 	@tools/make/deps.sh tools/make/packages-cross.txt

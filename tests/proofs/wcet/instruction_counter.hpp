@@ -1,4 +1,5 @@
-/* Instructions of the running program, under callgrind (--collect-atstart=no --callgrind-out-file=BASE). */
+/* Instructions of the running program, under callgrind (--collect-atstart=no --callgrind-out-file=BASE); on
+ * ARM the cycles of a Cortex-A7, under qemu-arm with the plugin cortex_a7 (out=BASE). */
 #ifndef BENCH_INSTRUCTION_COUNTER_HPP
 #define BENCH_INSTRUCTION_COUNTER_HPP
 
@@ -10,23 +11,39 @@
 
 #include <unistd.h>
 
+#ifdef __arm__
+#include "proofs/wcet/cortex_a7/counting.h"
+#else
 #include <valgrind/callgrind.h>
+#endif
 
 namespace bench
 {
 
-/* Callgrind's own count, read from what it writes when asked. */
+/* The counter's own count, read from what it writes when asked. */
 class InstructionCounter
 {
   public:
+#ifdef __arm__
+    static constexpr bool counts_cycles = true;
+#else
+    static constexpr bool counts_cycles = false;
+#endif
+
     explicit InstructionCounter(std::string base) : base_(std::move(base))
     {
+    }
+
+    /* Begins to count, or stops. */
+    static void toggle()
+    {
+        ask(Ask::toggle);
     }
 
     /* Instructions since the last call; counting stops meanwhile. */
     uint64_t take()
     {
-        CALLGRIND_DUMP_STATS;
+        ask(Ask::write);
         const std::string path = base_ + "." + std::to_string(++dumps_);
         std::ifstream file(path);
         uint64_t count = 0;
@@ -39,7 +56,7 @@ class InstructionCounter
         }
         unlink(path.c_str());
         if (!found) {
-            throw std::runtime_error(path + ": no count (run this under callgrind: make wcet)");
+            throw std::runtime_error(path + ": no count (run this by make wcet or make wcet-cycles)");
         }
         return count;
     }
@@ -47,13 +64,28 @@ class InstructionCounter
     /* Instructions of one call. */
     template <typename Call> uint64_t of(Call call)
     {
-        CALLGRIND_TOGGLE_COLLECT;
+        toggle();
         call();
-        CALLGRIND_TOGGLE_COLLECT;
+        toggle();
         return take();
     }
 
   private:
+    enum class Ask { toggle, write };
+
+    static void ask(Ask what)
+    {
+#ifdef __arm__
+        syscall(COUNTING_CALL, what == Ask::toggle ? COUNTING_TOGGLES : COUNTING_WRITES);
+#else
+        if (what == Ask::toggle) {
+            CALLGRIND_TOGGLE_COLLECT;
+        } else {
+            CALLGRIND_DUMP_STATS;
+        }
+#endif
+    }
+
     std::string base_;
     int dumps_ = 0;
 };

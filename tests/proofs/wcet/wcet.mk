@@ -13,6 +13,23 @@ wcet: deps-test ## instructions of a scan by callgrind: recorded, the worst that
 	@valgrind -q --tool=callgrind --collect-atstart=no --callgrind-out-file=$(WCET_OUT) \
 	    $(BUILD)/bench/wcet --counts $(WCET_OUT) --tries $(WCET_TRIES) --seed $(WCET_SEED) $(WCET_LOGS)
 
+# The same on a processor in order: cycles of a Cortex-A7, counted under qemu-arm by a plugin.
+CORTEX_A7_BUILD = $(CROSS_BUILD)/cortex-a7
+CORTEX_A7_SOURCES = $(wildcard tests/proofs/wcet/cortex_a7/*.c)
+$(BUILD)/bench/cortex_a7.so: $(CORTEX_A7_SOURCES) $(wildcard tests/proofs/wcet/cortex_a7/*.h)
+	@mkdir -p $(@D)
+	$(Q)$(CC) -std=c11 -O2 $(WARNINGS) -fPIC -shared -fvisibility=hidden -o $@ $(CORTEX_A7_SOURCES)
+
+.PHONY: wcet-cycles cortex-a7-build
+cortex-a7-build: $(CROSS_BUILD)/armhf/libraries/ready
+	$(Q)$(call cross_make,armhf,$(CORTEX_A7_BUILD),-mcpu=cortex-a7,$(CORTEX_A7_BUILD)/bench/wcet)
+
+wcet-cycles: deps-test ## the same in cycles of a Cortex-A7 (1 GHz, in order), by qemu: minutes; fails above 100 million
+	@tools/make/deps.sh tools/make/packages-cross.txt
+	@$(MAKE) --no-print-directory -s cortex-a7-build $(BUILD)/bench/cortex_a7.so
+	@qemu-arm -plugin $(BUILD)/bench/cortex_a7.so,out=$(WCET_OUT) \
+	    $(CORTEX_A7_BUILD)/bench/wcet --counts $(WCET_OUT) $(WCET_LOGS)
+
 # The costliest scan: the extractor compiled with a call at every basic block, which are counted. Its loops stay rolled:
 # blocks of unrolled ones stand for several turns, and the search then finds scans that cost 4 % less.
 COUNTED_OBJECTS = $(patsubst %.c,$(OBJ)/counted/%.o,$(wildcard lib/base/*.c lib/extract/*.c))
