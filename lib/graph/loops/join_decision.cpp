@@ -27,6 +27,7 @@ struct Support {
 };
 constexpr Support as_predicted{JoinDecision::least_nodes, 1.0};
 constexpr Support within_reach{JoinDecision::least_nodes + 1, 2.0};
+constexpr Support unrivalled{JoinDecision::least_nodes + 3, 2.5};
 constexpr Support elsewhere{JoinDecision::least_elsewhere, 8.0};
 constexpr double predicted_m = 3.0;
 constexpr double predicted_rad = 0.8;
@@ -40,7 +41,8 @@ constexpr double least_strength = 0.4; // of a rival, as part of that of the hyp
 constexpr double least_in_view = 1.0 / 3;
 constexpr double agrees_at_least = 0.85; // as loops do
 constexpr double denies = 0.75;
-constexpr double most_denied = 0.2; // part of the nodes that are compared
+constexpr double most_denied = 0.2;  // part of the nodes of a drive that are compared
+constexpr double least_agreed = 0.9; // of a piece: what only looks like a place agrees here and there
 constexpr double clearly_worse = 0.08;
 constexpr size_t refuting_nodes = 3;
 constexpr double compared_m = 8.0; // of a node that lies on the other map; farther off both may have drifted
@@ -113,7 +115,9 @@ std::optional<FoundJoin> JoinDecision::find()
     std::vector<Hypothesis> all = hypotheses();
     for (size_t k = 0; k < std::min(all.size(), most_compared); k++) {
         Hypothesis &best = all[k];
-        if (is_denied(best) || !is_sound(best) || !is_unique(best, all)) {
+        const bool has_rivals = std::any_of(all.begin(), all.end(),
+                                            [&](const Hypothesis &other) { return is_rival(best, other); });
+        if (is_denied(best) || !is_sound(best, has_rivals) || !is_unique(best, all)) {
             continue;
         }
         FoundJoin found{{best.map_id, best.into_map_id, best.shift}, {}, {}};
@@ -310,10 +314,11 @@ bool JoinDecision::is_within_reach(const Hypothesis &hypothesis) const
 }
 
 // Nodes enough, apart, and held in every direction. Of a drive some were searched for alone.
-bool JoinDecision::is_held(const Hypothesis &hypothesis) const
+bool JoinDecision::is_held(const Hypothesis &hypothesis, bool has_rivals) const
 {
     const bool few = kind_ == MapKind::drives || is_as_predicted(hypothesis);
-    const Support &farther = is_within_reach(hypothesis) ? within_reach : elsewhere;
+    const Support &anywhere = has_rivals || kind_ != MapKind::pieces ? elsewhere : unrivalled;
+    const Support &farther = is_within_reach(hypothesis) ? within_reach : anywhere;
     const Support &least = few ? as_predicted : farther;
     const auto holds = [](const Loop &loop) { return is_held_everywhere(loop.information); };
     return hypothesis.loops.size() >= least.nodes &&
@@ -350,10 +355,11 @@ bool JoinDecision::holds_all_of_it(Hypothesis &hypothesis)
 }
 
 // Whether the two maps agree wherever they overlap near these nodes.
-bool JoinDecision::is_sound(Hypothesis &hypothesis)
+bool JoinDecision::is_sound(Hypothesis &hypothesis, bool has_rivals)
 {
-    if (!is_held(hypothesis) || (kind_ == MapKind::drives && !is_far_enough(hypothesis, elsewhere.apart_m) &&
-                                 !holds_all_of_it(hypothesis))) {
+    if (!is_held(hypothesis, has_rivals) ||
+        (kind_ == MapKind::drives && !is_far_enough(hypothesis, elsewhere.apart_m) &&
+         !holds_all_of_it(hypothesis))) {
         return false;
     }
     const Tally near = tally(hypothesis, [&](int query) {
@@ -363,8 +369,10 @@ bool JoinDecision::is_sound(Hypothesis &hypothesis)
     });
     const bool few = kind_ != MapKind::drives || is_as_predicted(hypothesis);
     const Support &least = few ? as_predicted : elsewhere;
+    const auto known = static_cast<double>(near.known);
     return near.agreed >= least.nodes &&
-           static_cast<double>(near.denied) <= most_denied * static_cast<double>(near.known);
+           (kind_ == MapKind::drives ? static_cast<double>(near.denied) <= most_denied * known
+                                     : static_cast<double>(near.agreed) >= least_agreed * known);
 }
 
 // Whether the other explains enough of the same nodes, or puts other nodes to another place of the same map.

@@ -5,10 +5,13 @@
 // - at least three nodes, a metre apart, lie on what the other map saw, held in every direction; twelve, over
 //   eight metres, if that is not where the prediction has put them, or nobody watched the robot on the way
 //   from the one to the other; none elsewhere where wheels have told of that way. When all is known, four
-//   over two metres where nobody watched, if the robot can have got there in the time, and not far. Of a map
-//   that is a drive of its own, and smaller, twelve over most of it, if nearly all of it lies there;
+//   over two metres where nobody watched, if the robot can have got there in the time, and not far, and six
+//   over two and a half if it has no rival: a building whose places look alike shows some. Of a map that is a
+//   drive of its own, and smaller, twelve over most of it, if nearly all of it lies there;
 // - wherever the two overlap they agree: neither looks through what the other saw (a match that slides along
-//   what does not hold it says nothing of that direction);
+//   what does not hold it says nothing of that direction). Of pieces of one way nine nodes in ten agree: what
+//   only looks alike does so here and there; of drives, between which things were moved, four in five are
+//   not denied;
 // - every rival is refuted: another place of any map that explains the same nodes must fail at three of them
 //   where this one does not. A place that cannot be compared is not refuted. Not a rival is what fits
 //   together: a place of a third map that lies at the same place of this one; nor what is not where the
@@ -92,10 +95,10 @@ class JoinDecision
     bool is_as_predicted(const Hypothesis &hypothesis) const;
     bool is_denied(const Hypothesis &hypothesis) const;
     bool is_within_reach(const Hypothesis &hypothesis) const;
-    bool is_held(const Hypothesis &hypothesis) const;
+    bool is_held(const Hypothesis &hypothesis, bool has_rivals) const;
     template <class Chosen> Tally tally(Hypothesis &hypothesis, Chosen is_chosen);
     bool holds_all_of_it(Hypothesis &hypothesis);
-    bool is_sound(Hypothesis &hypothesis);
+    bool is_sound(Hypothesis &hypothesis, bool has_rivals);
     bool is_rival(const Hypothesis &hypothesis, const Hypothesis &other) const;
     bool is_refuted(Hypothesis &rival, Hypothesis &hypothesis);
     bool fits_together(const Hypothesis &hypothesis, const Hypothesis &other,

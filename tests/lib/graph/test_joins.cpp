@@ -167,6 +167,30 @@ TEST(Joins, AfterTheDriveAPlaceWithinReachOfARobotThatNobodyWatchedIsTaken)
     EXPECT_LT(outcome.error_m, 0.15);
 }
 
+// A room that is like no other, and one beside it.
+Walls odd_rooms()
+{
+    Walls walls = {{0, 0, 7, 0},       {7, 0, 7, 3},       {7, 3, 4.2, 3},
+                   {4.2, 3, 4.2, 5.4}, {4.2, 5.4, 0, 5.4}, {0, 5.4, 0, 0}};
+    add_box(&walls, 1.4, 3.6, 2.2, 4.2);
+    add_box(&walls, 5.6, 1.9, 6.1, 3);
+    add_box(&walls, 2.8, 0, 3.1, 0.7);
+    return walls;
+}
+
+// Three metres are enough, wherever the robot was carried, if nothing that is known looks like that place.
+TEST(Joins, AfterTheDriveAPlaceThatNothingResemblesIsTakenHoweverFar)
+{
+    const Path known =
+        path_through({{0.8, 1}, {4.5, 1.2}, {4.2, 2.4}, {3, 3}, {3, 4.6}, {0.8, 4.6}, {0.7, 1.4}});
+    const Path path = joined_paths(known, path_through({{4.8, 1.4}, {3.2, 2.4}, {3.2, 4}}));
+    const Outcome outcome =
+        drive(odd_rooms(), path, known.size(), 1, far_off(), nullptr, ALE_CLAIM_REACHED, 60);
+    EXPECT_EQ(outcome.maps_driven, 2U);
+    EXPECT_EQ(outcome.maps, 1U);
+    EXPECT_LT(outcome.error_m, 0.15);
+}
+
 // The corridor beyond the second room is not known; the first room explains it nearly as well.
 TEST(Joins, UnknownGroundThatLooksLikeKnownIsNotTakenForIt)
 {

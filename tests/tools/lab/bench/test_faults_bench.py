@@ -370,10 +370,17 @@ def bench(*words):
                           capture_output=True, text=True)
 
 
-def rows_of(done):
+def cells_of(done):
     assert done.returncode == 0, done.stderr
-    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in done.stdout.splitlines() if line.startswith("|")]
-    return {row[0]: row[1:] for row in reversed(cells)}  # of a kind in both tables the first
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in done.stdout.splitlines() if line.startswith("|")]
+
+
+def rows_of(done):
+    return {row[0]: row[1:] for row in reversed(cells_of(done))}  # of a kind in both tables the first
+
+
+def rows_after(done):
+    return {row[0]: row[1:] for row in cells_of(done)}  # the second
 
 
 def test_the_home_is_survived_and_no_scan_is_silently_wrong():
@@ -425,6 +432,19 @@ def test_carried_into_a_room_like_another_the_robot_is_never_wrong_while_good():
     rows = rows_of(bench("--only", "alike", "--seeds", "1,2"))
     runs, _, _, _, wrong, silent, _, ends = rows["alike"]
     assert (runs, wrong, silent, ends) == ("2", "0", "0", "0")
+
+
+@pytest.mark.parametrize("seed", [202, 204])
+def test_a_robot_that_was_carried_is_put_in_its_place_after_the_drive_by_what_nothing_else_resembles(seed):
+    """It comes back to what it knows for the last three metres."""
+    rows = rows_of(bench("--only", "home", "--seeds", str(seed), "--kinds", "carried"))
+    assert rows["carried"][0] == "1" and rows["carried"][3] == "1", rows
+
+
+def test_ground_that_resembles_the_other_side_of_the_building_for_seventeen_metres_is_not_taken_for_it():
+    """The office is nearly the same after half a turn: recesses are, but not where they are."""
+    rows = rows_after(bench("--only", "office", "--seeds", "206", "--kinds", "carried"))
+    assert rows["carried"][0] == "1" and rows["carried"][-1] == "1", rows
 
 
 def test_carried_elsewhere_in_the_home_the_robot_is_never_wrong_while_good():
