@@ -19,16 +19,14 @@ namespace
 // Matches of one hypothesis agree this well where they are: both maps may have drifted between them.
 constexpr double alike_m = 0.30;
 constexpr double alike_rad = 0.08;
-// What a hypothesis must rest on: nodes, and how far apart two of them are at least. Ground that no map knows
-// may look like known one; what contradicts the wheels by more than they ever lose must be long.
-struct Support {
-    size_t nodes;
-    double apart_m;
-};
-constexpr Support as_predicted{JoinDecision::least_nodes, 1.0};
-constexpr Support within_reach{JoinDecision::least_nodes + 1, 2.0};
-constexpr Support unrivalled{JoinDecision::least_nodes + 3, 2.5};
-constexpr Support elsewhere{JoinDecision::least_elsewhere, 8.0};
+// What a hypothesis must rest on: nodes, how far apart two of them are at least, and the part of all near
+// them that must agree: what only looks alike does so here and there. Ground that no map knows may look like
+// known one; what contradicts the wheels by more than they ever lose must be long.
+using Support = JoinDecision::Support;
+constexpr Support as_predicted{JoinDecision::least_nodes, 1.0, 0.75};
+constexpr Support within_reach{JoinDecision::least_nodes + 1, 2.0, 0.75};
+constexpr Support unrivalled{JoinDecision::least_nodes + 3, 2.5, 0.9};
+constexpr Support elsewhere{JoinDecision::least_elsewhere, 8.0, 0.75};
 constexpr double predicted_m = 3.0;
 constexpr double predicted_rad = 0.8;
 constexpr double reach_most_m = 10.0; // farther off it may be anywhere
@@ -41,8 +39,7 @@ constexpr double least_strength = 0.4; // of a rival, as part of that of the hyp
 constexpr double least_in_view = 1.0 / 3;
 constexpr double agrees_at_least = 0.85; // as loops do
 constexpr double denies = 0.75;
-constexpr double most_denied = 0.2;  // part of the nodes of a drive that are compared
-constexpr double least_agreed = 0.9; // of a piece: what only looks like a place agrees here and there
+constexpr double most_denied = 0.2; // part of the nodes of a drive that are compared
 constexpr double clearly_worse = 0.08;
 constexpr size_t refuting_nodes = 3;
 constexpr double compared_m = 8.0; // of a node that lies on the other map; farther off both may have drifted
@@ -313,13 +310,23 @@ bool JoinDecision::is_within_reach(const Hypothesis &hypothesis) const
            prediction.reach_m < reach_most_m;
 }
 
+JoinDecision::Support JoinDecision::support_of(const Hypothesis &hypothesis, bool has_rivals) const
+{
+    if (kind_ == MapKind::drives || is_as_predicted(hypothesis)) {
+        return as_predicted;
+    }
+    if (is_within_reach(hypothesis)) {
+        return within_reach;
+    }
+    const bool is_short =
+        hypothesis.loops.size() < elsewhere.nodes || !is_far_enough(hypothesis, elsewhere.apart_m);
+    return is_short && !has_rivals && kind_ == MapKind::pieces ? unrivalled : elsewhere;
+}
+
 // Nodes enough, apart, and held in every direction. Of a drive some were searched for alone.
 bool JoinDecision::is_held(const Hypothesis &hypothesis, bool has_rivals) const
 {
-    const bool few = kind_ == MapKind::drives || is_as_predicted(hypothesis);
-    const Support &anywhere = has_rivals || kind_ != MapKind::pieces ? elsewhere : unrivalled;
-    const Support &farther = is_within_reach(hypothesis) ? within_reach : anywhere;
-    const Support &least = few ? as_predicted : farther;
+    const Support least = support_of(hypothesis, has_rivals);
     const auto holds = [](const Loop &loop) { return is_held_everywhere(loop.information); };
     return hypothesis.loops.size() >= least.nodes &&
            (kind_ == MapKind::drives || is_far_enough(hypothesis, least.apart_m)) &&
@@ -370,9 +377,10 @@ bool JoinDecision::is_sound(Hypothesis &hypothesis, bool has_rivals)
     const bool few = kind_ != MapKind::drives || is_as_predicted(hypothesis);
     const Support &least = few ? as_predicted : elsewhere;
     const auto known = static_cast<double>(near.known);
+    const double least_part = support_of(hypothesis, has_rivals).agreed;
     return near.agreed >= least.nodes &&
            (kind_ == MapKind::drives ? static_cast<double>(near.denied) <= most_denied * known
-                                     : static_cast<double>(near.agreed) >= least_agreed * known);
+                                     : static_cast<double>(near.agreed) >= least_part * known);
 }
 
 // Whether the other explains enough of the same nodes, or puts other nodes to another place of the same map.

@@ -9,9 +9,9 @@
 //   over two and a half if it has no rival: a building whose places look alike shows some. Of a map that is a
 //   drive of its own, and smaller, twelve over most of it, if nearly all of it lies there;
 // - wherever the two overlap they agree: neither looks through what the other saw (a match that slides along
-//   what does not hold it says nothing of that direction). Of pieces of one way nine nodes in ten agree: what
-//   only looks alike does so here and there; of drives, between which things were moved, four in five are
-//   not denied;
+//   what does not hold it says nothing of that direction). Of pieces of one way three nodes in four agree,
+//   nine in ten where the way is short: what only looks alike does so here and there; of drives, between
+//   which things were moved, four in five are not denied;
 // - every rival is refuted: another place of any map that explains the same nodes must fail at three of them
 //   where this one does not. A place that cannot be compared is not refuted. Not a rival is what fits
 //   together: a place of a third map that lies at the same place of this one; nor what is not where the
@@ -42,6 +42,12 @@ struct FoundJoin {
 class JoinDecision
 {
   public:
+    // What a hypothesis must rest on.
+    struct Support {
+        size_t nodes;
+        double apart_m; // two of them at least
+        double agreed;  // part of all nodes near them that can be compared
+    };
     // Of a map that may join another.
     static constexpr size_t least_nodes = 3;
     // That must agree where wheels have not put it there.
@@ -95,6 +101,7 @@ class JoinDecision
     bool is_as_predicted(const Hypothesis &hypothesis) const;
     bool is_denied(const Hypothesis &hypothesis) const;
     bool is_within_reach(const Hypothesis &hypothesis) const;
+    Support support_of(const Hypothesis &hypothesis, bool has_rivals) const;
     bool is_held(const Hypothesis &hypothesis, bool has_rivals) const;
     template <class Chosen> Tally tally(Hypothesis &hypothesis, Chosen is_chosen);
     bool holds_all_of_it(Hypothesis &hypothesis);
