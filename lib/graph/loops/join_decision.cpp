@@ -39,7 +39,7 @@ constexpr double least_strength = 0.4; // of a rival, as part of that of the hyp
 constexpr double least_in_view = 1.0 / 3;
 constexpr double agrees_at_least = 0.85; // as loops do
 constexpr double denies = 0.75;
-constexpr double most_denied = 0.2; // part of the nodes of a drive that are compared
+constexpr double most_denied = 0.2; // part of the nodes that are compared
 constexpr double clearly_worse = 0.08;
 constexpr size_t refuting_nodes = 3;
 constexpr double compared_m = 8.0; // of a node that lies on the other map; farther off both may have drifted
@@ -112,9 +112,7 @@ std::optional<FoundJoin> JoinDecision::find()
     std::vector<Hypothesis> all = hypotheses();
     for (size_t k = 0; k < std::min(all.size(), most_compared); k++) {
         Hypothesis &best = all[k];
-        const bool has_rivals = std::any_of(all.begin(), all.end(),
-                                            [&](const Hypothesis &other) { return is_rival(best, other); });
-        if (is_denied(best) || !is_sound(best, has_rivals) || !is_unique(best, all)) {
+        if (is_denied(best) || !is_sound(best, support_of(best, all)) || !is_unique(best, all)) {
             continue;
         }
         FoundJoin found{{best.map_id, best.into_map_id, best.shift}, {}, {}};
@@ -310,7 +308,8 @@ bool JoinDecision::is_within_reach(const Hypothesis &hypothesis) const
            prediction.reach_m < reach_most_m;
 }
 
-JoinDecision::Support JoinDecision::support_of(const Hypothesis &hypothesis, bool has_rivals) const
+JoinDecision::Support JoinDecision::support_of(const Hypothesis &hypothesis,
+                                               const std::vector<Hypothesis> &all) const
 {
     if (kind_ == MapKind::drives || is_as_predicted(hypothesis)) {
         return as_predicted;
@@ -318,15 +317,18 @@ JoinDecision::Support JoinDecision::support_of(const Hypothesis &hypothesis, boo
     if (is_within_reach(hypothesis)) {
         return within_reach;
     }
-    const bool is_short =
-        hypothesis.loops.size() < elsewhere.nodes || !is_far_enough(hypothesis, elsewhere.apart_m);
-    return is_short && !has_rivals && kind_ == MapKind::pieces ? unrivalled : elsewhere;
+    const bool is_long =
+        hypothesis.loops.size() >= elsewhere.nodes && is_far_enough(hypothesis, elsewhere.apart_m);
+    const auto rivals = [&](const Hypothesis &other) { return is_rival(hypothesis, other); };
+    if (is_long || kind_ != MapKind::pieces || std::any_of(all.begin(), all.end(), rivals)) {
+        return elsewhere;
+    }
+    return unrivalled;
 }
 
 // Nodes enough, apart, and held in every direction. Of a drive some were searched for alone.
-bool JoinDecision::is_held(const Hypothesis &hypothesis, bool has_rivals) const
+bool JoinDecision::is_held(const Hypothesis &hypothesis, const Support &least) const
 {
-    const Support least = support_of(hypothesis, has_rivals);
     const auto holds = [](const Loop &loop) { return is_held_everywhere(loop.information); };
     return hypothesis.loops.size() >= least.nodes &&
            (kind_ == MapKind::drives || is_far_enough(hypothesis, least.apart_m)) &&
@@ -362,9 +364,9 @@ bool JoinDecision::holds_all_of_it(Hypothesis &hypothesis)
 }
 
 // Whether the two maps agree wherever they overlap near these nodes.
-bool JoinDecision::is_sound(Hypothesis &hypothesis, bool has_rivals)
+bool JoinDecision::is_sound(Hypothesis &hypothesis, const Support &support)
 {
-    if (!is_held(hypothesis, has_rivals) ||
+    if (!is_held(hypothesis, support) ||
         (kind_ == MapKind::drives && !is_far_enough(hypothesis, elsewhere.apart_m) &&
          !holds_all_of_it(hypothesis))) {
         return false;
@@ -377,10 +379,8 @@ bool JoinDecision::is_sound(Hypothesis &hypothesis, bool has_rivals)
     const bool few = kind_ != MapKind::drives || is_as_predicted(hypothesis);
     const Support &least = few ? as_predicted : elsewhere;
     const auto known = static_cast<double>(near.known);
-    const double least_part = support_of(hypothesis, has_rivals).agreed;
-    return near.agreed >= least.nodes &&
-           (kind_ == MapKind::drives ? static_cast<double>(near.denied) <= most_denied * known
-                                     : static_cast<double>(near.agreed) >= least_part * known);
+    return near.agreed >= least.nodes && static_cast<double>(near.denied) <= most_denied * known &&
+           (kind_ == MapKind::drives || static_cast<double>(near.agreed) >= support.agreed * known);
 }
 
 // Whether the other explains enough of the same nodes, or puts other nodes to another place of the same map.

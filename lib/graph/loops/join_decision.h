@@ -9,9 +9,9 @@
 //   over two and a half if it has no rival: a building whose places look alike shows some. Of a map that is a
 //   drive of its own, and smaller, twelve over most of it, if nearly all of it lies there;
 // - wherever the two overlap they agree: neither looks through what the other saw (a match that slides along
-//   what does not hold it says nothing of that direction). Of pieces of one way three nodes in four agree,
-//   nine in ten where the way is short: what only looks alike does so here and there; of drives, between
-//   which things were moved, four in five are not denied;
+//   what does not hold it says nothing of that direction). One node in five may be denied, where things were
+//   moved. Of pieces of one way three in four agree besides, nine in ten where the way is short: what only
+//   looks alike does so here and there;
 // - every rival is refuted: another place of any map that explains the same nodes must fail at three of them
 //   where this one does not. A place that cannot be compared is not refuted. Not a rival is what fits
 //   together: a place of a third map that lies at the same place of this one; nor what is not where the
@@ -101,11 +101,11 @@ class JoinDecision
     bool is_as_predicted(const Hypothesis &hypothesis) const;
     bool is_denied(const Hypothesis &hypothesis) const;
     bool is_within_reach(const Hypothesis &hypothesis) const;
-    Support support_of(const Hypothesis &hypothesis, bool has_rivals) const;
-    bool is_held(const Hypothesis &hypothesis, bool has_rivals) const;
+    Support support_of(const Hypothesis &hypothesis, const std::vector<Hypothesis> &all) const;
+    bool is_held(const Hypothesis &hypothesis, const Support &least) const;
     template <class Chosen> Tally tally(Hypothesis &hypothesis, Chosen is_chosen);
     bool holds_all_of_it(Hypothesis &hypothesis);
-    bool is_sound(Hypothesis &hypothesis, bool has_rivals);
+    bool is_sound(Hypothesis &hypothesis, const Support &support);
     bool is_rival(const Hypothesis &hypothesis, const Hypothesis &other) const;
     bool is_refuted(Hypothesis &rival, Hypothesis &hypothesis);
     bool fits_together(const Hypothesis &hypothesis, const Hypothesis &other,

@@ -167,8 +167,8 @@ TEST(Joins, AfterTheDriveAPlaceWithinReachOfARobotThatNobodyWatchedIsTaken)
     EXPECT_LT(outcome.error_m, 0.15);
 }
 
-// A room that is like no other, and one beside it.
-Walls odd_rooms()
+// A room that is like no other, and nowhere like itself.
+Walls odd_room()
 {
     Walls walls = {{0, 0, 7, 0},       {7, 0, 7, 3},       {7, 3, 4.2, 3},
                    {4.2, 3, 4.2, 5.4}, {4.2, 5.4, 0, 5.4}, {0, 5.4, 0, 0}};
@@ -185,7 +185,7 @@ TEST(Joins, AfterTheDriveAPlaceThatNothingResemblesIsTakenHoweverFar)
         path_through({{0.8, 1}, {4.5, 1.2}, {4.2, 2.4}, {3, 3}, {3, 4.6}, {0.8, 4.6}, {0.7, 1.4}});
     const Path path = joined_paths(known, path_through({{4.8, 1.4}, {3.2, 2.4}, {3.2, 4}}));
     const Outcome outcome =
-        drive(odd_rooms(), path, known.size(), 1, far_off(), nullptr, ALE_CLAIM_REACHED, 60);
+        drive(odd_room(), path, known.size(), 1, far_off(), nullptr, ALE_CLAIM_REACHED, 60);
     EXPECT_EQ(outcome.maps_driven, 2U);
     EXPECT_EQ(outcome.maps, 1U);
     EXPECT_LT(outcome.error_m, 0.15);

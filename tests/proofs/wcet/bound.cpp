@@ -10,7 +10,7 @@ namespace
 constexpr int seeds = 8;
 }
 
-Bound bound_of_a_scan(InstructionCounter &counter)
+Bound bound_of_a_scan(CostCounter &counter)
 {
     Parts any_scan(counter);
     Parts tracked(counter);

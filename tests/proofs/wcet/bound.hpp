@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "proofs/wcet/instruction_counter.hpp"
+#include "proofs/wcet/cost_counter.hpp"
 
 namespace bench
 {
@@ -30,7 +30,7 @@ struct Bound {
 };
 
 /* The same parts and counts in every run. */
-Bound bound_of_a_scan(InstructionCounter &counter);
+Bound bound_of_a_scan(CostCounter &counter);
 
 } // namespace bench
 

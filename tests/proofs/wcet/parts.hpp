@@ -23,7 +23,7 @@ namespace bench
 class Parts
 {
   public:
-    explicit Parts(InstructionCounter &counter) : counter_(counter)
+    explicit Parts(CostCounter &counter) : counter_(counter)
     {
     }
 
@@ -45,7 +45,7 @@ class Parts
     }
 
   private:
-    InstructionCounter &counter_;
+    CostCounter &counter_;
     std::vector<BoundPart> parts_;
 };
 

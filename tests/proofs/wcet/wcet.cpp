@@ -18,14 +18,14 @@
 #include "common/log/log_reader.h"
 #include "lab/bench/random.hpp"
 #include "proofs/wcet/bound.hpp"
-#include "proofs/wcet/instruction_counter.hpp"
+#include "proofs/wcet/cost_counter.hpp"
 #include "proofs/wcet/scans.hpp"
 
 namespace
 {
 
+using bench::CostCounter;
 using bench::Costly;
-using bench::InstructionCounter;
 using Counts = std::array<uint64_t, ALE_STAGES>;
 
 constexpr char usage[] =
@@ -38,8 +38,8 @@ constexpr char usage[] =
 constexpr std::array<const char *, ALE_STAGES> stage_names = {"deskew", "smooth", "extract", "match", "map"};
 constexpr int scans_of_a_candidate = 16;
 /* At 1 GHz the time from one scan to the next, and a fifth of it; of instructions what is promised. */
-constexpr uint64_t most_of_any_scan = InstructionCounter::counts_cycles ? 100000000 : 10000000;
-constexpr uint64_t most_of_the_mean = InstructionCounter::counts_cycles ? 20000000 : 1200000;
+constexpr uint64_t most_of_any_scan = CostCounter::counts_cycles ? 100000000 : 10000000;
+constexpr uint64_t most_of_the_mean = CostCounter::counts_cycles ? 20000000 : 1200000;
 
 uint64_t sum(const Counts &counts)
 {
@@ -50,7 +50,7 @@ uint64_t sum(const Counts &counts)
 class Counted
 {
   public:
-    Counted(InstructionCounter &counter, const ale_pipeline_config_t &config)
+    Counted(CostCounter &counter, const ale_pipeline_config_t &config)
         : counter_(counter),
           pipeline_(static_cast<ale_pipeline_t *>(operator new(ale_pipeline_size(), alignment)))
     {
@@ -70,9 +70,9 @@ class Counted
     {
         ale_estimate_t estimate;
         counts_ = {};
-        InstructionCounter::toggle();
+        CostCounter::toggle();
         ale_pipeline_scan(pipeline_.get(), &scan, &estimate);
-        InstructionCounter::toggle();
+        CostCounter::toggle();
         counts_[ALE_STAGE_MAP] += counter_.take(); /* the answer itself */
         return counts_;
     }
@@ -88,13 +88,13 @@ class Counted
 
     static void end_of_stage(void *user, ale_stage_t stage)
     {
-        InstructionCounter::toggle();
+        CostCounter::toggle();
         auto *self = static_cast<Counted *>(user);
         self->counts_[stage] += self->counter_.take();
-        InstructionCounter::toggle();
+        CostCounter::toggle();
     }
 
-    InstructionCounter &counter_;
+    CostCounter &counter_;
     std::unique_ptr<ale_pipeline_t, Free> pipeline_;
     Counts counts_{};
 };
@@ -128,7 +128,7 @@ void print_row(const char *name, const Counts &counts)
     std::fflush(stdout);
 }
 
-void count_log(InstructionCounter &counter, const std::string &path, Tally &all)
+void count_log(CostCounter &counter, const std::string &path, Tally &all)
 {
     ale::LogReader log(path);
     Counted counted(counter, ale_pipeline_default_config());
@@ -150,7 +150,7 @@ void count_log(InstructionCounter &counter, const std::string &path, Tally &all)
 }
 
 /* The most expensive of a candidate's scans. */
-Counts cost(InstructionCounter &counter, const Costly &costly, Tally &stages)
+Counts cost(CostCounter &counter, const Costly &costly, Tally &stages)
 {
     bench::Random random(7);
     Counted counted(counter, ale_pipeline_default_config());
@@ -203,7 +203,7 @@ struct Effort {
 };
 
 /* Hill climbing from the most expensive beginning. */
-Costly search(InstructionCounter &counter, const Effort &effort, Tally &stages)
+Costly search(CostCounter &counter, const Effort &effort, Tally &stages)
 {
     Costly best;
     Counts best_cost{};
@@ -258,7 +258,7 @@ uint64_t most(const std::vector<bench::BoundPart> &parts)
 
 /* The parts of a scan's way at their capacities, and the most that those of one scan come to: none can cost
  * more. */
-uint64_t print_bound(InstructionCounter &counter)
+uint64_t print_bound(CostCounter &counter)
 {
     std::printf("\n%-34s %9s %9s %10s\n", "at its capacity", "at most", "each", "in all");
     const bench::Bound bound = bench::bound_of_a_scan(counter);
@@ -280,10 +280,10 @@ bool report(const char *name, uint64_t count, uint64_t most)
 /* Whether scans cost no more than they may, in the mean, at most, and by the bound. */
 bool run(const std::string &base, const Effort &effort, const std::vector<std::string> &logs)
 {
-    InstructionCounter counter(base);
+    CostCounter counter(base);
     Tally recorded;
     Tally made;
-    std::printf("%-34s", InstructionCounter::counts_cycles ? "cycles of a scan" : "instructions of a scan");
+    std::printf("%-34s", CostCounter::counts_cycles ? "cycles of a scan" : "instructions of a scan");
     for (const char *name : stage_names) {
         std::printf(" %9s", name);
     }
@@ -313,7 +313,7 @@ int main(int argc, char **argv)
     line.number("seed", effort.seed, 0, 1000000);
     line.rest(logs);
     return line.run(argc, argv, [&] {
-        if (counts.empty() || logs.empty()) {
+        if (!CostCounter::may_be_there() || counts.empty() || logs.empty()) {
             throw cli::WrongUse("needs callgrind or qemu, --counts BASE and a log: make wcet");
         }
         if (!run(counts, effort, logs)) {

@@ -1,5 +1,5 @@
 /* A plugin of qemu-arm: the cycles that a Cortex-A7 would take for what the program has counted. The program
- * says when by a system call that there is none of (counting.hpp); the counts are written as callgrind writes
+ * says when by a system call that there is none of (counting.h); the counts are written as callgrind writes
  * its own, to BASE.1, BASE.2 ... of the plugin's argument out=BASE. */
 #include <inttypes.h>
 #include <stdbool.h>

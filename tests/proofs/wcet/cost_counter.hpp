@@ -1,7 +1,7 @@
 /* Instructions of the running program, under callgrind (--collect-atstart=no --callgrind-out-file=BASE); on
  * ARM the cycles of a Cortex-A7, under qemu-arm with the plugin cortex_a7 (out=BASE). */
-#ifndef BENCH_INSTRUCTION_COUNTER_HPP
-#define BENCH_INSTRUCTION_COUNTER_HPP
+#ifndef BENCH_COST_COUNTER_HPP
+#define BENCH_COST_COUNTER_HPP
 
 #include <cstdint>
 #include <fstream>
@@ -21,7 +21,7 @@ namespace bench
 {
 
 /* The counter's own count, read from what it writes when asked. */
-class InstructionCounter
+class CostCounter
 {
   public:
 #ifdef __arm__
@@ -30,8 +30,18 @@ class InstructionCounter
     static constexpr bool counts_cycles = false;
 #endif
 
-    explicit InstructionCounter(std::string base) : base_(std::move(base))
+    explicit CostCounter(std::string base) : base_(std::move(base))
     {
+    }
+
+    /* Whether somebody counts; of the plugin that is known when it is asked for its count. */
+    static bool may_be_there()
+    {
+#ifdef __arm__
+        return true;
+#else
+        return RUNNING_ON_VALGRIND != 0;
+#endif
     }
 
     /* Begins to count, or stops. */
@@ -40,7 +50,7 @@ class InstructionCounter
         ask(Ask::toggle);
     }
 
-    /* Instructions since the last call; counting stops meanwhile. */
+    /* What was counted since the last call; counting stops meanwhile. */
     uint64_t take()
     {
         ask(Ask::write);
@@ -61,7 +71,7 @@ class InstructionCounter
         return count;
     }
 
-    /* Instructions of one call. */
+    /* The cost of one call. */
     template <typename Call> uint64_t of(Call call)
     {
         toggle();
