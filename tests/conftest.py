@@ -1,7 +1,8 @@
-"""What all tests share: the folders of modules that they import, and a way for multicast."""
+"""What all tests share: the folders of modules that they import, Ctrl-C, and a way for multicast."""
 import importlib.util
 import os
 import pathlib
+import signal
 import sys
 
 import pytest
@@ -15,6 +16,8 @@ from lcm_url import NoMulticast, ensure_multicast  # noqa: E402
 
 
 def pytest_configure(config):
+    # What a shell starts in the background ignores Ctrl-C, and so would all that is started here.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     config.addinivalue_line("markers", "long: takes minutes; with ALE_LONG_TESTS=1 alone, as `make test-all` runs it")
 
 
