@@ -21,11 +21,10 @@ int32_t ale_scan_turn_beams(const ale_scan_t *scan)
     return ahead_bam < -step_bam || gap > ALE_MAX_GAP_BEAMS ? 0 : (int32_t)(last + gap);
 }
 
-/* Place of a beam among the evenly spaced ones, at most one behind the last of them; Q8. */
-static int64_t place_q8(const ale_scan_t *scan, int32_t beam)
+int64_t ale_scan_own_place_q8(const ale_scan_t *scan, int32_t beam)
 {
     const int64_t step_bam = ale_abs64(scan->step_bam);
-    if (!scan->own_bearings || beam < 0 || beam >= scan->beams || step_bam == 0) {
+    if (beam < 0 || beam >= scan->beams || step_bam == 0) {
         return beam * Q8;
     }
     const uint32_t ahead_bam = scan->bearing_bam[beam] - scan->first_bearing_bam;
@@ -36,7 +35,7 @@ static int64_t place_q8(const ale_scan_t *scan, int32_t beam)
 int32_t ale_scan_beam_offset_us(const ale_scan_t *scan, int32_t beam)
 {
     if (scan->own_bearings) {
-        const int64_t from_stamp_q8 = place_q8(scan, beam) - scan->stamp_beam * Q8;
+        const int64_t from_stamp_q8 = ale_scan_beam_place_q8(scan, beam) - scan->stamp_beam * Q8;
         return (int32_t)ale_round_div(from_stamp_q8 * scan->beam_time_ns, 256000);
     }
     return (int32_t)ale_round_div((int64_t)(beam - scan->stamp_beam) * scan->beam_time_ns, 1000);

@@ -59,6 +59,14 @@ static inline uint32_t ale_scan_bearing(const ale_scan_t *scan, int32_t beam)
  * between had no value: beam k + ale_scan_turn_beams() is beam k. 0: the scan has two ends. Constant time. */
 int32_t ale_scan_turn_beams(const ale_scan_t *scan);
 
+/* Place of a beam among the evenly spaced ones, Q8: its number or, with bearings of their own, where its
+ * bearing lies, at most one behind the last of them. Constant time. */
+int64_t ale_scan_own_place_q8(const ale_scan_t *scan, int32_t beam);
+static inline int64_t ale_scan_beam_place_q8(const ale_scan_t *scan, int32_t beam)
+{
+    return scan->own_bearings ? ale_scan_own_place_q8(scan, beam) : (int64_t)beam * 256;
+}
+
 /* Time of a beam relative to the stamp, in microseconds, rounded; it must fit int32. With bearings of their
  * own it follows from the bearing, for the mirror turns evenly. Constant time. */
 int32_t ale_scan_beam_offset_us(const ale_scan_t *scan, int32_t beam);

@@ -8,8 +8,10 @@ enum {
     NEAREST_UM = 10000,
     RESTING_UM = 20,
     HIGHER_TERMS_Q30 = 1 << 16, /* square of a turn below which they are zero: 7.8 mrad */
-    KNOT_BITS = 6,
-    KNOT_BEAMS = 1 << KNOT_BITS
+    KNOT_NS = 7000000,          /* apart at most: 64 beams of a URG */
+    LEAST_KNOT_BITS = 3,
+    MOST_KNOT_BITS = 6,
+    KNOTS = (ALE_MAX_BEAMS >> LEAST_KNOT_BITS) + 2
 };
 
 void ale_sensor_velocity(const int32_t robot_velocity[ALE_AXES], ale_pose_t sensor, int32_t out[ALE_AXES])
@@ -57,21 +59,36 @@ static void move_beam(int32_t *range_um, uint32_t *bearing_bam, ale_pose_t moved
     *range_um = (int32_t)(reach_um + ale_round_shift(reach_um * longer_q30, 30));
 }
 
-/* The motion between two knots of the sweep is as good as linear: 64 beams of a URG take 6 ms, of a turn of
- * 450 in 100 ms 14 ms. */
-static ale_pose_t between_knots(ale_pose_t a, ale_pose_t b, int32_t step)
+/* Where the sensor was at every 2^bits-th beam of the even sweep: so little apart the motion is as good as
+ * linear. */
+typedef struct {
+    ale_pose_t knot[KNOTS];
+    unsigned bits;
+} sweep_t;
+
+static void place_knots(sweep_t *s, const ale_scan_t *scan, const int32_t v[ALE_AXES])
 {
-    const int64_t turn = (int64_t)ale_bam_diff(b.theta_bam, a.theta_bam) * step;
-    return (ale_pose_t){a.x_um + (int32_t)ale_round_shift(((int64_t)b.x_um - a.x_um) * step, KNOT_BITS),
-                        a.y_um + (int32_t)ale_round_shift(((int64_t)b.y_um - a.y_um) * step, KNOT_BITS),
-                        a.theta_bam + (uint32_t)(uint64_t)ale_round_shift(turn, KNOT_BITS)};
+    s->bits = MOST_KNOT_BITS;
+    while (s->bits > LEAST_KNOT_BITS && ale_abs64(scan->beam_time_ns) << s->bits > KNOT_NS) {
+        s->bits--;
+    }
+    for (int64_t k = 0; k <= (scan->beams >> s->bits) + 1; k++) {
+        const int64_t from_stamp = (k << s->bits) - scan->stamp_beam;
+        s->knot[k] = ale_motion_sweep(v, ale_round_div(from_stamp * scan->beam_time_ns, 1000));
+    }
 }
 
-/* At the time of a beam. Where beams have bearings of their own the time does not go with their number, and
- * each is asked for. */
-static ale_pose_t at_beam(const ale_scan_t *scan, const int32_t v[ALE_AXES], int32_t beam)
+/* At the time of a beam. */
+static ale_pose_t at_place(const sweep_t *s, int64_t place_q8)
 {
-    return ale_motion_sweep(v, ale_scan_beam_offset_us(scan, beam));
+    const unsigned bits = s->bits + 8;
+    const ale_pose_t a = s->knot[place_q8 >> bits];
+    const ale_pose_t b = s->knot[(place_q8 >> bits) + 1];
+    const int64_t part = place_q8 & ((1 << bits) - 1);
+    const int64_t turn = ale_bam_diff(b.theta_bam, a.theta_bam) * part;
+    return (ale_pose_t){a.x_um + (int32_t)ale_round_shift(((int64_t)b.x_um - a.x_um) * part, bits),
+                        a.y_um + (int32_t)ale_round_shift(((int64_t)b.y_um - a.y_um) * part, bits),
+                        a.theta_bam + (uint32_t)(uint64_t)ale_round_shift(turn, bits)};
 }
 
 bool ale_deskew(ale_scan_t *scan, const int32_t sensor_velocity[ALE_AXES], uint32_t bearing_bam[])
@@ -79,15 +96,10 @@ bool ale_deskew(ale_scan_t *scan, const int32_t sensor_velocity[ALE_AXES], uint3
     if (scan->beam_time_ns == 0 || rests(scan, sensor_velocity)) {
         return false;
     }
-    ale_pose_t before = {0, 0, 0};
-    ale_pose_t after = at_beam(scan, sensor_velocity, 0);
+    sweep_t sweep;
+    place_knots(&sweep, scan, sensor_velocity);
     for (int32_t k = 0; k < scan->beams; k++) {
-        if (k % KNOT_BEAMS == 0 && !scan->own_bearings) {
-            before = after;
-            after = at_beam(scan, sensor_velocity, k + KNOT_BEAMS);
-        }
-        const ale_pose_t moved = scan->own_bearings ? at_beam(scan, sensor_velocity, k)
-                                                    : between_knots(before, after, k % KNOT_BEAMS);
+        const ale_pose_t moved = at_place(&sweep, ale_scan_beam_place_q8(scan, k));
         bearing_bam[k] = ale_scan_bearing(scan, k) + moved.theta_bam;
         if (scan->flag[k] == ALE_BEAM_VALID) {
             move_beam(&scan->range_um[k], &bearing_bam[k], moved);

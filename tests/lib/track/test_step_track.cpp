@@ -332,6 +332,90 @@ TEST(PipelineTrack, WhatTheMapDoesNotHoldTheLastScanTells)
     EXPECT_LT(sum_rad / 8, 0.03);
 }
 
+// Bushes, and a clear way around among them.
+std::vector<Eigen::Vector2d> bushes(std::mt19937 &rng)
+{
+    std::uniform_real_distribution<double> place(-25, 25);
+    std::vector<Eigen::Vector2d> all;
+    while (all.size() < 60) {
+        const Eigen::Vector2d bush(place(rng), place(rng));
+        if (std::abs(bush.norm() - 10) > 2.5) {
+            all.push_back(bush);
+        }
+    }
+    return all;
+}
+
+// What a scan sees of them: the same boughs, which the wind moves.
+std::vector<room::Wall> boughs(const std::vector<Eigen::Vector2d> &bushes, std::mt19937 &wind)
+{
+    std::mt19937 grown(7);
+    std::normal_distribution<double> bough(0, 0.5);
+    std::normal_distribution<double> moved(0, 0.3);
+    std::vector<room::Wall> walls;
+    for (const Eigen::Vector2d &bush : bushes) {
+        for (int k = 0; k < 4; k++) {
+            const double x = bush[0] + bough(grown) + moved(wind);
+            const double y = bush[1] + bough(grown) + moved(wind);
+            walls.push_back({x, y, x + 1.5 * bough(grown), y + 1.5 * bough(grown)});
+        }
+    }
+    return walls;
+}
+
+room::Sensor outdoor_sensor()
+{
+    room::Sensor sensor;
+    sensor.beams = 361;
+    sensor.first = -reference::pi / 2;
+    sensor.step = reference::pi / 360;
+    sensor.reach = 30;
+    sensor.noise = 0.01;
+    sensor.beam_time_ns = 0;
+    return sensor;
+}
+
+/* How far the way from scan to scan is off, root of the mean square: a robot goes around among bushes, a
+ * metre and a turn from scan to scan, and its wheels know how far it has gone, but not how it has turned. */
+double error_of_steps(unsigned seed)
+{
+    std::mt19937 rng(seed);
+    std::normal_distribution<double> turn_error(0, 0.1);
+    const std::vector<Eigen::Vector2d> garden = bushes(rng);
+    const room::Pipeline p = room::make(ale_pipeline_default_config());
+    reference::Pose at(10, 0, reference::pi / 2), counted(0, 0, 0), last(0, 0, 0);
+    double squares = 0;
+    const int steps = 60;
+    for (int k = 0; k <= steps; k++) {
+        const reference::Pose step =
+            k == 0 ? reference::Pose(0, 0, 0) : reference::Pose(0.95, 0.1, k % 2 == 0 ? 0.45 : -0.25);
+        at = reference::compose(at, step);
+        counted = reference::compose(counted, step + reference::Pose(0, 0, turn_error(rng)));
+        const ale_odometry_t wheels = {k * 3000000, convert::pose(counted)};
+        ale_pipeline_odometry(p.get(), &wheels);
+        const ale_scan_t scan = room::scan_at(
+            boughs(garden, rng), outdoor_sensor(), [&](double) { return at; }, 3.0 * k, rng);
+        ale_estimate_t e = {};
+        ale_pipeline_scan(p.get(), &scan, &e);
+        const reference::Pose now = convert::pose(e.map);
+        const Eigen::Vector2d gone = reference::rotation(-last[2]) * (now - last).head<2>();
+        squares += (gone - step.head<2>()).squaredNorm();
+        last = now;
+    }
+    return std::sqrt(squares / steps);
+}
+
+/* What a scan shows beside the last one is as well explained half a metre aside: that is no reason to leave
+ * what the wheels have counted. */
+TEST(PipelineTrack, WhereSurfacesTellLittleWheelsTellTheWayAndTheLastScanTheTurn)
+{
+    double sum = 0;
+    for (unsigned seed = 1; seed <= 8; seed++) {
+        sum += error_of_steps(seed);
+    }
+    EXPECT_LT(sum / 8, 0.15);
+}
+
 // Two walls, 2 m apart and without an end as far as the scanner reaches.
 std::vector<room::Wall> bare_corridor()
 {

@@ -40,6 +40,7 @@ ale_scan_t with_own_bearings(const ale_scan_t &scan)
 {
     ale_scan_t own = scan;
     own.own_bearings = true;
+    own.beam_time_ns = ALE_MAX_SWEEP_US * 1000LL / ALE_MAX_BEAMS; /* as slow as a sweep may be */
     for (int k = 0; k < scan.beams; k++) {
         own.bearing_bam[k] = ale_scan_bearing(&scan, k);
     }
