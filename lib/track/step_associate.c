@@ -36,13 +36,6 @@ void ale_pipeline_fit(ale_pipeline_t *p, const ale_motion_t *predicted, int32_t 
     ale_register_scan(predicted, &scene, &acquire_gate, fit);
 }
 
-ale_testimony_t ale_step_testimony(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t pose)
-{
-    const ale_slack_t slack = {SLACK_UM, 0, false};
-    const ale_seen_t seen = ale_pipeline_seen_from(p, before, pose);
-    return ale_witness_hear(&p->witness, &seen, slack);
-}
-
 /* Where the last scan says that this one was taken, and how exactly. */
 typedef struct {
     bool found;
@@ -87,26 +80,14 @@ static window_t window_of(const ale_pipeline_t *p, const ale_prediction_t *predi
                       .reach_urad = (int32_t)ale_min64(reach_urad, REGISTER_MOST_URAD)};
 }
 
-/* Whether the last scan confirms so much more of this one there than here that what is found
- * here was found by chance. */
-static bool is_preferred(ale_testimony_t there, ale_testimony_t here)
-{
-    return PREFER_PARTS * (there.confirmed_um - there.denied_um - (here.confirmed_um - here.denied_um)) >
-           there.shown_um;
-}
-
-static int64_t place_sigma_um(const ale_motion_t *predicted)
-{
-    return ale_max64(ale_matrix_sigma(&predicted->cov, 0), ale_matrix_sigma(&predicted->cov, 1));
-}
-
 /* Where the last scan says that the robot is, to be fitted from there; where it says nothing, the
  * prediction. */
 static ale_registered_t register_to_scan(ale_pipeline_t *p, const ale_prediction_t *prediction)
 {
     const ale_motion_t *predicted = &prediction->ways.believed;
     const ale_pose_t before = prediction->before.pose;
-    const int64_t sigma_um = place_sigma_um(predicted);
+    const int64_t sigma_um =
+        ale_max64(ale_matrix_sigma(&predicted->cov, 0), ale_matrix_sigma(&predicted->cov, 1));
     const int64_t sigma_urad = ale_matrix_sigma(&predicted->cov, 2);
     const window_t window = window_of(p, prediction, sigma_um, sigma_urad);
     const ale_seen_t last = ale_witness_seen(&p->witness);
@@ -126,6 +107,23 @@ static ale_registered_t register_to_scan(ale_pipeline_t *p, const ale_prediction
     };
 }
 
+ale_testimony_t ale_step_testimony(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t pose)
+{
+    const ale_slack_t slack = {SLACK_UM, 0, false};
+    const ale_seen_t seen = ale_pipeline_seen_from(p, before, pose);
+    return ale_witness_hear(&p->witness, &seen, slack);
+}
+
+/* Whether the last scan confirms so much more of this one at the registered pose than where the map puts it
+ * that what the map says was found by chance. */
+static bool is_preferred(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t registered, ale_pose_t fitted)
+{
+    const ale_testimony_t there = ale_step_testimony(p, before, registered);
+    const ale_testimony_t here = ale_step_testimony(p, before, fitted);
+    return PREFER_PARTS * (there.confirmed_um - there.denied_um - (here.confirmed_um - here.denied_um)) >
+           there.shown_um;
+}
+
 /* Whether so little of the scan is found in the map that it may be found by chance. */
 static bool is_by_chance(const ale_fit_t *fit)
 {
@@ -136,9 +134,8 @@ static bool is_by_chance(const ale_fit_t *fit)
 static bool is_rival_preferred(const ale_pipeline_t *p, const ale_prediction_t *prediction,
                                const ale_ways_t *ways, const ale_fit_t *fit)
 {
-    const ale_pose_t before = prediction->before.pose;
-    return is_by_chance(fit) && is_preferred(ale_step_testimony(p, before, ways->rival.pose),
-                                             ale_step_testimony(p, before, ways->believed.pose));
+    return is_by_chance(fit) &&
+           is_preferred(p, prediction->before.pose, ways->rival.pose, ways->believed.pose);
 }
 
 /* What the last scan says instead of the prediction. */
@@ -156,35 +153,19 @@ static int32_t most_work(const ale_pipeline_t *p)
     return ALE_SCAN_WORK - ALE_BEAM_WORK * p->observed.scan.beams;
 }
 
-/* Wheels know better how far they have gone than how they have turned: their place, at the heading that the
- * last scan says, stands unless that prefers its own, or another tale of the way speaks against them. What
- * the last scan says of where it then puts the robot. */
-static ale_testimony_t leave_place_to_wheels(const ale_pipeline_t *p, const ale_prediction_t *prediction,
-                                             ale_registered_t *registered)
-{
-    const ale_motion_t *predicted = &prediction->ways.believed;
-    const ale_pose_t before = prediction->before.pose;
-    const ale_testimony_t there = ale_step_testimony(p, before, registered->pose);
-    if (!prediction->ways.counted || prediction->ways.part) {
-        return there;
-    }
-    const ale_pose_t turned = {predicted->pose.x_um, predicted->pose.y_um, registered->pose.theta_bam};
-    const ale_testimony_t here = ale_step_testimony(p, before, turned);
-    if (is_preferred(there, here)) {
-        return there;
-    }
-    registered->pose = turned;
-    registered->sigma_um = place_sigma_um(predicted);
-    return here;
-}
+/* From where, with which prediction, a scan is fitted a second time. */
+typedef enum { FROM_SELECTED, FROM_ALTERNATIVE, FROM_LAST_SCAN } second_start_t;
 
-/* Whether the last scan tells where the robot is, and not what the map has led to. */
-static bool last_scan_tells(const ale_pipeline_t *p, const ale_prediction_t *prediction, const ale_fit_t *fit,
-                            ale_registered_t *registered)
+static second_start_t second_start(const ale_pipeline_t *p, const ale_prediction_t *prediction,
+                                   const ale_registered_t *registered, const ale_fit_t *fit)
 {
-    const ale_testimony_t there = leave_place_to_wheels(p, prediction, registered);
-    return ale_tracking_is_strange(&p->monitor, fit) &&
-           is_preferred(there, ale_step_testimony(p, prediction->before.pose, fit->motion.pose));
+    const ale_ways_t *ways = &prediction->ways;
+    if (ways->part && (!registered->found || ale_ways_rival_is_nearer(ways, registered->pose))) {
+        return FROM_ALTERNATIVE;
+    }
+    const bool preferred = registered->found && ale_tracking_is_strange(&p->monitor, fit) &&
+                           is_preferred(p, prediction->before.pose, registered->pose, fit->motion.pose);
+    return preferred ? FROM_LAST_SCAN : FROM_SELECTED;
 }
 
 /* Fits once more: from where the last scan says that the robot is or, since wide gates may have caught the
@@ -194,18 +175,18 @@ static void associate_again(ale_pipeline_t *p, const ale_prediction_t *predictio
                             ale_fit_t *fit)
 {
     const ale_scene_t scene = ale_observed_scene(p);
-    ale_registered_t registered = register_to_scan(p, prediction);
-    const bool turns = ways->part && (!registered.found || ale_ways_rival_is_nearer(ways, registered.pose));
-    const bool told = !turns && registered.found && last_scan_tells(p, prediction, fit, &registered);
+    const ale_registered_t registered = register_to_scan(p, prediction);
+    const second_start_t start = second_start(p, prediction, &registered, fit);
     const int64_t found_um = fit->matched_um;
-    if (told) {
+    if (start == FROM_LAST_SCAN) {
         ways->believed = registered_motion(&ways->believed, &registered);
         fit->matched_um = 0; /* found by chance: the next fit takes its place, whatever it finds */
     }
+    const bool turns = start == FROM_ALTERNATIVE;
     const ale_motion_t *prior = turns ? &ways->rival : &ways->believed;
     const ale_gate_t *unguided = turns ? &acquire_gate : &narrow_gate;
     const ale_second_fit_t second = {.predicted = prior,
-                                     .is_new_prior = turns || told,
+                                     .is_new_prior = start != FROM_SELECTED,
                                      .start = registered.found ? registered.pose : prior->pose,
                                      .gate = registered.found ? &register_gate : unguided,
                                      .most_work = most_work(p)};

@@ -141,9 +141,8 @@ void witnesses(Parts &parts, Random &random, Crowd &crowd)
                              crowd.views.data(),
                              static_cast<uint32_t>(crowd.views.size())};
     parts.measure("last scan kept", 1, [&] { ale_witness_keep(&pipeline->witness, &seen); });
-    /* where the last scan puts the robot, the wheels at its heading, and the map; the given pose and the best
-     * other one */
-    parts.measure("last scan heard of five poses", 5, [&] {
+    /* where the last scan and the map put the robot; the given pose and the best other one */
+    parts.measure("last scan heard of four poses", 4, [&] {
         ale_witness_hear(&pipeline->witness, &seen, {60000, 0, false}); /* as ale_step_testimony */
     });
     const std::string heard = "last scan heard, or what has come"; /* the one or the other */
