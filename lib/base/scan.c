@@ -35,7 +35,7 @@ int64_t ale_scan_own_place_q8(const ale_scan_t *scan, int32_t beam)
 int32_t ale_scan_beam_offset_us(const ale_scan_t *scan, int32_t beam)
 {
     if (scan->own_bearings) {
-        const int64_t from_stamp_q8 = ale_scan_beam_place_q8(scan, beam) - scan->stamp_beam * Q8;
+        const int64_t from_stamp_q8 = ale_scan_own_place_q8(scan, beam) - scan->stamp_beam * Q8;
         return (int32_t)ale_round_div(from_stamp_q8 * scan->beam_time_ns, 256000);
     }
     return (int32_t)ale_round_div((int64_t)(beam - scan->stamp_beam) * scan->beam_time_ns, 1000);

@@ -59,10 +59,13 @@ static inline uint32_t ale_scan_bearing(const ale_scan_t *scan, int32_t beam)
  * between had no value: beam k + ale_scan_turn_beams() is beam k. 0: the scan has two ends. Constant time. */
 int32_t ale_scan_turn_beams(const ale_scan_t *scan);
 
-/* Place of a beam among the evenly spaced ones, Q8: its number or, with bearings of their own, where its
- * bearing lies, at most one behind the last of them. Constant time. */
+/* Place of a beam with a bearing of its own among the evenly spaced ones, Q8: where its bearing lies, at most
+ * one behind the last of them. Of a beam that is none, and without a step, its number. Constant time. */
+/*@ assigns \nothing; */
 int64_t ale_scan_own_place_q8(const ale_scan_t *scan, int32_t beam);
-static inline int64_t ale_scan_beam_place_q8(const ale_scan_t *scan, int32_t beam)
+
+/* Place of any beam among the evenly spaced ones, Q8. Constant time. */
+static inline int64_t ale_scan_place_q8(const ale_scan_t *scan, int32_t beam)
 {
     return scan->own_bearings ? ale_scan_own_place_q8(scan, beam) : (int64_t)beam * 256;
 }

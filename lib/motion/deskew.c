@@ -8,10 +8,11 @@ enum {
     NEAREST_UM = 10000,
     RESTING_UM = 20,
     HIGHER_TERMS_Q30 = 1 << 16, /* square of a turn below which they are zero: 7.8 mrad */
-    KNOT_NS = 7000000,          /* apart at most: 64 beams of a URG */
+    KNOT_NS = 7000000,          /* apart at most, unless 8 beams take longer: 64 beams of a URG */
     LEAST_KNOT_BITS = 3,
     MOST_KNOT_BITS = 6,
-    KNOTS = (ALE_MAX_BEAMS >> LEAST_KNOT_BITS) + 2
+    KNOTS = (ALE_MAX_BEAMS >> LEAST_KNOT_BITS) + 2,
+    Q8_BITS = 8
 };
 
 void ale_sensor_velocity(const int32_t robot_velocity[ALE_AXES], ale_pose_t sensor, int32_t out[ALE_AXES])
@@ -59,7 +60,7 @@ static void move_beam(int32_t *range_um, uint32_t *bearing_bam, ale_pose_t moved
     *range_um = (int32_t)(reach_um + ale_round_shift(reach_um * longer_q30, 30));
 }
 
-/* Where the sensor was at every 2^bits-th beam of the even sweep: so little apart the motion is as good as
+/* Where the sensor was at every 2^bits-th place of the even sweep: so little apart the motion is as good as
  * linear. */
 typedef struct {
     ale_pose_t knot[KNOTS];
@@ -78,10 +79,10 @@ static void place_knots(sweep_t *s, const ale_scan_t *scan, const int32_t v[ALE_
     }
 }
 
-/* At the time of a beam. */
+/* At the time of a place: 0..beams. */
 static ale_pose_t at_place(const sweep_t *s, int64_t place_q8)
 {
-    const unsigned bits = s->bits + 8;
+    const unsigned bits = s->bits + Q8_BITS;
     const ale_pose_t a = s->knot[place_q8 >> bits];
     const ale_pose_t b = s->knot[(place_q8 >> bits) + 1];
     const int64_t part = place_q8 & ((1 << bits) - 1);
@@ -99,7 +100,7 @@ bool ale_deskew(ale_scan_t *scan, const int32_t sensor_velocity[ALE_AXES], uint3
     sweep_t sweep;
     place_knots(&sweep, scan, sensor_velocity);
     for (int32_t k = 0; k < scan->beams; k++) {
-        const ale_pose_t moved = at_place(&sweep, ale_scan_beam_place_q8(scan, k));
+        const ale_pose_t moved = at_place(&sweep, ale_scan_place_q8(scan, k));
         bearing_bam[k] = ale_scan_bearing(scan, k) + moved.theta_bam;
         if (scan->flag[k] == ALE_BEAM_VALID) {
             move_beam(&scan->range_um[k], &bearing_bam[k], moved);

@@ -60,46 +60,58 @@ double cut_off(double range, double bearing, const reference::Pose &moved)
     return reach * (std::pow(z, 6) / 16 + std::pow(z, 9) / 9);
 }
 
-// A whole turn of 100 to 200 ms, clockwise or not, bearings that stray from the grid: 0.5 rad of the robot's
-// own turn lie between its ends.
+// A whole turn at bearings that stray from the grid, the last of them next to where the turn ends,
+// straightened.
+void expect_straightened(int beams, double turn_us, double way, const Eigen::Vector3d &v, std::mt19937 &rng)
+{
+    std::uniform_real_distribution<double> unit(-1, 1);
+    ale_scan_t scan = {};
+    scan.own_bearings = true;
+    scan.beams = static_cast<uint16_t>(beams);
+    scan.step_bam = static_cast<int32_t>(way * 0x1p32 / beams);
+    scan.beam_time_ns = static_cast<int32_t>(turn_us * 1000 / beams);
+    std::vector<double> range(static_cast<size_t>(beams));
+    for (int k = 0; k < beams; k++) {
+        const double place = k == 0 ? 0 : k == beams - 1 ? beams - 0.001 : k + 0.4 * unit(rng);
+        scan.bearing_bam[k] = static_cast<uint32_t>(static_cast<int64_t>(place * scan.step_bam));
+        range[static_cast<size_t>(k)] = 0.8 + 2.5 * (1 + unit(rng));
+        scan.range_um[k] = convert::um(range[static_cast<size_t>(k)]);
+    }
+    const int32_t velocity[3] = {convert::um(v[0] * tick_s), convert::um(v[1] * tick_s),
+                                 convert::um(v[2] * tick_s)};
+    std::vector<uint32_t> bearing(static_cast<size_t>(beams));
+    ASSERT_TRUE(ale_deskew(&scan, velocity, bearing.data()));
+    for (int k = 0; k < beams; k++) {
+        const double a = convert::radians(ale_scan_bearing(&scan, k));
+        const double turned = static_cast<uint32_t>(static_cast<int64_t>(way) * scan.bearing_bam[k]) / 0x1p32;
+        const reference::Pose moved = reference::sweep(v, turned * turn_us * 1e-6);
+        const Eigen::Vector2d p = moved.head<2>() + reference::rotation(moved[2]) *
+                                                        Eigen::Vector2d(std::cos(a), std::sin(a)) *
+                                                        range[static_cast<size_t>(k)];
+        const double b = convert::radians(bearing[static_cast<size_t>(k)]);
+        const double most = 25e-6 + cut_off(range[static_cast<size_t>(k)], a + moved[2], moved);
+        EXPECT_NEAR(scan.range_um[k] * 1e-6 * std::cos(b), p[0], most);
+        EXPECT_NEAR(scan.range_um[k] * 1e-6 * std::sin(b), p[1], most);
+    }
+}
+
+// A whole turn of 100 to 200 ms, clockwise or not: 0.5 rad of the robot's own turn lie between its ends.
 TEST(Deskew, MovesTheBeamsOfAWholeTurnByTheirOwnTimes)
 {
     std::mt19937 rng(2);
     std::uniform_real_distribution<double> unit(-1, 1);
     for (int n = 0; n < 40; n++) {
         const Eigen::Vector3d v(1.2 * unit(rng), 0.2 * unit(rng), 2.5 * unit(rng));
-        const int beams = 300 + n * 15;
-        const double turn_us = n % 4 < 2 ? 100000 : 200000;
-        const double way = n % 2 ? 1 : -1;
-        ale_scan_t scan = {};
-        scan.own_bearings = true;
-        scan.beams = static_cast<uint16_t>(beams);
-        scan.step_bam = static_cast<int32_t>(way * 0x1p32 / beams);
-        scan.beam_time_ns = static_cast<int32_t>(turn_us * 1000 / beams);
-        std::vector<double> range(static_cast<size_t>(beams));
-        for (int k = 0; k < beams; k++) {
-            const double place = k == 0 ? 0 : k + 0.4 * unit(rng);
-            scan.bearing_bam[k] = static_cast<uint32_t>(static_cast<int64_t>(place * scan.step_bam));
-            range[static_cast<size_t>(k)] = 0.8 + 2.5 * (1 + unit(rng));
-            scan.range_um[k] = convert::um(range[static_cast<size_t>(k)]);
-        }
-        const int32_t velocity[3] = {convert::um(v[0] * tick_s), convert::um(v[1] * tick_s),
-                                     convert::um(v[2] * tick_s)};
-        std::vector<uint32_t> bearing(static_cast<size_t>(beams));
-        ASSERT_TRUE(ale_deskew(&scan, velocity, bearing.data()));
-        for (int k = 0; k < beams; k++) {
-            const double a = convert::radians(ale_scan_bearing(&scan, k));
-            const double turned =
-                static_cast<uint32_t>(static_cast<int64_t>(way) * scan.bearing_bam[k]) / 0x1p32;
-            const reference::Pose moved = reference::sweep(v, turned * turn_us * 1e-6);
-            const Eigen::Vector2d p = moved.head<2>() + reference::rotation(moved[2]) *
-                                                            Eigen::Vector2d(std::cos(a), std::sin(a)) *
-                                                            range[static_cast<size_t>(k)];
-            const double b = convert::radians(bearing[static_cast<size_t>(k)]);
-            const double most = 25e-6 + cut_off(range[static_cast<size_t>(k)], a + moved[2], moved);
-            EXPECT_NEAR(scan.range_um[k] * 1e-6 * std::cos(b), p[0], most);
-            EXPECT_NEAR(scan.range_um[k] * 1e-6 * std::sin(b), p[1], most);
-        }
+        expect_straightened(300 + n * 15, n % 4 < 2 ? 100000 : 200000, n % 2 ? 1 : -1, v, rng);
+    }
+}
+
+// As many beams, and as slow, as a scan may have.
+TEST(Deskew, MovesTheBeamsOfTheSlowestTurnToItsEnd)
+{
+    std::mt19937 rng(3);
+    for (const double way : {1.0, -1.0}) {
+        expect_straightened(ALE_MAX_BEAMS, ALE_MAX_SWEEP_US, way, {0.1, 0.02, 0.25}, rng);
     }
 }
 
