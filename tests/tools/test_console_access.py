@@ -305,8 +305,7 @@ def test_the_cursor_tells_its_place_in_the_map(page, pulse):
 @pytest.mark.parametrize("layer, colour, tolerance", [("map", "wall", 25), *(pytest.param(*case, marks=LONG) for case in (
     ("lines", "line", 25), ("corners", "corner", 25), ("scan", "scan", 25), ("trail", "trail", 40)))])
 def test_a_layer_is_switched_off_and_on_and_stays_so(page, robot, layer, colour, tolerance):
-    for _ in range(30):
-        robot.step()
+    robot.drive(30)
     page.wait_for("document.getElementById('scan').textContent === '29' && document.getElementById('lines').textContent === '5'")
     let_the_camera_glide(page)
 

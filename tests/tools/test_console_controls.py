@@ -39,7 +39,7 @@ class Hand:
         return self.page.run(f"{FIND} return {what}", name)
 
     def wait(self, name, what):
-        wait_until(lambda: self.of(name, what), 25, f"{name}: {what}")
+        self.page.wait_for(f"(() => {{ {FIND} return {what} }})()", 25, name)
 
     def attribute(self, name, attribute):
         return self.of(name, f"e.getAttribute('{attribute}')")
@@ -54,8 +54,7 @@ class Hand:
     def at(self, name, right=0.5, down=0.5):
         x, y, width, height = self.box(name)
         place = round(x + right * width), round(y + down * height)
-        met = f"{FIND} const met = document.elementFromPoint(...arguments[1]); return met === e || e.contains(met)"
-        wait_until(lambda: self.page.run(met, name, place), 25, f"nothing that lies over {name}")
+        self.page.wait_for(f"(() => {{ {FIND} const met = document.elementFromPoint(...arguments[1]); return met === e || e.contains(met); }})()", 25, name, place)
         return place
 
     def point(self, x, y, to=None):

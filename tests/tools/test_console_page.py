@@ -454,8 +454,7 @@ def test_why_a_goal_was_given_up_stands_over_the_map(cockpit, commands, robot):
 
 
 def test_the_last_minutes_are_scrubbed_and_played(page, robot):
-    for _ in range(40):
-        robot.step()
+    robot.drive(40)
     page.wait_for("document.getElementById('scan').textContent === '39' && !document.getElementById('when').disabled")
     page.wait_for("Number(document.getElementById('when').max) - Number(document.getElementById('when').min) > 300")
     page.run("const when = document.getElementById('when'); when.value = (Number(when.min) + Number(when.max)) / 2;"
@@ -491,8 +490,7 @@ def test_while_the_past_is_looked_at_nothing_but_stop_is_sent(cockpit, commands,
 
 
 def test_plots_show_any_signal_also_of_before_the_page_was_opened(page, robot):
-    for _ in range(30):
-        robot.step()
+    robot.drive(30)
     page.wait_for("document.getElementById('scan').textContent === '29'")
     page.reload()
     page.run("const choice = document.getElementById('signal-1'); choice.value = 'sigma x'; choice.dispatchEvent(new Event('change'))")

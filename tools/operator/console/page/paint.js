@@ -396,6 +396,8 @@ export class Painter {
   }
 
   #scaleBar() {
+    if (this.view.scale === this.barScale) return;
+    this.barScale = this.view.scale;
     const step = this.#gridStep(70);
     document.getElementById("scale-text").textContent = step >= 1 ? `${step} m` : step >= 0.01 ? `${Math.round(step * 100)} cm` : `${Math.round(step * 1000)} mm`;
     document.getElementById("scale-bar").style.width = `${step * this.view.scale}px`;

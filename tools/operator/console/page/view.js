@@ -16,6 +16,7 @@ export class View {
     this.scene = scene;
     this.changed = changed;
     this.mode = "whole";
+    this.#measure();
     this.#rest();
     this.pointers = new Map();
     this.#listen();
@@ -43,12 +44,10 @@ export class View {
     return [this.x + (px - this.width / 2) / this.scale, this.y - (py - this.height / 2) / this.scale];
   }
 
-  get width() {
-    return this.canvas.clientWidth;
-  }
-
-  get height() {
-    return this.canvas.clientHeight;
+  // Asked of the page for every point that is drawn, it would be laid out anew each time that something was written into it.
+  #measure() {
+    this.width = this.canvas.clientWidth;
+    this.height = this.canvas.clientHeight;
   }
 
   whole() {
@@ -152,7 +151,10 @@ export class View {
     }, { passive: false });
     canvas.addEventListener("dblclick", (event) => this.zoom(2, event.offsetX, event.offsetY));
     addEventListener("keydown", (event) => this.#key(event));
-    new ResizeObserver(() => this.changed()).observe(canvas);
+    new ResizeObserver(() => {
+      this.#measure();
+      this.changed();
+    }).observe(canvas);
   }
 
   // One finger or the mouse pans; two fingers pan and zoom about the point between them.
