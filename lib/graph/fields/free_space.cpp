@@ -1,6 +1,9 @@
 #include "graph/fields/free_space.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "base/trig.h"
 
 namespace ale
 {
@@ -14,12 +17,43 @@ constexpr double before_m = 0.20;
 constexpr double before_by_range = 0.02;
 constexpr double behind_m = 0.30;
 
+constexpr int octant_sectors = 45; // of a degree each
+
+// Where the sectors of an octant begin, and its last one ends, by their slope.
+using Slopes = std::array<double, octant_sectors + 1>;
+
+Slopes slopes_of_octant()
+{
+    Slopes slopes{};
+    for (size_t k = 0; k < slopes.size(); k++) {
+        const auto angle_bam = static_cast<uint32_t>((uint64_t{k} << 32) / (8 * octant_sectors));
+        const ale_direction_t direction = ale_direction(angle_bam);
+        slopes.at(k) = static_cast<double>(direction.sin_q30) / direction.cos_q30;
+    }
+    return slopes;
+}
+
+// Guessed by a parabola, which is off by less than a sector, and put right by the slopes: no arc tangent.
+int sector_in_octant(double shorter, double longer)
+{
+    static const Slopes slopes = slopes_of_octant();
+    const double slope = longer > 0 ? shorter / longer : 0;
+    const int guess = std::min(static_cast<int>(slope * (60.64 - 15.64 * slope)), octant_sectors - 1);
+    const auto at = static_cast<size_t>(guess);
+    const int sector = guess + (slope >= slopes[at + 1] ? 1 : 0) - (slope < slopes[at] ? 1 : 0);
+    return std::min(sector, octant_sectors - 1);
+}
+
 } // namespace
 
+// The octants of a quadrant are mirror images, and so are quadrants.
 int FreeSpace::sector_of(const Eigen::Vector2d &from_sensor)
 {
-    const double turn = angle_of(from_sensor) / (2 * pi);
-    return std::clamp(static_cast<int>((turn - std::floor(turn)) * sectors), 0, sectors - 1);
+    const double x = std::abs(from_sensor.x());
+    const double y = std::abs(from_sensor.y());
+    int sector = y > x ? sectors / 4 - 1 - sector_in_octant(x, y) : sector_in_octant(y, x);
+    sector = from_sensor.x() < 0 ? sectors / 2 - 1 - sector : sector;
+    return from_sensor.y() < 0 ? sectors - 1 - sector : sector;
 }
 
 // The nearest range of a sector and of those beside it: at an edge the bearing is too sensitive.

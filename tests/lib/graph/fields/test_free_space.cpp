@@ -1,6 +1,8 @@
 // lib/graph/fields/free_space: a square room against itself, displaced.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "graph/fields/free_space.h"
 
 namespace
@@ -53,6 +55,26 @@ TEST(FreeSpace, InViewIsWhatLiesBeforeTheFirstSurface)
     EXPECT_TRUE(space.has_in_view({2.0, 1.0})) << "on its wall";
     EXPECT_FALSE(space.has_in_view({2.5, 0})) << "behind its wall";
     EXPECT_FALSE(ale::FreeSpace(ale::Node{}).has_in_view({1.0, 0.5})) << "an empty view";
+}
+
+// One surface in the middle of each sector in turn, and points on either side of the sector's edges.
+TEST(FreeSpace, ASectorIsADegreeOfBearing)
+{
+    const auto towards = [](double degrees, double range_m) {
+        const double bearing = degrees * ale::pi / 180;
+        return Eigen::Vector2d(range_m * std::cos(bearing), range_m * std::sin(bearing));
+    };
+    for (int k = 0; k < 360; k++) {
+        ale::Node node = {};
+        node.points.push_back({towards(k + 0.5, 2), {0, 0}});
+        const ale::FreeSpace space(node);
+        for (const double edge : {0.001, 0.999}) {
+            EXPECT_TRUE(space.has_in_view(towards(k + edge, 1))) << k;
+        }
+        for (const double beyond : {-0.001, 1.001}) {
+            EXPECT_FALSE(space.has_in_view(towards(k + beyond, 1))) << k;
+        }
+    }
 }
 
 } // namespace
