@@ -26,7 +26,7 @@ Slopes slopes_of_octant()
 {
     Slopes slopes{};
     for (size_t k = 0; k < slopes.size(); k++) {
-        const auto angle_bam = static_cast<uint32_t>((uint64_t{k} << 32) / (8 * octant_sectors));
+        const auto angle_bam = static_cast<uint32_t>((uint64_t{k} << 32) / (uint64_t{8} * octant_sectors));
         const ale_direction_t direction = ale_direction(angle_bam);
         slopes.at(k) = static_cast<double>(direction.sin_q30) / direction.cos_q30;
     }
