@@ -17,38 +17,44 @@ constexpr double before_m = 0.20;
 constexpr double before_by_range = 0.02;
 constexpr double behind_m = 0.30;
 
-constexpr int octant_sectors = 45; // of a degree each
+constexpr int octant_sectors = 45;
 
-// Where the sectors of an octant begin, and its last one ends, by their slope.
-using Slopes = std::array<double, octant_sectors + 1>;
+// Where a sector of the octant ends and the next begins, by slope.
+using Slopes = std::array<double, octant_sectors - 1>;
 
 Slopes slopes_of_octant()
 {
     Slopes slopes{};
     for (size_t k = 0; k < slopes.size(); k++) {
-        const auto angle_bam = static_cast<uint32_t>((uint64_t{k} << 32) / (uint64_t{8} * octant_sectors));
+        const auto angle_bam = static_cast<uint32_t>(((uint64_t{k} + 1) << 29) / octant_sectors);
         const ale_direction_t direction = ale_direction(angle_bam);
         slopes.at(k) = static_cast<double>(direction.sin_q30) / direction.cos_q30;
     }
     return slopes;
 }
 
-// Guessed by a parabola, which is off by less than a sector, and put right by the slopes: no arc tangent.
+// Counts on from a parabola that touches the arc tangent at 0 and meets it at 1: it is nowhere ahead of that,
+// and little more than a sector behind.
 int sector_in_octant(double shorter, double longer)
 {
     static const Slopes slopes = slopes_of_octant();
+    constexpr double in_radian = 4 * octant_sectors / pi;
     const double slope = longer > 0 ? shorter / longer : 0;
-    const int guess = std::min(static_cast<int>(slope * (60.64 - 15.64 * slope)), octant_sectors - 1);
-    const auto at = static_cast<size_t>(guess);
-    const int sector = guess + (slope >= slopes[at + 1] ? 1 : 0) - (slope < slopes[at] ? 1 : 0);
-    return std::min(sector, octant_sectors - 1);
+    const int begun = static_cast<int>(slope * (in_radian - (in_radian - octant_sectors) * slope));
+    auto sector = static_cast<size_t>(std::min(begun, octant_sectors - 1));
+    while (sector < slopes.size() && slope >= slopes[sector]) {
+        sector++;
+    }
+    return static_cast<int>(sector);
 }
 
 } // namespace
 
-// The octants of a quadrant are mirror images, and so are quadrants.
+// By slopes, since an arc tangent would be most of what a check costs. The octants of a quadrant are mirror
+// images, and so are quadrants.
 int FreeSpace::sector_of(const Eigen::Vector2d &from_sensor)
 {
+    static_assert(sectors == 8 * octant_sectors);
     const double x = std::abs(from_sensor.x());
     const double y = std::abs(from_sensor.y());
     int sector = y > x ? sectors / 4 - 1 - sector_in_octant(x, y) : sector_in_octant(y, x);

@@ -395,6 +395,7 @@ export class Painter {
     c.globalAlpha = 1;
   }
 
+  // Written only when it is another: the page is laid out anew for it.
   #scaleBar() {
     if (this.view.scale === this.barScale) return;
     this.barScale = this.view.scale;
