@@ -12,7 +12,7 @@ enum {
 
 static const uint64_t surfaces = 0x0101010101010101u * ALE_GRID_SURFACE;
 _Static_assert(ALE_GRID_SURFACE == 2 && ALE_GRID_CELLS % ALIKE == 0 && ALE_GRID_POOL == 4,
-               "surface and beside are a bit each; words hold whole parts of rows");
+               "surface and beside are a bit each; words hold whole parts of rows, and two coarse cells");
 
 /* A place on the grid, in cells. */
 typedef struct {
@@ -110,21 +110,30 @@ static void spread(ale_likelihood_grid_t *grid)
     }
 }
 
+/* Of cells that were put one upon the other in the lowest byte. */
+static inline uint8_t most_of(uint32_t any)
+{
+    return (uint8_t)(any & ALE_GRID_SURFACE ? ALE_GRID_SURFACE : any & BESIDE);
+}
+
+/* A word of four rows at a time, which is of two coarse cells: is there a surface, or what lies beside one?
+ */
 static void pool(ale_likelihood_grid_t *grid)
 {
     for (int32_t y = 0; y < ALE_GRID_COARSE; y++) {
-        for (int32_t x = 0; x < ALE_GRID_COARSE; x++) {
-            uint32_t most = 0;
+        for (int32_t x = 0; x < ALE_GRID_COARSE; x += ALIKE / ALE_GRID_POOL) {
+            uint64_t any = 0;
             for (int32_t v = 0; v < ALE_GRID_POOL; v++) {
                 const uint8_t *fine = grid->fine[y * ALE_GRID_POOL + v];
                 const int32_t first = x * ALE_GRID_POOL;
-                uint32_t row;
-                memcpy(&row, &fine[first], sizeof row);
-                most |= row;
+                any |= ale_grid_load(&fine[first]);
             }
-            most |= most >> 16;
-            most |= most >> 8;
-            grid->coarse[y][x] = (uint8_t)(most & ALE_GRID_SURFACE ? ALE_GRID_SURFACE : most & BESIDE);
+            any |= any >> 16;
+            any |= any >> 8;
+            uint32_t half[ALIKE / ALE_GRID_POOL]; /* in the order of the cells, whatever that of the bytes */
+            memcpy(half, &any, sizeof half);
+            grid->coarse[y][x] = most_of(half[0]);
+            grid->coarse[y][x + 1] = most_of(half[1]);
         }
     }
 }
