@@ -110,14 +110,13 @@ static void spread(ale_likelihood_grid_t *grid)
     }
 }
 
-/* Of cells that were put one upon the other in the lowest byte. */
+/* Of cells that lie one upon the other in the lowest byte, each of which is none, beside or a surface. */
 static inline uint8_t most_of(uint32_t any)
 {
     return (uint8_t)(any & ALE_GRID_SURFACE ? ALE_GRID_SURFACE : any & BESIDE);
 }
 
-/* A word of four rows at a time, which is of two coarse cells: is there a surface, or what lies beside one?
- */
+/* Two coarse cells at a time: a word of each of their four rows. */
 static void pool(ale_likelihood_grid_t *grid)
 {
     for (int32_t y = 0; y < ALE_GRID_COARSE; y++) {
