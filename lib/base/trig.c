@@ -206,7 +206,6 @@ enum {
     THIRD_Q16 = 21845 /* so exact that what is below 2^12 is rounded as if divided by three */
 };
 static const int64_t pi_q29 = 1686629713; /* pi in Q29: BAM (2^31 to pi) to radians */
-static const int64_t bam_per_rad = 683565276;
 
 /* From the nearest table entry t: sin(t + d) = sin t cos d + cos t sin d with cos d = 1 - d^2/2, sin d =
  * d - d^3/6; |d| < 3.1 mrad. Midway between two entries the one nearer to the y axis is taken, for symmetry.
@@ -271,7 +270,7 @@ static inline uint32_t octant_arctan(int64_t num, int64_t den)
     const int64_t u_q40 = ratio_q40(rest, den * 256 + k * num);
     const int64_t cube_q40 = ale_round_shift(ale_round_shift(u_q40 * u_q40, 40) * u_q40, 40);
     const int64_t angle_q40 = u_q40 - ale_round_div(cube_q40, 3);
-    return (uint32_t)(arctan_bam[k] + ale_round_shift(angle_q40 * bam_per_rad, 40));
+    return (uint32_t)(arctan_bam[k] + ale_round_shift(angle_q40 * ALE_BAM_PER_RAD, 40));
 }
 
 uint32_t ale_atan2_bam(int64_t y, int64_t x)

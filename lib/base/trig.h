@@ -13,9 +13,10 @@
 #define ALE_BAM_HALF_TURN 0x80000000u
 #define ALE_BAM_QUARTER_TURN 0x40000000u
 
-/* BAM of one degree and of one milliradian, for constants: rounded to the nearest. */
+/* BAM of one degree, of one milliradian and of one radian: rounded to the nearest. */
 #define ALE_BAM_PER_DEGREE 11930465
 #define ALE_BAM_PER_MRAD 683565
+#define ALE_BAM_PER_RAD 683565276
 
 /* a - b, -half..half turn. */
 /*@ assigns \nothing; */

@@ -14,8 +14,7 @@ enum {
     LOST_HALVES = 3, /* from so many half steps on points are missing */
     MOST_LOST = UINT16_MAX, /* more than a scan holds */
     MOST_JOINED = 1 << 28,  /* so that three times as many, of any step, fit int64 */
-    STEP_ROUNDS = 2,
-    BAM_PER_RAD = 683565276
+    STEP_ROUNDS = 2
 };
 
 void ale_turn_begin(ale_turn_t *turn)
@@ -143,7 +142,7 @@ static bool are_of_one_surface(const turned_t *t, int32_t k)
         return a->flag == b->flag;
     }
     const int64_t range_um = ale_min64(a->range_um, b->range_um);
-    const int64_t slope_um = gap_bam(t, k) * range_um / BAM_PER_RAD * SAME_SLOPE;
+    const int64_t slope_um = gap_bam(t, k) * range_um / ALE_BAM_PER_RAD * SAME_SLOPE;
     return ale_abs64((int64_t)a->range_um - b->range_um) <=
            SAME_UM + range_um / 1000 * SAME_PER_MILLE + slope_um;
 }

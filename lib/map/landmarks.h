@@ -12,7 +12,12 @@
 #include "base/pose.h"
 #include "map/tile_grid.h"
 
-enum { ALE_LANDMARK_SETS = 2048, ALE_LANDMARK_WAYS = 4, ALE_NO_LANDMARK = -1 };
+enum {
+    ALE_LANDMARK_SETS = 2048,
+    ALE_LANDMARK_WAYS = 4,
+    ALE_NO_LANDMARK = -1,
+    ALE_LANDMARK_CONFIRMED = 3 /* scans; one that fewer have shown may pass by, and determines nothing */
+};
 
 typedef struct {
     ale_point_t p; /* map frame */

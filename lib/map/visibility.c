@@ -10,7 +10,6 @@ enum {
     SAME_PLACE_PER_MILLE = 10,
     GRAZING_Q30 = 278000000, /* cosine of 75 degrees */
     BEAMS_ASIDE_MOST = 16,
-    BAM_PER_RAD = 683565276,
     NOT_IN_VIEW = -1
 };
 
@@ -67,7 +66,7 @@ static ale_visibility_t beam_visibility(const ale_scan_t *scan, int32_t beam, in
 /* Beams to either side of the middle one within the allowance for the pose. */
 static int32_t beams_aside(const ale_scan_t *scan, int64_t range_um, int64_t slack_um)
 {
-    const int64_t spacing_um = ale_mul_div(range_um, ale_abs64(scan->step_bam), BAM_PER_RAD);
+    const int64_t spacing_um = ale_mul_div(range_um, ale_abs64(scan->step_bam), ALE_BAM_PER_RAD);
     return (int32_t)ale_min64(slack_um / ale_max64(spacing_um, 1), BEAMS_ASIDE_MOST);
 }
 

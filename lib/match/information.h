@@ -13,6 +13,8 @@
 
 enum { ALE_MATRIX_BITS = 54, ALE_GRADIENT_BITS = 40, ALE_ROW_BITS = 14, ALE_ROW_VAR_MIN_UM2 = 250000 };
 
+enum { ALE_DETERMINED_UM = 30000 }; /* a direction that a scan alone knows better than this is determined */
+
 typedef struct {
     ale_matrix_t matrix; /* lower half */
     int64_t gradient[ALE_STATES];

@@ -3,12 +3,7 @@
 #include "base/fixed.h"
 #include "base/trig.h"
 
-enum {
-    DETERMINED_UM = 30000,
-    DEGENERATE_UM = 200000,
-    CONFIRMED = 3, /* scans; a landmark seen less often determines nothing */
-    WEIGHT_BITS = 20
-};
+enum { DEGENERATE_UM = 200000, WEIGHT_BITS = 20 };
 
 /* Information of the place, map frame, 1/mm^2 in Q20. */
 typedef struct {
@@ -69,7 +64,7 @@ static void add_landmarks(const ale_local_map_t *map, const ale_observation_t ob
     for (uint32_t i = 0; i < count; i++) {
         const ale_association_t *association = &fit->association[i];
         if (association->wall != ALE_NO_WALL || association->landmark == ALE_NO_LANDMARK ||
-            map->landmarks.landmark[association->landmark].seen < CONFIRMED) {
+            map->landmarks.landmark[association->landmark].seen < ALE_LANDMARK_CONFIRMED) {
             continue;
         }
         const ale_landmark_t *landmark = &map->landmarks.landmark[association->landmark];
@@ -89,10 +84,10 @@ ale_observability_t ale_observability_of(const ale_local_map_t *map, const ale_o
     information_t sum = {0, 0, 0, 0, 0};
     add_walls(map, observation, count, fit, &sum);
     const information_t walls = sum;
-    if (!determines(&sum, DETERMINED_UM)) {
+    if (!determines(&sum, ALE_DETERMINED_UM)) {
         add_landmarks(map, observation, count, fit, &sum);
     }
-    return (ale_observability_t){.determined = determines(&sum, DETERMINED_UM),
+    return (ale_observability_t){.determined = determines(&sum, ALE_DETERMINED_UM),
                                  .degenerate = !determines(&sum, DEGENERATE_UM),
                                  .along_bam =
                                      ale_atan2_bam(2 * sum.xy, sum.xx - sum.yy) / 2 + ALE_BAM_QUARTER_TURN,

@@ -16,7 +16,7 @@
 #include "match/scan_to_map.h"
 
 typedef struct {
-    bool determined; /* every direction to better than 30 mm */
+    bool determined; /* every direction to better than ALE_DETERMINED_UM */
     bool degenerate; /* one direction to no better than 200 mm: what was associated there moves with the robot
                       */
     uint32_t along_bam; /* the least determined direction, map frame */

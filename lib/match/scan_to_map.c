@@ -14,9 +14,8 @@ enum {
     LATER_OFFSET_UM = 60000,
     LATER_ANGLE_URAD = 200000,
     LATER_SEGMENT_UM = 50000,
-    LANDMARK_CONFIRMED = 3, /* scans; one seen less often may be of somebody who walks: (20 mm)^2 more */
-    LANDMARK_PASSING_UM2 = 400000000,
-    SEGMENT_ANGLE_URAD = 600000, /* a short segment hardly has a direction */
+    LANDMARK_PASSING_UM2 = 400000000, /* (20 mm)^2 more of one that is not confirmed: of somebody who walks */
+    SEGMENT_ANGLE_URAD = 600000,      /* a short segment hardly has a direction */
     FOCUS_MARGIN_UM = 2000000
 };
 
@@ -105,7 +104,7 @@ static void add_landmark_rows(const ale_observation_t *observation, const ale_la
                               ale_information_t *sum)
 {
     ale_observation_rows_t rows;
-    const int64_t passing = landmark->seen < LANDMARK_CONFIRMED ? LANDMARK_PASSING_UM2 : 0;
+    const int64_t passing = landmark->seen < ALE_LANDMARK_CONFIRMED ? LANDMARK_PASSING_UM2 : 0;
     const int64_t var = observation->var_offset_um2 + landmark->var_um2 + passing;
     ale_observation_rows(observation, theta_bam, landmark->normal_bam, &rows);
     correct_for_velocity(&rows, change, &association->error);

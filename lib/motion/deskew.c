@@ -4,7 +4,6 @@
 #include "base/trig.h"
 
 enum {
-    BAM_PER_RAD = 683565276,
     NEAREST_UM = 10000,
     RESTING_UM = 20,
     HIGHER_TERMS_Q30 = 1 << 16, /* square of a turn below which they are zero: 7.8 mrad */
@@ -56,7 +55,7 @@ static void move_beam(int32_t *range_um, uint32_t *bearing_bam, ale_pose_t moved
         turn_q30 += z5 / 5 - ale_round_shift(z5 * zz_q30, 30) / 7;
         longer_q30 -= ale_round_shift(zz_q30 * zz_q30, 33);
     }
-    *bearing_bam += (uint32_t)(uint64_t)ale_round_shift(turn_q30 * BAM_PER_RAD, 30);
+    *bearing_bam += (uint32_t)(uint64_t)ale_round_shift(turn_q30 * ALE_BAM_PER_RAD, 30);
     *range_um = (int32_t)(reach_um + ale_round_shift(reach_um * longer_q30, 30));
 }
 

@@ -4,13 +4,12 @@
 #include "base/trig.h"
 #include "motion/projection.h"
 #include "motion/ratio.h"
+#include "motion/timestamp_filter.h"
 
 enum {
-    STEP_MAX_US = 2000000,
     FORWARD = 0,
     LEFT = 1,
     TURN = 2,
-    BAM_PER_RAD = 683565276,
     FACTOR_LEAST_Q8 = 256,
     FACTOR_MOST_Q8 = 256 * 4,
     SURPRISE_MOST_Q8 = 256 * 9,
@@ -32,7 +31,7 @@ static const int64_t unknown_velocity[ALE_AXES] = {60000, 20000, 120000};
 /* A micro-motion (um, um, urad) as a pose. */
 static ale_pose_t pose_of_step(int64_t x_um, int64_t y_um, int64_t turn_urad)
 {
-    const int64_t turn_bam = ale_round_div(turn_urad * BAM_PER_RAD, 1000000);
+    const int64_t turn_bam = ale_round_div(turn_urad * ALE_BAM_PER_RAD, 1000000);
     return (ale_pose_t){(int32_t)x_um, (int32_t)y_um, (uint32_t)(uint64_t)turn_bam};
 }
 
@@ -268,7 +267,7 @@ void ale_motion_predict(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_
                         const ale_process_noise_t *l)
 {
     const int64_t dt_us = stamp_us - motion->stamp_us;
-    if (dt_us <= 0 || dt_us > STEP_MAX_US) {
+    if (dt_us <= 0 || dt_us > ALE_SCAN_PERIOD_MAX_US) {
         ale_motion_jump(motion, stamp_us, wheels, l);
         return;
     }

@@ -3,7 +3,6 @@
 #include "base/fixed.h"
 
 enum {
-    STEP_MAX_US = 2000000,
     HELD_UP_MOST_US = 4000000, /* two stamps that a queue has held up may be farther apart */
     LEARN_SCANS = 8,           /* scans whose stamps give the first idea of the period */
     GAIN_LEAST = 24,           /* the loop forgets after about so many scans */
@@ -90,7 +89,7 @@ static void note_gap(ale_timestamp_filter_t *p, int64_t dt_us)
     p->uneven2_us2 += (p->off_us * p->off_us - p->uneven2_us2) / UNEVEN_SCANS;
     p->usual_before_us = p->usual_us;
     if (p->scans > 0 && dt_us > 0) {
-        const int64_t gap_us = ale_min64(dt_us, STEP_MAX_US);
+        const int64_t gap_us = ale_min64(dt_us, ALE_SCAN_PERIOD_MAX_US);
         p->off_us = p->usual_us > 0 ? gap_us - p->usual_us : 0;
         p->usual_us += p->usual_us > 0 ? p->off_us / USUAL_SCANS : gap_us;
     }
@@ -101,7 +100,7 @@ static bool is_step(const ale_timestamp_filter_t *p, int64_t dt_us)
 {
     const bool learns = p->scans <= LEARN_SCANS;
     const bool held_up = learns || !tells_turns(p);
-    const int64_t most_us = held_up ? HELD_UP_MOST_US : STEP_MAX_US;
+    const int64_t most_us = held_up ? HELD_UP_MOST_US : ALE_SCAN_PERIOD_MAX_US;
     const int64_t least_us = held_up ? -HELD_UP_MOST_US : 1;
     return dt_us < least_us || dt_us > most_us;
 }

@@ -11,6 +11,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+enum { ALE_SCAN_PERIOD_MAX_US = 2000000 }; /* scans farther apart say nothing of speed */
+
 typedef struct {
     uint32_t scans;   /* since the loop was restarted */
     int64_t stamp_us; /* of the last scan */

@@ -15,7 +15,6 @@ enum {
     ROUNDNESS_UM = 10000,    /* one sigma: a small object shows another side from every pose */
     ANGLE_OWN_URAD = 150000, /* one sigma of the direction of a short segment */
     ANGLE_FACING_URAD = 600000,
-    BAM_PER_RAD = 683565276,
     ROUNDING_UM = 10 /* by which the distance of two rounded points may exceed that bound */
 };
 
@@ -39,7 +38,7 @@ static int32_t range_of(const segments_t *p, int32_t point)
 /* From beam to beam. */
 static int64_t spacing_um(const segments_t *p, int32_t point)
 {
-    return ale_abs64((int64_t)p->from.scan->step_bam * range_of(p, point)) / BAM_PER_RAD;
+    return ale_abs64((int64_t)p->from.scan->step_bam * range_of(p, point)) / ALE_BAM_PER_RAD;
 }
 
 static uint32_t bearing_of(const segments_t *p, int32_t point)
@@ -213,7 +212,7 @@ static bool continues(const segments_t *p, int32_t k)
     const int64_t range_um = range_of(p, k);
     const int64_t along_um = ale_abs64(range_um - range_of(p, k - 1));
     const int64_t turn_bam = ale_abs64(ale_bam_diff(bearing_of(p, k), bearing_of(p, k - 1)));
-    const int64_t path_um = along_um + turn_bam * range_um / BAM_PER_RAD + ROUNDING_UM;
+    const int64_t path_um = along_um + turn_bam * range_um / ALE_BAM_PER_RAD + ROUNDING_UM;
     if (path_um < GAP_FLOOR_UM) {
         return true;
     }

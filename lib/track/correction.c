@@ -9,7 +9,7 @@ enum {
     /* How well a corrected wall lies to those it was moved to: what a loop is known by. */
     LOOP_OFFSET_UM2 = 400000000, /* (20 mm)^2 */
     LOOP_ANGLE_URAD2 = 64000000, /* (8 mrad)^2 */
-    MOVED_UM = 5000,             /* less is no news to a wall */
+    MOVED_UM = 5000,
     MOVED_BAM = 2 * ALE_BAM_PER_MRAD
 };
 
@@ -42,9 +42,10 @@ ale_pose_t ale_correction_in(const ale_correction_t *correction, uint32_t scan, 
     return ale_pose_compose(ale_pose_compose(moved->shift, shift), back);
 }
 
-static bool is_news(ale_point_t way, ale_pose_t shift)
+bool ale_correction_is_news(ale_point_t before, ale_point_t after, ale_pose_t shift)
 {
-    return ale_abs64(way.x_um) > MOVED_UM || ale_abs64(way.y_um) > MOVED_UM ||
+    return ale_abs64((int64_t)after.x_um - before.x_um) > MOVED_UM ||
+           ale_abs64((int64_t)after.y_um - before.y_um) > MOVED_UM ||
            ale_abs64((int32_t)shift.theta_bam) > MOVED_BAM;
 }
 
@@ -53,7 +54,7 @@ static void move_wall(ale_wall_t *wall, ale_pose_t shift)
     const ale_point_t before = wall->anchor;
     wall->anchor = ale_pose_apply(shift, wall->anchor);
     ale_wall_set_normal(wall, wall->normal_bam + shift.theta_bam);
-    if (is_news(ale_minus(wall->anchor, before), shift)) {
+    if (ale_correction_is_news(before, wall->anchor, shift)) {
         wall->var_offset_um2 += LOOP_OFFSET_UM2;
         wall->var_angle_urad2 += LOOP_ANGLE_URAD2;
     }

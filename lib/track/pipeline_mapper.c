@@ -16,9 +16,7 @@
 
 enum {
     LOOP_SIGMA_UM = 30000, /* how well a corrected pose lies to the walls that it comes back to */
-    LOOP_SIGMA_URAD = 10000,
-    MOVED_UM = 5000,
-    MOVED_BAM = 2 * ALE_BAM_PER_MRAD
+    LOOP_SIGMA_URAD = 10000
 };
 
 static bool has_gone_on(const ale_pipeline_t *p)
@@ -109,10 +107,9 @@ static void correct_robot(ale_pipeline_t *p, ale_pose_t shift)
     p->watched.pose = ale_pose_compose(shift, p->watched.pose);
     ale_smooth_hold(&p->smooth, p->motion.pose);
     ale_lag_turn(&p->lag, shift.theta_bam);
-    const bool moved = ale_abs64((int64_t)p->motion.pose.x_um - before.x_um) > MOVED_UM ||
-                       ale_abs64((int64_t)p->motion.pose.y_um - before.y_um) > MOVED_UM ||
-                       ale_abs64((int32_t)shift.theta_bam) > MOVED_BAM;
-    if (moved) {
+    const ale_point_t was = {before.x_um, before.y_um};
+    const ale_point_t is = {p->motion.pose.x_um, p->motion.pose.y_um};
+    if (ale_correction_is_news(was, is, shift)) {
         ale_motion_widen(&p->motion, LOOP_SIGMA_UM, LOOP_SIGMA_URAD);
         p->moved = true;
     }

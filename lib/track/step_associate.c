@@ -14,7 +14,6 @@ enum {
     REGISTER_URAD = 60000,
     REGISTER_MOST_UM = 1000000,
     REGISTER_MOST_URAD = 450000,
-    SLACK_UM = 60000,
     PREFER_PARTS = 5, /* of what two scans show of each other, by which one pose is preferred */
     CHANCE_PARTS = 10 /* less than this part of what is shown, found in the map, may be found by chance */
 };
@@ -109,7 +108,7 @@ static ale_registered_t register_to_scan(ale_pipeline_t *p, const ale_prediction
 
 ale_testimony_t ale_step_testimony(const ale_pipeline_t *p, ale_pose_t before, ale_pose_t pose)
 {
-    const ale_slack_t slack = {SLACK_UM, 0, false};
+    const ale_slack_t slack = {ALE_WITNESS_SLACK_UM, 0, false};
     const ale_seen_t seen = ale_pipeline_seen_from(p, before, pose);
     return ale_witness_hear(&p->witness, &seen, slack);
 }

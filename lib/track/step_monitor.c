@@ -7,7 +7,6 @@
 #include "track/step_recover.h"
 
 enum {
-    SLACK_UM = 60000,
     SLACK_URAD = 30000,
     SLACK_MOST_UM = 200000, /* a displacement that may be off by more says nothing of what was seen where */
     SLACK_MOST_URAD = 100000
@@ -16,9 +15,10 @@ enum {
 /* How far the pose may be off when the last scan is compared: two sigmas more than is always allowed for. */
 static ale_slack_t slack_of(const ale_matrix_t *cov, bool counted)
 {
-    const int64_t offset_um = SLACK_UM + 2 * ale_max64(ale_matrix_sigma(cov, 0), ale_matrix_sigma(cov, 1));
+    const int64_t offset_um =
+        ALE_WITNESS_SLACK_UM + 2 * ale_max64(ale_matrix_sigma(cov, 0), ale_matrix_sigma(cov, 1));
     return (ale_slack_t){
-        (int32_t)ale_min64(offset_um, counted ? SLACK_MOST_UM : 2 * SLACK_UM),
+        (int32_t)ale_min64(offset_um, counted ? SLACK_MOST_UM : 2 * ALE_WITNESS_SLACK_UM),
         (int32_t)ale_min64(2 * ale_matrix_sigma(cov, 2), counted ? SLACK_MOST_URAD : SLACK_URAD), false};
 }
 
@@ -38,7 +38,7 @@ static bool is_denied_to_stand(const ale_pipeline_t *p, const ale_prediction_t *
         return false; /* the last scan has been heard */
     }
     const ale_testimony_t testimony =
-        ale_witness_hear(&p->witness, now, (ale_slack_t){SLACK_UM, SLACK_URAD, false});
+        ale_witness_hear(&p->witness, now, (ale_slack_t){ALE_WITNESS_SLACK_UM, SLACK_URAD, false});
     return ale_tracking_denies(&testimony);
 }
 

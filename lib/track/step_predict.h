@@ -7,8 +7,6 @@
 
 #include "track/pipeline_state.h"
 
-enum { ALE_SCAN_PERIOD_MAX_US = 2000000 }; /* scans farther apart say nothing of speed */
-
 typedef struct {
     ale_motion_t before;       /* where the last scan has left the robot */
     ale_pose_t next;           /* where wheels and time have led from there */

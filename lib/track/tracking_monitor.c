@@ -20,7 +20,6 @@ enum {
     BELIEVE_WALLS = 4,
     BELIEVE_PERCENT = 70,
     EXPECT_PERCENT = 80,   /* where the robot is said to be, whatever the number of walls */
-    DETERMINED_UM = 30000, /* the scan alone knows each direction better than this */
     WEAK_SIGMA_UM = 60000, /* pose sigma above which it is weak whatever the scan shows */
     LOST_SIGMA_UM = 1000000,
     MAP_SIGMA_UM = 40000, /* pose sigmas up to which walls may be added */
@@ -167,7 +166,7 @@ ale_state_t ale_tracking_judge(ale_tracking_monitor_t *monitor, const ale_fit_t 
     if (monitor->misfits >= MISFITS_UNTIL_LOST || (out_of_reach && !proposed)) {
         monitor->state = ALE_STATE_LOST;
     } else if (position_var(&fit->motion) < square(WEAK_SIGMA_UM) &&
-               ale_information_determines(&fit->information, DETERMINED_UM)) {
+               ale_information_determines(&fit->information, ALE_DETERMINED_UM)) {
         monitor->state = ALE_STATE_GOOD;
     } else {
         monitor->state = proposed ? ALE_STATE_WEAK : by_variance(&fit->motion);
@@ -188,7 +187,7 @@ bool ale_tracking_accepts(const ale_fit_t *fit)
 bool ale_tracking_confirms(const ale_fit_t *fit)
 {
     return fit->shown_um >= BELIEVE_SHOWN_UM && fit->matched_um * 100 >= fit->shown_um * EXPECT_PERCENT &&
-           ale_information_determines(&fit->information, DETERMINED_UM);
+           ale_information_determines(&fit->information, ALE_DETERMINED_UM);
 }
 
 void ale_tracking_found(ale_tracking_monitor_t *monitor)

@@ -17,6 +17,8 @@
 #include "match/scan_to_map.h"
 #include "observe/seen.h"
 
+enum { ALE_WITNESS_SLACK_UM = 60000 }; /* how far surfaces of two scans may lie apart in any case */
+
 typedef struct {
     ale_seen_copy_t seen;
     ale_observation_t observation[ALE_MAX_OBSERVATIONS];
