@@ -53,7 +53,7 @@ void ale_motion_init(ale_motion_t *motion, int64_t stamp_us, ale_pose_t pose, in
                      int32_t turn_sigma_mrad_s);
 
 /* Predicts to stamp_us by the velocity alone, or fused with odometry (wheels NULL: none). A step of no time,
- * back in time, or of more than two seconds is taken as ale_motion_jump takes it. */
+ * back in time, or of more than ALE_SCAN_PERIOD_MAX_US is taken as ale_motion_jump takes it. */
 void ale_motion_predict(ale_motion_t *motion, int64_t stamp_us, const ale_wheel_motion_t *wheels,
                         const ale_process_noise_t *l);
 

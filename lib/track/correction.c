@@ -9,7 +9,7 @@ enum {
     /* How well a corrected wall lies to those it was moved to: what a loop is known by. */
     LOOP_OFFSET_UM2 = 400000000, /* (20 mm)^2 */
     LOOP_ANGLE_URAD2 = 64000000, /* (8 mrad)^2 */
-    MOVED_UM = 5000,
+    MOVED_UM = 5000,             /* less is no news: walls and robot are not known better */
     MOVED_BAM = 2 * ALE_BAM_PER_MRAD
 };
 

@@ -39,8 +39,8 @@ typedef struct ale_correction {
 /* The shift of a scan; none before the first keyframe, nor of ALE_BORN_BEFORE. O(log count). */
 ale_pose_t ale_correction_at(const ale_correction_t *correction, uint32_t scan);
 
-/* Whether what lay at a place before a shift, and lies there after it, has moved by more than walls and robot
- * are known. Constant time. */
+/* Whether a shift has moved what lay at a place before and lies at another after it, or turned it, by more
+ * than walls and robot are known. Any places. Constant time. */
 bool ale_correction_is_news(ale_point_t before, ale_point_t after, ale_pose_t shift);
 
 /* A map that has moved, to join another one, since a correction was made for it where it was. */

@@ -83,6 +83,22 @@ TEST(Correction, AScanMovesWithTheLastKeyframeBeforeIt)
     }
 }
 
+TEST(Correction, IsNewsBeyondFiveMillimetresOrTwoMilliradians)
+{
+    const ale_point_t before = {1000000, -2000000};
+    const auto is_news = [&](int32_t x_um, int32_t y_um, double turn_rad) {
+        return ale_correction_is_news(before, {before.x_um + x_um, before.y_um + y_um},
+                                      {0, 0, convert::bam(turn_rad)});
+    };
+    for (const int sign : {-1, 1}) {
+        EXPECT_FALSE(is_news(sign * 5000, sign * 5000, sign * 0.00199)) << sign;
+        EXPECT_TRUE(is_news(sign * 5001, 0, 0)) << sign;
+        EXPECT_TRUE(is_news(0, sign * 5001, 0)) << sign;
+        EXPECT_TRUE(is_news(0, 0, sign * 0.00201)) << sign;
+    }
+    EXPECT_TRUE(ale_correction_is_news({INT32_MIN, 0}, {INT32_MAX, 0}, {0, 0, 0})) << "from end to end";
+}
+
 TEST(Correction, KeyframesComeWithTheWayAndNotWithTime)
 {
     Driven d;
